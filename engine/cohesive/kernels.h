@@ -14,26 +14,29 @@
 LANES_FUNCTION plane_result plane_law(int law, const plane_interface *at, const plane_input *in,
                                       double *point)
 {
+#define IS_LAW(name) \
+    if (law == FRACAS_LAW_##name) return plane_at_##name(at, in, point);
 #define FRACAS_LAW(name, bar, ring, membrane, shell) \
-    FRACAS_IF_##membrane(if (law == FRACAS_LAW_##name) return plane_at_##name(at, in, point);)
+    FRACAS_IF_##membrane(IS_LAW(name)) FRACAS_IF_##shell(IS_LAW(name))
 #include "engine/cohesive/laws.list.h"
 #undef FRACAS_LAW
+#undef IS_LAW
     __builtin_unreachable();
 }
 
 /* Law number `law` at an interface of a chain. */
 LANES_FUNCTION line_result line_law(int law, const line_input *in)
 {
-#define BAR_FLUX(name) \
+#define LINE_FLUX(name) \
     if (law == FRACAS_LAW_##name) return line_##name(in);
-#define BAR_RIGID(name)
-#define BAR_NO(name)
-#define FRACAS_LAW(name, bar, ring, membrane, shell) BAR_##bar(name)
+#define LINE_RIGID(name)
+#define LINE_NO(name)
+#define FRACAS_LAW(name, bar, ring, membrane, shell) LINE_##bar(name) LINE_##ring(name)
 #include "engine/cohesive/laws.list.h"
 #undef FRACAS_LAW
-#undef BAR_FLUX
-#undef BAR_RIGID
-#undef BAR_NO
+#undef LINE_FLUX
+#undef LINE_RIGID
+#undef LINE_NO
     __builtin_unreachable();
 }
 

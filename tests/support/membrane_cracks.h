@@ -56,13 +56,13 @@ static inline void run_to_end(fracas_batch *batch, fracas_record *record)
 static inline double *membrane_state(const fracas_batch *batch, size_t e, size_t k, int field,
                                      int i)
 {
-    return fracas_membrane_value(batch->model, &batch->step, e, field, 2 * (int)k + i, 0);
+    return fracas_surface_value(batch->model, &batch->step, e, field, 2 * (int)k + i, 0);
 }
 
 /* M_kl of an element: its lumped masses on the diagonal, or the consistent matrix. */
 static inline double mass_of(const fracas_model *model, size_t e, size_t k, size_t l)
 {
-    const fracas_membrane_tables *t = tables_of(model);
+    const fracas_surface_tables *t = tables_of(model);
     const size_t nodes = model->surface->corners;
     if (t->consistent) return t->consistent[((3 * e + 2) * nodes + k) * nodes + l];
     return k == l ? t->lumped[(2 * e + 1) * nodes + k] : 0;

@@ -65,7 +65,7 @@ static inline fracas_spec body_of(int which, int64_t divisions)
                          divisions);
 }
 
-static inline const fracas_membrane_tables *tables_of(const fracas_model *model)
+static inline const fracas_surface_tables *tables_of(const fracas_model *model)
 {
     return model->plan;
 }
@@ -83,7 +83,7 @@ static inline const double *node_at(const fracas_model *model, size_t element, s
 static inline bool is_held(const fracas_model *model, size_t unknown)
 {
     const size_t size = 2 * model->surface->corners;
-    const fracas_membrane_tables *t = tables_of(model);
+    const fracas_surface_tables *t = tables_of(model);
     return t->held && (t->held[unknown / size] >> (unknown % size) & 1);
 }
 
@@ -98,17 +98,17 @@ static inline void interpolate(const fracas_model *model, membrane_field *field,
             field(how, node_at(model, e, k), u + 2 * (model->surface->corners * e + k));
 }
 
-static inline fracas_membrane_operator *open_operator(const fracas_model *model)
+static inline fracas_surface_operator *open_operator(const fracas_model *model)
 {
-    fracas_membrane_operator *op = NULL;
-    assert_ok(fracas_membrane_operator_open(model, 0, &op));
+    fracas_surface_operator *op = NULL;
+    assert_ok(fracas_surface_operator_open(model, 0, &op));
     return op;
 }
 
 /* result = M a */
 static inline void multiply_mass(const fracas_model *model, const double *a, double *result)
 {
-    const fracas_membrane_tables *t = tables_of(model);
+    const fracas_surface_tables *t = tables_of(model);
     const size_t nodes = model->surface->corners;
     for (size_t e = 0; e < model->elements; e++)
         for (size_t k = 0; k < nodes; k++)
@@ -124,12 +124,12 @@ static inline void multiply_mass(const fracas_model *model, const double *a, dou
 }
 
 /* f = K u [N], 0 where nodes are held. */
-static inline void apply_stiffness(const fracas_model *model, fracas_membrane_operator *op,
+static inline void apply_stiffness(const fracas_model *model, fracas_surface_operator *op,
                                    const double *u, double *f)
 {
     const size_t n = unknowns_of(model);
     double *a = vector_of(n);
-    fracas_membrane_operator_apply(op, u, a);
+    fracas_surface_operator_apply(op, u, a);
     multiply_mass(model, a, f);
     for (size_t i = 0; i < n; i++) f[i] = is_held(model, i) ? 0 : -f[i];
     free(a);
@@ -138,7 +138,7 @@ static inline void apply_stiffness(const fracas_model *model, fracas_membrane_op
 /* K as a matrix, [n][n]: column j is the force of a unit displacement j. */
 static inline double *stiffness_matrix(const fracas_model *model, size_t n)
 {
-    fracas_membrane_operator *op = open_operator(model);
+    fracas_surface_operator *op = open_operator(model);
     double *unit = vector_of(n), *column = vector_of(n), *matrix = vector_of(n * n);
     for (size_t j = 0; j < n; j++) {
         unit[j] = 1;
@@ -148,7 +148,7 @@ static inline double *stiffness_matrix(const fracas_model *model, size_t n)
     }
     free(unit);
     free(column);
-    fracas_membrane_operator_close(op);
+    fracas_surface_operator_close(op);
     return matrix;
 }
 

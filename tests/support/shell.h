@@ -198,7 +198,7 @@ static inline void roof_map(const void *how, double s, double t, double x[3])
 
 /* ---- unknowns ---- */
 
-static inline const fracas_shell_tables *tables_of(const fracas_model *model)
+static inline const fracas_surface_tables *tables_of(const fracas_model *model)
 {
     return model->plan;
 }
@@ -225,8 +225,8 @@ static inline bool is_held(const fracas_model *model, size_t unknown)
 
 static inline double mass_of(const fracas_model *model, size_t unknown)
 {
-    return tables_of(model)->mass[unknown / SHELL_UNKNOWNS * 2 * SHELL_NODES + SHELL_NODES +
-                                  unknown % SHELL_UNKNOWNS / 3];
+    return tables_of(model)->lumped[unknown / SHELL_UNKNOWNS * 2 * SHELL_NODES + SHELL_NODES +
+                                    unknown % SHELL_UNKNOWNS / 3];
 }
 
 /* Displacements at a place. */
@@ -238,18 +238,18 @@ static inline void interpolate(const fracas_model *model, shell_field *field, co
     for (size_t i = 0; i < unknowns_of(model); i += 3) field(how, place_of(model, i), u + i);
 }
 
-static inline fracas_shell_operator *open_operator(const fracas_model *model)
+static inline fracas_surface_operator *open_operator(const fracas_model *model)
 {
-    fracas_shell_operator *op = NULL;
-    assert_ok(fracas_shell_operator_open(model, 0, &op));
+    fracas_surface_operator *op = NULL;
+    assert_ok(fracas_surface_operator_open(model, 0, &op));
     return op;
 }
 
 /* f = K u [N], 0 where nodes are held. */
-static inline void apply_stiffness(const fracas_model *model, fracas_shell_operator *op,
+static inline void apply_stiffness(const fracas_model *model, fracas_surface_operator *op,
                                    const double *u, double *f)
 {
-    fracas_shell_operator_apply(op, u, f);
+    fracas_surface_operator_apply(op, u, f);
     for (size_t i = 0; i < unknowns_of(model); i++)
         f[i] = is_held(model, i) ? 0 : -mass_of(model, i) * f[i];
 }

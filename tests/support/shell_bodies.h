@@ -49,7 +49,7 @@ static inline fracas_model *body_of(int which, fracas_spec spec, size_t n, uint6
 /* K as a matrix, [n][n]: column j is the force of a unit displacement j. */
 static inline double *stiffness_matrix(const fracas_model *model, size_t n)
 {
-    fracas_shell_operator *op = open_operator(model);
+    fracas_surface_operator *op = open_operator(model);
     double *unit = vector_of(n), *column = vector_of(n), *matrix = vector_of(n * n);
     for (size_t j = 0; j < n; j++) {
         unit[j] = 1;
@@ -59,7 +59,7 @@ static inline double *stiffness_matrix(const fracas_model *model, size_t n)
     }
     free(unit);
     free(column);
-    fracas_shell_operator_close(op);
+    fracas_surface_operator_close(op);
     return matrix;
 }
 

@@ -50,7 +50,7 @@ static inline fracas_spec brittle_shell(const fracas_kind *shape, int64_t divisi
     return spec;
 }
 
-static inline fracas_shell_tables *shell_tables(const fracas_model *model)
+static inline fracas_surface_tables *shell_tables(const fracas_model *model)
 {
     return model->plan;
 }
@@ -66,7 +66,7 @@ static inline const double *node_at(const fracas_model *model, size_t element, s
 
 static inline double node_mass(const fracas_model *model, size_t e, size_t k)
 {
-    return shell_tables(model)->mass[e * 2 * SHELL_NODES + SHELL_NODES + k];
+    return shell_tables(model)->lumped[e * 2 * SHELL_NODES + SHELL_NODES + k];
 }
 
 static inline fracas_batch *batch_with(const fracas_model *model, size_t count,
@@ -94,7 +94,7 @@ static inline void run_to_end(fracas_batch *batch, fracas_record *record)
 
 static inline double *shell_state(const fracas_batch *batch, size_t e, int field, size_t i)
 {
-    return fracas_shell_value(batch->model, &batch->step, e, field, (int)i, 0);
+    return fracas_surface_value(batch->model, &batch->step, e, field, (int)i, 0);
 }
 
 /* ---- a body in any state ---- */

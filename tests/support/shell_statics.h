@@ -76,7 +76,7 @@ static inline double *stiffness_blocks(shell_statics *s, uint32_t (*next)[4], co
            *f = vector_of(s->n);
     int *of = malloc(elements * sizeof *of);
     assert_non_null(of);
-    fracas_shell_operator *op = open_operator(s->model);
+    fracas_surface_operator *op = open_operator(s->model);
     const int colours = colour(s->model->surface, next, count, of);
     for (int c = 0; c < colours; c++)
         for (size_t j = 0; j < size; j++) {
@@ -91,7 +91,7 @@ static inline double *stiffness_blocks(shell_statics *s, uint32_t (*next)[4], co
                             f[next[e][a] * size + i];
             }
         }
-    fracas_shell_operator_close(op);
+    fracas_surface_operator_close(op);
     free(of);
     free(u);
     free(f);

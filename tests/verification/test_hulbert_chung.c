@@ -149,13 +149,13 @@ static body body_of(const fracas_spec *spec)
     body b = {.size = 6 * (size_t)spec->mesh.order};
     assert_ok(fracas_model_create(spec, &b.model));
     b.n = b.size * b.model->elements;
-    fracas_membrane_operator *op;
-    assert_ok(fracas_membrane_operator_open(b.model, 0, &op));
+    fracas_surface_operator *op;
+    assert_ok(fracas_surface_operator_open(b.model, 0, &op));
     gsl_matrix *matrix = gsl_matrix_alloc(b.n, b.n), *scaled = gsl_matrix_alloc(b.n, b.n);
     double *u = calloc(b.n, sizeof *u), *a = calloc(b.n, sizeof *a);
     for (size_t j = 0; j < b.n; j++) {
         u[j] = 1;
-        fracas_membrane_operator_apply(op, u, a);
+        fracas_surface_operator_apply(op, u, a);
         u[j] = 0;
         for (size_t i = 0; i < b.n; i++) gsl_matrix_set(matrix, i, j, -a[i]);
     }
@@ -185,7 +185,7 @@ static body body_of(const fracas_spec *spec)
     gsl_matrix_free(scaled);
     free(u);
     free(a);
-    fracas_membrane_operator_close(op);
+    fracas_surface_operator_close(op);
     return b;
 }
 
@@ -204,10 +204,10 @@ static void start(body *b, const double *mode, double u, double v)
     for (size_t i = 0; i < b->model->interfaces; i++) bar_set_strength(b->batch, 0, i, 1e9);
     assert_ok(fracas_batch_begin(b->batch));
     for (size_t i = 0; i < b->n; i++) {
-        *fracas_membrane_value(b->model, &b->batch->step, i / b->size, SURFACE_U,
-                               (int)(i % b->size), 0) = u * mode[i];
-        *fracas_membrane_value(b->model, &b->batch->step, i / b->size, SURFACE_V,
-                               (int)(i % b->size), 0) = v * mode[i];
+        *fracas_surface_value(b->model, &b->batch->step, i / b->size, SURFACE_U, (int)(i % b->size),
+                              0) = u * mode[i];
+        *fracas_surface_value(b->model, &b->batch->step, i / b->size, SURFACE_V, (int)(i % b->size),
+                              0) = v * mode[i];
     }
 }
 
@@ -216,8 +216,8 @@ static double apart(const body *b, const double *mode, int field, double amplitu
 {
     double largest = 0;
     for (size_t i = 0; i < b->n; i++)
-        largest = fmax(largest, fabs(*fracas_membrane_value(b->model, &b->batch->step, i / b->size,
-                                                            field, (int)(i % b->size), 0) -
+        largest = fmax(largest, fabs(*fracas_surface_value(b->model, &b->batch->step, i / b->size,
+                                                           field, (int)(i % b->size), 0) -
                                      amplitude * mode[i]));
     return largest;
 }

@@ -46,8 +46,8 @@ static double dot(const double *a, const double *b, size_t n)
 static void solve(const fracas_model *model, const double *f, double *u)
 {
     const size_t n = unknowns_of(model), nodes = model->surface->corners;
-    const fracas_membrane_tables *t = tables_of(model);
-    fracas_membrane_operator *op = open_operator(model);
+    const fracas_surface_tables *t = tables_of(model);
+    fracas_surface_operator *op = open_operator(model);
     double *r = vector_of(n), *z = vector_of(n), *p = vector_of(n), *kp = vector_of(n), before = 1,
            first = 0;
     apply_stiffness(model, op, u, r);
@@ -72,7 +72,7 @@ static void solve(const fracas_model *model, const double *f, double *u)
     free(z);
     free(p);
     free(kp);
-    fracas_membrane_operator_close(op);
+    fracas_surface_operator_close(op);
 }
 
 /* f = int N b h dA; L2 norm of u - exact: both by the rule of degree 6. */

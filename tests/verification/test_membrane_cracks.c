@@ -175,7 +175,7 @@ typedef struct {
 static fate fate_of(const fracas_model *model, const rates *r, int g, double strength)
 {
     const fracas_cohesive *law = &model->spec.cohesive;
-    const double stiffness = tables_of(model)->joint[MEMBRANE_STIFFNESS], beta_c = law->coupling;
+    const double stiffness = tables_of(model)->interface[SURFACE_STIFFNESS], beta_c = law->coupling;
     const double k_n = stiffness * fmax(1, 1 / (beta_c * beta_c)), k_t = beta_c * beta_c * k_n,
                  dt = model->time_step;
     const double flux[2] = {r->mean[g][0] + k_n * r->jump[g][0],
@@ -201,7 +201,7 @@ static fate fate_of(const fracas_model *model, const rates *r, int g, double str
 static bool is_of_use(const fracas_model *model, const rates *r, const double strength[2])
 {
     const fracas_cohesive *law = &model->spec.cohesive;
-    const double stiffness = tables_of(model)->joint[MEMBRANE_STIFFNESS];
+    const double stiffness = tables_of(model)->interface[SURFACE_STIFFNESS];
     for (int g = 0; g < 2; g++) {
         const fate f = fate_of(model, r, g, strength[g]);
         const bool opens = r->jump[g][0] > 0 && r->mean[g][0] > 0;
@@ -223,7 +223,7 @@ static void run_points(fracas_batch *batch, const fate f[2], fracas_record *reco
         assert_ok(fracas_batch_step(batch, record, &running));
         for (int g = 0; g < 2; g++) {
             if (cracked[g] ||
-                !(*fracas_membrane_point(batch->model, &batch->step, 0, g, SURFACE_PEAK, 0) > 0))
+                !(*fracas_surface_point(batch->model, &batch->step, 0, g, SURFACE_PEAK, 0) > 0))
                 continue;
             cracked[g] = true;
             assert_true(fabs(batch->step.time[0] - f[g].seen) < 0.5 * batch->model->time_step);
@@ -291,7 +291,7 @@ static void two_triangles_crack_and_break_in_time(void **unused)
         fracas_model *model = distorted_model(spec, 0, 0);
         assert_true(model->elements == 2 && model->interfaces == 1);
         for (size_t e = 0; e < 2; e++)
-            ((fracas_membrane_tables *)model->plan)->held[e] =
+            ((fracas_surface_tables *)model->plan)->held[e] =
                 0x3f; /* every node: edges alone may not */
         const fracas_stream stream = {.seed = 4, .purpose = FRACAS_PURPOSE_MESH};
         double worst[3] = {0};
@@ -356,7 +356,7 @@ static double energy_of_row(const fracas_batch *batch, const fracas_record *reco
                      *b = node_at(model, joint->element[0], (joint->edge[0] + 1) % 3);
         const double area = hypot(b[0] - a[0], b[1] - a[1]) * model->spec.geometry.thickness;
         for (int g = 0; g < order + 1; g++) {
-            const double peak = *fracas_membrane_point(model, &batch->step, i, g, SURFACE_PEAK, 0);
+            const double peak = *fracas_surface_point(model, &batch->step, i, g, SURFACE_PEAK, 0);
             if (law->onset == &fracas_onset_flux)
                 assert_true(peak == record->interface[i].strength);
             energy += weight[order - 1][g] * area *
@@ -572,9 +572,9 @@ static void an_interface_holds_by_its_last_point(void **unused)
     assert_ok(fracas_batch_begin(batch));
     for (size_t i = 0; i < model->interfaces; i++)
         for (int g = 0; g < 3; g++) {
-            *fracas_membrane_point(model, &batch->step, i, g, SURFACE_PEAK, 0) = BAR_STRENGTH_MEAN;
-            *fracas_membrane_point(model, &batch->step, i, g, SURFACE_DAMAGE,
-                                   0) = g < 2 ? 1 : 1 - 0x1p-53;
+            *fracas_surface_point(model, &batch->step, i, g, SURFACE_PEAK, 0) = BAR_STRENGTH_MEAN;
+            *fracas_surface_point(model, &batch->step, i, g, SURFACE_DAMAGE,
+                                  0) = g < 2 ? 1 : 1 - 0x1p-53;
         }
     run_to_end(batch, &record);
     assert_true(record.fragments == 1 && record.nfragment == 1 && record.broken == 0 &&

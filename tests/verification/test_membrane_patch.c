@@ -94,7 +94,7 @@ static void uniform_strain_is_exact(void **unused)
     for (int which = 0; which < ALL_BODIES; which++)
         for (size_t f = 0; f < 4; f++) {
             fracas_model *model = distorted(which, 6, 5 + f);
-            fracas_membrane_operator *op = open_operator(model);
+            fracas_surface_operator *op = open_operator(model);
             const size_t n = unknowns_of(model);
             double *u = vector_of(n), *force = vector_of(n), *expected = vector_of(n), stress[3],
                    g[2][2], worst = 0;
@@ -110,7 +110,7 @@ static void uniform_strain_is_exact(void **unused)
             free(u);
             free(force);
             free(expected);
-            fracas_membrane_operator_close(op);
+            fracas_surface_operator_close(op);
             fracas_model_destroy(model);
         }
 }
@@ -125,7 +125,7 @@ static void rigid_motions_give_no_force(void **unused)
                                    {{{0, -1e-2}, {1e-2, 0}}, {0}}};
     for (int which = 0; which < ALL_BODIES; which++) {
         fracas_model *model = distorted(which, 4, 11);
-        fracas_membrane_operator *op = open_operator(model);
+        fracas_surface_operator *op = open_operator(model);
         const size_t n = unknowns_of(model);
         double *u = vector_of(n), *force = vector_of(n);
         u[n / 2] = 1;
@@ -140,7 +140,7 @@ static void rigid_motions_give_no_force(void **unused)
         }
         free(u);
         free(force);
-        fracas_membrane_operator_close(op);
+        fracas_surface_operator_close(op);
         fracas_model_destroy(model);
     }
 }
@@ -343,7 +343,7 @@ static void masses_are_those_of_the_textbook(void **unused)
         fracas_spec spec = membrane_spec(&fracas_shape_plate, order, 3);
         spec.time.mass = &fracas_mass_consistent;
         fracas_model *model = distorted_model(spec, DISTORTION, 4);
-        const fracas_membrane_tables *t = tables_of(model);
+        const fracas_surface_tables *t = tables_of(model);
         const size_t nodes = model->surface->corners;
         for (size_t e = 0; e < model->elements; e++) {
             const double mass = spec.material.density * spec.geometry.thickness * area_of(model, e);
@@ -375,7 +375,7 @@ static void the_critical_step_is_that_of_the_matrix(void **unused)
     (void)unused;
     for (int which = 0; which < ALL_BODIES; which++) {
         fracas_model *model = distorted(which, which < 2 || which == BENT ? 2 : 1, 3);
-        const fracas_membrane_tables *t = tables_of(model);
+        const fracas_surface_tables *t = tables_of(model);
         const size_t n = unknowns_of(model), nodes = model->surface->corners;
         double *matrix = stiffness_matrix(model, n), *root = vector_of(n);
         for (size_t i = 0; i < n; i++)

@@ -40,8 +40,8 @@ static void clear(membrane_run *run)
 static double *value_of(const membrane_run *run, size_t unknown, int field)
 {
     const size_t size = 2 * run->model->surface->corners;
-    return fracas_membrane_value(run->model, &run->batch->step, unknown / size, field,
-                                 (int)(unknown % size), 0);
+    return fracas_surface_value(run->model, &run->batch->step, unknown / size, field,
+                                (int)(unknown % size), 0);
 }
 
 /* One step from displacements and velocities at random: the kick is that of the operator, the
@@ -61,8 +61,8 @@ static void check_first_step(fracas_spec spec, int width)
         *value_of(&run, i,
                   SURFACE_V) = v[i] = is_held(run.model, i) ? 0 : 1e-3 * (next_share(&noise) - 0.5);
     }
-    fracas_membrane_operator *op = open_operator(run.model);
-    fracas_membrane_operator_apply(op, u, a);
+    fracas_surface_operator *op = open_operator(run.model);
+    fracas_surface_operator_apply(op, u, a);
     apply_stiffness(run.model, op, u, f);
     step(&run);
     const double kick = run.batch->step.kick[0];
@@ -78,7 +78,7 @@ static void check_first_step(fracas_spec spec, int width)
     assert_true(worst <= 1e-12 * (kick * largest_of(a, n) + largest_of(v, n)));
     assert_true(fabs(run.batch->step.elastic[0] / elastic - 1) < 1e-12);
     assert_true(fabs(run.batch->step.kinetic[0] - kinetic) < 1e-12 * fabs(kinetic));
-    fracas_membrane_operator_close(op);
+    fracas_surface_operator_close(op);
     free(u);
     free(v);
     free(f);
@@ -203,8 +203,8 @@ static void held_edges_change_nothing_else(void **unused)
                    *balance = vector_of(n);
             uint64_t noise = 5;
             for (size_t i = 0; i < n; i++) u[i] = next_share(&noise) - 0.5;
-            fracas_membrane_operator *op = open_operator(held), *free_op = open_operator(loose);
-            fracas_membrane_operator_apply(op, u, a);
+            fracas_surface_operator *op = open_operator(held), *free_op = open_operator(loose);
+            fracas_surface_operator_apply(op, u, a);
             apply_stiffness(loose, free_op, u, force);
             multiply_mass(held, a, balance);
             const double scale = largest_of(force, n);
@@ -212,8 +212,8 @@ static void held_edges_change_nothing_else(void **unused)
                 if (is_held(held, i)) assert_true(a[i] == 0);
                 else assert_true(fabs(balance[i] + force[i]) < 1e-12 * scale);
             }
-            fracas_membrane_operator_close(op);
-            fracas_membrane_operator_close(free_op);
+            fracas_surface_operator_close(op);
+            fracas_surface_operator_close(free_op);
             fracas_model_destroy(held);
             fracas_model_destroy(loose);
             free(u);

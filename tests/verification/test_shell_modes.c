@@ -92,7 +92,7 @@ static double least_beta(double poisson, double distortion, double slant, int di
     const size_t n = unknowns_of(model);
     double *stiff = stiffness_matrix(model, n);
     for (size_t i = 0; i < model->interfaces; i++)
-        tables_of(model)->joint[i * SHELL_JOINT_TABLE + SHELL_STIFFNESS] = 0;
+        tables_of(model)->interface[i * SHELL_INTERFACE_TABLE + SURFACE_STIFFNESS] = 0;
     double *soft = stiffness_matrix(model, n), low = 0, high = 10;
     while (high - low > 0.005) {
         const double beta = 0.5 * (low + high);

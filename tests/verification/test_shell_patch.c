@@ -22,7 +22,7 @@ static void rigid_motions_give_no_force(void **unused)
     (void)unused;
     for (int which = 0; which < BODIES; which++) {
         fracas_model *model = body_of(which, shell_spec(&fracas_shape_sphere), 5, 7);
-        fracas_shell_operator *op = open_operator(model);
+        fracas_surface_operator *op = open_operator(model);
         const size_t n = unknowns_of(model);
         double *u = vector_of(n), *f = vector_of(n), stiffness = 0, worst = 0;
         for (size_t i = 0; i < SHELL_UNKNOWNS; i++) {
@@ -43,7 +43,7 @@ static void rigid_motions_give_no_force(void **unused)
         assert_true(worst < 1e-14);
         free(u);
         free(f);
-        fracas_shell_operator_close(op);
+        fracas_surface_operator_close(op);
         fracas_model_destroy(model);
     }
 }
@@ -125,7 +125,7 @@ static void uniform_states_are_exact(void **unused)
                                     {{{1, 2}, {3, -1}}, {2, -1, 3}}};
     for (size_t k = 0; k < sizeof states / sizeof *states; k++) {
         fracas_model *model = body_of(PLATE, shell_spec(&fracas_shape_file), 6, 5 + k);
-        fracas_shell_operator *op = open_operator(model);
+        fracas_surface_operator *op = open_operator(model);
         const size_t size = unknowns_of(model);
         double *u = vector_of(size), *f = vector_of(size), *expected = vector_of(size), n[3], m[3],
                worst = 0;
@@ -146,7 +146,7 @@ static void uniform_states_are_exact(void **unused)
         free(u);
         free(f);
         free(expected);
-        fracas_shell_operator_close(op);
+        fracas_surface_operator_close(op);
         fracas_model_destroy(model);
     }
 }

@@ -52,7 +52,7 @@ static void breathing_frequency(void **unused)
             fracas_model *model = distorted_model(spec, n > 2 && !whole ? DISTORTION : 0, 5);
             const size_t size = unknowns_of(model);
             double *u = vector_of(size), *f = vector_of(size), stretch = 0, mass = 0;
-            fracas_shell_operator *op = open_operator(model);
+            fracas_surface_operator *op = open_operator(model);
             interpolate(model, radial, NULL, u);
             apply_stiffness(model, op, u, f);
             stretch = dot_of(u, f, size);
@@ -62,7 +62,7 @@ static void breathing_frequency(void **unused)
                           model->elements, omega / (2e3 * PI), error);
             assert_true(fabs(error) < before);
             before = fabs(error);
-            fracas_shell_operator_close(op);
+            fracas_surface_operator_close(op);
             free(u);
             free(f);
             fracas_model_destroy(model);
@@ -89,8 +89,8 @@ static double stress_of(const shell_run *run, size_t e)
         for (size_t k = 0; k < SHELL_NODES; k++)
             for (int i = 0; i < 3; i++)
                 sum += at.area * (at.slope[k][0] * at.dual[0][i] + at.slope[k][1] * at.dual[1][i]) *
-                       *fracas_shell_value(run->model, &run->batch->step, e, SURFACE_U,
-                                           3 * (int)k + i, 0);
+                       *fracas_surface_value(run->model, &run->batch->step, e, SURFACE_U,
+                                             3 * (int)k + i, 0);
     }
     return m->young / (1 - m->poisson) * 0.5 * sum / area;
 }
@@ -256,7 +256,7 @@ static void symmetry_is_a_mirror(void **unused)
     uint64_t noise = 9;
     for (size_t i = 0; i < n; i++) u[i] = is_held(octant, i) ? 0 : next_share(&noise) - 0.5;
     for (size_t i = 0; i < all; i++) u_all[i] = sign[i] * u[from[i]];
-    fracas_shell_operator *op = open_operator(octant), *op_all = open_operator(whole);
+    fracas_surface_operator *op = open_operator(octant), *op_all = open_operator(whole);
     apply_stiffness(octant, op, u, f);
     apply_stiffness(whole, op_all, u_all, f_all);
     for (size_t i = 0; i < all; i++)
@@ -266,8 +266,8 @@ static void symmetry_is_a_mirror(void **unused)
                   worst / largest_of(f, n), energy);
     assert_true(worst < 1e-13 * largest_of(f, n));
     assert_true(fabs(energy) < 1e-13);
-    fracas_shell_operator_close(op);
-    fracas_shell_operator_close(op_all);
+    fracas_surface_operator_close(op);
+    fracas_surface_operator_close(op_all);
     free(u);
     free(f);
     free(u_all);
@@ -282,9 +282,9 @@ static void start_ellipsoid(shell_run *run)
 {
     const double rate[3] = {1e4, -4e3, -5e3};
     for (size_t i = 0; i < unknowns_of(run->model); i++)
-        *fracas_shell_value(run->model, &run->batch->step, i / SHELL_UNKNOWNS, SURFACE_V,
-                            (int)(i % SHELL_UNKNOWNS),
-                            0) = rate[i % 3] * place_of(run->model, i)[i % 3];
+        *fracas_surface_value(run->model, &run->batch->step, i / SHELL_UNKNOWNS, SURFACE_V,
+                              (int)(i % SHELL_UNKNOWNS),
+                              0) = rate[i % 3] * place_of(run->model, i)[i % 3];
 }
 
 /* Largest difference of the elastic energies over a breathing period, by the whole energy, both

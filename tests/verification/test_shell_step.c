@@ -6,8 +6,8 @@
 
 static double *value_of(const shell_run *run, size_t unknown, int field)
 {
-    return fracas_shell_value(run->model, &run->batch->step, unknown / SHELL_UNKNOWNS, field,
-                              (int)(unknown % SHELL_UNKNOWNS), 0);
+    return fracas_surface_value(run->model, &run->batch->step, unknown / SHELL_UNKNOWNS, field,
+                                (int)(unknown % SHELL_UNKNOWNS), 0);
 }
 
 /* One step from displacements and velocities at random: the kick is that of the operator, the
@@ -35,7 +35,7 @@ static void a_step_is_the_operator(void **unused)
                                                            ? 0
                                                            : 1e-6 * (next_share(&noise) - 0.5);
             }
-            fracas_shell_operator *op = open_operator(run.model);
+            fracas_surface_operator *op = open_operator(run.model);
             apply_stiffness(run.model, op, u, f);
             shell_step(&run);
             const double kick = run.batch->step.kick[0], elastic = 0.5 * dot_of(u, f, n);
@@ -53,7 +53,7 @@ static void a_step_is_the_operator(void **unused)
             assert_true(worst <= 1e-12 * largest);
             assert_true(fabs(run.batch->step.elastic[0] / elastic - 1) < 1e-12);
             assert_true(fabs(run.batch->step.kinetic[0] - kinetic) < 1e-12 * fabs(kinetic));
-            fracas_shell_operator_close(op);
+            fracas_surface_operator_close(op);
             free(u);
             free(v);
             free(f);

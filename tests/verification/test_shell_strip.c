@@ -238,7 +238,8 @@ static double ledger_error(const strip *s)
 
 static double damage_of(const strip *s, int g, int k)
 {
-    return *fracas_shell_point(s->model, &s->batch->step, 0, g, k, SURFACE_DAMAGE, 0);
+    return *fracas_surface_point(s->model, &s->batch->step, 0, g * SHELL_LAYERS + k, SURFACE_DAMAGE,
+                                 0);
 }
 
 /* Loads the elements without a crack until the outer layer is at its strength, with eta = 1 - n0/(h

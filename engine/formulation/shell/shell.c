@@ -3,52 +3,15 @@
  * nodes (docs/theory/shell.md). */
 #include "engine/formulation/shell/shell.h"
 
-#include "engine/cohesive/law.h"
-#include "engine/formulation/surface/common.h"
+#include "engine/formulation/shell/geometry.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
-#include "engine/mesh/make.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-static const fracas_shell_tables *tables_of(const fracas_model *model)
-{
-    return model->plan;
-}
+FRACAS_KERNEL_TABLE(const fracas_surface_kernel, fracas_shell);
 
-/* k_n = K max(1, 1/beta_c^2), k_t = beta_c^2 k_n: neither is softer than K  (membrane.6) */
-fracas_shell_constants fracas_shell_constants_of(const fracas_model *model)
-{
-    const fracas_spec *spec = &model->spec;
-    const double nu = spec->material.poisson, h = spec->geometry.thickness,
-                 c11 = h * spec->material.young / (1 - nu * nu);
-    const double c33 = h * spec->material.young / (2 * (1 + nu)), bending = h * h / 12,
-                 beta_c = spec->cohesive.coupling;
-    fracas_shell_constants c = {.tables = tables_of(model),
-                                .thickness = h,
-                                .c11 = c11,
-                                .c12 = nu * c11,
-                                .c33 = c33,
-                                .d11 = bending * c11,
-                                .d12 = bending * nu * c11,
-                                .d33 = bending * c33,
-                                .normal = beta_c < 1 ? 1 / (beta_c * beta_c) : 1,
-                                .energy = spec->cohesive.fracture_energy,
-                                .opening = spec->cohesive.critical_opening,
-                                .beta_c = beta_c,
-                                .mu_c = spec->cohesive.friction,
-                                .onset_mean = spec->cohesive.onset != &fracas_onset_flux,
-                                .friction = spec->cohesive.friction > 0,
-                                .motion = fracas_surface_motion_of(&spec->time)};
-    c.tangential = beta_c * beta_c * c.normal;
-    c.fields = c.motion.alpha ? SURFACE_FIELDS_ALPHA : SURFACE_FIELDS;
-    c.strengths = (int)model->strengths;
-    c.point_fields = fracas_law_of(spec)->fields[c.friction];
-    return c;
-}
-
-/* ---- the model ---- */
+static const double edge_point[3] = FRACAS_EDGE_POINTS_2, edge_weight[3] = FRACAS_EDGE_WEIGHTS_2;
 
 static fracas_err check_order(const fracas_surface *surface)
 {
@@ -61,12 +24,12 @@ static fracas_err check_order(const fracas_surface *surface)
 /* As thick as its radius of curvature, at the edges of elements, it is no shell. */
 static fracas_err check_thickness(const fracas_model *model)
 {
-    const fracas_shell_tables *t = tables_of(model);
+    const fracas_surface_tables *t = model->plan;
     const double h = model->spec.geometry.thickness;
     double most = 0;
     for (size_t i = 0; i < t->ninterfaces; i++)
         for (int g = 0; g < SHELL_EDGE; g++) {
-            const double *place = t->joint + i * SHELL_JOINT_TABLE + SHELL_POINTS +
+            const double *place = t->interface + i * SHELL_INTERFACE_TABLE + SHELL_POINTS +
                                   g * SHELL_POINT_TABLE;
             most = fmax(most, fmax(fabs(place[SHELL_L_NN]), fabs(place[SHELL_L_SS])));
         }
@@ -78,162 +41,256 @@ static fracas_err check_thickness(const fracas_model *model)
         h, 1 / most);
 }
 
-/* Some edge moves with the loading. */
-static bool holds_moving(const fracas_shell_tables *t)
+/* ---- tables ---- */
+
+/* Coefficients of u,xixi, u,etaeta and u,xieta in the second derivatives along xx, yy, 2 xy, with
+ * c[a][i] = phi^a . e_i  (shell.4). */
+static void second_derivatives(double c[2][2], double of[3][3])
 {
-    for (size_t e = 0; e < t->nelements; e++)
-        if (t->held[e] & ~t->fixed[e]) return true;
-    return false;
+    for (int i = 0; i < 2; i++) {
+        of[i][0] = c[0][i] * c[0][i];
+        of[i][1] = c[1][i] * c[1][i];
+        of[i][2] = 2 * c[0][i] * c[1][i];
+    }
+    of[2][0] = 2 * c[0][0] * c[0][1];
+    of[2][1] = 2 * c[1][0] * c[1][1];
+    of[2][2] = 2 * (c[0][0] * c[1][1] + c[0][1] * c[1][0]);
 }
+
+static void fill_bulk(const fracas_model *model, fracas_surface_tables *t, size_t e)
+{
+    static const double at[3][2] = {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}};
+    for (int g = 0; g < SHELL_BULK; g++) {
+        double *bulk = t->bulk + (e * SHELL_BULK + (size_t)g) * SHELL_BULK_TABLE, c[2][2], of[3][3];
+        fracas_shell_geometry here;
+        fracas_shell_geometry_at(model->surface, e, at[g][0], at[g][1], &here);
+        for (int a = 0; a < 2; a++) {
+            c[a][0] = bulk[SHELL_XI_X + 2 * a] = fracas_shell_dot(here.dual[a], here.x);
+            c[a][1] = bulk[SHELL_XI_Y + 2 * a] = fracas_shell_dot(here.dual[a], here.y);
+        }
+        for (int i = 0; i < 3; i++) {
+            bulk[SHELL_X + i] = here.x[i];
+            bulk[SHELL_Y + i] = here.y[i];
+            bulk[SHELL_T + i] = here.normal[i];
+        }
+        second_derivatives(c, of);
+        for (int ij = 0; ij < 3; ij++)
+            for (int b = 0; b < 3; b++) {
+                bulk[SHELL_SECOND + 3 * ij + b] = -of[ij][b];
+                for (int a = 0; a < 2; a++) { /* Christoffel's symbols G^a_b */
+                    double *first = &bulk[SHELL_FIRST + 2 * ij + a];
+                    *first = (b ? *first : 0) +
+                             of[ij][b] * fracas_shell_dot(here.second[b], here.dual[a]);
+                }
+            }
+        bulk[SHELL_WEIGHT] = 0.5 / SHELL_BULK * here.area;
+    }
+}
+
+/* One side of an edge at a point where the edge runs along `tangent`: its normal in the surface, n
+ * = s x t, comes back. */
+static void fill_side(const fracas_shell_geometry *at, const double tangent[3], double sign,
+                      double share, double *side, double normal[3])
+{
+    fracas_shell_cross(tangent, at->normal, normal);
+    const double nx = fracas_shell_dot(normal, at->x), ny = fracas_shell_dot(normal, at->y);
+    side[SHELL_SQUARE_X] = share * nx * nx;
+    side[SHELL_SQUARE_Y] = share * ny * ny;
+    side[SHELL_PRODUCT] = share * nx * ny;
+    const double along[2] = {fracas_shell_dot(normal, at->dual[0]),
+                             fracas_shell_dot(normal, at->dual[1])};
+    for (int k = 0; k < SHELL_NODES; k++)
+        side[SHELL_SLOPE + k] = along[0] * at->slope[k][0] + along[1] * at->slope[k][1];
+    for (int i = 0; i < 3; i++) side[SHELL_TURN + i] = sign * at->normal[i];
+}
+
+/* L_ij = -t . d_i d_j phi of directions a, b in the surface  (shell.3) */
+static double curvature(const fracas_shell_geometry *at, const double a[3], const double b[3])
+{
+    const double ax = fracas_shell_dot(a, at->dual[0]), ay = fracas_shell_dot(a, at->dual[1]);
+    const double bx = fracas_shell_dot(b, at->dual[0]), by = fracas_shell_dot(b, at->dual[1]);
+    return -(ax * bx * fracas_shell_dot(at->normal, at->second[0]) +
+             ay * by * fracas_shell_dot(at->normal, at->second[1]) +
+             (ax * by + ay * bx) * fracas_shell_dot(at->normal, at->second[2]));
+}
+
+static void fill_point(const fracas_surface *surface, const fracas_surface_interface *interface,
+                       int g, double *point)
+{
+    fracas_shell_geometry at[2];
+    double tangent[3], normal[2][3], speed = 0;
+    for (int side = 0; side < 2; side++) {
+        double xi, eta;
+        fracas_shell_edge_point(interface->edge[side], side ? 1 - edge_point[g] : edge_point[g],
+                                &xi, &eta);
+        fracas_shell_geometry_at(surface, interface->element[side], xi, eta, &at[side]);
+        if (side == 0) speed = fracas_shell_edge_tangent(&at[0], interface->edge[0], tangent);
+        fill_side(&at[side], tangent, side ? -1 : 1, 0.5, point + SHELL_SIDES + side * SHELL_SIDE,
+                  normal[side]);
+    }
+    double *lift = point + SHELL_LIFT, length = 0;
+    for (int i = 0; i < 3; i++) lift[i] = at[0].normal[i] + at[1].normal[i];
+    length = sqrt(fracas_shell_dot(lift, lift));
+    for (int i = 0; i < 3; i++) {
+        lift[i] /= length;
+        point[SHELL_S + i] = tangent[i];
+    }
+    fracas_shell_cross(tangent, lift, point + SHELL_N);
+    point[SHELL_PER_SPEED] = 1.0 / speed;
+    point[SHELL_LENGTH] = edge_weight[g] * speed;
+    point[SHELL_L_NN] = 0.5 * (curvature(&at[0], normal[0], normal[0]) +
+                               curvature(&at[1], normal[1], normal[1]));
+    point[SHELL_L_NS] = 0.5 * (curvature(&at[0], normal[0], tangent) +
+                               curvature(&at[1], normal[1], tangent));
+    point[SHELL_L_SS] = 0.5 *
+                        (curvature(&at[0], tangent, tangent) + curvature(&at[1], tangent, tangent));
+}
+
+/* (membrane.5), (shell.7) */
+static void fill_interface(const fracas_model *model, fracas_surface_tables *t, size_t i)
+{
+    const fracas_spec *spec = &model->spec;
+    const fracas_surface_interface *interface = &model->surface->interface[i];
+    const double nu = spec->material.poisson, young = spec->material.young;
+    const double inverse_size = fracas_surface_inverse_size(model->surface, i);
+    double *head = t->interface + i * SHELL_INTERFACE_TABLE;
+    head[SURFACE_STIFFNESS] = spec->cohesive.beta * young / (1 - nu * nu) * inverse_size;
+    head[SURFACE_COMPLIANCE] = 1.0 / head[SURFACE_STIFFNESS];
+    head[SHELL_SHEARING] = spec->cohesive.beta_shear * young / (2 * (1 + nu)) *
+                           spec->geometry.thickness * inverse_size;
+    for (int g = 0; g < SHELL_EDGE; g++)
+        fill_point(model->surface, interface, g, head + SHELL_POINTS + g * SHELL_POINT_TABLE);
+}
+
+/* ---- edges ---- */
+
+static bool holds_director(const fracas_kind *kind)
+{
+    return kind == &fracas_edge_clamped || kind == &fracas_edge_symmetry;
+}
+
+/* The director's turn about the edge has twice the stiffness of an interface's: the other side is
+ * its mirror image  (shell.9) */
+static void fill_rim(const fracas_model *model, fracas_surface_tables *t,
+                     const fracas_surface_border *border, size_t r)
+{
+    const fracas_spec *spec = &model->spec;
+    const double nu = spec->material.poisson, h = spec->geometry.thickness,
+                 modulus = spec->material.young / (1 - nu * nu);
+    const double length = fracas_surface_length(model->surface, border->element, border->edge);
+    double *rim = t->rim + r * SHELL_RIM_TABLE;
+    rim[SHELL_RIM_STIFFNESS] = 2 * spec->cohesive.beta * modulus * (h * h * h / 12) * length /
+                               fracas_surface_area(model->surface, border->element);
+    for (int g = 0; g < SHELL_EDGE; g++) {
+        double xi, eta, tangent[3], normal[3],
+            *point = rim + SHELL_RIM_POINTS + g * SHELL_RIM_POINT_TABLE;
+        fracas_shell_geometry at;
+        fracas_shell_edge_point(border->edge, edge_point[g], &xi, &eta);
+        fracas_shell_geometry_at(model->surface, border->element, xi, eta, &at);
+        point[SHELL_RIM_LENGTH] = edge_weight[g] *
+                                  fracas_shell_edge_tangent(&at, border->edge, tangent);
+        fill_side(&at, tangent, 1, 1, point + SHELL_RIM_SIDE, normal);
+    }
+}
+
+#define UPRIGHT                                                                              \
+    0.93 /* least cosine at a plane of symmetry: bent edges of coarse meshes are off by some \
+            degrees */
+
+/* The axis that is normal to the plane of an edge, the one nearest to the edge's own normal where
+ * two are; 3: there is none, or the shell leans on it by more than its cosine `least`. */
+static int axis_of(const fracas_surface *surface, const fracas_surface_border *border, double least)
+{
+    double xi, eta, tangent[3], normal[3];
+    fracas_shell_geometry at;
+    fracas_shell_edge_point(border->edge, 0.5, &xi, &eta);
+    fracas_shell_geometry_at(surface, border->element, xi, eta, &at);
+    const double speed = fracas_shell_edge_tangent(&at, border->edge, tangent);
+    fracas_shell_cross(tangent, at.normal, normal);
+    const uint32_t *node = surface->element + border->element * surface->corners, k = border->edge;
+    const double *a = surface->node[node[k]], *b = surface->node[node[(k + 1) % 3]],
+                 *c = surface->node[node[3 + k]];
+    int axis = 3;
+    for (int i = 0; i < 3; i++) {
+        const bool is_in_plane = fmax(fabs(b[i] - a[i]), fabs(c[i] - a[i])) <= 1e-9 * speed;
+        if (is_in_plane && fabs(normal[i]) >= least &&
+            (axis == 3 || fabs(normal[i]) > fabs(normal[axis])))
+            axis = i;
+    }
+    return axis;
+}
+
+static fracas_err hold_edge(const fracas_model *model, const fracas_surface_border *border,
+                            const fracas_kind *kind, uint32_t *held, uint32_t *fixed)
+{
+    const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
+    const bool one = kind == &fracas_edge_symmetry, others = kind == &fracas_edge_diaphragm;
+    const int axis = one || others ? axis_of(model->surface, border, one ? UPRIGHT : 0) : 3;
+    const double *at =
+        model->surface->node[model->surface->element[border->element * SHELL_NODES + k]];
+    if (kind == &fracas_edge_sliding)
+        return fracas_fail(FRACAS_USAGE,
+                           "an edge with tag %d is to slide, which edges of shells do not: let it "
+                           "be a symmetry, a diaphragm, held, fixed, clamped or free",
+                           (int)border->tag);
+    if ((one || others) && axis == 3)
+        return fracas_fail(FRACAS_USAGE,
+                           "an edge with tag %d is a %s, but at (%g, %g, %g) m it does not lie in "
+                           "a plane x, y or z = const%s: hold it otherwise, or leave it free",
+                           (int)border->tag, kind->name, at[0], at[1], at[2],
+                           one ? " that the shell meets at a right angle" : "");
+    for (int n = 0; n < 3; n++)
+        for (uint32_t i = 0; i < 3; i++) {
+            if ((one && (int)i != axis) || (others && (int)i == axis)) continue;
+            *held |= 1u << (3 * node[n] + i);
+        }
+    if (kind != &fracas_edge_held) *fixed = *held;
+    return FRACAS_OK;
+}
+
+/* ---- the body ---- */
+
+static void fill_constants(const fracas_model *model, fracas_surface_constants *c)
+{
+    const fracas_spec *spec = &model->spec;
+    const double nu = spec->material.poisson, h = spec->geometry.thickness, bending = h * h / 12;
+    c->c11 = h * spec->material.young / (1 - nu * nu);
+    c->c12 = nu * c->c11;
+    c->c33 = h * spec->material.young / (2 * (1 + nu));
+    c->d11 = bending * c->c11;
+    c->d12 = bending * nu * c->c11;
+    c->d33 = bending * c->c33;
+}
+
+static void add_node(const fracas_surface_tables *t, size_t e, size_t k, const double (*x)[3],
+                     const double (*v)[3], fracas_fragment_sums *sums)
+{
+    fracas_fragment_sums_add(sums, t->lumped[(2 * e + 1) * SHELL_NODES + k], x[k], v[k]);
+}
+
+static const double layer[] = SHELL_LAYER_WEIGHTS;
+static const fracas_surface_body body = {.dimension = 3,
+                                         .stresses = 6,
+                                         .layers = SHELL_LAYERS,
+                                         .layer = layer,
+                                         .bulk_table = SHELL_BULK_TABLE,
+                                         .head = SHELL_POINTS,
+                                         .point_table = SHELL_POINT_TABLE,
+                                         .rim_table = SHELL_RIM_TABLE,
+                                         .kernels = &fracas_shell,
+                                         .check_mesh = check_order,
+                                         .check_tables = check_thickness,
+                                         .fill_bulk = fill_bulk,
+                                         .fill_interface = fill_interface,
+                                         .hold_edge = hold_edge,
+                                         .has_rim = holds_director,
+                                         .fill_rim = fill_rim,
+                                         .fill_constants = fill_constants,
+                                         .add_node = add_node};
 
 static fracas_err shell_model_init(fracas_model *model)
 {
-    fracas_shell_tables *tables;
-    TRY(fracas_surface_check_noise(&model->spec.mesh));
-    TRY(fracas_mesh_make(&model->spec, &model->surface));
-    TRY(check_order(model->surface));
-    TRY(fracas_surface_check_beta(model));
-    model->elements = model->surface->nelements;
-    model->interfaces = model->surface->ninterfaces;
-    if (model->spec.strength_per_point) model->strengths = SHELL_EDGE;
-    TRY(fracas_shell_tables_create(model, &tables));
-    model->plan = tables;
-    TRY(check_thickness(model));
-    TRY(fracas_surface_check_motion(model, holds_moving(tables)));
-    for (size_t k = 0; k < SHELL_NODES * tables->nelements; k++)
-        model->mass +=
-            tables->mass[k / SHELL_NODES * 2 * SHELL_NODES + SHELL_NODES + k % SHELL_NODES];
-    fracas_surface_measure_model(model);
-    return fracas_shell_critical_step(model);
-}
-
-/* ---- state ---- */
-
-static size_t shell_state_size(const fracas_model *model)
-{
-    const fracas_shell_constants c = fracas_shell_constants_of(model);
-    return fracas_shell_state_fields(&c);
-}
-
-/* Field `field` of a lane, counted from the start of its group's state. */
-static double *value_at(const fracas_shell_constants *c, const fracas_step *step, size_t field,
-                        int lane)
-{
-    const size_t lanes = (size_t)step->lanes, group = (size_t)lane / lanes;
-    return step->state + (group * fracas_shell_state_fields(c) + field) * lanes +
-           (size_t)lane % lanes;
-}
-
-static double *element_value(const fracas_shell_constants *c, const fracas_step *step,
-                             size_t element, int field, int i, int lane)
-{
-    return value_at(c, step,
-                    element * fracas_shell_element_fields(c) + (size_t)(field * SHELL_UNKNOWNS + i),
-                    lane);
-}
-
-static double *point_value(const fracas_shell_constants *c, const fracas_step *step,
-                           size_t interface, int g, int k, int field, int lane)
-{
-    const size_t at = fracas_shell_joints_at(c) + interface * fracas_shell_joint_fields(c);
-    return value_at(c, step, at + (size_t)((g * SHELL_LAYERS + k) * c->point_fields + field), lane);
-}
-
-double *fracas_shell_value(const fracas_model *model, const fracas_step *step, size_t element,
-                           int field, int i, int lane)
-{
-    const fracas_shell_constants c = fracas_shell_constants_of(model);
-    return element_value(&c, step, element, field, i, lane);
-}
-
-double *fracas_shell_point(const fracas_model *model, const fracas_step *step, size_t interface,
-                           int g, int k, int field, int lane)
-{
-    const fracas_shell_constants c = fracas_shell_constants_of(model);
-    return point_value(&c, step, interface, g, k, field, lane);
-}
-
-static double *shell_strength(const fracas_model *model, const fracas_step *step, int lane,
-                              size_t *stride)
-{
-    const fracas_shell_constants c = fracas_shell_constants_of(model);
-    *stride = (size_t)step->lanes;
-    return value_at(&c, step, fracas_shell_strengths_at(&c), lane);
-}
-
-static void shell_lane_init(const fracas_model *model, const fracas_step *step, int lane)
-{
-    const fracas_shell_constants c = fracas_shell_constants_of(model);
-    const fracas_surface *surface = model->surface;
-    const size_t fields = fracas_shell_element_fields(&c), joint = fracas_shell_joint_fields(&c),
-                 joints = fracas_shell_joints_at(&c);
-    for (size_t e = 0; e < model->elements; e++) {
-        for (size_t f = 0; f < fields; f++) *value_at(&c, step, e * fields + f, lane) = 0;
-        for (int i = 0; i < SHELL_UNKNOWNS; i++) {
-            const double *x = surface->node[surface->element[e * SHELL_NODES + (size_t)i / 3]];
-            *element_value(&c, step, e, SURFACE_V, i, lane) = fracas_surface_start_velocity(
-                &model->spec.loading, x, i % 3, c.tables->held[e] >> i & 1,
-                c.tables->fixed[e] >> i & 1);
-        }
-    }
-    for (size_t i = 0; i < model->interfaces; i++)
-        for (size_t f = 0; f < joint; f++) *value_at(&c, step, joints + i * joint + f, lane) = 0;
-}
-
-FRACAS_KERNEL_TABLE(const fracas_shell_kernel, fracas_shell);
-
-static void shell_advance(const fracas_model *model, fracas_step *step)
-{
-    const fracas_shell_constants c = fracas_shell_constants_of(model);
-    fracas_shell_sweep *sweep =
-        fracas_shell[step->isa][step->lanes]->sweep[fracas_law_of(&model->spec)->number];
-    for (int first = 0; first < step->width; first += step->lanes) sweep(&c, step, first);
-}
-
-/* ---- what is left of a lane ---- */
-
-static double shell_damage(const fracas_model *model, const fracas_step *step, size_t i, int lane)
-{
-    static const double along[SHELL_EDGE] = FRACAS_EDGE_WEIGHTS_2,
-                        across[SHELL_LAYERS] = SHELL_LAYER_WEIGHTS;
-    const fracas_shell_constants c = fracas_shell_constants_of(model);
-    double damage = 0;
-    bool broken = true;
-    for (int g = 0; g < SHELL_EDGE; g++)
-        for (int k = 0; k < SHELL_LAYERS; k++) {
-            const double at = *point_value(&c, step, i, g, k, SURFACE_DAMAGE, lane);
-            damage += along[g] * across[k] * at;
-            broken = broken && at >= 1.0;
-        }
-    return broken ? 1.0 : fmin(damage, 1.0 - 0x1p-53);
-}
-
-static int64_t shell_fragment_count(const fracas_model *model, fracas_step *step, int lane)
-{
-    return fracas_surface_fragment_count(model, step, lane, shell_damage);
-}
-
-static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e,
-                        fracas_fragment_sums *f)
-{
-    const fracas_shell_constants c = fracas_shell_constants_of(model);
-    for (int k = 0; k < SHELL_NODES; k++) {
-        const double *start =
-            model->surface->node[model->surface->element[e * SHELL_NODES + (size_t)k]];
-        double x[3], v[3];
-        for (int i = 0; i < 3; i++) {
-            x[i] = start[i] + *element_value(&c, step, e, SURFACE_U, 3 * k + i, lane);
-            v[i] = *element_value(&c, step, e, SURFACE_V, 3 * k + i, lane);
-        }
-        fracas_fragment_sums_add(f, c.tables->mass[e * 2 * SHELL_NODES + SHELL_NODES + (size_t)k],
-                                 x, v);
-    }
-}
-
-static fracas_err shell_harvest(const fracas_model *model, fracas_step *step, int lane,
-                                fracas_record *record)
-{
-    return fracas_surface_harvest(model, step, lane, shell_damage, add_element, record);
+    return fracas_surface_model_init(model, &body);
 }
 
 static const fracas_kind *const goes_with[] = {
@@ -245,13 +302,4 @@ const fracas_formulation fracas_formulation_shell = {
              .goes_with = goes_with,
              .ngoes_with = FRACAS_COUNT(goes_with)},
     .model_init = shell_model_init,
-    .check_strength = fracas_surface_check_strength,
-    .interface_volume = fracas_surface_interface_volume,
-    .plan_destroy = fracas_shell_tables_destroy,
-    .state_size = shell_state_size,
-    .strength = shell_strength,
-    .lane_init = shell_lane_init,
-    .advance = shell_advance,
-    .fragment_count = shell_fragment_count,
-    .harvest = shell_harvest,
-};
+    FRACAS_SURFACE_FORMULATION};

@@ -1,31 +1,74 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The shell as a linear operator, and where a batch keeps what belongs to an element: for the
- * critical time step, and for tests that look at the state between steps. */
+/* Tables of a shell: the places of their values (docs/theory/shell.md). */
 #ifndef FRACAS_ENGINE_FORMULATION_SHELL_SHELL_H
 #define FRACAS_ENGINE_FORMULATION_SHELL_SHELL_H
 
-#include "engine/formulation/shell/shell_sweep.h"
+#include "engine/formulation/surface/surface.h"
 
-fracas_shell_constants fracas_shell_constants_of(const fracas_model *model);
+/* Quadratic triangles: nodes, their unknowns, points at which stresses are kept, points of an edge,
+ * layers of the thickness. */
+enum { SHELL_NODES = 6, SHELL_UNKNOWNS = 18, SHELL_BULK = 3, SHELL_EDGE = 3, SHELL_LAYERS = 3 };
 
-/* Where the state has component i (3 node + 0, 1 or 2) of SURFACE_U, SURFACE_V, ... of an element.
- */
-double *fracas_shell_value(const fracas_model *model, const fracas_step *step, size_t element,
-                           int field, int i, int lane);
-/* Where it has a field of layer k of Gauss point g of an interface: SURFACE_DAMAGE, ... */
-double *fracas_shell_point(const fracas_model *model, const fracas_step *step, size_t interface,
-                           int g, int k, int field, int lane);
+/* Of a bulk point, in the orthonormal frame x, y, t of the surface there  (shell.2): derivatives of
+ * xi, eta along x, y; the frame; the bending strains xx, yy, 2 xy by t . u,xixi, t . u,etaeta, t .
+ * u,xieta and by t . u,xi, t . u,eta  (shell.4); the weight: area times quadrature weight [m2]. */
+enum {
+    SHELL_XI_X,
+    SHELL_XI_Y,
+    SHELL_ETA_X,
+    SHELL_ETA_Y,
+    SHELL_X,
+    SHELL_Y = SHELL_X + 3,
+    SHELL_T = SHELL_Y + 3,
+    SHELL_SECOND = SHELL_T + 3,
+    SHELL_FIRST = SHELL_SECOND + 9,
+    SHELL_WEIGHT = SHELL_FIRST + 6,
+    SHELL_BULK_TABLE
+};
 
-/* The operator K of all interfaces whole, or all broken and pressed together:
- *   acceleration = -M^-1 K u, for [element][3 node + component]; components that are held: 0
- * `apply` may be called any number of times between open and close. */
-typedef struct fracas_shell_operator fracas_shell_operator;
-FRACAS_MUST_USE fracas_err fracas_shell_operator_open(const fracas_model *model, int contact,
-                                                      fracas_shell_operator **op);
-void fracas_shell_operator_apply(fracas_shell_operator *op, const double *u, double *acceleration);
-void fracas_shell_operator_close(fracas_shell_operator *op); /* NULL is allowed */
+/* Of an interface: after its head, the stiffness against shearing off [Pa]; then of
+ * each Gauss point the frame n, s, t of the edge, 1/|dx/ds| [1/m], the weight: length times
+ * quadrature weight [m], the mean curvatures L_nn, L_ns, L_ss [1/m], and for each side: half of the
+ * normal's n_x^2, n_y^2, n_x n_y in the element's frame; the derivatives of its shape functions
+ * along the normal [1/m]; and the vector that makes a turn of them: t of the first side, -t of the
+ * second. */
+enum { SHELL_SHEARING = SURFACE_HEAD, SHELL_POINTS };
+enum {
+    SHELL_SQUARE_X,
+    SHELL_SQUARE_Y,
+    SHELL_PRODUCT,
+    SHELL_SLOPE,
+    SHELL_TURN = SHELL_SLOPE + SHELL_NODES,
+    SHELL_SIDE = SHELL_TURN + 3
+};
+enum {
+    SHELL_N,
+    SHELL_S = SHELL_N + 3,
+    SHELL_LIFT = SHELL_S + 3,
+    SHELL_PER_SPEED = SHELL_LIFT + 3,
+    SHELL_LENGTH,
+    SHELL_L_NN,
+    SHELL_L_NS,
+    SHELL_L_SS,
+    SHELL_SIDES,
+    SHELL_POINT_TABLE = SHELL_SIDES + 2 * SHELL_SIDE
+};
+#define SHELL_INTERFACE_TABLE (SHELL_POINTS + SHELL_EDGE * SHELL_POINT_TABLE)
 
-/* The model's critical steps, from both operators (membrane.16). */
-FRACAS_MUST_USE fracas_err fracas_shell_critical_step(fracas_model *model);
+/* Of an edge that holds the director: the stiffness of its turn [N], then of each Gauss point the
+ * weight, and as of a first side (but the whole of n_x^2, ...). */
+enum { SHELL_RIM_STIFFNESS, SHELL_RIM_POINTS };
+enum { SHELL_RIM_LENGTH, SHELL_RIM_SIDE, SHELL_RIM_POINT_TABLE = SHELL_RIM_SIDE + SHELL_SIDE };
+#define SHELL_RIM_TABLE (SHELL_RIM_POINTS + SHELL_EDGE * SHELL_RIM_POINT_TABLE)
+
+/* A layer's place by the thickness, and its weight: Simpson's rule  (shell.12). */
+#define SHELL_LAYER_PLACES \
+    {                      \
+        -0.5, 0.0, 0.5     \
+    }
+#define SHELL_LAYER_WEIGHTS       \
+    {                             \
+        1.0 / 6, 4.0 / 6, 1.0 / 6 \
+    }
 
 #endif

@@ -1,34 +1,34 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Onsets and breaks of interfaces, one lane at a time: when within the step. */
-#include "engine/formulation/shell/shell_sweep.h"
+#include "engine/formulation/shell/shell.h"
 
 #include <math.h>
 
 /* One lane's view of the state after its drift. */
 typedef struct {
-    const fracas_shell_constants *shell;
+    const fracas_surface_constants *shell;
     const double *elements, *joints, *strengths; /* of the lane's group, from its own place in it */
     size_t lanes;
     double back; /* s: displacements are looked at so much earlier */
 } view;
 
-static view view_of(const fracas_shell_constants *shell, const fracas_step *step, int lane,
+static view view_of(const fracas_surface_constants *shell, const fracas_step *step, int lane,
                     double back)
 {
     const size_t lanes = (size_t)step->lanes, group = (size_t)lane / lanes;
-    const double *state = step->state + group * lanes * fracas_shell_state_fields(shell) +
+    const double *state = step->state + group * lanes * fracas_surface_state_fields(shell) +
                           (size_t)lane % lanes;
     return (view){.shell = shell,
                   .elements = state,
-                  .joints = state + fracas_shell_joints_at(shell) * lanes,
-                  .strengths = state + fracas_shell_strengths_at(shell) * lanes,
+                  .joints = state + fracas_surface_interfaces_at(shell) * lanes,
+                  .strengths = state + fracas_surface_strengths_at(shell) * lanes,
                   .lanes = lanes,
                   .back = back};
 }
 
 static void displacements(const view *v, size_t element, double u[SHELL_UNKNOWNS])
 {
-    const double *at = v->elements + element * fracas_shell_element_fields(v->shell) * v->lanes;
+    const double *at = v->elements + element * fracas_surface_element_fields(v->shell) * v->lanes;
     for (int i = 0; i < SHELL_UNKNOWNS; i++)
         u[i] = at[(size_t)(SURFACE_U * SHELL_UNKNOWNS + i) * v->lanes] -
                v->back * at[(size_t)(SURFACE_V * SHELL_UNKNOWNS + i) * v->lanes];
@@ -41,11 +41,11 @@ static double dot(const double *a, const double *b)
 
 /* Resultants at bulk point g  (shell.4). */
 static void resultants_at(const view *v, size_t element, const double u[SHELL_UNKNOWNS], int g,
-                          double r[SHELL_RESULTANTS])
+                          double r[6])
 {
     static const double shape[3][6][2] = FRACAS_TRIANGLE_DERIVATIVES_2,
                         second[3][6] = FRACAS_TRIANGLE_SECOND_2;
-    const fracas_shell_constants *s = v->shell;
+    const fracas_surface_constants *s = v->shell;
     const double *bulk = s->tables->bulk + (element * SHELL_BULK + (size_t)g) * SHELL_BULK_TABLE;
     double bent[3][3] = {{0}}, by[2][3] = {{0}}, along[2][3], out[5], rho[3];
     for (int k = 0; k < SHELL_NODES; k++)
@@ -80,8 +80,8 @@ typedef struct {
 static sight look(const view *v, size_t interface, int g)
 {
     static const double edge_point[3] = FRACAS_EDGE_POINTS_2;
-    const fracas_shell_tables *t = v->shell->tables;
-    const double *place = t->joint + interface * SHELL_JOINT_TABLE + SHELL_POINTS +
+    const fracas_surface_tables *t = v->shell->tables;
+    const double *place = t->interface + interface * SHELL_INTERFACE_TABLE + SHELL_POINTS +
                           g * SHELL_POINT_TABLE;
     double shape[3], spread[3], slope[3], q[3] = {0}, along[3] = {0}, mean[4] = {0};
     sight s = {.turn = {0}};
@@ -93,7 +93,7 @@ static sight look(const view *v, size_t interface, int g)
         const int node[3] = {side ? next : k, side ? k : next, 3 + k},
                   bulk[3] = {node[0], node[1], (k + 2) % 3};
         const size_t element = t->element[interface][side];
-        double u[SHELL_UNKNOWNS], by_normal[3] = {0}, r[SHELL_RESULTANTS] = {0};
+        double u[SHELL_UNKNOWNS], by_normal[3] = {0}, r[6] = {0};
         displacements(v, element, u);
         for (int i = 0; i < 3; i++) {
             for (int n = 0; n < 3; n++) {
@@ -105,9 +105,9 @@ static sight look(const view *v, size_t interface, int g)
         }
         s.turn[0] += dot(table + SHELL_TURN, by_normal);
         for (int p = 0; p < 3; p++) {
-            double at[SHELL_RESULTANTS];
+            double at[6];
             resultants_at(v, element, u, bulk[p], at);
-            for (int j = 0; j < SHELL_RESULTANTS; j++) r[j] += spread[p] * at[j];
+            for (int j = 0; j < 6; j++) r[j] += spread[p] * at[j];
         }
         const double xx = table[SHELL_SQUARE_X], yy = table[SHELL_SQUARE_Y],
                      xy = table[SHELL_PRODUCT];
@@ -135,12 +135,13 @@ static double effective(double t_n, double t_t, double beta_c)
 
 /* What the law compares at layer k of a Gauss point: with the strength, and with delta_c; see
  * engine/cohesive/nitsche.h. */
-static void compared(const fracas_shell_constants *s, size_t interface, const sight *at, int k,
+static void compared(const fracas_surface_constants *s, size_t interface, const sight *at, int k,
                      double *onset, double *opening)
 {
     static const double place[SHELL_LAYERS] = SHELL_LAYER_PLACES;
     const double h = s->thickness, z = place[k] * h,
-                 stiffness = s->tables->joint[interface * SHELL_JOINT_TABLE + SHELL_STIFFNESS];
+                 stiffness =
+                     s->tables->interface[interface * SHELL_INTERFACE_TABLE + SURFACE_STIFFNESS];
     const double k_n = s->normal * stiffness, k_t = s->tangential * stiffness;
     const double mean_n = at->n[0] / h + 12 * z * at->m[0] / (h * h * h),
                  mean_t = at->n[1] / h + 12 * z * at->m[1] / (h * h * h);
@@ -159,17 +160,18 @@ static double crossing(const fracas_step *step, int lane, double before, double 
     return step->time[lane] - step->drift[lane] * (share > 0 ? fmin(share, 1.0) : 0.0);
 }
 
-void fracas_shell_book(const fracas_shell_constants *shell, fracas_step *step, int lane,
-                       size_t interface, const fracas_shell_event *event)
+void fracas_shell_book(const fracas_surface_constants *shell, fracas_step *step, int lane,
+                       size_t interface, const fracas_surface_event *event)
 {
     const view before = view_of(shell, step, lane, step->drift[lane]),
                now = view_of(shell, step, lane, 0);
     const size_t at = interface * (size_t)step->width + (size_t)lane;
-    const double *joint = now.joints + interface * fracas_shell_joint_fields(shell) * now.lanes;
+    const double *joint = now.joints +
+                          interface * fracas_surface_interface_fields(shell) * now.lanes;
     double first = INFINITY, last = -INFINITY;
     for (int g = 0; g < SHELL_EDGE; g++) {
         const double sigma_c =
-            now.strengths[fracas_shell_strength_of(shell, interface, g) * now.lanes];
+            now.strengths[fracas_surface_strength_of(shell, interface, g) * now.lanes];
         const sight then = look(&before, interface, g), here = look(&now, interface, g);
         for (int k = 0; k < SHELL_LAYERS; k++) {
             const int field = (g * SHELL_LAYERS + k) * shell->point_fields + SURFACE_PEAK;
@@ -179,9 +181,9 @@ void fracas_shell_book(const fracas_shell_constants *shell, fracas_step *step, i
             double onset[2], opening[2];
             compared(shell, interface, &then, k, &onset[0], &opening[0]);
             compared(shell, interface, &here, k, &onset[1], &opening[1]);
-            if (event->cracks[g][k])
+            if (event->cracks[g * SHELL_LAYERS + k])
                 first = fmin(first, crossing(step, lane, onset[0], onset[1], sigma_c));
-            if (event->breaks[g][k])
+            if (event->breaks[g * SHELL_LAYERS + k])
                 last = fmax(last, crossing(step, lane, opening[0], opening[1], delta_c));
         }
     }

@@ -1,31 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The shell's sweep over lanes: a kernel.
- *
- * An element is drifted and strained when its turn comes, then its edges that hold the director and
- * the interfaces with elements before it are visited; once an element has all its interfaces it
- * gets its forces and is kicked. Interfaces see an element through the displacements of its nodes
- * and the resultants at its bulk points, and give back forces and strains at those. */
-#include "base/lanes.h"
-#include "engine/formulation/shell/shell_sweep.h"
-#include "engine/formulation/surface/sweep_template.h"
+/* The shell over lanes: a body's kernel (engine/formulation/surface/kernel.h). */
+#define BODY_NAME shell
+#define BODY_BOOK fracas_shell_book
+#define BODY_DIMENSION 3
+#define BODY_STRESSES 6
+#define BODY_LAYERS 3
+#define BODY_LINEAR 0
+#define BODY_CONSISTENT 0
+#define BODY_TAKES(bar, ring, membrane, shell, ...) FRACAS_IF_##shell(__VA_ARGS__)
+#define BODY_HEAD SHELL_POINTS
+#define BODY_POINT_TABLE SHELL_POINT_TABLE
+#define BODY_MEASURE SHELL_LENGTH
+#include "engine/formulation/shell/shell.h"
+#include "engine/formulation/surface/kernel.h"
 
-#include <math.h>
+enum { SHELL_RESULTANTS = BODY_STRESSES }; /* n_xx, n_yy, n_xy [N/m], m_xx, m_yy, m_xy [N] */
 
+/* At one Gauss point of an interface: along its normal and along the edge  (shell.5) to (shell.8).
+ */
 typedef struct {
-    const fracas_shell_constants *shell;
-    const fracas_shell_tables *tables;
-    fracas_step *step;
-    int first;                         /* lane of the step that is lane 0 here */
-    double *elements, *joints, *slots; /* of these lanes */
-    const double *strengths;
-    size_t element_size, joint_size;      /* doubles */
-    size_t strengths_size, strength_step; /* doubles: of an interface; from one Gauss point to the
-                                             next, 0 where they share one */
-    vd drift, kick;                       /* s */
-    int begins;                           /* the first step of all */
-    /* sums over the body, for the ledger: twice the energies, dissipated [J]; power [W] */
-    vd strain_energy, flux, stored, kinetic, dissipated, power;
-} shell_context;
+    vd jump[2], turn[2], lift;     /* [u] [m], [Dt] [1], [u].t [m] */
+    vd mean_n[2], mean_m[2];       /* <N> [N/m], <M> [N] */
+    vd n[2], m[2], shearing;       /* tractions N [N/m], M [N], and across the surface [N/m] */
+    vd carried_u[2], carried_t[2]; /* what the flux carries of the jumps [m], [1] */
+} shell_point;
+
+/* Sums over the layers of a Gauss point. */
+typedef struct {
+    vmask cracked; /* some layer is past onset: the rest holds */
+    vd n[2], m[2], carried_u[2], carried_t[2];
+    vd flux, stored, dissipated, created, rubbed; /* [J/m]; the last two: in this step */
+    vd spent, spent_bending; /* dissipated in this step, and its share by bending [J/m] */
+    vmask broken;            /* all of them */
+    vmask whole;             /* none was past its onset before this step */
+} shell_layers;
 
 LANES_FUNCTION vd shell_dot(const double *a, const vd *b)
 {
@@ -37,19 +45,151 @@ LANES_FUNCTION void shell_load(const double *from, vd u[SHELL_UNKNOWNS])
     UNROLL_FOR (int i = 0; i < SHELL_UNKNOWNS; i++) u[i] = lanes_load(from + i * LANES);
 }
 
-/* Resultants and energy of element e  (shell.4); its slot is cleared of what it held before. */
-LANES_FUNCTION void shell_strain(shell_context *c, size_t e)
+/* ---- loads: none beside held edges ---- */
+
+LANES_FUNCTION void shell_begin(surface_context *c)
+{
+    (void)c;
+}
+
+LANES_FUNCTION vd shell_work(const surface_context *c, vd *power)
+{
+    (void)c;
+    (void)power;
+    return lanes_set(0.0);
+}
+
+/* ---- sides of interfaces and rims ---- */
+
+/* Turn of a side about the edge, by its table: +-Dt_n  (shell.6) */
+LANES_FUNCTION vd shell_turn(const double *side, const vd u[SHELL_UNKNOWNS])
+{
+    vd along[3];
+    UNROLL_FOR (int i = 0; i < 3; i++) {
+        along[i] = lanes_set(side[SHELL_SLOPE]) * u[i];
+        UNROLL_FOR (int k = 1; k < SHELL_NODES; k++)
+            along[i] += lanes_set(side[SHELL_SLOPE + k]) * u[3 * k + i];
+    }
+    return shell_dot(side + SHELL_TURN, along);
+}
+
+/* Adds the resultants n_nn, n_ns, m_nn, m_ns of a side at the three Gauss points of its edge (times
+ * the share that its table has) to `of`; the ends of the edge are at the bulk points node[0],
+ * node[1], and resultants are linear between them  (membrane.2). */
+LANES_FUNCTION void shell_resultants(const double *slot, const int node[3], const double *table,
+                                     size_t stride, vd of[SHELL_EDGE][4])
+{
+    static const double edge_point[3] = FRACAS_EDGE_POINTS_2;
+    const double *a = slot + node[0] * SHELL_RESULTANTS * LANES,
+                 *b = slot + node[1] * SHELL_RESULTANTS * LANES;
+    const double *o = slot + (3 - node[0] - node[1]) * SHELL_RESULTANTS * LANES;
+    vd at[SHELL_EDGE][SHELL_RESULTANTS];
+    UNROLL_FOR (int j = 0; j < SHELL_RESULTANTS; j++) {
+        const vd first = lanes_load(a + j * LANES), last = lanes_load(b + j * LANES);
+        const vd half_way = lanes_set(2.0 / 3) * (first + last) -
+                            lanes_set(1.0 / 3) * lanes_load(o + j * LANES);
+        const vd off = lanes_set(2 * edge_point[2] - 1) * (last - first);
+        at[0][j] = half_way - off;
+        at[1][j] = half_way;
+        at[2][j] = half_way + off;
+    }
+    UNROLL_FOR (int g = 0; g < SHELL_EDGE; g++) {
+        const double *side = table + (size_t)g * stride;
+        const vd xx = lanes_set(side[SHELL_SQUARE_X]), yy = lanes_set(side[SHELL_SQUARE_Y]),
+                 xy = lanes_set(side[SHELL_PRODUCT]);
+        UNROLL_FOR (int part = 0; part < 2; part++) {
+            const vd *r = at[g] + 3 * part;
+            of[g][2 * part] += xx * r[0] + yy * r[1] + (xy + xy) * r[2];
+            of[g][2 * part + 1] += xy * (r[1] - r[0]) + (xx - yy) * r[2];
+        }
+    }
+}
+
+/* Gives one side of an interface what its turn and its resultants do: `turned` is the moment [N m],
+ * `work` the strains that go with n_nn, n_ns, m_nn, m_ns (times length), at each Gauss point. */
+LANES_FUNCTION void shell_give_side(const double *table, size_t stride, double *slot,
+                                    const int node[3], const vd *turned, vd (*work)[4])
+{
+    static const double edge_point[3] = FRACAS_EDGE_POINTS_2;
+    const vd zero = lanes_set(0.0);
+    vd force[SHELL_UNKNOWNS], strain[SHELL_EDGE][SHELL_RESULTANTS];
+    UNROLL_FOR (int i = 0; i < SHELL_UNKNOWNS; i++) force[i] = zero;
+    UNROLL_FOR (int g = 0; g < SHELL_EDGE; g++) {
+        const double *side = table + (size_t)g * stride;
+        const vd pull[3] = {turned[g] * lanes_set(side[SHELL_TURN]),
+                            turned[g] * lanes_set(side[SHELL_TURN + 1]),
+                            turned[g] * lanes_set(side[SHELL_TURN + 2])};
+        UNROLL_FOR (int k = 0; k < SHELL_NODES; k++)
+            UNROLL_FOR (int i = 0; i < 3; i++)
+                force[3 * k + i] += lanes_set(side[SHELL_SLOPE + k]) * pull[i];
+        const vd xx = lanes_set(side[SHELL_SQUARE_X]), yy = lanes_set(side[SHELL_SQUARE_Y]),
+                 xy = lanes_set(side[SHELL_PRODUCT]);
+        UNROLL_FOR (int part = 0; part < 2; part++) {
+            const vd nn = work[g][2 * part], ns = work[g][2 * part + 1];
+            strain[g][3 * part] = xx * nn - xy * ns;
+            strain[g][3 * part + 1] = yy * nn + xy * ns;
+            strain[g][3 * part + 2] = (xy + xy) * nn + (xx - yy) * ns;
+        }
+    }
+    double *forces = surface_at(slot, BODY_SLOT_FORCE(2));
+    UNROLL_FOR (int i = 0; i < SHELL_UNKNOWNS; i++)
+        lanes_store(surface_at(forces, i), lanes_load(surface_at(forces, i)) + force[i]);
+    const int bulk[3] = {node[0], node[1], 3 - node[0] - node[1]};
+    UNROLL_FOR (int j = 0; j < SHELL_RESULTANTS; j++) { /* as resultants are read */
+        const vd sum = strain[0][j] + strain[1][j] + strain[2][j],
+                 off = lanes_set(2 * edge_point[2] - 1) * (strain[2][j] - strain[0][j]);
+        const vd share = lanes_set(2.0 / 3) * sum,
+                 extra[3] = {share - off, share + off, lanes_set(-1.0 / 3) * sum};
+        UNROLL_FOR (int p = 0; p < 3; p++) {
+            double *to = surface_at(slot, BODY_SLOT_EXTRA(2) + SHELL_RESULTANTS * bulk[p] + j);
+            lanes_store(to, lanes_load(to) + extra[p]);
+        }
+    }
+}
+
+/* Rim r of an element, whose director does not turn about the edge  (shell.9). */
+LANES_FUNCTION void shell_rim(surface_context *c, int order, size_t r, const double *at,
+                              double *slot)
+{
+    const double *rim = c->tables->rim + r * (size_t)SHELL_RIM_TABLE;
+    const int k = c->tables->rim_edge[r], node[3] = {k, (k + 1) % 3, 3 + k};
+    (void)order;
+    const vd zero = lanes_set(0.0), stiff = lanes_set(rim[SHELL_RIM_STIFFNESS]);
+    vd u[SHELL_UNKNOWNS], turned[SHELL_EDGE], work[SHELL_EDGE][4], of[SHELL_EDGE][4];
+    shell_load(at, u);
+    UNROLL_FOR (int g = 0; g < SHELL_EDGE; g++)
+        UNROLL_FOR (int j = 0; j < 4; j++) of[g][j] = zero;
+    shell_resultants(slot, node, rim + SHELL_RIM_POINTS + SHELL_RIM_SIDE, SHELL_RIM_POINT_TABLE,
+                     of);
+    UNROLL_FOR (int g = 0; g < SHELL_EDGE; g++) {
+        const double *point = rim + SHELL_RIM_POINTS + g * SHELL_RIM_POINT_TABLE,
+                     *side = point + SHELL_RIM_SIDE;
+        const vd turn = shell_turn(side, u), length = lanes_set(point[SHELL_RIM_LENGTH]),
+                 moment = of[g][2] + stiff * turn;
+        c->flux += length * (turn * (of[g][2] + moment));
+        turned[g] = length * moment;
+        work[g][0] = work[g][1] = work[g][3] = zero;
+        work[g][2] = length * turn;
+    }
+    shell_give_side(rim + SHELL_RIM_POINTS + SHELL_RIM_SIDE, SHELL_RIM_POINT_TABLE, slot, node,
+                    turned, work);
+}
+
+/* ---- elements ---- */
+
+/* Resultants and energy of element e, of displacements `at` (shell.4); the rest of its slot is
+ * cleared, then its rims act. */
+LANES_FUNCTION void shell_strain(surface_context *c, int order, size_t e, double *at, double *slot)
 {
     static const double shape[3][6][2] = FRACAS_TRIANGLE_DERIVATIVES_2,
                         second[3][6] = FRACAS_TRIANGLE_SECOND_2;
     const vd zero = lanes_set(0.0);
-    const fracas_shell_constants *s = c->shell;
-    double *slot = c->slots + (e & c->tables->visits.window) * (size_t)(SHELL_SLOT * LANES);
+    const fracas_surface_constants *s = c->constants;
     const double *bulk = c->tables->bulk + e * (size_t)(SHELL_BULK * SHELL_BULK_TABLE);
     const vd c11 = lanes_set(s->c11), c12 = lanes_set(s->c12), c33 = lanes_set(s->c33);
     const vd d11 = lanes_set(s->d11), d12 = lanes_set(s->d12), d33 = lanes_set(s->d33);
     vd u[SHELL_UNKNOWNS], bent[3][3];
-    shell_load(c->elements + e * c->element_size, u);
+    shell_load(at, u);
     UNROLL_FOR (int b = 0; b < 3; b++)
         UNROLL_FOR (int i = 0; i < 3; i++) {
             bent[b][i] = zero;
@@ -90,25 +230,25 @@ LANES_FUNCTION void shell_strain(shell_context *c, size_t e)
         UNROLL_FOR (int i = 0; i < SHELL_RESULTANTS; i++)
             lanes_store(surface_at(slot, SHELL_RESULTANTS * g + i), resultant[i]);
     }
-    UNROLL_FOR (int i = SHELL_SLOT_EXTRA; i < SHELL_SLOT; i++)
+    UNROLL_FOR (int i = BODY_SLOT_EXTRA(2); i < BODY_SLOT(2); i++)
         lanes_store(surface_at(slot, i), zero);
+    for (size_t rim = c->tables->rim_from[e]; rim < c->tables->rim_from[e + 1]; rim++)
+        shell_rim(c, order, rim, at, slot);
 }
-
-#include "engine/formulation/shell/shell_interface_template.h"
 
 /* Internal forces of element e: its own, what symmetrisation adds to its resultants, and its
  * interfaces'  (shell.10). */
-LANES_FUNCTION void shell_forces(const shell_context *c, size_t e, vd force[SHELL_UNKNOWNS])
+LANES_FUNCTION void shell_forces(const surface_context *c, int order, size_t e, vd *force)
 {
     static const double shape[3][6][2] = FRACAS_TRIANGLE_DERIVATIVES_2,
                         second[3][6] = FRACAS_TRIANGLE_SECOND_2;
-    const fracas_shell_constants *s = c->shell;
-    double *slot = c->slots + (e & c->tables->visits.window) * (size_t)(SHELL_SLOT * LANES);
+    const fracas_surface_constants *s = c->constants;
+    double *slot = surface_slot(c, order, e);
     const double *bulk = c->tables->bulk + e * (size_t)(SHELL_BULK * SHELL_BULK_TABLE);
     const vd c11 = lanes_set(s->c11), c12 = lanes_set(s->c12), c33 = lanes_set(s->c33);
     const vd d11 = lanes_set(s->d11), d12 = lanes_set(s->d12), d33 = lanes_set(s->d33);
     vd bent[3][3];
-    shell_load(surface_at(slot, SHELL_SLOT_FORCE), force);
+    shell_load(surface_at(slot, BODY_SLOT_FORCE(2)), force);
     UNROLL_FOR (int b = 0; b < 3; b++)
         UNROLL_FOR (int i = 0; i < 3; i++) bent[b][i] = lanes_set(0.0);
     UNROLL_FOR (int g = 0; g < SHELL_BULK; g++, bulk += SHELL_BULK_TABLE) {
@@ -116,7 +256,7 @@ LANES_FUNCTION void shell_forces(const shell_context *c, size_t e, vd force[SHEL
         const vd weight = lanes_set(bulk[SHELL_WEIGHT]);
         UNROLL_FOR (int j = 0; j < SHELL_RESULTANTS; j++) {
             r[j] = weight * lanes_load(surface_at(slot, SHELL_RESULTANTS * g + j));
-            x[j] = lanes_load(surface_at(slot, SHELL_SLOT_EXTRA + SHELL_RESULTANTS * g + j));
+            x[j] = lanes_load(surface_at(slot, BODY_SLOT_EXTRA(2) + SHELL_RESULTANTS * g + j));
         }
         r[0] += c11 * x[0] + c12 * x[1];
         r[1] += c12 * x[0] + c11 * x[1];
@@ -155,110 +295,281 @@ LANES_FUNCTION void shell_forces(const shell_context *c, size_t e, vd force[SHEL
                 if (second[b][k] != 0.0) force[3 * k + i] += lanes_set(second[b][k]) * bent[b][i];
 }
 
-/* Forces and kick of element e, and its share of kinetic energy. */
-LANES_FUNCTION void shell_kick(shell_context *c, int law, size_t e)
+/* Leapfrog: v_{n-1/2} M v_{n+1/2}  (membrane.9) */
+LANES_FUNCTION void shell_kinetic(surface_context *c, int order, size_t e, const vd *v,
+                                  const vd *after)
 {
-    const fracas_shell_tables *t = c->tables;
-    const unsigned held = t->held[e];
-    const double *mass = t->mass + e * (size_t)(2 * SHELL_NODES);
-    double *at = c->elements + e * c->element_size;
-    vd force[SHELL_UNKNOWNS], v[SHELL_UNKNOWNS], a[SHELL_UNKNOWNS], after[SHELL_UNKNOWNS];
-    shell_forces(c, e, force);
-    shell_load(surface_at(at, SURFACE_V * SHELL_UNKNOWNS), v);
-    UNROLL_FOR (int i = 0; i < SHELL_UNKNOWNS; i++) a[i] = lanes_set(-mass[i / 3]) * force[i];
-    if (__builtin_expect(held != 0, 0))
-        for (int i = 0; i < SHELL_UNKNOWNS; i++) {
-            if (!(held >> i & 1)) continue;
-            a[i] = lanes_set(0.0);
-            c->power += force[i] * v[i]; /* (membrane.11) */
-        }
-    if (law == SURFACE_OPERATOR) {
-        UNROLL_FOR (int i = 0; i < SHELL_UNKNOWNS; i++)
-            lanes_store(surface_at(at, SURFACE_V * SHELL_UNKNOWNS + i), a[i]);
-        return;
-    }
-    surface_kick(&c->shell->motion, c->kick, c->begins, SHELL_UNKNOWNS, at, a, v, after);
-    UNROLL_FOR (int k = 0; k < SHELL_NODES;
-                k++) { /* leapfrog: v_{n-1/2} M v_{n+1/2}  (membrane.9) */
-        const vd m = lanes_set(mass[SHELL_NODES + k]);
+    const double *mass = c->tables->lumped + (2 * e + 1) * (size_t)SURFACE_NODES(order);
+    UNROLL_FOR (int k = 0; k < SHELL_NODES; k++) {
+        const vd m = lanes_set(mass[k]);
         c->kinetic += m * (v[3 * k] * after[3 * k] + v[3 * k + 1] * after[3 * k + 1] +
                            v[3 * k + 2] * after[3 * k + 2]);
     }
 }
 
-/* Sums to energies [J], those of the potential  (shell.11), and power [W]. */
-LANES_FUNCTION void shell_totals(const shell_context *c)
+/* ---- interfaces ---- */
+
+/* Jumps, means and the flux at the Gauss points, before any onset. */
+LANES_FUNCTION void shell_flux(const surface_context *c, int order, size_t i,
+                               const surface_sides *sides, shell_point at[SHELL_EDGE])
 {
-    fracas_step *step = c->step;
-    const vd half = lanes_set(0.5);
-    const int first = c->first;
-    lanes_store(step->kinetic + first, half * c->kinetic);
-    lanes_store(step->elastic + first, half * (c->strain_energy + c->flux));
-    lanes_store(step->cohesive + first, half * c->stored);
-    lanes_store(step->dissipated + first, c->dissipated + lanes_load(step->rubbed + first));
-    lanes_store(step->power + first, c->power);
-    lanes_store(step->work + first, lanes_set(0.0));
+    static const double edge_point[3] = FRACAS_EDGE_POINTS_2;
+    const fracas_surface_constants *s = c->constants;
+    const double *table = surface_table(c, order, i), h = s->thickness;
+    const double membrane = table[SURFACE_STIFFNESS] * h, bending = membrane * (h * h / 12);
+    const vd stiff[2] = {lanes_set(s->normal * membrane), lanes_set(s->tangential * membrane)};
+    const vd turning[2] = {lanes_set(s->normal * bending), lanes_set(s->tangential * bending)},
+             shearing = lanes_set(table[SHELL_SHEARING]);
+    vd u[2][SHELL_UNKNOWNS], jump[3][3], means[SHELL_EDGE][4];
+    UNROLL_FOR (int g = 0; g < SHELL_EDGE; g++)
+        UNROLL_FOR (int j = 0; j < 4; j++) means[g][j] = lanes_set(0.0);
+    UNROLL_FOR (int side = 0; side < 2; side++) {
+        shell_load(sides->element[side], u[side]);
+        shell_resultants(sides->slot[side], sides->node[side],
+                         table + SHELL_POINTS + SHELL_SIDES + side * SHELL_SIDE, SHELL_POINT_TABLE,
+                         means);
+    }
+    UNROLL_FOR (int n = 0; n < 3; n++)
+        UNROLL_FOR (int j = 0; j < 3; j++)
+            jump[n][j] = lanes_load(sides->element[1] + (3 * sides->node[1][n] + j) * LANES) -
+                         lanes_load(sides->element[0] + (3 * sides->node[0][n] + j) * LANES);
+    UNROLL_FOR (int g = 0; g < SHELL_EDGE; g++) {
+        const double *place = table + SHELL_POINTS + g * SHELL_POINT_TABLE;
+        double shape[3], spread[3], slope[3];
+        fracas_edge_shape(2, edge_point[g], shape, spread);
+        fracas_edge_slope(edge_point[g], slope);
+        vd q[3], along[3];
+        const vd *mean = means[g];
+        UNROLL_FOR (int j = 0; j < 3; j++) {
+            if (g == 1) { /* half-way: the middle node's own */
+                q[j] = jump[2][j];
+                along[j] = jump[1][j] - jump[0][j];
+                continue;
+            }
+            q[j] = lanes_set(shape[0]) * jump[0][j] + lanes_set(shape[1]) * jump[1][j] +
+                   lanes_set(shape[2]) * jump[2][j];
+            along[j] = lanes_set(slope[0]) * jump[0][j] + lanes_set(slope[1]) * jump[1][j] +
+                       lanes_set(slope[2]) * jump[2][j];
+        }
+        const vd nn = lanes_set(place[SHELL_L_NN]), ns = lanes_set(place[SHELL_L_NS]),
+                 ss = lanes_set(place[SHELL_L_SS]);
+        shell_point *p = &at[g];
+        p->jump[0] = shell_dot(place + SHELL_N, q);
+        p->jump[1] = shell_dot(place + SHELL_S, q);
+        p->lift = shell_dot(place + SHELL_LIFT, q);
+        p->turn[0] = shell_turn(place + SHELL_SIDES, u[0]) +
+                     shell_turn(place + SHELL_SIDES + SHELL_SIDE, u[1]);
+        p->turn[1] = lanes_set(-place[SHELL_PER_SPEED]) * shell_dot(place + SHELL_LIFT, along);
+        p->mean_n[0] = mean[0] + (nn * mean[2] + ns * mean[3]); /* (shell.5) */
+        p->mean_n[1] = mean[1] + (ns * mean[2] + ss * mean[3]);
+        p->shearing = shearing * p->lift;
+        UNROLL_FOR (int j = 0; j < 2; j++) { /* (shell.8) */
+            p->mean_m[j] = mean[2 + j];
+            p->carried_u[j] = p->jump[j];
+            p->carried_t[j] = p->turn[j];
+            p->n[j] = p->mean_n[j] + stiff[j] * p->jump[j];
+            p->m[j] = p->mean_m[j] + turning[j] * p->turn[j];
+        }
+    }
 }
 
-LANES_FUNCTION void shell_run(const fracas_shell_constants *s, fracas_step *step, int first,
-                              int law)
+/* Twice the flux's energy at a Gauss point that has not cracked, but for what shears it off [J/m]
+ * (shell.7) */
+LANES_FUNCTION vd shell_energy(const shell_point *p)
 {
-    const vd zero = lanes_set(0.0);
-    const fracas_shell_tables *t = s->tables;
-    double *state = step->state + (size_t)first * fracas_shell_state_fields(s);
-    shell_context context = {.shell = s,
-                             .tables = t,
-                             .step = step,
-                             .first = first,
-                             .elements = state,
-                             .joints = state + fracas_shell_joints_at(s) * LANES,
-                             .slots = state + fracas_shell_slots_at(s) * LANES,
-                             .element_size = fracas_shell_element_fields(s) * LANES,
-                             .joint_size = fracas_shell_joint_fields(s) * LANES,
-                             .strengths = state + fracas_shell_strengths_at(s) * LANES,
-                             .strengths_size = (size_t)s->strengths * LANES,
-                             .strength_step = s->strengths > 1 ? LANES : 0,
-                             .drift = lanes_load(step->drift + first),
-                             .kick = lanes_load(step->kick + first),
-                             .begins = !(step->drift[first] > 0),
-                             .strain_energy = zero,
-                             .flux = zero,
-                             .stored = zero,
-                             .kinetic = zero,
-                             .dissipated = zero,
-                             .power = zero};
-    shell_context *c = &context;
-    for (size_t e = 0; e < t->nelements; e++) {
-        if (law != SURFACE_OPERATOR)
-            surface_drift(&s->motion, c->drift, SHELL_UNKNOWNS, c->elements + e * c->element_size);
-        shell_strain(c, e);
-        for (size_t r = t->rim_from[e]; r < t->rim_from[e + 1]; r++) shell_rim(c, e, r);
-        for (size_t j = t->visits.join_from[e]; j < t->visits.join_from[e + 1]; j++)
-            shell_join(c, law, t->visits.join[j]);
-        for (size_t f = t->visits.finish_from[e]; f < t->visits.finish_from[e + 1]; f++)
-            shell_kick(c, law, t->visits.finish[f]);
-    }
-    if (law != SURFACE_OPERATOR) shell_totals(c);
+    return p->jump[0] * (p->mean_n[0] + p->n[0]) + p->jump[1] * (p->mean_n[1] + p->n[1]) +
+           (p->turn[0] * (p->mean_m[0] + p->m[0]) + p->turn[1] * (p->mean_m[1] + p->m[1]));
 }
 
-#define SHELL_SWEEP(name, law)                                                                  \
-    static void sweep_##name(const fracas_shell_constants *shell, fracas_step *step, int first) \
-    {                                                                                           \
-        shell_run(shell, step, first, law);                                                     \
-    }
-#define FRACAS_LAW(name, bar, ring, membrane, shell) \
-    FRACAS_IF_##shell(SHELL_SWEEP(name, FRACAS_LAW_##name))
-#include "engine/cohesive/laws.list.h"
-#undef FRACAS_LAW
-#if LANES == 1
-SHELL_SWEEP(operator, SURFACE_OPERATOR)
-#endif
+LANES_FUNCTION vd shell_flux_energy(const shell_point *p)
+{
+    return shell_energy(p) + p->shearing * p->lift;
+}
 
-#define FRACAS_LAW(name, bar, ring, membrane, shell) \
-    FRACAS_IF_##shell([FRACAS_LAW_##name] = sweep_##name, )
-const fracas_shell_kernel LANES_UNIT(fracas_shell) = {.sweep = {
-#include "engine/cohesive/laws.list.h"
-#if LANES == 1
-                                                          [SURFACE_OPERATOR] = sweep_operator,
-#endif
-                                                      }};
+/* By both faces, where |T| is largest. */
+LANES_FUNCTION vd shell_square(const fracas_surface_constants *s, const shell_point *p)
+{
+    const vd per_h = lanes_set(1.0 / s->thickness),
+             per_h2 = lanes_set(6.0 / (s->thickness * s->thickness));
+    const vd *n = s->onset_mean ? p->mean_n : p->n, *m = s->onset_mean ? p->mean_m : p->m;
+    const vd stretch[2] = {n[0] * per_h, n[1] * per_h}, bend[2] = {m[0] * per_h2, m[1] * per_h2};
+    const vd cross = plane_abs(stretch[0] * bend[0] + stretch[1] * bend[1]);
+    const vd square = stretch[0] * stretch[0] + stretch[1] * stretch[1] +
+                      (bend[0] * bend[0] + bend[1] * bend[1]);
+    return square + (cross + cross);
+}
+
+LANES_FUNCTION void shell_press(shell_point *p)
+{
+    p->shearing = lanes_set(0.0);
+    UNROLL_FOR (int j = 0; j < 2; j++) {
+        p->n[j] = p->n[j] - p->mean_n[j];
+        p->m[j] = p->m[j] - p->mean_m[j];
+        p->carried_u[j] = p->carried_t[j] = lanes_set(0.0);
+    }
+}
+
+/* The layers of a Gauss point by the law  (shell.12), (shell.13), (shell.15). */
+LANES_FUNCTION shell_layers shell_layers_point(const surface_context *c,
+                                               const plane_interface *interface,
+                                               const shell_point *p, int law, double *fields,
+                                               vmask *cracks, vmask *breaks)
+{
+    static const double place[SHELL_LAYERS] = SHELL_LAYER_PLACES,
+                        weight[SHELL_LAYERS] = SHELL_LAYER_WEIGHTS;
+    const fracas_surface_constants *s = c->constants;
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0), per_h = lanes_set(1.0 / s->thickness);
+    const double per_h3 = 12.0 / (s->thickness * s->thickness * s->thickness);
+    shell_layers all = {.cracked = lanes_lt(one, zero),
+                        .broken = lanes_lt(zero, one),
+                        .whole = lanes_lt(zero, one),
+                        .flux = zero,
+                        .stored = zero,
+                        .dissipated = zero,
+                        .created = zero,
+                        .rubbed = zero,
+                        .spent = zero};
+    vd used_n[2], used_m[2];
+    UNROLL_FOR (int j = 0; j < 2; j++)
+        all.n[j] = all.m[j] = all.carried_u[j] = all.carried_t[j] = used_n[j] = used_m[j] = zero;
+    /* The mean stress is linear through the thickness and knows nothing of a face that is open:
+     * what the layers beside it then carry, and what cracks them, is the flux  (shell.12) */
+    vmask opened = lanes_lt(one, zero);
+    UNROLL_FOR (int k = 0; k < SHELL_LAYERS; k++)
+        opened = lanes_or(
+            opened,
+            lanes_lt(zero, lanes_load(surface_at(fields, k * s->point_fields + SURFACE_PEAK))));
+    UNROLL_FOR (int k = 0; k < SHELL_LAYERS; k++) {
+        double *point = surface_at(fields, k * s->point_fields);
+        const vd z = lanes_set(place[k] * s->thickness), w = lanes_set(weight[k] * s->thickness),
+                 bending = lanes_set(place[k] * s->thickness * per_h3);
+        const vd share = lanes_set(weight[k]),
+                 moment = lanes_set(12.0 * weight[k] * place[k] / s->thickness);
+        vd mean[2], q[2];
+        UNROLL_FOR (int j = 0; j < 2; j++) {
+            mean[j] = p->mean_n[j] * per_h + bending * p->mean_m[j];
+            q[j] = p->jump[j] + z * p->turn[j];
+        }
+        const plane_input in = {
+            .m_n = mean[0], .m_t = mean[1], .q_n = q[0], .q_t = q[1], .opened = opened};
+        all.whole = lanes_and(all.whole,
+                              lanes_le(lanes_load(surface_at(point, SURFACE_PEAK)), zero));
+        const plane_result r = plane_law(law, interface, &in, point);
+        const vd flux_n = mean[0] + interface->k_n * q[0], flux_t = mean[1] + interface->k_t * q[1];
+        const vd t[2] = {lanes_select(r.cracked, r.t_n, flux_n),
+                         lanes_select(r.cracked, r.t_t, flux_t)};
+        const vd carried[2] = {lanes_select(r.cracked, r.s_n, q[0]),
+                               lanes_select(r.cracked, r.s_t, q[1])};
+        const vd used[2] = {lanes_select(r.cracked, r.midway_n, flux_n),
+                            lanes_select(r.cracked, r.midway_t, flux_t)};
+        UNROLL_FOR (int j = 0; j < 2; j++) {
+            all.n[j] += w * t[j];
+            all.m[j] += w * z * t[j];
+            all.carried_u[j] += share * carried[j];
+            all.carried_t[j] += moment * carried[j];
+            used_n[j] += w * used[j];
+            used_m[j] += w * z * used[j];
+        }
+        const vd whole = lanes_set(0.5) * (q[0] * (mean[0] + flux_n) + q[1] * (mean[1] + flux_t));
+        all.flux += w * lanes_select(r.cracked, r.flux, whole);
+        all.stored += w * lanes_select(r.cracked, r.stored, zero);
+        all.dissipated += w * r.dissipated;
+        all.created += w * r.created;
+        all.rubbed += w * lanes_select(r.cracked, r.rubbed, zero);
+        all.spent += w * lanes_select(r.cracked, r.spent, zero);
+        all.cracked = lanes_or(all.cracked, r.cracked);
+        all.broken = lanes_and(all.broken,
+                               lanes_le(one, lanes_load(surface_at(point, SURFACE_DAMAGE))));
+        cracks[k] = r.cracks;
+        breaks[k] = r.breaks;
+    }
+    /* by the work of N and of M on the jumps  (shell.15) */
+    const vd stretched = plane_max(zero, used_n[0] * p->jump[0] + used_n[1] * p->jump[1]);
+    const vd bent = plane_max(zero, used_m[0] * p->turn[0] + used_m[1] * p->turn[1]),
+             sum = stretched + bent;
+    all.spent_bending = all.spent * (bent / lanes_select(lanes_lt(zero, sum), sum, one));
+    return all;
+}
+
+/* The layers together  (shell.14). */
+LANES_FUNCTION surface_opening shell_crack(const surface_context *c,
+                                           const plane_interface *interface, int law,
+                                           const double *place, shell_point *p, double *fields,
+                                           vmask *cracks, vmask *breaks)
+{
+    (void)place;
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
+    const shell_layers all = shell_layers_point(c, interface, p, law, fields, cracks, breaks);
+    vmask breaks_one = lanes_lt(one, zero);
+    UNROLL_FOR (int k = 0; k < SHELL_LAYERS; k++) breaks_one = lanes_or(breaks_one, breaks[k]);
+    /* the stiffness against shearing off goes with the last layer */
+    const vd sheared = p->shearing * p->lift, kept = lanes_select(all.broken, zero, sheared);
+    const surface_opening sum = {
+        .flux = lanes_select(all.cracked, two * all.flux, shell_energy(p)) + kept,
+        .stored = lanes_select(all.cracked, two * all.stored, zero),
+        .dissipated = all.dissipated,
+        .created = all.created -
+                   lanes_select(lanes_and(all.broken, breaks_one), lanes_set(0.5) * sheared, zero),
+        .rubbed = all.rubbed,
+        .bending = all.spent_bending,
+        .whole = all.whole,
+        .broken = all.broken};
+    p->shearing = lanes_select(all.broken, zero, p->shearing);
+    UNROLL_FOR (int j = 0; j < 2; j++) {
+        p->n[j] = lanes_select(all.cracked, all.n[j], p->n[j]);
+        p->m[j] = lanes_select(all.cracked, all.m[j], p->m[j]);
+        p->carried_u[j] = lanes_select(all.cracked, all.carried_u[j], p->carried_u[j]);
+        p->carried_t[j] = lanes_select(all.cracked, all.carried_t[j], p->carried_t[j]);
+    }
+    return sum;
+}
+
+/* Gives the two elements forces, and strains at their bulk points  (shell.10). */
+LANES_FUNCTION void shell_give(const surface_context *c, int order, size_t i,
+                               const surface_sides *sides, const shell_point at[SHELL_EDGE])
+{
+    static const double edge_point[3] = FRACAS_EDGE_POINTS_2;
+    const double *table = surface_table(c, order, i) + SHELL_POINTS;
+    vd force[3][3], turned[SHELL_EDGE], work[SHELL_EDGE][4];
+    UNROLL_FOR (int n = 0; n < 3; n++)
+        UNROLL_FOR (int j = 0; j < 3; j++) force[n][j] = lanes_set(0.0);
+    UNROLL_FOR (int g = 0; g < SHELL_EDGE; g++) {
+        const double *place = table + g * SHELL_POINT_TABLE;
+        const shell_point *p = &at[g];
+        const vd length = lanes_set(place[SHELL_LENGTH]), n = length * p->n[0],
+                 s = length * p->n[1], lift = length * p->shearing;
+        const vd twist = lanes_set(-place[SHELL_PER_SPEED]) * (length * p->m[1]);
+        const vd nn = lanes_set(place[SHELL_L_NN]), ns = lanes_set(place[SHELL_L_NS]),
+                 ss = lanes_set(place[SHELL_L_SS]);
+        double shape[3], spread[3], slope[3];
+        fracas_edge_shape(2, edge_point[g], shape, spread);
+        fracas_edge_slope(edge_point[g], slope);
+        UNROLL_FOR (int j = 0; j < 3; j++) {
+            const vd out = lanes_set(place[SHELL_LIFT + j]);
+            const vd pull = lanes_set(place[SHELL_N + j]) * n + lanes_set(place[SHELL_S + j]) * s +
+                            out * lift,
+                     bend = out * twist;
+            UNROLL_FOR (int k = 0; k < 3; k++) {
+                if (shape[k] != 0.0) force[k][j] += lanes_set(shape[k]) * pull;
+                if (slope[k] != 0.0) force[k][j] += lanes_set(slope[k]) * bend;
+            }
+        }
+        turned[g] = length * p->m[0];
+        work[g][0] = length * p->carried_u[0];
+        work[g][1] = length * p->carried_u[1];
+        work[g][2] = length * p->carried_t[0] + (nn * work[g][0] + ns * work[g][1]);
+        work[g][3] = length * p->carried_t[1] + (ns * work[g][0] + ss * work[g][1]);
+    }
+    UNROLL_FOR (int side = 0; side < 2; side++) {
+        shell_give_side(table + SHELL_SIDES + side * SHELL_SIDE, SHELL_POINT_TABLE,
+                        sides->slot[side], sides->node[side], turned, work);
+        double *forces = surface_at(sides->slot[side], BODY_SLOT_FORCE(2));
+        UNROLL_FOR (int n = 0; n < 3; n++)
+            UNROLL_FOR (int j = 0; j < 3; j++) {
+                double *to = surface_at(forces, 3 * sides->node[side][n] + j);
+                lanes_store(to, side ? lanes_load(to) + force[n][j] : lanes_load(to) - force[n][j]);
+            }
+    }
+}
+
+#include "engine/formulation/surface/sweep_kernel.h"

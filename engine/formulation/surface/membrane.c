@@ -3,51 +3,12 @@
  * (docs/theory/membrane.md). */
 #include "engine/formulation/surface/membrane.h"
 
-#include "engine/cohesive/law.h"
-#include "engine/formulation/surface/common.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
-#include "engine/mesh/make.h"
 
 #include <math.h>
-#include <stdlib.h>
 
-static const fracas_membrane_tables *tables_of(const fracas_model *model)
-{
-    return model->plan;
-}
-
-/* k_n = K max(1, 1/beta_c^2), k_t = beta_c^2 k_n: neither is softer than K  (membrane.6) */
-fracas_membrane_constants fracas_membrane_constants_of(const fracas_model *model)
-{
-    const fracas_spec *spec = &model->spec;
-    const double nu = spec->material.poisson, c11 = spec->material.young / (1 - nu * nu),
-                 beta_c = spec->cohesive.coupling;
-    const fracas_law *law = fracas_law_of(spec);
-    const bool centrifugal = spec->loading.type == &fracas_loading_centrifugal;
-    fracas_membrane_constants c = {.tables = tables_of(model),
-                                   .c11 = c11,
-                                   .c12 = nu * c11,
-                                   .c33 = spec->material.young / (2 * (1 + nu)),
-                                   .normal = beta_c < 1 ? 1 / (beta_c * beta_c) : 1,
-                                   .energy = spec->cohesive.fracture_energy,
-                                   .opening = spec->cohesive.critical_opening,
-                                   .beta_c = beta_c,
-                                   .mu_c = spec->cohesive.friction,
-                                   .onset_mean = spec->cohesive.onset != &fracas_onset_flux,
-                                   .flux = law->flux,
-                                   .friction = spec->cohesive.friction > 0,
-                                   .point_fields = law->fields[spec->cohesive.friction > 0],
-                                   .strengths = (int)model->strengths,
-                                   .speed = centrifugal ? spec->loading.speed : 0,
-                                   .ramp = spec->loading.ramp,
-                                   .motion = fracas_surface_motion_of(&spec->time)};
-    c.tangential = beta_c * beta_c * c.normal;
-    c.fields = c.motion.alpha ? SURFACE_FIELDS_ALPHA : SURFACE_FIELDS;
-    return c;
-}
-
-/* ---- the model ---- */
+FRACAS_KERNEL_TABLE(const fracas_surface_kernel, fracas_membrane);
 
 static fracas_err check_flat(const fracas_surface *surface)
 {
@@ -64,188 +25,172 @@ static fracas_err check_flat(const fracas_surface *surface)
                        "the mesh's elements go round clockwise, seen from +z: turn them round");
 }
 
-static void measure(fracas_model *model)
+/* ---- tables ---- */
+
+/* Coordinates of the nodes of an element in the plane. */
+static void nodes_of(const fracas_surface *surface, size_t e, double (*x)[2])
 {
-    const fracas_membrane_tables *t = tables_of(model);
-    const size_t nodes = (size_t)MEMBRANE_NODES(t->order);
-    for (size_t e = 0; e < t->nelements; e++)
-        for (size_t k = 0; k < nodes; k++) model->mass += t->lumped[(2 * e + 1) * nodes + k];
-    fracas_surface_measure_model(model);
+    for (size_t k = 0; k < surface->corners; k++)
+        for (int i = 0; i < 2; i++)
+            x[k][i] = surface->node[surface->element[e * surface->corners + k]][i];
 }
 
-static fracas_err membrane_model_init(fracas_model *model)
+/* d(x, y)/d(xi, eta) at a point, its determinant. */
+static double jacobian(int order, const double (*x)[2], double xi, double eta, double *shape,
+                       double j[2][2])
 {
-    fracas_membrane_tables *tables;
-    TRY(fracas_surface_check_noise(&model->spec.mesh));
-    TRY(fracas_mesh_make(&model->spec, &model->surface));
-    TRY(check_flat(model->surface));
-    TRY(fracas_surface_check_beta(model));
-    model->elements = model->surface->nelements;
-    model->interfaces = model->surface->ninterfaces;
-    if (model->spec.strength_per_point)
-        model->strengths = (size_t)MEMBRANE_EDGE(model->surface->order);
-    TRY(fracas_membrane_tables_create(model, &tables));
-    model->plan = tables;
-    TRY(fracas_surface_check_motion(model, tables->held != NULL));
-    measure(model);
-    return fracas_membrane_critical_step(model);
+    double derivative[6][2];
+    fracas_triangle_shape(order, xi, eta, shape, derivative);
+    for (int i = 0; i < 2; i++)
+        for (int a = 0; a < 2; a++) {
+            j[i][a] = 0;
+            for (int k = 0; k < 3 * order; k++) j[i][a] += x[k][i] * derivative[k][a];
+        }
+    return j[0][0] * j[1][1] - j[0][1] * j[1][0];
 }
 
-/* ---- state ---- */
-
-static size_t membrane_state_size(const fracas_model *model)
+static void fill_bulk(const fracas_model *model, fracas_surface_tables *t, size_t e)
 {
-    const fracas_membrane_constants c = fracas_membrane_constants_of(model);
-    return fracas_membrane_state_fields(&c);
-}
-
-/* Field `field` of a lane, counted from the start of its group's state. */
-static double *value_at(const fracas_membrane_constants *c, const fracas_step *step, size_t field,
-                        int lane)
-{
-    const size_t lanes = (size_t)step->lanes, group = (size_t)lane / lanes;
-    return step->state + (group * fracas_membrane_state_fields(c) + field) * lanes +
-           (size_t)lane % lanes;
-}
-
-double *fracas_membrane_value(const fracas_model *model, const fracas_step *step, size_t element,
-                              int field, int i, int lane)
-{
-    const fracas_membrane_constants c = fracas_membrane_constants_of(model);
-    const int size = 2 * MEMBRANE_NODES(c.tables->order);
-    return value_at(
-        &c, step, element * fracas_membrane_element_fields(&c) + (size_t)(field * size + i), lane);
-}
-
-double *fracas_membrane_point(const fracas_model *model, const fracas_step *step, size_t interface,
-                              int g, int field, int lane)
-{
-    const fracas_membrane_constants c = fracas_membrane_constants_of(model);
-    const size_t at = fracas_membrane_joints_at(&c) + interface * fracas_membrane_joint_fields(&c);
-    return value_at(&c, step, at + (size_t)(g * c.point_fields + field), lane);
-}
-
-static double *membrane_strength(const fracas_model *model, const fracas_step *step, int lane,
-                                 size_t *stride)
-{
-    const fracas_membrane_constants c = fracas_membrane_constants_of(model);
-    *stride = (size_t)step->lanes;
-    return value_at(&c, step, fracas_membrane_strengths_at(&c), lane);
-}
-
-/* Velocity that node k of element e starts with  (membrane.17) */
-static double start_velocity(const fracas_model *model, size_t e, size_t k, int i)
-{
-    const fracas_membrane_tables *t = tables_of(model);
-    const size_t bit = 2 * k + (size_t)i;
-    const bool held = t->held && (t->held[e] >> bit & 1), fixed = held && (t->fixed[e] >> bit & 1);
-    const double *x =
-        model->surface->node[model->surface->element[e * model->surface->corners + k]];
-    return fracas_surface_start_velocity(&model->spec.loading, x, i, held, fixed);
-}
-
-static void membrane_lane_init(const fracas_model *model, const fracas_step *step, int lane)
-{
-    const fracas_membrane_constants c = fracas_membrane_constants_of(model);
-    const size_t nodes = (size_t)MEMBRANE_NODES(c.tables->order),
-                 fields = fracas_membrane_element_fields(&c);
-    const size_t joint = fracas_membrane_joint_fields(&c), joints = fracas_membrane_joints_at(&c);
-    for (size_t e = 0; e < model->elements; e++) {
-        for (size_t f = 0; f < fields; f++) *value_at(&c, step, e * fields + f, lane) = 0;
-        for (size_t k = 0; k < nodes; k++)
-            for (int i = 0; i < 2; i++)
-                *value_at(&c, step, e * fields + (size_t)SURFACE_V * 2 * nodes + 2 * k + (size_t)i,
-                          lane) = start_velocity(model, e, k, i);
+    static const double at[2][3][2] = {
+        {{1.0 / 3, 1.0 / 3}}, {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}}};
+    const int points = SURFACE_BULK(t->order);
+    double x[6][2], shape[6], j[2][2];
+    nodes_of(model->surface, e, x);
+    for (int g = 0; g < points; g++) {
+        const double det = jacobian(t->order, (const double(*)[2])x, at[t->order - 1][g][0],
+                                    at[t->order - 1][g][1], shape, j);
+        double *bulk = t->bulk + (e * (size_t)points + (size_t)g) * MEMBRANE_BULK_TABLE;
+        bulk[MEMBRANE_XI_X] = j[1][1] / det;
+        bulk[MEMBRANE_XI_Y] = -j[0][1] / det;
+        bulk[MEMBRANE_ETA_X] = -j[1][0] / det;
+        bulk[MEMBRANE_ETA_Y] = j[0][0] / det;
+        bulk[MEMBRANE_WEIGHT] = 0.5 / points * det * model->spec.geometry.thickness;
     }
-    for (size_t i = 0; i < model->interfaces; i++)
-        for (size_t f = 0; f < joint; f++) *value_at(&c, step, joints + i * joint + f, lane) = 0;
 }
 
-FRACAS_KERNEL_TABLE(const fracas_membrane_kernel, fracas_membrane);
-
-static void membrane_advance(const fracas_model *model, fracas_step *step)
+/* Edge k of an element at s: tangent dx/ds. */
+static void tangent_of(int order, const double (*x)[2], uint32_t k, double s, double tangent[2])
 {
-    const fracas_membrane_constants c = fracas_membrane_constants_of(model);
-    fracas_membrane_sweep *sweep =
-        fracas_membrane[step->isa][step->lanes]
-            ->sweep[fracas_law_of(&model->spec)->number][c.tables->order - 1];
-    for (int first = 0; first < step->width; first += step->lanes) sweep(&c, step, first);
+    const double *a = x[k], *b = x[(k + 1) % 3], *c = order == 2 ? x[3 + k] : NULL;
+    for (int i = 0; i < 2; i++)
+        tangent[i] = c ? (4 * s - 3) * a[i] + (4 * s - 1) * b[i] + (4 - 8 * s) * c[i] : b[i] - a[i];
 }
 
-/* ---- what is left of a lane ---- */
-
-static double point_value(const fracas_membrane_constants *c, const fracas_step *step,
-                          size_t interface, int g, int field, int lane)
+/* K = beta E/(1 - nu^2)/h_s, 1/h_s = (|e|/A- + |e|/A+)/2  (membrane.5) */
+static void fill_interface(const fracas_model *model, fracas_surface_tables *t, size_t i)
 {
-    const size_t at = fracas_membrane_joints_at(c) + interface * fracas_membrane_joint_fields(c);
-    return *value_at(c, step, at + (size_t)(g * c->point_fields + field), lane);
-}
-
-/* D of an interface: the mean over its points by their weights, 1 only where all are broken
- * (membrane.18) */
-static double membrane_damage(const fracas_model *model, const fracas_step *step, size_t i,
-                              int lane)
-{
-    static const double weight[2][3] = {FRACAS_EDGE_WEIGHTS_1, FRACAS_EDGE_WEIGHTS_2};
-    const fracas_membrane_constants c = fracas_membrane_constants_of(model);
-    const int order = c.tables->order;
-    double damage = 0;
-    bool broken = true;
-    for (int g = 0; g < MEMBRANE_EDGE(order); g++) {
-        const double at = point_value(&c, step, i, g, SURFACE_DAMAGE, lane);
-        damage += weight[order - 1][g] * at;
-        broken = broken && at >= 1.0;
+    static const double points[2][3] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2};
+    static const double weights[2][3] = {FRACAS_EDGE_WEIGHTS_1, FRACAS_EDGE_WEIGHTS_2};
+    const fracas_spec *spec = &model->spec;
+    const fracas_surface_interface *interface = &model->surface->interface[i];
+    const size_t size = SURFACE_HEAD + (size_t)SURFACE_EDGE(t->order) * MEMBRANE_POINT_TABLE;
+    const double nu = spec->material.poisson, modulus = spec->material.young / (1 - nu * nu);
+    double *head = t->interface + i * size, x[6][2];
+    head[SURFACE_STIFFNESS] = spec->cohesive.beta * modulus *
+                              fracas_surface_inverse_size(model->surface, i);
+    head[SURFACE_COMPLIANCE] = 1.0 / head[SURFACE_STIFFNESS];
+    nodes_of(model->surface, interface->element[0], x);
+    for (int g = 0; g < SURFACE_EDGE(t->order); g++) {
+        double tangent[2], *point = head + SURFACE_HEAD + g * MEMBRANE_POINT_TABLE;
+        tangent_of(t->order, (const double(*)[2])x, interface->edge[0], points[t->order - 1][g],
+                   tangent);
+        const double speed = sqrt(tangent[0] * tangent[0] + tangent[1] * tangent[1]);
+        point[MEMBRANE_NX] = tangent[1] / speed;
+        point[MEMBRANE_NY] = -tangent[0] / speed;
+        point[MEMBRANE_AREA] = weights[t->order - 1][g] * speed * spec->geometry.thickness;
     }
-    return broken ? 1.0 : fmin(damage, 1.0 - 0x1p-53);
 }
 
-static int64_t membrane_fragment_count(const fracas_model *model, fracas_step *step, int lane)
+static fracas_err hold_edge(const fracas_model *model, const fracas_surface_border *border,
+                            const fracas_kind *kind, uint32_t *bits, uint32_t *fixed)
 {
-    return fracas_surface_fragment_count(model, step, lane, membrane_damage);
+    double x[6][2];
+    nodes_of(model->surface, border->element, x);
+    const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
+    bool held[2] = {true, true};
+    if (kind == &fracas_edge_clamped || kind == &fracas_edge_symmetry ||
+        kind == &fracas_edge_diaphragm)
+        return fracas_fail(
+            FRACAS_USAGE,
+            "an edge with tag %d is %s, which edges of shells are: let an edge of a membrane be %s",
+            (int)border->tag, kind->name,
+            kind == &fracas_edge_symmetry ? "sliding" : "fixed, held, sliding or free");
+    if (kind == &fracas_edge_sliding) {
+        const double dx = fabs(x[node[1]][0] - x[node[0]][0]),
+                     dy = fabs(x[node[1]][1] - x[node[0]][1]);
+        if (fmin(dx, dy) > 1e-9 * fmax(dx, dy))
+            return fracas_fail(FRACAS_USAGE,
+                               "an edge with tag %d slides, but it is neither along x nor along y "
+                               "at (%g, %g) m: hold it, or leave it free",
+                               (int)border->tag, x[node[0]][0], x[node[0]][1]);
+        held[0] = dy > dx;
+        held[1] = dx > dy;
+    }
+    for (int n = 0; n < model->surface->order + 1; n++)
+        for (uint32_t i = 0; i < 2; i++)
+            if (held[i]) *bits |= 1u << (2 * node[n] + i);
+    if (kind == &fracas_edge_fixed) *fixed = *bits;
+    return FRACAS_OK;
 }
 
-/* M_kl of element e, of its lumped or consistent masses [kg]. */
-static double mass_at(const fracas_membrane_tables *t, size_t e, size_t k, size_t l)
+/* ---- the body ---- */
+
+static void fill_constants(const fracas_model *model, fracas_surface_constants *c)
 {
-    const size_t nodes = (size_t)MEMBRANE_NODES(t->order);
+    const fracas_spec *spec = &model->spec;
+    const double nu = spec->material.poisson;
+    const bool centrifugal = spec->loading.type == &fracas_loading_centrifugal;
+    c->c11 = spec->material.young / (1 - nu * nu);
+    c->c12 = nu * c->c11;
+    c->c33 = spec->material.young / (2 * (1 + nu));
+    c->speed = centrifugal ? spec->loading.speed : 0;
+    c->ramp = spec->loading.ramp;
+}
+
+/* M_kl of the lumped or consistent masses of element e [kg]. */
+static double mass_at(const fracas_surface_tables *t, size_t e, size_t k, size_t l)
+{
+    const size_t nodes = (size_t)SURFACE_NODES(t->order);
     if (t->consistent) return t->consistent[((3 * e + 2) * nodes + k) * nodes + l];
     return k == l ? t->lumped[(2 * e + 1) * nodes + k] : 0;
 }
 
-/* Adds the nodes of an element to its fragment's sums. By the masses that it moves with: of
- * quadratic elements the lumped ones give another momentum, which is not kept. */
-static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e,
-                        fracas_fragment_sums *f)
+/* By the masses that the element moves with: lumped ones of quadratic elements give another
+ * momentum, which is not kept. */
+static void add_node(const fracas_surface_tables *t, size_t e, size_t k, const double (*x)[3],
+                     const double (*v)[3], fracas_fragment_sums *sums)
 {
-    const fracas_membrane_constants c = fracas_membrane_constants_of(model);
-    const size_t nodes = (size_t)MEMBRANE_NODES(c.tables->order),
-                 base = e * fracas_membrane_element_fields(&c);
-    double x[6][3] = {{0}};
-    for (size_t k = 0; k < nodes; k++)
-        for (size_t i = 0; i < 2; i++)
-            x[k][i] = model->surface->node[model->surface->element[e * nodes + k]][i] +
-                      *value_at(&c, step, base + 2 * k + i, lane);
-    for (size_t k = 0; k < nodes; k++) {
-        double mass = 0, carried[3] = {0}, momentum[3] = {0};
-        for (size_t l = 0; l < nodes; l++) {
-            const double share = mass_at(c.tables, e, k, l);
-            mass += share;
-            for (size_t i = 0; i < 2; i++) {
-                carried[i] += share * x[l][i];
-                momentum[i] += share * *value_at(&c, step,
-                                                 base + (size_t)SURFACE_V * 2 * nodes + 2 * l + i,
-                                                 lane);
-            }
+    double mass = 0, carried[3] = {0}, momentum[3] = {0};
+    for (size_t l = 0; l < (size_t)SURFACE_NODES(t->order); l++) {
+        const double share = mass_at(t, e, k, l);
+        mass += share;
+        for (size_t i = 0; i < 2; i++) {
+            carried[i] += share * x[l][i];
+            momentum[i] += share * v[l][i];
         }
-        fracas_fragment_sums_add_coupled(f, mass, x[k], carried, momentum);
     }
+    fracas_fragment_sums_add_coupled(sums, mass, x[k], carried, momentum);
 }
 
-/* (membrane.19) */
-static fracas_err membrane_harvest(const fracas_model *model, fracas_step *step, int lane,
-                                   fracas_record *record)
+static const double layer[] = {1.0};
+static const fracas_surface_body body = {.dimension = 2,
+                                         .stresses = 3,
+                                         .layers = 1,
+                                         .layer = layer,
+                                         .bulk_table = MEMBRANE_BULK_TABLE,
+                                         .head = SURFACE_HEAD,
+                                         .point_table = MEMBRANE_POINT_TABLE,
+                                         .kernels = &fracas_membrane,
+                                         .check_mesh = check_flat,
+                                         .fill_bulk = fill_bulk,
+                                         .fill_interface = fill_interface,
+                                         .hold_edge = hold_edge,
+                                         .fill_constants = fill_constants,
+                                         .add_node = add_node};
+
+static fracas_err membrane_model_init(fracas_model *model)
 {
-    return fracas_surface_harvest(model, step, lane, membrane_damage, add_element, record);
+    return fracas_surface_model_init(model, &body);
 }
 
 static const fracas_kind *const goes_with[] = {
@@ -258,13 +203,4 @@ const fracas_formulation fracas_formulation_membrane = {
              .goes_with = goes_with,
              .ngoes_with = FRACAS_COUNT(goes_with)},
     .model_init = membrane_model_init,
-    .check_strength = fracas_surface_check_strength,
-    .interface_volume = fracas_surface_interface_volume,
-    .plan_destroy = fracas_membrane_tables_destroy,
-    .state_size = membrane_state_size,
-    .strength = membrane_strength,
-    .lane_init = membrane_lane_init,
-    .advance = membrane_advance,
-    .fragment_count = membrane_fragment_count,
-    .harvest = membrane_harvest,
-};
+    FRACAS_SURFACE_FORMULATION};

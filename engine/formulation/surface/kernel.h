@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The sweep of a surface over lanes, first part: what a body's kernel is written with.
+ *
+ * A body is one kernel, BODY_kernel.c. Before it includes this file it defines
+ *   BODY_NAME       as in the file's name; NAME below stands for it
+ *   BODY_DIMENSION  components of a displacement
+ *   BODY_STRESSES   stresses at a bulk point
+ *   BODY_LAYERS     points through the thickness at each Gauss point of an interface
+ *   BODY_LINEAR, BODY_CONSISTENT  1 where it has linear triangles, and consistent masses
+ *   BODY_TAKES(bar, ring, membrane, shell, ...)  the last, by its column of a law's line
+ *   BODY_HEAD, BODY_POINT_TABLE, BODY_MEASURE  of an interface's table: the size of the head, that
+ *                   of a Gauss point, the place of its weight
+ * Then it defines
+ *   NAME_point      a Gauss point: jumps, mean tractions, tractions, the flux's part of the jumps
+ *   NAME_begin      values of the whole step
+ *   NAME_strain     stresses of an element, into its slot, and their energy
+ *   NAME_flux       the points of an interface before any onset
+ *   NAME_flux_energy, NAME_square  of such a point: twice the energy of the flux; square of the
+ *                   largest traction in any direction
+ *   NAME_press      turns such a point into one of a broken interface in contact, for the operator
+ *   NAME_crack      the law at a Gauss point
+ *   NAME_give       adds forces and strains of an interface to the slots of its two elements
+ *   NAME_forces     forces of an element, from its slot
+ *   NAME_kinetic    its kinetic energy
+ *   NAME_work       work of the loads
+ * Last it includes engine/formulation/surface/sweep_kernel.h, which visits elements and interfaces.
+ */
+#ifndef FRACAS_ENGINE_FORMULATION_SURFACE_KERNEL_H
+#define FRACAS_ENGINE_FORMULATION_SURFACE_KERNEL_H
+
+#include "engine/cohesive/kernels.h"
+#include "engine/formulation/surface/surface.h"
+#include "engine/integrator/central_difference.h"
+
+#include <math.h>
+
+#ifdef __SANITIZE_ADDRESS__ /* unrolled, checks take minutes to compile */
+#define UNROLL_FOR(...) for (__VA_ARGS__)
+#else
+#define UNROLL_FOR(...) _Pragma("GCC unroll 18") for (__VA_ARGS__)
+#endif
+
+#define BODY(what) BODY_OF(BODY_NAME, what)
+#define BODY_OF(name, what) BODY_PASTE(name, what)
+#define BODY_PASTE(name, what) name##_##what
+
+/* Of a slot: stresses at each bulk point, strains that symmetrisation adds there, forces. */
+#define BODY_SIZE(order) (BODY_DIMENSION * SURFACE_NODES(order))
+#define BODY_SLOT_EXTRA(order) (BODY_STRESSES * SURFACE_BULK(order))
+#define BODY_SLOT_FORCE(order) (2 * BODY_STRESSES * SURFACE_BULK(order))
+#define BODY_SLOT(order) (BODY_SLOT_FORCE(order) + BODY_SIZE(order))
+
+typedef struct {
+    const fracas_surface_constants *constants;
+    const fracas_surface_tables *tables;
+    fracas_step *step;
+    int first;                             /* lane of the step that is lane 0 here */
+    double *elements, *interfaces, *slots; /* of these lanes */
+    const double *strengths;
+    size_t element_size, interface_size;  /* doubles */
+    size_t strengths_size, strength_step; /* doubles: of an interface; from one Gauss point to the
+                                             next, 0 where they share one */
+    vd drift, kick;                       /* s */
+    vd spin;                              /* membranes: w(t_n)^2 [1/s2] */
+    int begins;                           /* the first step of all */
+    /* Sums over the body, for the ledger: twice the energies, dissipated [J]; power [W]; membranes:
+     * sum of m r.v [kg m2/s]. */
+    vd strain_energy, flux, stored, kinetic, dissipated, power, moment;
+} surface_context;
+
+/* Places of an interface in its two elements, - and +: nodes a, b (and c, the middle) of the edge;
+ * bulk points a, b at its ends, o away from it. */
+typedef struct {
+    const double *element[2];
+    double *slot[2];
+    int node[2][3], bulk[2][3];
+} surface_sides;
+
+/* The law at one Gauss point, per unit of its weight. */
+typedef struct {
+    vd flux, stored;     /* twice the energies of the flux, of openings and contact */
+    vd dissipated;       /* so far */
+    vd created, rubbed;  /* in this step: put in by onsets and breaks, dissipated by friction */
+    vd bending;          /* in this step: dissipated by bending */
+    vmask whole, broken; /* no point was past onset before this step; all points are broken */
+} surface_opening;
+
+LANES_FUNCTION double *surface_at(double *record, int field)
+{
+    return record + field * LANES;
+}
+
+/* Displacements of the `size` unknowns of an element at t_n, `dt` after its last kick. */
+LANES_FUNCTION void surface_drift(const fracas_surface_motion *m, vd dt, int size, double *at)
+{
+    UNROLL_FOR (int i = 0; i < size; i++) {
+        double *u = surface_at(at, SURFACE_U * size + i), *v = surface_at(at, SURFACE_V * size + i);
+        if (!m->alpha) {
+            lanes_store(u, central_drift(lanes_load(u), lanes_load(v), dt));
+        } else { /* (membrane.15) */
+            const vd old = lanes_load(surface_at(at, SURFACE_A * size + i)),
+                     now = lanes_load(surface_at(at, SURFACE_A_NEXT * size + i));
+            lanes_store(u, lanes_load(u) + dt * lanes_load(v) +
+                               dt * dt * (lanes_set(0.5 - m->b) * old + lanes_set(m->b) * now));
+            lanes_store(v,
+                        lanes_load(v) + dt * (lanes_set(1.0 - m->g) * old + lanes_set(m->g) * now));
+        }
+    }
+}
+
+/* Velocities of an element after its kick, from those before it, by the accelerations a of its
+ * forces over `dt`. `begins`: in the first step of all. */
+LANES_FUNCTION void surface_kick(const fracas_surface_motion *m, vd dt, int begins, int size,
+                                 double *at, const vd *a, const vd *v, vd *after)
+{
+    UNROLL_FOR (int i = 0; i < size; i++) after[i] = v[i];
+    if (!m->alpha) {
+        UNROLL_FOR (int i = 0; i < size; i++) {
+            after[i] = central_kick(v[i], a[i], dt);
+            lanes_store(surface_at(at, SURFACE_V * size + i), after[i]);
+        }
+    } else { /* (membrane.14); the first acceleration is the force's own */
+        const vd keep = lanes_set(begins ? 0.0 : m->alpha_m),
+                 share = lanes_set(begins ? 1.0 : 1.0 - m->alpha_m);
+        UNROLL_FOR (int i = 0; i < size; i++) {
+            const vd old = begins ? a[i] : lanes_load(surface_at(at, SURFACE_A_NEXT * size + i));
+            lanes_store(surface_at(at, SURFACE_A * size + i), old);
+            lanes_store(surface_at(at, SURFACE_A_NEXT * size + i), (a[i] - keep * old) / share);
+        }
+    }
+}
+
+LANES_FUNCTION double *surface_slot(const surface_context *c, int order, size_t e)
+{
+    return c->slots + (e & c->tables->visits.window) * (size_t)(BODY_SLOT(order) * LANES);
+}
+
+/* Table of interface i. */
+LANES_FUNCTION const double *surface_table(const surface_context *c, int order, size_t i)
+{
+    return c->tables->interface + i * (size_t)(BODY_HEAD + SURFACE_EDGE(order) * BODY_POINT_TABLE);
+}
+
+LANES_FUNCTION surface_sides surface_sides_of(const surface_context *c, int order, size_t i)
+{
+    const uint32_t *element = c->tables->element[i];
+    const int k = c->tables->edge[i][0], l = c->tables->edge[i][1];
+    surface_sides sides = {.node = {{k, (k + 1) % 3, 3 + k}, {(l + 1) % 3, l, 3 + l}}};
+    UNROLL_FOR (int side = 0; side < 2; side++) {
+        const int linear = order == 1, away = ((side ? l : k) + 2) % 3;
+        sides.element[side] = c->elements + element[side] * c->element_size;
+        sides.slot[side] = surface_slot(c, order, element[side]);
+        UNROLL_FOR (int p = 0; p < 3; p++)
+            sides.bulk[side][p] = linear ? 0 : p < 2 ? sides.node[side][p] : away;
+    }
+    return sides;
+}
+
+#endif

@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A surface as a linear operator, and its critical time step. */
+#include "engine/formulation/surface/surface.h"
+
+#include "engine/integrator/critical_step.h"
+#include "engine/integrator/hulbert_chung.h"
+#include "engine/integrator/integrator.h"
+#include "engine/integrator/lanczos.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+struct fracas_surface_operator {
+    fracas_step step; /* first: it is aligned */
+    fracas_surface_constants constants;
+};
+
+fracas_err fracas_surface_operator_open(const fracas_model *model, int contact,
+                                        fracas_surface_operator **out)
+{
+    fracas_surface_operator *op = aligned_alloc(64, (sizeof *op + 63) / 64 * 64);
+    if (!op) return fracas_no_memory("the critical time step");
+    *op = (fracas_surface_operator){.step = {.width = 1, .lanes = 1},
+                                    .constants = fracas_surface_constants_of(model)};
+    op->constants.contact = contact;
+    op->constants.motion.alpha = 0;
+    op->constants.fields = SURFACE_FIELDS;
+    op->constants.point_fields = 0; /* no law: interfaces have no state */
+    op->constants.speed = 0;
+    op->step.state = calloc(fracas_surface_state_fields(&op->constants), sizeof *op->step.state);
+    if (!op->step.state) {
+        free(op);
+        return fracas_no_memory("the critical time step");
+    }
+    *out = op;
+    return FRACAS_OK;
+}
+
+void fracas_surface_operator_apply(fracas_surface_operator *op, const double *u,
+                                   double *acceleration)
+{
+    const fracas_surface_constants *c = &op->constants;
+    const fracas_surface_tables *t = c->tables;
+    const size_t size = fracas_surface_unknowns(t), fields = fracas_surface_element_fields(c);
+    for (size_t e = 0; e < t->nelements; e++)
+        for (size_t i = 0; i < size; i++) op->step.state[e * fields + i] = u[e * size + i];
+    (*t->body->kernels)[FRACAS_ISA_BASELINE][1]->sweep[SURFACE_OPERATOR][t->order - 1](c, &op->step,
+                                                                                       0);
+    for (size_t e = 0; e < t->nelements; e++)
+        for (size_t i = 0; i < size; i++)
+            acceleration[e * size + i] = op->step.state[e * fields + SURFACE_V * size + i];
+}
+
+void fracas_surface_operator_close(fracas_surface_operator *op)
+{
+    if (!op) return;
+    free(op->step.state);
+    free(op);
+}
+
+static void apply(void *context, const double *w, double *result)
+{
+    fracas_surface_operator *op = context;
+    const fracas_surface_tables *t = op->constants.tables;
+    fracas_surface_operator_apply(op, w, result);
+    for (size_t i = 0; i < fracas_surface_unknowns(t) * t->nelements; i++) result[i] = -result[i];
+}
+
+static void multiply_by_mass(void *context, const double *w, double *result)
+{
+    const fracas_surface_tables *t = ((const fracas_surface_operator *)context)->constants.tables;
+    const size_t nodes = (size_t)SURFACE_NODES(t->order), dimension = (size_t)t->body->dimension;
+    for (size_t e = 0; e < t->nelements; e++)
+        for (size_t k = 0; k < nodes; k++)
+            for (size_t i = 0; i < dimension; i++) {
+                const double *u = w + dimension * nodes * e;
+                double sum = t->consistent
+                                 ? 0
+                                 : t->lumped[(2 * e + 1) * nodes + k] * u[dimension * k + i];
+                for (size_t l = 0; t->consistent && l < nodes; l++)
+                    sum += t->consistent[((3 * e + 2) * nodes + k) * nodes + l] *
+                           u[dimension * l + i];
+                result[dimension * (nodes * e + k) + i] = sum;
+            }
+}
+
+/* A little of everything, most of it where elements are small; nothing where nodes are held. */
+static void fill_start(const fracas_surface_tables *t, double *start)
+{
+    const size_t size = fracas_surface_unknowns(t), nodes = (size_t)SURFACE_NODES(t->order);
+    double least = INFINITY;
+    for (size_t e = 0; e < t->nelements; e++)
+        if (t->held[e] != (1ull << size) - 1) least = fmin(least, t->lumped[(2 * e + 1) * nodes]);
+    uint64_t noise = 1;
+    for (size_t i = 0; i < size * t->nelements; i++) {
+        const size_t e = i / size;
+        const double part = least / t->lumped[(2 * e + 1) * nodes];
+        noise = noise * 6364136223846793005u + 1442695040888963407u;
+        start[i] = t->held[e] >> i % size & 1
+                       ? 0
+                       : part * part * ((double)(noise >> 40) / 16777216.0 - 0.5);
+    }
+}
+
+/* The highest angular frequency of K u = omega^2 M u, with the bound of Lanczos' iteration added
+ * [1/s]. */
+static fracas_err largest_frequency(const fracas_model *model, int contact, double *omega)
+{
+    fracas_surface_operator *op;
+    TRY(fracas_surface_operator_open(model, contact, &op));
+    const fracas_surface_tables *t = op->constants.tables;
+    const size_t n = fracas_surface_unknowns(t) * t->nelements;
+    double square = 0, *start = malloc(n * sizeof *start);
+    fracas_err err = start ? FRACAS_OK : fracas_no_memory("the critical time step");
+    if (!err) {
+        fill_start(t, start);
+        err = fracas_lanczos(&(fracas_lanczos_problem){apply, multiply_by_mass, op, n}, start,
+                             &square);
+    }
+    free(start);
+    fracas_surface_operator_close(op);
+    *omega = sqrt(square);
+    if (!err && !(square > 0))
+        return fracas_fail(
+            FRACAS_USAGE, "every node of the mesh is held: leave an edge free, or refine the mesh");
+    return err;
+}
+
+/* (membrane.16) */
+fracas_err fracas_surface_critical_step(fracas_model *model)
+{
+    const fracas_time *time = &model->spec.time;
+    const double limit = time->integrator == &fracas_integrator_hulbert_chung
+                             ? fracas_hulbert_chung_of(time->spectral_radius).limit
+                             : FRACAS_CENTRAL_DIFFERENCE_LIMIT;
+    double whole, pressed;
+    TRY(largest_frequency(model, 0, &whole));
+    TRY(largest_frequency(model, 1, &pressed));
+    model->critical_closed = limit / whole;
+    model->critical_cracked = limit / pressed;
+    model->critical_step = fmin(model->critical_closed, model->critical_cracked);
+    return FRACAS_OK;
+}

@@ -1,0 +1,353 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The host's part of membranes and shells: model, state, fragments. */
+#include "engine/formulation/surface/surface.h"
+
+#include "engine/integrator/hulbert_chung.h"
+#include "engine/integrator/integrator.h"
+#include "engine/loading/loading.h"
+#include "engine/mesh/body.h"
+#include "engine/mesh/make.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+static const fracas_surface_tables *tables_of(const fracas_model *model)
+{
+    return model->plan;
+}
+
+/* k_n = K max(1, 1/beta_c^2), k_t = beta_c^2 k_n: neither is softer than K  (membrane.6) */
+fracas_surface_constants fracas_surface_constants_of(const fracas_model *model)
+{
+    const fracas_spec *spec = &model->spec;
+    const fracas_surface_tables *t = tables_of(model);
+    const fracas_hulbert_chung alpha = fracas_hulbert_chung_of(spec->time.spectral_radius);
+    const double beta_c = spec->cohesive.coupling;
+    const bool friction = spec->cohesive.friction > 0,
+               has_alpha = spec->time.integrator == &fracas_integrator_hulbert_chung;
+    fracas_surface_constants c = {.tables = t,
+                                  .thickness = spec->geometry.thickness,
+                                  .normal = beta_c < 1 ? 1 / (beta_c * beta_c) : 1,
+                                  .energy = spec->cohesive.fracture_energy,
+                                  .opening = spec->cohesive.critical_opening,
+                                  .beta_c = beta_c,
+                                  .mu_c = spec->cohesive.friction,
+                                  .onset_mean = spec->cohesive.onset != &fracas_onset_flux,
+                                  .friction = friction,
+                                  .flux = fracas_law_of(spec)->flux,
+                                  .fields = has_alpha ? SURFACE_FIELDS_ALPHA : SURFACE_FIELDS,
+                                  .point_fields = fracas_law_of(spec)->fields[friction],
+                                  .strengths = (int)model->strengths,
+                                  .motion = {has_alpha, alpha.alpha_m, alpha.beta, alpha.gamma}};
+    c.tangential = beta_c * beta_c * c.normal;
+    t->body->fill_constants(model, &c);
+    return c;
+}
+
+/* ---- the model ---- */
+
+static fracas_err check_noise(const fracas_mesh *mesh)
+{
+    if (mesh->noise || mesh->spacing != &fracas_spacing_triangles || mesh->amplitude == 0)
+        return FRACAS_OK;
+    return fracas_fail(FRACAS_BUG, "a perturbed mesh without random numbers");
+}
+
+/* The operator is positive from 1.15 (linear) and 2.25 (quadratic) on, measured on meshes distorted
+ * by up to 30 %, nu up to 0.49: tests/verification/test_membrane_patch.c. Bending needs less. */
+static fracas_err check_beta(const fracas_model *model)
+{
+    const double least = model->surface->order == 2 ? 2.3 : 1.3;
+    if (model->spec.cohesive.beta >= least) return FRACAS_OK;
+    return fracas_fail(
+        FRACAS_USAGE,
+        "cohesive.beta is %g, too soft for %s triangles: give %g or more; twice as much is usual",
+        model->spec.cohesive.beta, model->surface->order == 2 ? "quadratic" : "linear", least);
+}
+
+/* Something moves: not all starts at rest, or edges are held. */
+static fracas_err check_motion(const fracas_model *model)
+{
+    const fracas_loading *loading = &model->spec.loading;
+    if (loading->type != &fracas_loading_expansion || loading->start != &fracas_start_rest ||
+        tables_of(model)->moves)
+        return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "loading.start is rest, and all edges are free: nothing would "
+                                     "ever move; let an edge be held, or start moving");
+}
+
+double fracas_surface_inverse_size(const fracas_surface *surface, size_t i)
+{
+    const fracas_surface_interface *interface = &surface->interface[i];
+    const double length = fracas_surface_length(surface, interface->element[0], interface->edge[0]);
+    double inverse_size = 0;
+    for (int side = 0; side < 2; side++)
+        inverse_size += 0.5 * length / fracas_surface_area(surface, interface->element[side]);
+    return inverse_size;
+}
+
+/* element_size and longest, once the mass is known. */
+static void measure(fracas_model *model)
+{
+    const fracas_surface *surface = model->surface;
+    double length = 0;
+    for (size_t i = 0; i < surface->ninterfaces; i++) {
+        length += fracas_surface_length(surface, surface->interface[i].element[0],
+                                        surface->interface[i].edge[0]);
+        model->longest = fmax(model->longest, 1.0 / fracas_surface_inverse_size(surface, i));
+    }
+    model->element_size =
+        surface->ninterfaces
+            ? length / (double)surface->ninterfaces
+            : sqrt(model->mass / (model->spec.material.density * model->spec.geometry.thickness));
+}
+
+fracas_err fracas_surface_model_init(fracas_model *model, const fracas_surface_body *body)
+{
+    fracas_surface_tables *t;
+    TRY(check_noise(&model->spec.mesh));
+    TRY(fracas_mesh_make(&model->spec, &model->surface));
+    TRY(body->check_mesh(model->surface));
+    TRY(check_beta(model));
+    model->elements = model->surface->nelements;
+    model->interfaces = model->surface->ninterfaces;
+    if (model->spec.strength_per_point)
+        model->strengths = (size_t)SURFACE_EDGE(model->surface->order);
+    TRY(fracas_surface_tables_create(model, body, &t));
+    model->plan = t;
+    if (body->check_tables) TRY(body->check_tables(model));
+    TRY(check_motion(model));
+    const size_t nodes = (size_t)SURFACE_NODES(t->order);
+    for (size_t e = 0; e < t->nelements; e++)
+        for (size_t k = 0; k < nodes; k++) model->mass += t->lumped[(2 * e + 1) * nodes + k];
+    measure(model);
+    return fracas_surface_critical_step(model);
+}
+
+/* K >= 2 sigma_c/delta_c at the softest interface: twice the least stiffness of a linear law
+ * (cohesive.7), so that no peak as small as the strength is cut  (cohesive.13) */
+fracas_err fracas_surface_check_strength(const fracas_model *model, double strength)
+{
+    const fracas_spec *spec = &model->spec;
+    if (!(strength > 0) || !isfinite(strength))
+        return fracas_fail(
+            FRACAS_USAGE,
+            "strength of %g Pa; it must be positive and finite: check the section strength",
+            strength);
+    const double nu = spec->material.poisson, modulus = spec->material.young / (1 - nu * nu);
+    const fracas_law *law = fracas_law_of(spec);
+    const double most = spec->cohesive.beta * modulus *
+                        fracas_spec_fracture_energy(spec, strength) /
+                        (strength * strength * (law->flux ? law->steepest : 1));
+    if (!law->flux || (isfinite(most) && model->longest <= most)) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "strength %g Pa needs elements of which area/edge is below %.4g m, the "
+                       "largest is %.4g m: refine the mesh %.3g times (or raise cohesive.beta)",
+                       strength, most, model->longest, ceil(100 * model->longest / most) / 100);
+}
+
+/* A third of its two elements. */
+double fracas_surface_interface_volume(const fracas_model *model, size_t i)
+{
+    const fracas_surface_interface *interface = &model->surface->interface[i];
+    double area = 0;
+    for (int side = 0; side < 2; side++)
+        area += fracas_surface_area(model->surface, interface->element[side]);
+    return model->spec.geometry.thickness * (area / 3);
+}
+
+/* ---- state ---- */
+
+size_t fracas_surface_state_size(const fracas_model *model)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    return fracas_surface_state_fields(&c);
+}
+
+/* Field `field` of a lane, counted from the start of its group's state. */
+static double *value_at(const fracas_surface_constants *c, const fracas_step *step, size_t field,
+                        int lane)
+{
+    const size_t lanes = (size_t)step->lanes, group = (size_t)lane / lanes;
+    return step->state + (group * fracas_surface_state_fields(c) + field) * lanes +
+           (size_t)lane % lanes;
+}
+
+static double *element_value(const fracas_surface_constants *c, const fracas_step *step,
+                             size_t element, int field, size_t i, int lane)
+{
+    return value_at(c, step,
+                    element * fracas_surface_element_fields(c) +
+                        (size_t)field * fracas_surface_unknowns(c->tables) + i,
+                    lane);
+}
+
+static double *point_value(const fracas_surface_constants *c, const fracas_step *step,
+                           size_t interface, int p, int field, int lane)
+{
+    const size_t at = fracas_surface_interfaces_at(c) +
+                      interface * fracas_surface_interface_fields(c);
+    return value_at(c, step, at + (size_t)(p * c->point_fields + field), lane);
+}
+
+double *fracas_surface_value(const fracas_model *model, const fracas_step *step, size_t element,
+                             int field, int i, int lane)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    return element_value(&c, step, element, field, (size_t)i, lane);
+}
+
+double *fracas_surface_point(const fracas_model *model, const fracas_step *step, size_t interface,
+                             int p, int field, int lane)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    return point_value(&c, step, interface, p, field, lane);
+}
+
+double *fracas_surface_strength(const fracas_model *model, const fracas_step *step, int lane,
+                                size_t *stride)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    *stride = (size_t)step->lanes;
+    return value_at(&c, step, fracas_surface_strengths_at(&c), lane);
+}
+
+/* Velocity of unknown i of element e at the start [m/s]: that of the expansion, everywhere or where
+ * it is held, none where it is fixed  (membrane.17) */
+static double start_velocity(const fracas_model *model, size_t e, size_t i)
+{
+    const fracas_surface_tables *t = tables_of(model);
+    const fracas_loading *loading = &model->spec.loading;
+    const size_t dimension = (size_t)t->body->dimension, component = i % dimension;
+    const bool held = t->held[e] >> i & 1, fixed = t->fixed[e] >> i & 1;
+    const double *x =
+        model->surface->node[model->surface->element[e * model->surface->corners + i / dimension]];
+    if ((held && fixed) || loading->type != &fracas_loading_expansion ||
+        (loading->start == &fracas_start_rest && !held))
+        return 0;
+    return (component == 1 ? loading->ratio : 1.0) * loading->rate * x[component];
+}
+
+void fracas_surface_lane_init(const fracas_model *model, const fracas_step *step, int lane)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    const size_t strengths = fracas_surface_strengths_at(&c);
+    for (size_t f = 0; f < strengths; f++) *value_at(&c, step, f, lane) = 0;
+    for (size_t e = 0; e < model->elements; e++)
+        for (size_t i = 0; i < fracas_surface_unknowns(c.tables); i++)
+            *element_value(&c, step, e, SURFACE_V, i, lane) = start_velocity(model, e, i);
+}
+
+void fracas_surface_advance(const fracas_model *model, fracas_step *step)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    const fracas_surface_kernel *kernel = (*c.tables->body->kernels)[step->isa][step->lanes];
+    fracas_surface_sweep *sweep =
+        kernel->sweep[fracas_law_of(&model->spec)->number][c.tables->order - 1];
+    for (int first = 0; first < step->width; first += step->lanes) sweep(&c, step, first);
+}
+
+/* ---- fragments ---- */
+
+/* D of an interface: the mean over its points by their weights, 1 only where all are broken
+ * (membrane.18) */
+static double damage_of(const fracas_surface_constants *c, const fracas_step *step, size_t i,
+                        int lane)
+{
+    static const double weight[2][3] = {FRACAS_EDGE_WEIGHTS_1, FRACAS_EDGE_WEIGHTS_2};
+    const fracas_surface_body *body = c->tables->body;
+    const int order = c->tables->order;
+    double damage = 0;
+    bool broken = true;
+    for (int g = 0; g < SURFACE_EDGE(order); g++)
+        for (int k = 0; k < body->layers; k++) {
+            const double at = *point_value(c, step, i, g * body->layers + k, SURFACE_DAMAGE, lane);
+            damage += weight[order - 1][g] * body->layer[k] * at;
+            broken = broken && at >= 1.0;
+        }
+    return broken ? 1.0 : fmin(damage, 1.0 - 0x1p-53);
+}
+
+/* Labels connected elements; the number of fragments. */
+static size_t partition(const fracas_model *model, fracas_step *step, int lane)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    fracas_partition_reset(&step->partition);
+    for (size_t i = 0; i < model->interfaces; i++) {
+        const uint32_t *element = model->surface->interface[i].element;
+        if (damage_of(&c, step, i, lane) < 1.0)
+            fracas_partition_join(&step->partition, element[0], element[1]);
+    }
+    return fracas_partition_label(&step->partition);
+}
+
+int64_t fracas_surface_fragment_count(const fracas_model *model, fracas_step *step, int lane)
+{
+    return step->broken[lane] == 0 ? 1 : (int64_t)partition(model, step, lane);
+}
+
+/* The least of an interface's strengths. */
+static double weakest_of(const double *strength, size_t stride, size_t strengths)
+{
+    double least = strength[0];
+    for (size_t g = 1; g < strengths; g++) least = fmin(least, strength[g * stride]);
+    return least;
+}
+
+static fracas_err harvest_interfaces(const fracas_model *model, const fracas_step *step, int lane,
+                                     fracas_record *record)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    size_t stride;
+    const double *strength = fracas_surface_strength(model, step, lane, &stride);
+    record->interface = calloc(model->interfaces ? model->interfaces : 1,
+                               sizeof *record->interface);
+    if (!record->interface) return fracas_no_memory("the interfaces of a realization");
+    record->ninterface = model->interfaces;
+    for (size_t i = 0; i < model->interfaces; i++) {
+        const size_t at = i * (size_t)step->width + (size_t)lane;
+        const double weakest = weakest_of(strength + i * model->strengths * stride, stride,
+                                          model->strengths);
+        record->interface[i] = (fracas_interface_row){.strength = weakest,
+                                                      .damage = damage_of(&c, step, i, lane),
+                                                      .onset_time = step->onset_time[at],
+                                                      .break_time = step->break_time[at]};
+    }
+    return FRACAS_OK;
+}
+
+static void add_element(const fracas_model *model, const fracas_surface_constants *c,
+                        const fracas_step *step, int lane, size_t e, fracas_fragment_sums *sums)
+{
+    const size_t nodes = model->surface->corners, dimension = (size_t)c->tables->body->dimension;
+    double x[6][3] = {{0}}, v[6][3] = {{0}};
+    for (size_t k = 0; k < nodes; k++)
+        for (size_t i = 0; i < dimension; i++) {
+            const size_t unknown = dimension * k + i;
+            x[k][i] = model->surface->node[model->surface->element[e * nodes + k]][i] +
+                      *element_value(c, step, e, SURFACE_U, unknown, lane);
+            v[k][i] = *element_value(c, step, e, SURFACE_V, unknown, lane);
+        }
+    sums->elements++;
+    for (size_t k = 0; k < nodes; k++)
+        c->tables->body->add_node(c->tables, e, k, (const double(*)[3])x, (const double(*)[3])v,
+                                  sums);
+}
+
+/* (membrane.19) */
+fracas_err fracas_surface_harvest(const fracas_model *model, fracas_step *step, int lane,
+                                  fracas_record *record)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    const size_t count = partition(model, step, lane);
+    const double surface_density = model->spec.material.density * model->spec.geometry.thickness;
+    fracas_fragment_sums *sums = calloc(count, sizeof *sums);
+    if (!sums) return fracas_no_memory("the fragments of a realization");
+    for (size_t e = 0; e < model->elements; e++)
+        add_element(model, &c, step, lane, e, &sums[step->partition.label[e]]);
+    for (size_t f = 0; f < count; f++) sums[f].size = sqrt(sums[f].mass / surface_density);
+    fracas_err err = fracas_fragments_take(sums, count, 2, record);
+    free(sums);
+    TRY(err);
+    return step->onset_time ? harvest_interfaces(model, step, lane, record) : FRACAS_OK;
+}

@@ -1,0 +1,259 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Surfaces of triangles that share no nodes: the common part of membranes and shells
+ * (docs/theory/membrane.md).
+ *
+ * The bodies differ in strains, fluxes, jumps and inertia. A body describes itself to the host by a
+ * fracas_surface_body, and to the sweep by its kernel (engine/formulation/surface/kernel.h).
+ *
+ * State of a group of lanes, one part after another:
+ *   [element][field][lane]    SURFACE_U ..., each as wide as an element has unknowns (node 0 x, y,
+ *                             ..., node 1 x, ...)
+ *   [interface][point][field][lane]  values of the law (engine/cohesive/law.h)
+ *   [strength][lane]          sigma_c [Pa], one for each interface, or for each of its Gauss points
+ *   [slot][field][lane]       stresses and forces that an element collects while it is under way:
+ *                             slot = element & window */
+#ifndef FRACAS_ENGINE_FORMULATION_SURFACE_SURFACE_H
+#define FRACAS_ENGINE_FORMULATION_SURFACE_SURFACE_H
+
+#include "base/isa.h"
+#include "engine/cohesive/law.h"
+#include "engine/element/triangle.h"
+#include "engine/formulation/formulation.h"
+#include "engine/formulation/surface/visits.h"
+
+/* Of one order of triangles: nodes, points at which stresses are kept, Gauss points of an edge. */
+#define SURFACE_NODES(order) (3 * (order))
+#define SURFACE_BULK(order) ((order) == 1 ? 1 : 3)
+#define SURFACE_EDGE(order) ((order) + 1)
+enum { SURFACE_POINTS_MOST = 9 }; /* points of an interface at which a law acts, at most */
+
+/* Fields of an element, each as wide as it has unknowns: displacement at t_n; velocity, half a step
+ * behind before the sweep and ahead after (Hulbert-Chung: at t_n); Hulbert-Chung: acceleration a_n
+ * and a_{n+1}. */
+enum {
+    SURFACE_U,
+    SURFACE_V,
+    SURFACE_FIELDS,
+    SURFACE_A = SURFACE_FIELDS,
+    SURFACE_A_NEXT,
+    SURFACE_FIELDS_ALPHA
+};
+
+/* Head of an interface's table: stiffness K [Pa/m], its inverse. */
+enum { SURFACE_STIFFNESS, SURFACE_COMPLIANCE, SURFACE_HEAD };
+
+typedef struct fracas_surface_body fracas_surface_body;
+
+/* The mesh as the sweep reads it: one copy for all lanes and realizations. The body lays out the
+ * tables of bulk points and interfaces. */
+typedef struct {
+    const fracas_surface_body *body;
+    int order;
+    size_t nelements, ninterfaces;
+    double *bulk;       /* [element][bulk point][body->bulk_table] */
+    double *lumped;     /* [element]: of each node 1/mass [1/kg], then of each the mass [kg] */
+    double *consistent; /* [element][3][node][node]: inverse for x, for y, with rows and columns of
+                           held nodes 0 [1/kg], and the mass itself [kg]; NULL: masses are lumped */
+    double *position;   /* [element][node][2] [m]; NULL: the loading does not need it */
+    double *interface;  /* [interface]: head, then [Gauss point][body->point_table] */
+    uint32_t (*element)[2]; /* [interface] */
+    uint8_t (*edge)[2];     /* [interface]: which of its elements' edges */
+    uint32_t *held, *fixed; /* [element]: bit dimension node + component is set where the velocity
+                               is held, and where it is held at 0 */
+    bool moves;             /* some edge is held; a shell: and not fixed */
+    /* Shells: edges that hold the director. */
+    size_t nrims;
+    double *rim;        /* [rim][SHELL_RIM_TABLE] */
+    uint8_t *rim_edge;  /* [rim]: which of its element's edges */
+    uint32_t *rim_from; /* [element]: its rims are rim_from[e] to rim_from[e + 1] - 1 */
+    fracas_surface_visits visits;
+} fracas_surface_tables;
+
+typedef struct {
+    int alpha;            /* Hulbert-Chung, with its parameters; else central difference */
+    double alpha_m, b, g; /* 1 */
+} fracas_surface_motion;
+
+/* Everything a sweep needs that is the same for all lanes. */
+typedef struct {
+    const fracas_surface_tables *tables;
+    double thickness;     /* m */
+    double c11, c12, c33; /* membranes: E/(1 - nu^2), nu c11, E/(2 (1 + nu)) [Pa]; shells: times
+                             thickness [N/m] */
+    double d11, d12, d33; /* shells: thickness^2/12 of those [N m] */
+    double normal, tangential; /* 1: k_n and k_t by K of the interface  (membrane.6) */
+    double energy, opening;    /* G_c [J/m2], or delta_c [m]: the other is 0 */
+    double beta_c, mu_c;       /* 1 */
+    int flux;                  /* the law's trait */
+    int onset_mean, friction;
+    int fields, point_fields; /* of an element, by its unknowns; of a point of an interface */
+    int strengths;            /* of an interface: 1, or one for each Gauss point */
+    double speed, ramp;       /* rad/s, s: w = speed min(1, t/ramp) */
+    fracas_surface_motion motion;
+    int contact; /* the operator: all interfaces broken and in contact; else whole */
+} fracas_surface_constants;
+
+/* Number of the sweep that applies the linear operator, after those of the laws. */
+enum { SURFACE_OPERATOR = FRACAS_LAWS, SURFACE_SWEEPS };
+
+/* Advances the lanes first .. first + lanes - 1 of the step. */
+typedef void fracas_surface_sweep(const fracas_surface_constants *constants, fracas_step *step,
+                                  int first);
+
+/* A unit: [law][order - 1]. The operator's, for one lane alone, leaves M^-1 (-f)(u) where
+ * velocities are. */
+typedef struct {
+    fracas_surface_sweep *sweep[SURFACE_SWEEPS][2];
+} fracas_surface_kernel;
+typedef const fracas_surface_kernel
+    *const fracas_surface_kernels[FRACAS_NISAS][FRACAS_LANES_MAX + 1];
+
+struct fracas_surface_body {
+    int dimension;       /* components of a displacement */
+    int stresses;        /* values of stress at a bulk point */
+    int layers;          /* points through the thickness at each Gauss point of an interface */
+    const double *layer; /* [layers]: their weights, of sum 1 */
+    size_t bulk_table;   /* doubles, as are the next two */
+    size_t head, point_table;
+    const fracas_surface_kernels *kernels;
+    /* FRACAS_USAGE for a mesh that is none of this body; once its tables are there. */
+    fracas_err (*check_mesh)(const fracas_surface *surface);
+    fracas_err (*check_tables)(const fracas_model *model); /* NULL: nothing to check */
+    void (*fill_bulk)(const fracas_model *model, fracas_surface_tables *tables, size_t element);
+    void (*fill_interface)(const fracas_model *model, fracas_surface_tables *tables,
+                           size_t interface);
+    /* Which components of which nodes an edge holds: bits as of `held`, all of them and the fixed
+     * ones. */
+    fracas_err (*hold_edge)(const fracas_model *model, const fracas_surface_border *border,
+                            const fracas_kind *kind, uint32_t *held, uint32_t *fixed);
+    /* True for an edge that has a rim; fills rim r. NULL: there are none. */
+    bool (*has_rim)(const fracas_kind *kind);
+    void (*fill_rim)(const fracas_model *model, fracas_surface_tables *tables,
+                     const fracas_surface_border *border, size_t r);
+    size_t rim_table; /* doubles */
+    /* c11 ... d33 and the load's own. */
+    void (*fill_constants)(const fracas_model *model, fracas_surface_constants *constants);
+    /* Adds a node of an element to its fragment's sums, with the inertia that it moves with: x and
+     * v of all its nodes [m], [m/s]. */
+    void (*add_node)(const fracas_surface_tables *tables, size_t element, size_t k,
+                     const double (*x)[3], const double (*v)[3], fracas_fragment_sums *sums);
+};
+
+/* Sizes and places in a group's state, in units of one field's lanes. */
+static inline size_t fracas_surface_unknowns(const fracas_surface_tables *t)
+{
+    return (size_t)(t->body->dimension * SURFACE_NODES(t->order));
+}
+static inline size_t fracas_surface_points(const fracas_surface_tables *t)
+{
+    return (size_t)(SURFACE_EDGE(t->order) * t->body->layers);
+}
+static inline size_t fracas_surface_element_fields(const fracas_surface_constants *c)
+{
+    return (size_t)c->fields * fracas_surface_unknowns(c->tables);
+}
+static inline size_t fracas_surface_interface_fields(const fracas_surface_constants *c)
+{
+    return fracas_surface_points(c->tables) * (size_t)c->point_fields;
+}
+static inline size_t fracas_surface_interfaces_at(const fracas_surface_constants *c)
+{
+    return c->tables->nelements * fracas_surface_element_fields(c);
+}
+static inline size_t fracas_surface_strengths_at(const fracas_surface_constants *c)
+{
+    return fracas_surface_interfaces_at(c) +
+           c->tables->ninterfaces * fracas_surface_interface_fields(c);
+}
+static inline size_t fracas_surface_slots_at(const fracas_surface_constants *c)
+{
+    return fracas_surface_strengths_at(c) + c->tables->ninterfaces * (size_t)c->strengths;
+}
+/* A slot: stresses at the bulk points, strains that symmetrisation adds to them, forces. */
+static inline size_t fracas_surface_slot(const fracas_surface_tables *t)
+{
+    return (size_t)(2 * t->body->stresses * SURFACE_BULK(t->order)) + fracas_surface_unknowns(t);
+}
+static inline size_t fracas_surface_state_fields(const fracas_surface_constants *c)
+{
+    return fracas_surface_slots_at(c) +
+           (c->tables->visits.window + 1) * fracas_surface_slot(c->tables);
+}
+/* Number of the strength at Gauss point g of an interface. */
+static inline size_t fracas_surface_strength_of(const fracas_surface_constants *c, size_t interface,
+                                                int g)
+{
+    return interface * (size_t)c->strengths + (c->strengths > 1 ? (size_t)g : 0);
+}
+
+/* Tables of model->surface and model->spec, checked. The caller destroys. */
+FRACAS_MUST_USE fracas_err fracas_surface_tables_create(const fracas_model *model,
+                                                        const fracas_surface_body *body,
+                                                        fracas_surface_tables **tables);
+void fracas_surface_tables_destroy(void *tables); /* NULL is allowed */
+
+fracas_surface_constants fracas_surface_constants_of(const fracas_model *model);
+
+/* Where the state has component i (dimension node + component) of SURFACE_U, ... of an element. */
+double *fracas_surface_value(const fracas_model *model, const fracas_step *step, size_t element,
+                             int field, int i, int lane);
+/* Where it has a value of the law, SURFACE_DAMAGE, ..., at point p of an interface: layers of its
+ * first Gauss point, of its second, ... */
+double *fracas_surface_point(const fracas_model *model, const fracas_step *step, size_t interface,
+                             int p, int field, int lane);
+
+/* The operator K of all interfaces whole, or all broken and pressed together:
+ *   acceleration = -M^-1 K u, for [element][unknown]; held components: 0
+ * `apply` may be called any number of times between open and close. */
+typedef struct fracas_surface_operator fracas_surface_operator;
+FRACAS_MUST_USE fracas_err fracas_surface_operator_open(const fracas_model *model, int contact,
+                                                        fracas_surface_operator **op);
+void fracas_surface_operator_apply(fracas_surface_operator *op, const double *u,
+                                   double *acceleration);
+void fracas_surface_operator_close(fracas_surface_operator *op); /* NULL is allowed */
+
+/* The model's critical steps, dt_c = Omega_c/omega_max of both operators  (membrane.16). */
+FRACAS_MUST_USE fracas_err fracas_surface_critical_step(fracas_model *model);
+
+/* 1/h_s = (|e|/A- + |e|/A+)/2 of an interface [1/m]  (membrane.5) */
+double fracas_surface_inverse_size(const fracas_surface *surface, size_t interface);
+
+/* ---- events: onset and break of points within a step, lane by lane; they are rare ---- */
+
+typedef struct {
+    int cracks[SURFACE_POINTS_MOST], breaks[SURFACE_POINTS_MOST]; /* points that do so */
+    int opens, parts; /* the interface's first point cracks, its last one breaks */
+} fracas_surface_event;
+
+/* Counts the event of lane `lane` of the step, at the times interpolated between the step before
+ * and this one  (membrane.12). */
+typedef void fracas_surface_note(const fracas_surface_constants *constants, fracas_step *step,
+                                 int lane, size_t interface, const fracas_surface_event *event);
+fracas_surface_note fracas_membrane_book, fracas_shell_book;
+
+/* ---- functions of the formulations ---- */
+
+FRACAS_MUST_USE fracas_err fracas_surface_model_init(fracas_model *model,
+                                                     const fracas_surface_body *body);
+FRACAS_MUST_USE fracas_err fracas_surface_check_strength(const fracas_model *model,
+                                                         double strength);
+double fracas_surface_interface_volume(const fracas_model *model, size_t interface);
+size_t fracas_surface_state_size(const fracas_model *model);
+double *fracas_surface_strength(const fracas_model *model, const fracas_step *step, int lane,
+                                size_t *stride);
+void fracas_surface_lane_init(const fracas_model *model, const fracas_step *step, int lane);
+void fracas_surface_advance(const fracas_model *model, fracas_step *step);
+int64_t fracas_surface_fragment_count(const fracas_model *model, fracas_step *step, int lane);
+FRACAS_MUST_USE fracas_err fracas_surface_harvest(const fracas_model *model, fracas_step *step,
+                                                  int lane, fracas_record *record);
+
+/* All members of a formulation of surfaces but `kind` and `model_init`. */
+#define FRACAS_SURFACE_FORMULATION                                                          \
+    .check_strength = fracas_surface_check_strength,                                        \
+    .interface_volume = fracas_surface_interface_volume,                                    \
+    .plan_destroy = fracas_surface_tables_destroy, .state_size = fracas_surface_state_size, \
+    .strength = fracas_surface_strength, .lane_init = fracas_surface_lane_init,             \
+    .advance = fracas_surface_advance, .fragment_count = fracas_surface_fragment_count,     \
+    .harvest = fracas_surface_harvest
+
+#endif

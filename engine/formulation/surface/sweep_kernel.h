@@ -1,0 +1,270 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The sweep of a surface over lanes, second part: the visits of elements and interfaces, the same
+ * for every body (engine/formulation/surface/kernel.h), and the unit that a kernel exports.
+ *
+ * An element is drifted and strained when its turn comes. Then come the interfaces with elements
+ * before it. Once an element has all its interfaces it gets its forces and is kicked. Interfaces
+ * see an element through its displacements and the stresses at its bulk points, and give back
+ * forces on nodes and strains at those points: both are few. */
+
+/* Books the events at an interface, lane by lane. */
+__attribute__((noinline, cold, unused)) static void
+surface_book(const surface_context *c, int points, size_t i, const vmask *cracks,
+             const vmask *breaks, vmask opens, vmask parts)
+{
+    for (int l = 0; l < LANES; l++) {
+        fracas_surface_event event = {.opens = lanes_get(opens, l), .parts = lanes_get(parts, l)};
+        for (int p = 0; p < points; p++) {
+            event.cracks[p] = lanes_get(cracks[p], l);
+            event.breaks[p] = lanes_get(breaks[p], l);
+        }
+        if (event.opens || event.parts) BODY_BOOK(c->constants, c->step, c->first + l, i, &event);
+    }
+}
+
+/* An interface at which some lane is cracked, or is about to (shell.14). `at` holds the flux of the
+ * other lanes. */
+LANES_FUNCTION void surface_crack(surface_context *c, int order, int law, size_t i, double *fields,
+                                  const double *strength, BODY(point) at[3])
+{
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0);
+    const fracas_surface_constants *s = c->constants;
+    const int points = SURFACE_EDGE(order);
+    const double *table = surface_table(c, order, i);
+    const vd stiffness = lanes_set(table[SURFACE_STIFFNESS]);
+    plane_interface interface = {.k_n = lanes_set(s->normal) * stiffness,
+                                 .k_t = lanes_set(s->tangential) * stiffness,
+                                 .softness_n = lanes_set(table[SURFACE_COMPLIANCE] / s->normal),
+                                 .softness_t = lanes_set(table[SURFACE_COMPLIANCE] / s->tangential),
+                                 .beta_c = lanes_set(s->beta_c),
+                                 .per_beta_c = lanes_set(1.0 / s->beta_c),
+                                 .mu_c = lanes_set(s->mu_c),
+                                 .energy = lanes_set(s->energy),
+                                 .opening = lanes_set(s->opening),
+                                 .onset_mean = s->onset_mean,
+                                 .friction = s->friction};
+    vmask cracks[3 * BODY_LAYERS], breaks[3 * BODY_LAYERS];
+    vmask whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(one, zero), parts = opens;
+    vd created = zero, rubbed = zero, bending = zero;
+    UNROLL_FOR (int g = 0; g < points; g++) {
+        const double *place = table + BODY_HEAD + g * BODY_POINT_TABLE;
+        const vd weight = lanes_set(place[BODY_MEASURE]);
+        interface.sigma_c = lanes_load(strength + (size_t)g * c->strength_step);
+        const surface_opening all = BODY(crack)(
+            c, &interface, law, place, &at[g],
+            surface_at(fields, g * BODY_LAYERS * s->point_fields), cracks + g * BODY_LAYERS,
+            breaks + g * BODY_LAYERS);
+        c->flux += weight * all.flux;
+        c->stored += weight * all.stored;
+        c->dissipated += weight * all.dissipated;
+        created += weight * all.created;
+        rubbed += weight * all.rubbed;
+        if (BODY_LAYERS > 1) bending += weight * all.bending;
+        whole = lanes_and(whole, all.whole);
+        broken = lanes_and(broken, all.broken);
+        UNROLL_FOR (int k = 0; k < BODY_LAYERS; k++) {
+            opens = lanes_or(opens, cracks[g * BODY_LAYERS + k]);
+            parts = lanes_or(parts, breaks[g * BODY_LAYERS + k]);
+        }
+    }
+    double *const sum[3] = {c->step->created + c->first, c->step->rubbed + c->first,
+                            c->step->dissipated_bending + c->first};
+    lanes_store(sum[0], lanes_load(sum[0]) + created);
+    lanes_store(sum[1], lanes_load(sum[1]) + rubbed);
+    if (BODY_LAYERS > 1) lanes_store(sum[2], lanes_load(sum[2]) + bending);
+    opens = lanes_and(opens, whole);  /* the first of its points */
+    parts = lanes_and(parts, broken); /* the last */
+    if (__builtin_expect(lanes_any(lanes_or(opens, parts)), 0))
+        surface_book(c, points * BODY_LAYERS, i, cracks, breaks, opens, parts);
+}
+
+/* Interface i: tractions at its Gauss points, and their forces on its elements. */
+LANES_FUNCTION void surface_join(surface_context *c, int order, int law, size_t i)
+{
+    const fracas_surface_constants *s = c->constants;
+    const int points = SURFACE_EDGE(order);
+    const surface_sides sides = surface_sides_of(c, order, i);
+    double *fields = c->interfaces + i * c->interface_size;
+    const double *strength = c->strengths + i * c->strengths_size;
+    BODY(point) at[3];
+    BODY(flux)(c, order, i, &sides, at);
+    if (law == SURFACE_OPERATOR) {
+        UNROLL_FOR (int g = 0; g < points; g++)
+            if (s->contact) BODY(press)(&at[g]);
+        BODY(give)(c, order, i, &sides, at);
+        return;
+    }
+    /* No lane is past its onset where none has a peak and no traction is near the least strength:
+     * an onset needs |T| >= min(1, beta_c) sigma_c. The margin covers its round-off, so that lanes
+     * do not depend on each other. */
+    vd largest = lanes_set(0.0), touched = lanes_set(0.0), weakest = lanes_load(strength);
+    UNROLL_FOR (int g = 0; g < points; g++) {
+        largest = plane_max(largest, BODY(square)(s, &at[g]));
+        weakest = plane_min(weakest, lanes_load(strength + (size_t)g * c->strength_step));
+        UNROLL_FOR (int k = 0; k < BODY_LAYERS; k++)
+            touched += lanes_load(
+                surface_at(fields, (g * BODY_LAYERS + k) * s->point_fields + SURFACE_PEAK));
+    }
+    const vd floor = lanes_set(0.999 * (s->beta_c < 1.0 ? s->beta_c : 1.0)) * weakest;
+    if (lanes_any(lanes_or(lanes_lt(lanes_set(0.0), touched), lanes_lt(floor * floor, largest)))) {
+        surface_crack(c, order, law, i, fields, strength, at);
+    } else {
+        const double *place = surface_table(c, order, i) + BODY_HEAD;
+        UNROLL_FOR (int g = 0; g < points; g++)
+            c->flux += lanes_set(place[g * BODY_POINT_TABLE + BODY_MEASURE]) *
+                       BODY(flux_energy)(&at[g]);
+    }
+    BODY(give)(c, order, i, &sides, at);
+}
+
+/* Accelerations from internal and body forces, 0 of held components; the power of what holds them.
+ */
+LANES_FUNCTION void surface_accelerate(surface_context *c, int order, size_t e, const vd *velocity,
+                                       const vd *force, vd *acceleration)
+{
+    const int nodes = SURFACE_NODES(order), size = BODY_SIZE(order);
+    const fracas_surface_tables *t = c->tables;
+    const uint32_t held = t->held[e];
+    const double *lumped = t->lumped + e * (size_t)(2 * nodes);
+    const double *consistent = BODY_CONSISTENT && t->consistent
+                                   ? t->consistent + e * (size_t)(3 * nodes * nodes)
+                                   : NULL;
+    const double *position = BODY_CONSISTENT && t->position ? t->position + e * (size_t)size : NULL;
+    UNROLL_FOR (int i = 0; i < size; i++) {
+        if (!consistent) {
+            acceleration[i] = lanes_set(-lumped[i / BODY_DIMENSION]) * force[i];
+        } else {
+            acceleration[i] = lanes_set(0.0);
+            UNROLL_FOR (int k = 0; k < nodes; k++)
+                acceleration[i] += lanes_set(-consistent[(i % 2 * nodes + i / 2) * nodes + k]) *
+                                   force[2 * k + i % 2];
+        }
+        if (position) acceleration[i] += c->spin * lanes_set(position[i]); /* (membrane.10) */
+    }
+    if (__builtin_expect(held != 0, 0))
+        for (int i = 0; i < size; i++) {
+            if (!(held >> i & 1)) continue;
+            acceleration[i] = lanes_set(0.0);
+            vd reaction = force[i]; /* (membrane.11) */
+            for (int k = 0; consistent && k < nodes; k++)
+                if (!(held >> (2 * k + i % 2) & 1))
+                    reaction += lanes_set(consistent[(2 * nodes + i / 2) * nodes + k]) *
+                                acceleration[2 * k + i % 2];
+            c->power += reaction * velocity[i];
+        }
+}
+
+/* Forces and kick of element e, and its share of kinetic energy. */
+LANES_FUNCTION void surface_finish(surface_context *c, int order, int law, size_t e)
+{
+    const int size = BODY_SIZE(order);
+    double *at = c->elements + e * c->element_size;
+    vd force[18], v[18], a[18], after[18];
+    BODY(forces)(c, order, e, force);
+    UNROLL_FOR (int i = 0; i < size; i++) v[i] = lanes_load(surface_at(at, SURFACE_V * size + i));
+    surface_accelerate(c, order, e, v, force, a);
+    if (law == SURFACE_OPERATOR) {
+        UNROLL_FOR (int i = 0; i < size; i++)
+            lanes_store(surface_at(at, SURFACE_V * size + i), a[i]);
+        return;
+    }
+    surface_kick(&c->constants->motion, c->kick, c->begins, size, at, a, v, after);
+    BODY(kinetic)(c, order, e, v, after);
+}
+
+/* Sums to energies [J], those of the potential (membrane.8), (shell.11), power [W] and work [J]. */
+LANES_FUNCTION void surface_totals(const surface_context *c)
+{
+    fracas_step *step = c->step;
+    const vd half = lanes_set(0.5);
+    const int first = c->first;
+    vd power = c->power;
+    const vd work = BODY(work)(c, &power);
+    lanes_store(step->kinetic + first, half * c->kinetic);
+    lanes_store(step->elastic + first, half * (c->strain_energy + c->flux));
+    lanes_store(step->cohesive + first, half * c->stored);
+    lanes_store(step->dissipated + first, c->dissipated + lanes_load(step->rubbed + first));
+    lanes_store(step->power + first, power);
+    lanes_store(step->work + first, work);
+}
+
+LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *step, int first,
+                                int order, int law)
+{
+    const vd zero = lanes_set(0.0);
+    const fracas_surface_tables *t = s->tables;
+    double *state = step->state + (size_t)first * fracas_surface_state_fields(s);
+    surface_context context = {.constants = s,
+                               .tables = t,
+                               .step = step,
+                               .first = first,
+                               .elements = state,
+                               .interfaces = state + fracas_surface_interfaces_at(s) * LANES,
+                               .slots = state + fracas_surface_slots_at(s) * LANES,
+                               .element_size = fracas_surface_element_fields(s) * LANES,
+                               .interface_size = fracas_surface_interface_fields(s) * LANES,
+                               .strengths = state + fracas_surface_strengths_at(s) * LANES,
+                               .strengths_size = (size_t)s->strengths * LANES,
+                               .strength_step = s->strengths > 1 ? LANES : 0,
+                               .drift = lanes_load(step->drift + first),
+                               .kick = lanes_load(step->kick + first),
+                               .begins = !(step->drift[first] > 0),
+                               .spin = zero,
+                               .strain_energy = zero,
+                               .flux = zero,
+                               .stored = zero,
+                               .kinetic = zero,
+                               .dissipated = zero,
+                               .power = zero,
+                               .moment = zero};
+    surface_context *c = &context;
+    BODY(begin)(c);
+    for (size_t e = 0; e < t->nelements; e++) {
+        double *at = c->elements + e * c->element_size;
+        if (law != SURFACE_OPERATOR) surface_drift(&s->motion, c->drift, BODY_SIZE(order), at);
+        BODY(strain)(c, order, e, at, surface_slot(c, order, e));
+        for (size_t j = t->visits.join_from[e]; j < t->visits.join_from[e + 1]; j++)
+            surface_join(c, order, law, t->visits.join[j]);
+        for (size_t f = t->visits.finish_from[e]; f < t->visits.finish_from[e + 1]; f++)
+            surface_finish(c, order, law, t->visits.finish[f]);
+    }
+    if (law != SURFACE_OPERATOR) surface_totals(c);
+}
+
+#define SURFACE_SWEEP(name, order, law)                                                       \
+    static void name(const fracas_surface_constants *constants, fracas_step *step, int first) \
+    {                                                                                         \
+        surface_run(constants, step, first, order, law);                                      \
+    }
+#if BODY_LINEAR
+#define SURFACE_SWEEPS_OF(name, law) \
+    SURFACE_SWEEP(linear_##name, 1, law) SURFACE_SWEEP(quadratic_##name, 2, law)
+#define SURFACE_ENTRY(name)             \
+    {                                   \
+        linear_##name, quadratic_##name \
+    }
+#else
+#define SURFACE_SWEEPS_OF(name, law) SURFACE_SWEEP(quadratic_##name, 2, law)
+#define SURFACE_ENTRY(name)    \
+    {                          \
+        NULL, quadratic_##name \
+    }
+#endif
+
+#define FRACAS_LAW(name, bar, ring, membrane, shell) \
+    BODY_TAKES(bar, ring, membrane, shell, SURFACE_SWEEPS_OF(name, FRACAS_LAW_##name))
+#include "engine/cohesive/laws.list.h"
+#undef FRACAS_LAW
+#if LANES == 1
+SURFACE_SWEEPS_OF(operator, SURFACE_OPERATOR)
+#endif
+
+#define FRACAS_LAW(name, bar, ring, membrane, shell) \
+    BODY_TAKES(bar, ring, membrane, shell, [FRACAS_LAW_##name] = SURFACE_ENTRY(name), )
+const fracas_surface_kernel LANES_UNIT(BODY_OF(fracas, BODY_NAME)) = {
+    .sweep = {
+#if LANES == 1
+        [SURFACE_OPERATOR] = SURFACE_ENTRY(operator),
+#endif
+#include "engine/cohesive/laws.list.h"
+    }};

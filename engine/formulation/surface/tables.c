@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Tables of a surface: masses, held edges, and the body's own geometry. */
+#include "engine/formulation/surface/surface.h"
+
+#include "engine/formulation/surface/nodal_mass.h"
+#include "engine/integrator/integrator.h"
+#include "engine/loading/loading.h"
+#include "engine/mesh/body.h"
+
+#include <stdlib.h>
+
+void fracas_surface_tables_destroy(void *p)
+{
+    fracas_surface_tables *t = p;
+    if (!t) return;
+    void *const owned[] = {t->bulk,      t->lumped,  t->consistent, t->position,
+                           t->interface, t->element, t->edge,       t->held,
+                           t->fixed,     t->rim,     t->rim_edge,   t->rim_from};
+    for (size_t i = 0; i < FRACAS_COUNT(owned); i++) free(owned[i]);
+    fracas_surface_visits_clear(&t->visits);
+    free(t);
+}
+
+static bool allocate(fracas_surface_tables *t, bool consistent, bool positions)
+{
+    const fracas_surface_body *body = t->body;
+    const size_t n = t->nelements, m = t->ninterfaces ? t->ninterfaces : 1,
+                 nodes = (size_t)SURFACE_NODES(t->order), rims = t->nrims ? t->nrims : 1;
+    const size_t interface = body->head + (size_t)SURFACE_EDGE(t->order) * body->point_table;
+    t->bulk = malloc(n * (size_t)SURFACE_BULK(t->order) * body->bulk_table * sizeof *t->bulk);
+    t->lumped = malloc(n * 2 * nodes * sizeof *t->lumped);
+    if (consistent) t->consistent = malloc(n * 3 * nodes * nodes * sizeof *t->consistent);
+    if (positions) t->position = malloc(n * nodes * 2 * sizeof *t->position);
+    t->interface = malloc(m * interface * sizeof *t->interface);
+    t->element = malloc(m * sizeof *t->element);
+    t->edge = malloc(m * sizeof *t->edge);
+    t->held = calloc(n, sizeof *t->held);
+    t->fixed = calloc(n, sizeof *t->fixed);
+    if (body->has_rim) {
+        t->rim = malloc(rims * body->rim_table * sizeof *t->rim);
+        t->rim_edge = malloc(rims * sizeof *t->rim_edge);
+        t->rim_from = calloc(n + 1, sizeof *t->rim_from);
+    }
+    return t->bulk && t->lumped && (t->consistent || !consistent) && (t->position || !positions) &&
+           t->interface && t->element && t->edge && t->held && t->fixed &&
+           ((t->rim && t->rim_edge && t->rim_from) || !body->has_rim);
+}
+
+/* ---- masses ---- */
+
+/* m = inverse of the n x n matrix m (Gauss-Jordan, positive definite: no pivoting). */
+static void invert(double *m, int n)
+{
+    for (int p = 0; p < n; p++) {
+        const double pivot = 1.0 / m[p * n + p];
+        m[p * n + p] = 1.0;
+        for (int c = 0; c < n; c++) m[p * n + c] *= pivot;
+        for (int r = 0; r < n; r++) {
+            if (r == p) continue;
+            const double factor = m[r * n + p];
+            m[r * n + p] = 0.0;
+            for (int c = 0; c < n; c++) m[r * n + c] -= factor * m[p * n + c];
+        }
+    }
+}
+
+/* Inverse of the mass among the nodes that are not held in a component; 0 for those that are. */
+static void invert_free(const double *mass, int nodes, unsigned held, int component,
+                        double *inverse)
+{
+    for (int r = 0; r < nodes; r++)
+        for (int c = 0; c < nodes; c++) {
+            const bool out = (held >> (2 * r + component) & 1) || (held >> (2 * c + component) & 1);
+            inverse[r * nodes + c] = out ? r == c : mass[r * nodes + c];
+        }
+    invert(inverse, nodes);
+    for (int r = 0; r < nodes; r++)
+        if (held >> (2 * r + component) & 1) inverse[r * nodes + r] = 0.0;
+}
+
+/* (membrane.13) */
+static void fill_mass(const fracas_model *model, fracas_surface_tables *t, size_t e)
+{
+    const int nodes = SURFACE_NODES(t->order);
+    double mass[36], *lumped = t->lumped + 2 * (size_t)nodes * e;
+    fracas_nodal_mass(model->surface, e,
+                      model->spec.material.density * model->spec.geometry.thickness, mass,
+                      lumped + nodes);
+    for (int k = 0; k < nodes; k++) lumped[k] = 1.0 / lumped[nodes + k];
+    if (!t->consistent) return;
+    const size_t entries = (size_t)(nodes * nodes);
+    double *consistent = t->consistent + 3 * entries * e;
+    for (int i = 0; i < 2; i++)
+        invert_free(mass, nodes, t->held[e], i, consistent + (size_t)i * entries);
+    for (size_t i = 0; i < entries; i++) consistent[2 * entries + i] = mass[i];
+}
+
+static void fill_positions(const fracas_surface *surface, fracas_surface_tables *t, size_t e)
+{
+    for (size_t k = 0; k < surface->corners; k++)
+        for (size_t i = 0; i < 2; i++)
+            t->position[2 * (e * surface->corners + k) + i] =
+                surface->node[surface->element[e * surface->corners + k]][i];
+}
+
+/* ---- edges ---- */
+
+/* The kind of the edges of a tag. */
+static const fracas_kind *edge_kind(const fracas_spec *spec, int32_t tag)
+{
+    if (spec->geometry.shape == &fracas_shape_sphere)
+        return &fracas_edge_symmetry; /* of the octant; the whole sphere has none */
+    const fracas_kind *kind = spec->geometry.edge[tag > 0 && tag < FRACAS_EDGES ? tag : 0];
+    return kind ? kind : &fracas_edge_free;
+}
+
+/* Tags of a mesh file that the campaign holds must exist. */
+static fracas_err check_edge_tags(const fracas_model *model)
+{
+    const fracas_surface *surface = model->surface;
+    for (int32_t tag = 1; model->spec.geometry.shape == &fracas_shape_file && tag < FRACAS_EDGES;
+         tag++) {
+        size_t found = 0;
+        for (size_t b = 0; b < surface->nborders; b++) found += surface->border[b].tag == tag;
+        const fracas_kind *edge = model->spec.geometry.edge[tag];
+        if (found == 0 && edge && edge != &fracas_edge_free)
+            return fracas_fail(
+                FRACAS_USAGE,
+                "geometry.edge_%d is %s, but the mesh has no edge on its boundary of the physical "
+                "group %d: give the lines that number, or use `edges` for all others",
+                (int)tag, edge->name, (int)tag);
+    }
+    return FRACAS_OK;
+}
+
+/* Held nodes, and rims, element by element: borders are sorted by element. */
+static fracas_err fill_edges(const fracas_model *model, fracas_surface_tables *t)
+{
+    const fracas_surface_body *body = t->body;
+    size_t r = 0, e = 0;
+    for (size_t b = 0; b < model->surface->nborders; b++) {
+        const fracas_surface_border *border = &model->surface->border[b];
+        const fracas_kind *kind = edge_kind(&model->spec, border->tag);
+        uint32_t held = 0, fixed = 0;
+        if (kind != &fracas_edge_free) TRY(body->hold_edge(model, border, kind, &held, &fixed));
+        t->held[border->element] |= held;
+        t->fixed[border->element] |= fixed;
+        if (!body->has_rim) continue;
+        while (e < border->element) t->rim_from[++e] = (uint32_t)r;
+        if (body->has_rim(kind)) {
+            t->rim_edge[r] = (uint8_t)border->edge;
+            body->fill_rim(model, t, border, r++);
+        }
+    }
+    while (body->has_rim && e < t->nelements) t->rim_from[++e] = (uint32_t)r;
+    return FRACAS_OK;
+}
+
+static fracas_err fill(const fracas_model *model, fracas_surface_tables *t)
+{
+    TRY(check_edge_tags(model));
+    TRY(fill_edges(model, t));
+    for (size_t e = 0; e < t->nelements; e++) {
+        t->moves = t->moves || t->held[e] & ~(t->body->has_rim ? t->fixed[e] : 0);
+        t->body->fill_bulk(model, t, e);
+        fill_mass(model, t, e);
+        if (t->position) fill_positions(model->surface, t, e);
+    }
+    for (size_t i = 0; i < t->ninterfaces; i++) {
+        const fracas_surface_interface *interface = &model->surface->interface[i];
+        for (int side = 0; side < 2; side++) {
+            t->element[i][side] = interface->element[side];
+            t->edge[i][side] = (uint8_t)interface->edge[side];
+        }
+        t->body->fill_interface(model, t, i);
+    }
+    return fracas_surface_visits_init(&t->visits, model->surface);
+}
+
+fracas_err fracas_surface_tables_create(const fracas_model *model, const fracas_surface_body *body,
+                                        fracas_surface_tables **tables)
+{
+    const fracas_surface *surface = model->surface;
+    fracas_surface_tables *t = calloc(1, sizeof *t);
+    if (!t) return fracas_no_memory("the tables of a surface");
+    t->body = body;
+    t->order = surface->order;
+    t->nelements = surface->nelements;
+    t->ninterfaces = surface->ninterfaces;
+    for (size_t b = 0; body->has_rim && b < surface->nborders; b++)
+        t->nrims += body->has_rim(edge_kind(&model->spec, surface->border[b].tag));
+    const bool consistent = model->spec.time.mass == &fracas_mass_consistent;
+    const bool positions = model->spec.loading.type == &fracas_loading_centrifugal;
+    fracas_err err = allocate(t, consistent, positions)
+                         ? fill(model, t)
+                         : fracas_no_memory("the tables of a surface");
+    if (err) {
+        fracas_surface_tables_destroy(t);
+        return err;
+    }
+    *tables = t;
+    return FRACAS_OK;
+}
