@@ -4,7 +4,7 @@
  *   w_n = w_{n-1} + dt v_{n-1/2}                   (bar.9)
  *   v_{n+1/2} = v_{n-1/2} + dt f(w_n)/m            (bar.10)
  *
- * Its stability limit is in critical_step.h. */
+ * Its stability limit is in integrator.h. */
 #ifndef FRACAS_ENGINE_INTEGRATOR_CENTRAL_DIFFERENCE_H
 #define FRACAS_ENGINE_INTEGRATOR_CENTRAL_DIFFERENCE_H
 

@@ -5,6 +5,9 @@
 
 #include "base/param.h"
 
+/* Central difference is stable for omega dt below this. */
+#define FRACAS_CENTRAL_DIFFERENCE_LIMIT 2.0
+
 extern const fracas_kind fracas_integrator_central_difference, fracas_integrator_hulbert_chung;
 extern const fracas_kind fracas_mass_lumped, fracas_mass_consistent;
 

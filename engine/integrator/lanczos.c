@@ -4,11 +4,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { LIMIT = 200, CALM = 12 };
+enum { LIMIT = 200, LIMIT_SETTLED = 2000, CALM = 12 };
 
 /* The tridiagonal matrix of the iteration. */
 typedef struct {
-    double diagonal[LIMIT], off[LIMIT]; /* off[j] couples j and j + 1 */
+    double diagonal[LIMIT_SETTLED], off[LIMIT_SETTLED]; /* off[j] couples j and j + 1 */
     int size;
 } tridiagonal;
 
@@ -76,6 +76,7 @@ static double advance(const fracas_lanczos_problem *p, const double *v, double *
     return sqrt(dot(w, scratch, n));
 }
 
+/* (bar.16) */
 fracas_err fracas_lanczos(const fracas_lanczos_problem *problem, double *start, double *largest)
 {
     const size_t n = problem->n;
@@ -89,12 +90,15 @@ fracas_err fracas_lanczos(const fracas_lanczos_problem *problem, double *start, 
         for (size_t i = 0; i < n; i++) start[i] /= norm;
     }
     double *v = start, *w = other, before = 0;
-    for (int calm = 0; !err && t->size < LIMIT && (calm < CALM || bound > 2e-3 * theta);) {
+    const double settled = problem->settled > 0 ? problem->settled : 1e-4;
+    const int limit = problem->settled > 0 ? LIMIT_SETTLED : LIMIT;
+    for (int calm = 0; !err && t->size < limit &&
+                       (calm < CALM || (bound > 2e-3 * theta && !(problem->settled > 0)));) {
         const double next = advance(problem, v, w, scratch, before, &t->diagonal[t->size]);
         t->off[t->size++] = next;
         const double now = largest_of(t);
         bound = next * last_component(t, now);
-        calm = fabs(now - theta) <= 1e-4 * now ? calm + 1 : 0;
+        calm = fabs(now - theta) <= settled * now ? calm + 1 : 0;
         theta = now;
         if (!(next > 1e-12 * theta)) { /* an invariant subspace */
             bound = 0;
@@ -106,7 +110,7 @@ fracas_err fracas_lanczos(const fracas_lanczos_problem *problem, double *start, 
         w = swap;
         before = next;
     }
-    *largest = theta + (isfinite(bound) ? bound : 0);
+    *largest = theta + (isfinite(bound) && !(problem->settled > 0) ? bound : 0);
     free(other);
     free(scratch);
     free(t);

@@ -14,6 +14,7 @@ typedef struct {
     void (*mass)(void *context, const double *w, double *result);
     void *context;
     size_t n;
+    double settled; /* 1: relative; 0, or the movement of theta that ends the iteration */
 } fracas_lanczos_problem;
 
 /* *largest: the largest eigenvalue of M^-1 K, from `start` (overwritten, not 0): the largest Ritz
@@ -22,7 +23,11 @@ typedef struct {
  * It is above the largest eigenvalue by less than 2e-3 of it. The bound is of the distance to some
  * eigenvalue: a start that has next to nothing of the last mode may rest at the one before. Of 12
  * 000 random pencils of up to 60 degrees of freedom 7 did, 7e-4 below at worst (4 steps: 99, and
- * 6e-2). */
+ * 6e-2).
+ *
+ * With `settled`, *largest is theta alone, from below, once theta has moved by less than that in
+ * each of the last 12 steps; 2000 steps at most. Its error is of second order in that of the mode.
+ */
 FRACAS_MUST_USE fracas_err fracas_lanczos(const fracas_lanczos_problem *problem, double *start,
                                           double *largest);
 

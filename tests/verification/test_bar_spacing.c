@@ -100,7 +100,7 @@ static fracas_record run_to_fragments(fracas_spec *spec, double time_step)
     fracas_record record;
     assert_ok(fracas_model_create(spec, &model));
     assert_true(fabs(model->time_step / time_step - 1) <
-                1e-6); /* power iterations end at 1e-9 a step, of 20 */
+                1e-6); /* iterations end at 1e-9 a step, of 12 */
     model->time_step = time_step;
     assert_ok(fracas_batch_create(model, 1, &options, &batch));
     bar_draw(batch, 0, 0.1, 5);

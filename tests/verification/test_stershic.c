@@ -275,9 +275,8 @@ static void a_link_opens_by_the_pull_along_its_normal(void **unused)
 }
 
 /* The base is 0.8 h/c for an even number of elements; an odd one cannot swing up and down in turn:
- * h/(c cos(pi/(2 n))). The power iteration starts in the even ring's mode, and cannot quite tell an
- * odd one's from its neighbours: measured, 4e-11 and up to 6e-6 above. Rings of more than 1024
- * elements take the step of 1024. */
+ * h/(c cos(pi/(2 n))). The iteration starts in the even ring's mode: measured, up to 1e-9 above.
+ * Rings of more than 1024 elements take the step of 1024. */
 static void the_base_step_is_the_papers(void **unused)
 {
     (void)unused;
@@ -290,7 +289,7 @@ static void the_base_step_is_the_papers(void **unused)
         const double odd = sizes[i] % 2 ? cos(0.5 * 3.14159265358979323846 / (double)sizes[i]) : 1;
         print_message("[  figures ] %5ld elements: time step %.2e beyond 0.8 h/c\n", (long)sizes[i],
                       model->time_step / paper - 1);
-        assert_true(fabs(model->time_step * odd / paper - 1) < (sizes[i] % 2 ? 1e-5 : 1e-9));
+        assert_true(fabs(model->time_step * odd / paper - 1) < (sizes[i] % 2 ? 1e-7 : 1e-9));
         fracas_model_destroy(model);
     }
 }

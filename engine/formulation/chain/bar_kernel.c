@@ -5,6 +5,8 @@
 #include "engine/formulation/chain/chain_events.h"
 #include "engine/integrator/central_difference.h"
 
+enum { BAR_OPERATOR = FRACAS_LAWS }; /* in place of a law */
+
 /* An element at t_n: displacements drifted, velocities still those of t_{n-1/2}. */
 typedef struct {
     vd w_left, w_right, v_left, v_right, stress;
@@ -147,9 +149,27 @@ LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, int uniform, size_t e,
         .traction = traction, .slip = zero, .closed = lanes_lt(state, two), .common = common};
 }
 
+/* An interface of the operator  (bar.6), (bar.7). */
+LANES_FUNCTION bar_link bar_linear(const bar_context *c, int uniform, const bar_element *left,
+                                   const bar_element *right)
+{
+    const vd zero = lanes_set(0.0), half = lanes_set(0.5);
+    const vd q = right->w_left - left->w_right;
+    const vd spring = uniform ? c->spring
+                              : lanes_set(c->bar->beta) * (half * (left->modulus + right->modulus));
+    if (c->bar->contact) return (bar_link){.traction = spring * q, .slip = zero};
+    return (bar_link){.traction = half * (left->stress + right->stress) + spring * q,
+                      .slip = q,
+                      .closed = lanes_le(zero, zero),
+                      .common = uniform
+                                    ? half * (right->stress - left->stress)
+                                    : (right->stress - left->stress) / (left->size + right->size)};
+}
+
 LANES_FUNCTION bar_link bar_join(bar_context *c, int uniform, int flux, int law, size_t e,
                                  const bar_element *left, const bar_element *right)
 {
+    if (law == BAR_OPERATOR) return bar_linear(c, uniform, left, right);
     return flux ? bar_flux(c, uniform, law, e, left, right)
                 : bar_rigid_link(c, uniform, e, left, right);
 }
@@ -255,21 +275,27 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
     }
     if (bar->periodic) bar_finish(c, uniform, flux, last, &next, &right, &closing, 0, 0);
     else bar_finish(c, uniform, flux, last, &next, &right, &closing, 0, 1);
-    bar_totals(c);
+    if (law != BAR_OPERATOR) bar_totals(c);
 }
+
+#define BAR_SWEEP(name, uniform, flux, law)                                         \
+    static void name(const fracas_bar_constants *bar, fracas_step *step, int first) \
+    {                                                                               \
+        bar_run(bar, step, first, uniform, flux, law);                              \
+    }
+#if LANES == 1
+BAR_SWEEP(even_tied, 1, 0, BAR_OPERATOR)
+BAR_SWEEP(uneven_tied, 0, 0, BAR_OPERATOR)
+BAR_SWEEP(even_whole, 1, 1, BAR_OPERATOR)
+BAR_SWEEP(uneven_whole, 0, 1, BAR_OPERATOR)
+#endif
 
 #define BAR_FLUX(name) BAR_SWEEPS(name, 1)
 #define BAR_RIGID(name) BAR_SWEEPS(name, 0)
 #define BAR_NO(name)
-#define BAR_SWEEPS(name, flux)                                                               \
-    static void even_##name(const fracas_bar_constants *bar, fracas_step *step, int first)   \
-    {                                                                                        \
-        bar_run(bar, step, first, 1, flux, FRACAS_LAW_##name);                               \
-    }                                                                                        \
-    static void uneven_##name(const fracas_bar_constants *bar, fracas_step *step, int first) \
-    {                                                                                        \
-        bar_run(bar, step, first, 0, flux, FRACAS_LAW_##name);                               \
-    }
+#define BAR_SWEEPS(name, flux)                         \
+    BAR_SWEEP(even_##name, 1, flux, FRACAS_LAW_##name) \
+    BAR_SWEEP(uneven_##name, 0, flux, FRACAS_LAW_##name)
 #define FRACAS_LAW(name, bar, ring, membrane, shell) BAR_##bar(name)
 #include "engine/cohesive/laws.list.h"
 #undef FRACAS_LAW
@@ -277,6 +303,10 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
 
 #define BAR_SWEEPS(name, flux) [FRACAS_LAW_##name] = {uneven_##name, even_##name},
 #define FRACAS_LAW(name, bar, ring, membrane, shell) BAR_##bar(name)
-const fracas_bar_kernel LANES_UNIT(fracas_bar) = {.sweep = {
+const fracas_bar_kernel LANES_UNIT(fracas_bar) = {
+#if LANES == 1
+    .operator= {{uneven_tied, even_tied}, {uneven_whole, even_whole}},
+#endif
+    .sweep = {
 #include "engine/cohesive/laws.list.h"
-                                                  }};
+    }};

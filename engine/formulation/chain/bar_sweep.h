@@ -38,14 +38,18 @@ typedef struct {
     double fracture_energy; /* J/m2 */
     double rate;            /* 1/s */
     double area;            /* m2 */
+    int contact; /* operator: all interfaces broken and in contact; else whole, by their flux */
 } fracas_bar_constants;
 
 /* Advances the lanes first .. first + lanes - 1 of the step. */
 typedef void fracas_bar_sweep(const fracas_bar_constants *bar, fracas_step *step, int first);
 
-/* A unit: [law][elements of one length: 0 no, 1 yes]. */
+/* A unit: [law][elements of one length: 0 no, 1 yes]. `operator` of one lane alone leaves
+ * M^-1 (-K) w  (bar.6), (bar.7) where velocities are, of interfaces that are [0: tied, 1: whole by
+ * their flux or in contact], with `drift` and velocities 0, `kick` 1. */
 typedef struct {
     fracas_bar_sweep *sweep[FRACAS_LAWS][2];
+    fracas_bar_sweep *operator[2][2];
 } fracas_bar_kernel;
 
 #endif

@@ -2,7 +2,6 @@
 /* A surface as a linear operator, and its critical time step. */
 #include "engine/formulation/surface/surface.h"
 
-#include "engine/integrator/critical_step.h"
 #include "engine/integrator/hulbert_chung.h"
 #include "engine/integrator/integrator.h"
 #include "engine/integrator/lanczos.h"
