@@ -7,6 +7,7 @@
  *
  * Prints one line for each number of workers. docs/results/scheduling.md has the figures, and where
  * the costs come from. */
+#include "base/isa.h"
 #include "bench/bench.h"
 #include "bench/synthetic_load.h"
 
