@@ -76,5 +76,7 @@ FRACAS_MUST_USE fracas_err fracas_campaign_extends(const fracas_campaign *now,
 /* The reference page of the campaign file (docs/formats/campaign-file-keys.md), from the parameter
  * tables. */
 void fracas_campaign_reference(FILE *out);
+/* Prints the columns of /point that follow from the others, as docs/formats/study.md has them. */
+void fracas_derived_reference(FILE *out);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/identity.h"
 
+#include "campaigns/file/derived.h"
 #include "campaigns/file/replicas.h"
 #include "engine/mesh/make.h"
 
@@ -120,13 +121,11 @@ fracas_err fracas_points_repeated(const fracas_campaign *campaign, size_t *earli
 
 /* ---- columns ---- */
 
-static const char derived_strain_rate[] = "derived.strain_rate",
-                  derived_strength_mean[] = "derived.strength_mean";
-
-/* Source of a column's values: a leaf, or NULL for a derived column. */
+/* Source of a column's values: a leaf, a derivation, or neither for the name of the case. */
 typedef struct {
     fracas_column column;
     const fracas_leaf *leaf;
+    const fracas_derived *derived;
 } source;
 
 static bool any_point_has(const fracas_campaign *campaign, const fracas_leaf *leaf)
@@ -153,13 +152,12 @@ static size_t list_sources(const fracas_catalog *catalog, const fracas_campaign 
         const bool text = fracas_leaf_is_text(leaf);
         fracas_column column = {leaf->path, text ? "" : leaf->param->unit,
                                 leaf->param ? leaf->param->doc : table->doc, text};
-        sources[count++] = (source){column, leaf};
+        sources[count++] = (source){column, leaf, NULL};
     }
-    sources[count++] = (source){
-        {derived_strain_rate, "1/s", "strain rate that the loading begins with", false}, NULL};
-    sources[count++] = (source){
-        {derived_strength_mean, "Pa", "mean of the distribution of strengths", false}, NULL};
-    if (named) sources[count++] = (source){{"case", "", "name of the case", true}, NULL};
+    for (int d = 0; d < FRACAS_DERIVED; d++)
+        sources[count++] = (source){fracas_derived_columns[d].column, NULL,
+                                    &fracas_derived_columns[d]};
+    if (named) sources[count++] = (source){{"case", "", "name of the case", true}, NULL, NULL};
     qsort(sources, count, sizeof *sources, by_path);
     return count;
 }
@@ -177,8 +175,8 @@ static bool is_same_mesh(const fracas_spec *a, const fracas_spec *b)
 }
 
 /* Makes the slow mesh only if the strength needs it and it is not the mesh of the last point. */
-static fracas_err mean_strength(const fracas_campaign *campaign, size_t p, known_mesh *mesh,
-                                double *mean)
+static fracas_err derive(const fracas_campaign *campaign, size_t p, known_mesh *mesh,
+                         fracas_derivation *of)
 {
     const fracas_point *point = &campaign->point[p];
     const bool needed = fracas_strength_has_size_effect(&point->strength);
@@ -188,18 +186,16 @@ static fracas_err mean_strength(const fracas_campaign *campaign, size_t p, known
         if (err) return fracas_fail_within(err, "point %zu", p);
         mesh->spec = &point->spec;
     }
-    *mean = fracas_strength_mean(&point->strength, mesh->extent);
+    *of = (fracas_derivation){point, mesh->extent,
+                              fracas_strength_mean(&point->strength, mesh->extent)};
     return FRACAS_OK;
 }
 
-static fracas_value value_of(const source *from, const fracas_point *point, const char *name,
-                             double mean)
+static fracas_value value_of(const source *from, const fracas_derivation *of, const char *name)
 {
     fracas_value value = {.real = NAN, .text = ""};
-    if (from->leaf) fracas_leaf_get(from->leaf, point, &value);
-    else if (from->column.path == derived_strength_mean) value.real = mean;
-    else if (from->column.path == derived_strain_rate)
-        value.real = fracas_spec_strain_rate(&point->spec);
+    if (from->leaf) fracas_leaf_get(from->leaf, of->point, &value);
+    else if (from->derived) value.real = from->derived->value(of);
     else value.text = name;
     return value;
 }
@@ -209,7 +205,8 @@ fracas_err fracas_campaign_tabulate(const fracas_catalog *catalog, const char *c
 {
     bool named = false;
     for (size_t p = 0; p < campaign->npoints; p++) named = named || *name[p];
-    source *from = fracas_memory_take(campaign->memory, catalog->nleaves + 3, sizeof *from);
+    source *from = fracas_memory_take(campaign->memory, catalog->nleaves + FRACAS_DERIVED + 1,
+                                      sizeof *from);
     if (!from) return fracas_no_memory("the table of points");
     size_t ncolumns = list_sources(catalog, campaign, named, from);
     fracas_column *column = fracas_memory_take(campaign->memory, ncolumns, sizeof *column);
@@ -221,10 +218,10 @@ fracas_err fracas_campaign_tabulate(const fracas_catalog *catalog, const char *c
     known_mesh mesh = {0};
     for (size_t p = 0; p < campaign->npoints; p++) {
         const fracas_point *point = &campaign->point[p];
-        double mean = NAN;
-        TRY(mean_strength(campaign, p, &mesh, &mean));
+        fracas_derivation of;
+        TRY(derive(campaign, p, &mesh, &of));
         for (size_t c = 0; c < ncolumns; c++)
-            value[p * ncolumns + c] = value_of(&from[c], point, name[p], mean);
+            value[p * ncolumns + c] = value_of(&from[c], &of, name[p]);
         row[p] = (fracas_point_row){point->hash, point->replicas, value + p * ncolumns,
                                     point->rule.maximum};
     }

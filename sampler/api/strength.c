@@ -211,6 +211,18 @@ double fracas_strength_deviation(const fracas_strength *strength, fracas_extent 
     return moments_of(strength, extent).deviation;
 }
 
+/* (size-laws.8), (size-laws.9) */
+double fracas_strength_modulus(const fracas_strength *strength, fracas_extent extent)
+{
+    fracas_strength ready;
+    const fracas_distribution *distribution = fracas_distribution_of(strength);
+    if (!distribution->tail || fracas_strength_init(strength, &ready)) return NAN;
+    const double mean = fracas_strength_mean(&ready, extent), above = mean - ready.minimum;
+    const double tail = distribution->tail(&ready, extent);
+    fracas_strength_clear(&ready);
+    return above > 0 ? tail * mean / above : NAN;
+}
+
 bool fracas_strength_has_size_effect(const fracas_strength *strength)
 {
     return fracas_distribution_of(strength)->size_effect || has_reference(strength);

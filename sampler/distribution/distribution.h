@@ -25,6 +25,8 @@ typedef struct {
                                                       each other; may be NULL */
     void (*clear)(fracas_strength *strength);      /* frees the memory of `init`; may be NULL */
     bool size_effect;                              /* both depend on the extent */
+    /* Exponent m of the lower tail, F ~ (s - minimum)^m; NaN without one; may be NULL. */
+    double (*tail)(const fracas_strength *strength, fracas_extent extent);
     /* True if it can have the weakest-link size effect of a reference; then also: */
     bool takes_reference;
     double (*far)(const fracas_strength *strength,

@@ -32,6 +32,13 @@ static fracas_moments flaws_moments(const fracas_strength *strength, fracas_exte
                             range * sqrt(fmax(second - first * first, 0.0))};
 }
 
+/* P(no flaw in an interface) = exp(-density V) is 1/2 at density V = ln 2. */
+static double flaws_tail(const fracas_strength *strength, fracas_extent extent)
+{
+    const double ln_2 = 0x1.62e42fefa39efp-1;
+    return strength->own[DENSITY] * extent.volume > ln_2 ? strength->own[EXPONENT] : NAN;
+}
+
 FRACAS_MUST_USE static fracas_err flaws_init(fracas_strength *strength)
 {
     if (strength->minimum < strength->maximum) return FRACAS_OK;
@@ -63,6 +70,7 @@ const fracas_distribution fracas_flaws = {
              .nparams = FRACAS_COUNT(params)},
     .quantile = flaws_quantile,
     .moments = flaws_moments,
+    .tail = flaws_tail,
     .init = flaws_init,
     .size_effect = true,
     .scatter_remedy = ", here by a higher flaw_density",

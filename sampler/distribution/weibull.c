@@ -32,6 +32,12 @@ static fracas_moments weibull_moments(const fracas_strength *strength, fracas_ex
     return (fracas_moments){strength->minimum + above, above * sqrt(fracas_weibull_variation(x))};
 }
 
+static double weibull_tail(const fracas_strength *strength, fracas_extent extent)
+{
+    (void)extent;
+    return strength->shape;
+}
+
 /* (laws.11) The weakest follows the same law of another scale. */
 static fracas_moments weibull_weakest(const fracas_strength *strength, double size)
 {
@@ -84,6 +90,7 @@ const fracas_distribution fracas_weibull = {
              .nparams = FRACAS_COUNT(params)},
     .quantile = weibull_quantile,
     .moments = weibull_moments,
+    .tail = weibull_tail,
     .init = weibull_init,
     .takes_reference = true,
     .far = weibull_far,

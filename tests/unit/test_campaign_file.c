@@ -347,8 +347,14 @@ static void test_table(void **state)
     static const char *const paths[] = {"cohesive.beta",
                                         "cohesive.fracture_energy",
                                         "cohesive.law",
+                                        "derived.fracture_energy",
+                                        "derived.lattice",
+                                        "derived.length",
+                                        "derived.radius",
                                         "derived.strain_rate",
                                         "derived.strength_mean",
+                                        "derived.strength_modulus",
+                                        "derived.surface",
                                         "geometry.area",
                                         "geometry.ends",
                                         "geometry.length",
@@ -384,12 +390,43 @@ static void test_table(void **state)
     assert_true(real(campaign, 0, "derived.strain_rate") == real(campaign, 0, "loading.rate"));
     assert_true(real(campaign, 0, "derived.strength_mean") == 300e6);
     assert_true(real(campaign, 1, "derived.strength_mean") == 5e6);
+    const double length = real(campaign, 0, "geometry.length");
+    assert_true(real(campaign, 0, "derived.length") == length);
+    assert_true(real(campaign, 0, "derived.lattice") ==
+                length / real(campaign, 0, "mesh.elements"));
+    assert_true(real(campaign, 0, "derived.fracture_energy") ==
+                real(campaign, 0, "cohesive.fracture_energy"));
+    assert_true(real(campaign, 0, "derived.surface") == 0);
+    assert_true(isnan(real(campaign, 0, "derived.radius")));
+    assert_true(isnan(real(campaign, 0, "derived.strength_modulus")));
     assert_true(isnan(real(campaign, 0, "strength.value")) &&
                 real(campaign, 1, "strength.value") == 5e6);
     assert_string_equal(at(campaign, 1, "strength.distribution")->text, "constant");
     assert_string_equal(table->column[fracas_point_table_find(table, "material.young")].unit, "Pa");
     for (size_t p = 0; p < 2; p++)
         assert_true(fracas_hash_equal(&table->point[p].hash, &campaign->point[p].hash));
+    fracas_campaign_destroy(campaign);
+}
+
+/* (size-laws.8), (size-laws.9): the shape by lgamma, which no code of ours uses. */
+static void test_modulus(void **state)
+{
+    (void)state;
+    fracas_campaign *campaign = read_replaced(
+        "", "sweep:\n  - strength: [{distribution: weibull, scale: 400 MPa, shape: 10}, "
+            "{distribution: weibull, minimum: 100 MPa, mean: 300 MPa, deviation: 50 MPa}, "
+            "{distribution: flaws, flaw_density: 1e15, minimum: 100 MPa, maximum: 400 MPa, "
+            "exponent: 3}, {distribution: flaws, flaw_density: 1, minimum: 100 MPa, maximum: 400 "
+            "MPa, exponent: 3}]\n");
+    static const char modulus[] = "derived.strength_modulus", mean[] = "derived.strength_mean";
+    assert_true(fabs(real(campaign, 0, modulus) - 10) < 1e-13);
+    const double x = 300 / (200 * real(campaign, 1, modulus));
+    const double variation = expm1(lgamma(1 + 2 * x) - 2 * lgamma(1 + x));
+    assert_true(fabs(variation / (0.25 * 0.25) - 1) < 1e-11);
+    assert_true(fabs(real(campaign, 2, modulus) /
+                         (3 * real(campaign, 2, mean) / (real(campaign, 2, mean) - 100e6)) -
+                     1) < 1e-13);
+    assert_true(isnan(real(campaign, 3, modulus))); /* most interfaces have no flaw */
     fracas_campaign_destroy(campaign);
 }
 
@@ -658,6 +695,7 @@ int main(void)
         cmocka_unit_test(test_supplied_by_sweep),
         cmocka_unit_test(test_table),
         cmocka_unit_test(test_tables_agree),
+        cmocka_unit_test(test_modulus),
         cmocka_unit_test(test_strain_rate),
         cmocka_unit_test(test_round_trip),
         cmocka_unit_test(test_write_fails),

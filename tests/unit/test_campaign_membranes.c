@@ -78,6 +78,9 @@ static void test_plate(void **state)
     const fracas_hash hash = fracas_hash_of(text, strlen(text));
     assert_true(fracas_hash_equal(&campaign->point[0].hash, &hash));
     assert_true(at(campaign, 0, "derived.strain_rate")->real == 1e4);
+    assert_true(at(campaign, 0, "derived.surface")->real == 1);
+    assert_true(at(campaign, 0, "derived.lattice")->real == 0);
+    assert_true(isnan(at(campaign, 0, "derived.length")->real));
     fracas_model *model = model_of(campaign, 0);
     assert_int_equal(fracas_model_elements(model), 2 * 8 * 4);
     assert_int_equal(fracas_model_interfaces(model),
