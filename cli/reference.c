@@ -14,8 +14,13 @@ static const fracas_option options[] = {
 static fracas_err reference(const fracas_arguments *arguments)
 {
     if (arguments->value[STATISTICS]) fracas_analysis_reference(stdout);
-    else if (arguments->value[STUDY]) fracas_study_reference(stdout);
-    else fracas_campaign_reference(stdout);
+    else if (!arguments->value[STUDY]) fracas_campaign_reference(stdout);
+    else {
+        fracas_study_reference(stdout);
+        fputs("\n<!-- generated: derived -->\n", stdout);
+        fracas_derived_reference(stdout);
+        fputs("<!-- end of generated -->\n", stdout);
+    }
     return FRACAS_OK;
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/energies.h"
 
-#define DESCRIBE(key, role, unit, meaning, ending) {#key, unit, meaning, FRACAS_ROLE_##role},
+#define DESCRIBE(key, role, unit, meaning) {#key, unit, meaning, FRACAS_ROLE_##role},
 const fracas_energy_descriptor fracas_energies[FRACAS_ENERGIES] = {FRACAS_EACH_ENERGY(DESCRIBE)};
 
 double fracas_energy_held(const double energy[FRACAS_ENERGIES], int first)
@@ -10,6 +10,14 @@ double fracas_energy_held(const double energy[FRACAS_ENERGIES], int first)
     for (int e = first; e < FRACAS_ENERGIES; e++)
         if (fracas_energies[e].role <= FRACAS_ROLE_SINK) held += energy[e];
     return held;
+}
+
+double fracas_energy_lost(const double energy[FRACAS_ENERGIES])
+{
+    double lost = 0;
+    for (int e = 0; e < FRACAS_ENERGIES; e++)
+        if (fracas_energies[e].role == FRACAS_ROLE_SINK) lost += energy[e];
+    return lost;
 }
 
 /* (bar.14) */

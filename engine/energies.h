@@ -17,22 +17,23 @@ typedef enum {
     FRACAS_ROLE_LOAD     /* -, work of the load so far, integrated by the ledger (bar.13) */
 } fracas_energy_role;
 
-/* X(key, role, unit, meaning, ending): `ending` completes the meaning for the value at end_time.
- * The kinetic energy comes first; the sum follows the order of the lines. */
-#define FRACAS_EACH_ENERGY(X)                                                             \
-    X(kinetic, KINETIC, "J", "kinetic energy", " at end_time")                            \
-    X(elastic, STORED, "J", "elastic energy, bulk and interface", ", at end_time")        \
-    X(cohesive, STORED, "J", "energy stored in openings and contact", " at end_time")     \
-    X(dissipated, SINK, "J", "energy dissipated by cracks", " until end_time")            \
-    X(dissipated_bending, PART, "J", "of that, the part of bending", "")                  \
-    X(created, SOURCE, "J", "energy that the method put in at onsets", " until end_time") \
-    X(work, LOAD, "J", "work of the loading", " until end_time")
+/* X(key, role, unit, meaning). The kinetic energy comes first; sums follow the order of the lines.
+ */
+#define FRACAS_EACH_ENERGY(X)                                                     \
+    X(kinetic, KINETIC, "J", "kinetic energy")                                    \
+    X(elastic, STORED, "J", "elastic energy of bulk and interfaces")              \
+    X(cohesive, STORED, "J", "energy stored in openings and contact")             \
+    X(dissipated, SINK, "J", "energy dissipated by opening cracks")               \
+    X(dissipated_bending, PART, "J", "part of bending in `dissipated`")           \
+    X(friction, SINK, "J", "energy dissipated by friction of closed cracks")      \
+    X(created, SOURCE, "J", "energy that the method put in at onsets and breaks") \
+    X(work, LOAD, "J", "work of the loading")
 
-#define FRACAS_ENERGY_ONE(key, role, unit, meaning, ending) +1
+#define FRACAS_ENERGY_ONE(key, role, unit, meaning) +1
 enum { FRACAS_ENERGIES = FRACAS_EACH_ENERGY(FRACAS_ENERGY_ONE) };
 
 /* Members of a struct: each energy as `key`, and as energy[i] with i in the table's order [J]. */
-#define FRACAS_ENERGY_MEMBER(key, role, unit, meaning, ending) double key;
+#define FRACAS_ENERGY_MEMBER(key, role, unit, meaning) double key;
 #define FRACAS_ENERGY_MEMBERS                        \
     union {                                          \
         struct {                                     \
@@ -48,7 +49,7 @@ enum { FRACAS_ENERGIES = FRACAS_EACH_ENERGY(FRACAS_ENERGY_ONE) };
 #define FRACAS_TERM_PART(key) ""
 #define FRACAS_TERM_SOURCE(key) " - " #key
 #define FRACAS_TERM_LOAD(key) " - " #key
-#define FRACAS_ENERGY_TERM(key, role, unit, meaning, ending) FRACAS_TERM_##role(key)
+#define FRACAS_ENERGY_TERM(key, role, unit, meaning) FRACAS_TERM_##role(key)
 #define FRACAS_ENERGY_BALANCE FRACAS_EACH_ENERGY(FRACAS_ENERGY_TERM) " - E(0)"
 
 typedef struct {
@@ -61,6 +62,9 @@ extern const fracas_energy_descriptor fracas_energies[FRACAS_ENERGIES];
 
 /* Sum of the energies with role KINETIC, STORED or SINK, from line `first` on [J]. */
 double fracas_energy_held(const double energy[FRACAS_ENERGIES], int first);
+
+/* Sum of the sinks [J]: energy lost so far. */
+double fracas_energy_lost(const double energy[FRACAS_ENERGIES]);
 
 /* residual = held - sources - load - initial [J], with held = fracas_energy_held(energy, 0)
  * (bar.14) */

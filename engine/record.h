@@ -24,7 +24,7 @@ typedef struct {
     double mass; /* kg */
     double size; /* m: length in 1D, sqrt(area) in 2D */
     int64_t elements;
-    int64_t dust; /* 1 if so few elements (one in 1D) make it that the mesh decides its size */
+    int64_t dust;       /* 1 for too few elements (one in 1D): the mesh decides its size */
     double position[3]; /* m, centre of mass at end_time */
     double velocity[3]; /* m/s, of the centre of mass with the background, half a step later */
     double angular_momentum[3]; /* kg m2/s, about the centre of mass */

@@ -21,7 +21,7 @@ static const fracas_fields band_of_energy = FRACAS_FIELDS(band_fields);
      "energy over realizations",              \
      FRACAS_BAND_##key * sizeof(fracas_band), \
      &band_of_energy},
-#define BAND_FIELD(key, role, unit, meaning, ending) FRACAS_HELD(BAND, key, role)
+#define BAND_FIELD(key, role, unit, meaning) FRACAS_HELD(BAND, key, role)
 static const fracas_field energy_fields[] = {FRACAS_EACH_ENERGY(BAND_FIELD)};
 const fracas_fields fracas_energy_fields = FRACAS_FIELDS(energy_fields);
 
@@ -79,7 +79,7 @@ static void take_in(const fracas_record *record, fracas_bands_collector *of)
         while (row + 1 < record->nhistory && record->history[row].time < bands->time[j]) row++;
         const fracas_history_row *now = &record->history[row];
 #define VALUE(key) now->key,
-#define BAND_VALUE(key, role, unit, meaning, ending) FRACAS_HELD(VALUE, key, role)
+#define BAND_VALUE(key, role, unit, meaning) FRACAS_HELD(VALUE, key, role)
         const double energy[] = {FRACAS_EACH_ENERGY(BAND_VALUE)};
         if (now->time >= bands->time[j]) bands->running[j]++;
         for (int e = 0; e < FRACAS_NBANDS; e++) {

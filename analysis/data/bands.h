@@ -24,8 +24,7 @@
 #define FRACAS_HELD(X, key, role) FRACAS_HELD_##role(X, key)
 
 #define FRACAS_BAND_NAME(key) FRACAS_BAND_##key,
-#define FRACAS_BAND_ENUMERATOR(key, role, unit, meaning, ending) \
-    FRACAS_HELD(FRACAS_BAND_NAME, key, role)
+#define FRACAS_BAND_ENUMERATOR(key, role, unit, meaning) FRACAS_HELD(FRACAS_BAND_NAME, key, role)
 /* FRACAS_BAND_kinetic, ... */
 typedef enum { FRACAS_EACH_ENERGY(FRACAS_BAND_ENUMERATOR) FRACAS_NBANDS } fracas_energy;
 

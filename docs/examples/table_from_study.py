@@ -104,7 +104,7 @@ def fracture_energy_of(point, p):
 
 def drift(row, of):
     """Largest |residual| over the run / largest energy at the end; how many realizations have more than 1 % of it."""
-    largest = np.maximum.reduce([of["kinetic"], of["elastic"] + of["cohesive"] + of["dissipated"], np.abs(of["work"])])
+    largest = np.maximum.reduce([of["kinetic"], of["elastic"] + of["cohesive"] + of["dissipated"] + of["friction"], np.abs(of["work"])])
     drifts = of["residual"][largest > 0] / largest[largest > 0]
     row["drift"] = drifts.max() if len(drifts) else math.nan
     row["drifted"] = (drifts > 0.01).sum()

@@ -28,7 +28,7 @@ struct fracas_model {
     double time_step;     /* s */
 };
 
-#define FRACAS_ENERGY_LANES(key, role, unit, meaning, ending) double key[FRACAS_LANES_MAX];
+#define FRACAS_ENERGY_LANES(key, role, unit, meaning) double key[FRACAS_LANES_MAX];
 
 /* One step of a batch, and the sums of its lanes so far. Arrays are [lane]. */
 typedef struct {
@@ -46,8 +46,8 @@ typedef struct {
     /* in, out: the time step that will follow: the model's, unless the formulation refines it */
     double next[FRACAS_LANES_MAX];
     /* out: energies [J] at this time, each as `key` and as energy[i] (engine/energies.h). `created`
-     * accumulates; `work` is the load's work since the step before, beside its `power` [W] now.
-     * A body without bending leaves dissipated_bending 0. */
+     * and `friction` accumulate; `work` is the load's work since the step before, beside its
+     * `power` [W] now. A body without bending leaves dissipated_bending 0. */
     union {
         struct {
             FRACAS_EACH_ENERGY(FRACAS_ENERGY_LANES)
@@ -58,9 +58,8 @@ typedef struct {
     /* of the formulation's own: power of the drive at the step before, at the velocities after it
      * [W] */
     double driven[FRACAS_LANES_MAX];
-    /* accumulated: energy that friction dissipates [J], counts of interfaces, time of the first
-     * onset [s, NaN] */
-    double rubbed[FRACAS_LANES_MAX], first_onset[FRACAS_LANES_MAX];
+    /* accumulated: counts of interfaces, time of the first onset [s, NaN] */
+    double first_onset[FRACAS_LANES_MAX];
     int64_t cracked[FRACAS_LANES_MAX], broken[FRACAS_LANES_MAX];
 } fracas_step;
 

@@ -139,7 +139,7 @@ static bool is_over(fracas_batch *batch, size_t l, fracas_outcome *outcome)
     const fracas_ledger *ledger = &lane->ledger;
     const fracas_progress progress = {.time = step->time[l],
                                       .elastic = ledger->elastic,
-                                      .dissipated = ledger->dissipated,
+                                      .dissipated = fracas_energy_lost(ledger->energy),
                                       .cracked = step->cracked[l],
                                       .broken = step->broken[l]};
     *outcome = isfinite(ledger->residual) ? FRACAS_ENERGY_DRIFT : FRACAS_NONFINITE;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A batch step by step: what fracas_batch_run is made of, for the verification tests and
- * benchmarks, which look at the state between steps. */
+/* A batch step by step, for verification tests and benchmarks, which look at the state between
+ * steps; fracas_batch_run does the same to the end. */
 #ifndef FRACAS_ENGINE_SOLVER_BATCH_H
 #define FRACAS_ENGINE_SOLVER_BATCH_H
 
@@ -33,8 +33,8 @@ struct fracas_batch {
  * step. */
 FRACAS_MUST_USE fracas_err fracas_batch_begin(fracas_batch *batch);
 
-/* Advances all lanes by one step and brings ledgers, histories and stop rules up to date; a lane
- * that is over leaves its record and runs no further. *running: lanes left. */
+/* Advances all lanes by one step and brings ledgers, histories and stop rules up to date. A
+ * finished lane leaves its record and stops. *running: lanes left. */
 FRACAS_MUST_USE fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record,
                                              size_t *running);
 

@@ -16,7 +16,7 @@ typedef struct {
 } fracas_history_entry;
 
 typedef struct {
-    int64_t intervals;           /* of time.end; 0: events only */
+    int64_t intervals;           /* equal ones of time.end; 0: events only */
     double end;                  /* s */
     int64_t next;                /* interval whose end is waited for */
     fracas_history_entry *entry; /* at equal intervals, in order */

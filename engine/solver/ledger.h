@@ -18,7 +18,7 @@ typedef struct {
 
 /* Takes the energies of `lane` at a step, with
  *   work_n = work_{n-1} + dt (P_{n-1} + P_n)/2 + W_n                                     (bar.13)
- * where W_n is the work that the step itself reports, and the residual of fracas_energy_residual.
+ * with the step's own work W_n, and the residual of fracas_energy_residual.
  * `first`: the ledger starts with this step. */
 void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int lane, bool first);
 

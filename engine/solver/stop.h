@@ -19,7 +19,7 @@ typedef struct {
     bool peaked;             /* it has fallen since */
 } fracas_stop;
 
-/* What a rule looks at. */
+/* Input of a rule. */
 typedef struct {
     double time, elastic, dissipated; /* s, J */
     int64_t cracked, broken;
@@ -30,8 +30,8 @@ typedef struct {
  * `settled`: armed by the first onset; over when for `quiet` seconds no interface cracked or broke
  * and the dissipated energy D grew by at most quiet_fraction D; at `end` at the latest, with
  * TIME_LIMIT if armed. `peak-multiple`: over at `multiple` times the time of the first peak of the
- * elastic energy: a maximum that it has fallen from by more than `drop` of it; at `end` at the
- * latest, with TIME_LIMIT if something has cracked. */
+ * elastic energy, a maximum with a fall by more than `drop` of it behind; at `end` at the latest,
+ * with TIME_LIMIT if something has cracked. */
 bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now,
                        fracas_outcome *outcome);
 

@@ -71,7 +71,7 @@ for p, point in enumerate(summary["points"]):
         begin, end = history["offset"][used], history["offset"][used + 1]
         place = [b + np.searchsorted(history["time"][b:e], time) for b, e in zip(begin, end)]
         assert int(line["running"]) == sum(at < e for at, e in zip(place, end))
-        for name in ("kinetic", "elastic", "cohesive", "dissipated"):
+        for name in ("kinetic", "elastic", "cohesive", "dissipated", "friction"):
             value = history[name][np.minimum(place, end - 1)]
             ends = (value.min(), value.max()) if len(used) < 20 else np.quantile(value, (0.05, 0.95))
             for which, expected in zip(("mean", "low", "high"), (value.mean(), *ends)):  # sums of both signs, and interpolation
@@ -334,9 +334,9 @@ for p in range(len(rows)):
         assert not of or int(of[0]["realizations"]) < 2
         continue
     head, lines = data(f"bands-point-{p}")
-    assert len(lines) == 4 * len(of) and {line[2] for line in lines} == {"band"}
+    assert len(lines) == 5 * len(of) and {line[2] for line in lines} == {"band"}
     second, joule = unit_of(head[3], "s"), unit_of(head[4], "J")
-    for e, name in enumerate(("kinetic", "elastic", "cohesive", "dissipated")):
+    for e, name in enumerate(("kinetic", "elastic", "cohesive", "dissipated", "friction")):
         start = float(of[0]["kinetic.mean"]) if name == "kinetic" and float(of[0]["time"]) == 0 else 0
         for line, row in zip(lines[e * len(of):], of):
             assert line[1] == name + (" - start" if start > 0 else "")

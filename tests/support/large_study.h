@@ -137,8 +137,8 @@ static inline bool large_record(const large_study *study, size_t p, int64_t repl
     record->mass = 2750 * 1e-6 * 2 * M_PI * 8e-3;
     record->kinetic = record->work = 0.5 * record->mass * speed * speed;
     record->dissipated = 1e-4 * (double)record->fragments * (1 + 0.02 * large_next(&state));
-    record->elastic = record->cohesive = record->created = record->dissipated_bending =
-        record->residual_end = 0;
+    record->elastic = record->cohesive = record->friction = record->created =
+        record->dissipated_bending = record->residual_end = 0;
     record->residual = 1e-5 * record->dissipated;
     for (int i = 0; i < 3; i++) record->momentum[i] = 0;
     return large_fragments(study, speed, &state, record) && large_history(record);

@@ -119,7 +119,7 @@ static inline void evaluate(fracas_batch *batch, const double *u, shell_answer *
     step->drift[0] = 0;
     step->kick[0] = 1;
     const double created = step->created[0], bending = step->dissipated_bending[0],
-                 rubbed = step->rubbed[0];
+                 rubbed = step->friction[0];
     model->formulation->advance(model, step);
     for (size_t i = 0; i < unknowns_of(model); i++)
         answer->force[i] = node_mass(model, i / SHELL_UNKNOWNS, i % SHELL_UNKNOWNS / 3) *
@@ -129,7 +129,7 @@ static inline void evaluate(fracas_batch *batch, const double *u, shell_answer *
     answer->dissipated = step->dissipated[0];
     answer->created = step->created[0] - created;
     answer->bending = step->dissipated_bending[0] - bending;
-    answer->rubbed = step->rubbed[0] - rubbed;
+    answer->rubbed = step->friction[0] - rubbed;
 }
 
 /* As evaluate, but nothing of the state advances. */

@@ -115,7 +115,7 @@ static inline void sample_record(size_t point, int64_t replica, size_t most, fra
     fracas_record_init(record);
     record->outcome = sample_count(&state, FRACAS_NOUTCOMES);
     if (record->outcome == FRACAS_FAILED) return;
-    sample_reals(&state, &record->onset_time, 13); /* onset_time to residual_end lie in a row */
+    sample_reals(&state, &record->onset_time, FRACAS_ENERGIES + 6); /* to residual_end, in a row */
     sample_reals(&state, record->momentum, 3);
     record->nfragment = record->outcome == FRACAS_INTACT ? 1 : sample_bits(&state) % (most + 1);
     record->nhistory = sample_bits(&state) % (most + 1);
@@ -140,7 +140,7 @@ static inline void sample_record(size_t point, int64_t replica, size_t most, fra
         sample_reals(&state, f->spin, 3);
     }
     for (size_t i = 0; i < record->nhistory; i++) {
-        sample_reals(&state, &record->history[i].time, 9); /* time to residual lie in a row */
+        sample_reals(&state, &record->history[i].time, FRACAS_ENERGIES + 2); /* to residual */
         record->history[i].fragments = sample_count(&state, 1000);
         record->history[i].broken = sample_count(&state, 1000);
     }
@@ -160,13 +160,14 @@ static inline void sample_canonical(double *value, size_t count)
 /* The record as the store gives it back: NaNs in their one pattern. */
 static inline void sample_make_canonical(fracas_record *record)
 {
-    sample_canonical(&record->onset_time, 13);
+    sample_canonical(&record->onset_time, FRACAS_ENERGIES + 6);
     sample_canonical(record->momentum, 3);
     for (size_t i = 0; i < record->nfragment; i++) {
         sample_canonical(&record->fragment[i].mass, 2);
         sample_canonical(record->fragment[i].position, 12); /* to spin they lie in a row */
     }
-    for (size_t i = 0; i < record->nhistory; i++) sample_canonical(&record->history[i].time, 9);
+    for (size_t i = 0; i < record->nhistory; i++)
+        sample_canonical(&record->history[i].time, FRACAS_ENERGIES + 2);
     for (size_t i = 0; i < record->ninterface; i++)
         sample_canonical(&record->interface[i].strength, 4);
 }

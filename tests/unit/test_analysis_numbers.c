@@ -313,7 +313,7 @@ static void statistics_of_records(void **state)
         record.kinetic =
             4; /* largest energies: 5 dissipated, work 60, and kinetic, stored and dissipated 40 */
         record.elastic = i == 3 ? 36 : 0;
-        record.cohesive = 0;
+        record.cohesive = record.friction = 0;
         record.work = i == 2 ? -60 : 0;
         record.fragments = (int64_t)count[i];
         record.fragments_dust = outcome[i] == FRACAS_INTACT ? 0 : 1;

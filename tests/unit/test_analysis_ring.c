@@ -252,7 +252,7 @@ static void make_record(const void *context, size_t p, int64_t replica, fracas_r
     record->mass = 2750e-6 * 2 * M_PI * radius_of(p);
     record->dissipated = intact ? 0 : 1.2e-4 * (double)record->fragments;
     record->kinetic = record->mass * speed_of(p) * speed_of(p) / 2;
-    record->elastic = record->cohesive = record->created = record->work =
+    record->elastic = record->cohesive = record->friction = record->created = record->work =
         record->dissipated_bending = 0;
     double largest = fmax(record->kinetic, record->dissipated);
     record->residual = (p == 2 && (replica == 3 || replica == 4) ? 0.012 : 0.9e-4) * largest;

@@ -159,7 +159,7 @@ static void make_record(const truth *of, size_t p, int64_t replica, fracas_recor
     record->mass = 2750 * 1e-6 * 50e-3;
     record->dissipated = intact ? 0
                                 : 1.7e-4 * (double)record->fragments * (1 + 0.02 * next(&state));
-    record->dissipated_bending = 0;
+    record->dissipated_bending = record->friction = 0;
     record->created = 1e-3 * (p == 2 ? 14 : 1) * record->dissipated;
     record->residual = (p == 1 && of->endings ? 2e-3 : 2e-4) * record->dissipated *
                        (1 + (double)replica / 100);

@@ -138,6 +138,10 @@ static void the_ledger_adds_every_term(void **unused)
     step.drift[0] = 0;
     fracas_ledger_update(&ledger, &step, 0, false);
     assert_true(ledger.dissipated_bending == 100 && ledger.residual == 240 - 223 - 4.5 - 15);
+    step.friction[0] = 1024; /* a sink of its own */
+    fracas_ledger_update(&ledger, &step, 0, false);
+    assert_true(ledger.friction == 1024 && ledger.residual == 240 + 1024 - 223 - 4.5 - 15);
+    assert_true(fracas_energy_lost(ledger.energy) == 128 + 1024);
 }
 
 static void fragments_are_connected_elements(void **unused)

@@ -10,15 +10,21 @@
 #define OF(member) offsetof(fracas_stored_realization, member)
 
 /* The columns of an energy, in /realization and in /history. */
-#define AT_END(key, role, unit, meaning, ending) \
-    {"/realization/" #key, FRACAS_FLOAT64, 1, unit, meaning ending, OF(record.key)},
-#define SO_FAR(key, role, unit, meaning, ending) \
-    {"/history/" #key,                           \
-     FRACAS_FLOAT64,                             \
-     1,                                          \
-     unit,                                       \
-     meaning SO_FAR_##role,                      \
+#define AT_END(key, role, unit, meaning) \
+    {"/realization/" #key, FRACAS_FLOAT64, 1, unit, meaning AT_END_##role, OF(record.key)},
+#define SO_FAR(key, role, unit, meaning) \
+    {"/history/" #key,                   \
+     FRACAS_FLOAT64,                     \
+     1,                                  \
+     unit,                               \
+     meaning SO_FAR_##role,              \
      offsetof(fracas_history_row, key)},
+#define AT_END_KINETIC " at end_time"
+#define AT_END_STORED " at end_time"
+#define AT_END_SINK " until end_time"
+#define AT_END_PART ""
+#define AT_END_SOURCE " until end_time"
+#define AT_END_LOAD " until end_time"
 #define SO_FAR_KINETIC ""
 #define SO_FAR_STORED ""
 #define SO_FAR_SINK " so far"

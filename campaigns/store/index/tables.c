@@ -110,9 +110,9 @@ static void print_tables(FILE *out)
 
 void fracas_study_reference(FILE *out)
 {
-    fputs("<!-- datasets -->\n", out);
+    fputs("<!-- generated: datasets -->\n", out);
     fracas_schema_reference(out);
-    fputs("<!-- end of datasets -->\n\n<!-- index -->\n", out);
+    fputs("<!-- end of generated -->\n\n<!-- generated: index -->\n", out);
     print_tables(out);
-    fputs("<!-- end of index -->\n", out);
+    fputs("<!-- end of generated -->\n", out);
 }

@@ -67,7 +67,7 @@ LANES_FUNCTION void surface_crack(surface_context *c, int order, int law, size_t
             parts = lanes_or(parts, breaks[g * BODY_LAYERS + k]);
         }
     }
-    double *const sum[3] = {c->step->created + c->first, c->step->rubbed + c->first,
+    double *const sum[3] = {c->step->created + c->first, c->step->friction + c->first,
                             c->step->dissipated_bending + c->first};
     lanes_store(sum[0], lanes_load(sum[0]) + created);
     lanes_store(sum[1], lanes_load(sum[1]) + rubbed);
@@ -183,7 +183,7 @@ LANES_FUNCTION void surface_totals(const surface_context *c)
     lanes_store(step->kinetic + first, half * c->kinetic);
     lanes_store(step->elastic + first, half * (c->strain_energy + c->flux));
     lanes_store(step->cohesive + first, half * c->stored);
-    lanes_store(step->dissipated + first, c->dissipated + lanes_load(step->rubbed + first));
+    lanes_store(step->dissipated + first, c->dissipated);
     lanes_store(step->power + first, power);
     lanes_store(step->work + first, work);
 }
