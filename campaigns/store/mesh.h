@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The mesh of a surface as study.h5 keeps it: what the interfaces of a realization are, for
- * pictures. Lengths in m. */
+/* The mesh of a surface in study.h5, with the interfaces of its realizations, for pictures. Lengths
+ * in m. */
 #ifndef FRACAS_CAMPAIGNS_STORE_MESH_H
 #define FRACAS_CAMPAIGNS_STORE_MESH_H
 
@@ -46,8 +46,8 @@ void fracas_stored_mesh_clear(fracas_stored_mesh *mesh);
 /* True if every bit is the same. */
 bool fracas_stored_mesh_same(const fracas_stored_mesh *a, const fracas_stored_mesh *b);
 
-/* What is wrong with the numbers in it, NULL if nothing: nodes and elements that do not exist,
- * positions that are no numbers, edges that are not those of their elements. */
+/* The first fault of its numbers, NULL if there is none: missing nodes or elements, positions that
+ * are no numbers, edges of other elements. */
 const char *fracas_stored_mesh_fault(const fracas_stored_mesh *mesh);
 
 /* Where the meshes of a campaign's points come from. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The results of a study, complete or not: study.h5 where it is of everything, else what the
- * segments hold by now. */
+/* The results of a study, complete or partial: study.h5 if it has everything, else the segments so
+ * far. */
 #ifndef FRACAS_CAMPAIGNS_STORE_RESULTS_H
 #define FRACAS_CAMPAIGNS_STORE_RESULTS_H
 
@@ -9,11 +9,13 @@
 typedef struct fracas_results fracas_results;
 
 /* Opens the results of STUDY, whose campaign (STUDY/campaign.yaml) has this hash and this table,
- * which must outlive them; nothing is written, and a run may be computing the study. In this order:
- *   study.h5, if it is of this campaign, has the size that its merge left, and the index has every
- * realization done or failed for good; the segments that the index names: the realizations that are
- * done by now, as one look at the index has them; study.h5, if it is of this campaign and the index
- * is lost or damaged: fracas_results_note says so. FRACAS_INTERRUPTED if no realization is done
+ * which must outlive them; nothing is written, and a run may be computing the study. The first of
+ * these is taken:
+ * - study.h5, if it is of this campaign and has the size in its seal, and the index has no
+ *   realization left to compute;
+ * - the segments in the index, with the realizations done so far, read from it at once;
+ * - study.h5 of this campaign beside a lost or damaged index: fracas_results_note says so.
+ * FRACAS_INTERRUPTED if no realization is done
  * yet. FRACAS_IN_USE if the index cannot be read while a run has it (network filesystems).
  * FRACAS_DAMAGED, saying how to go on, if there is neither a study.h5 of this campaign nor an
  * index. Both NULL: study.h5 as it is, whatever the index says; FRACAS_DAMAGED if it is not there.
@@ -23,21 +25,21 @@ FRACAS_MUST_USE fracas_err fracas_results_open(const char *study, const fracas_h
                                                fracas_results **results);
 void fracas_results_close(fracas_results *results); /* NULL is allowed */
 
-/* True if they are from segments: realizations may be missing, and there are no meshes. Of NULL, no
- * results at all, this and the three below with a count of what is amiss say that nothing is. */
+/* True if they are from segments: realizations may be missing, and there are no meshes. NULL stands
+ * for no results: this and the functions below that count flaws then count none. */
 bool fracas_results_partial(const fracas_results *results);
-/* Of partial ones: the campaign's, with seed, history, interfaces and program version of the index;
- * not complete. */
+/* The header; of partial results with the hash of the campaign, seed, history, interfaces and
+ * program version of the index, not complete. */
 const fracas_file_header *fracas_results_header(const fracas_results *results);
-/* Of partial ones: the campaign's table, with the replicas that each point has been given by now
- * where a rule decides. */
+/* The table of points; of partial results the campaign's, with the replicas given so far where a
+ * rule decides. */
 const fracas_point_table *fracas_results_points(const fracas_results *results);
-/* Realizations that are there, rows 0 to this - 1: those done and those FAILED, in plan order. */
+/* Number of rows, done or FAILED realizations in plan order. */
 size_t fracas_results_realizations(const fracas_results *results);
 
-/* Realization in a row, as fracas_reader_record has it; one that failed is an empty record of
- * outcome FAILED. FRACAS_DAMAGED if its segment is missing or damaged. Of partial ones dear where
- * the row before was of another segment. */
+/* Realization in a row, as fracas_reader_record; a failed one is an empty record of outcome FAILED.
+ * FRACAS_DAMAGED if its segment is missing or damaged. Slow if the row before was in another
+ * segment. */
 FRACAS_MUST_USE fracas_err fracas_results_record(fracas_results *results, size_t row,
                                                  unsigned parts, size_t *point, int64_t *replica,
                                                  fracas_record *record);
@@ -50,13 +52,13 @@ FRACAS_MUST_USE fracas_err fracas_results_walk(fracas_results *results, unsigned
                                                                    fracas_result *result),
                                                void *context);
 
-/* Realizations of a point that are done but could not be read so far. */
+/* Done realizations of a point without a readable record so far. */
 int64_t fracas_results_missing(const fracas_results *results, size_t point);
 /* False if a rule decides the replicas of the point and has not stopped. */
 bool fracas_results_decided(const fracas_results *results, size_t point);
 
-/* What a reader must know of how the results were read: damaged segments met so far, a lost index.
- * Text of note 0 to count - 1. */
+/* Notes for readers of the results: damaged segments met so far, a lost index. Text of note 0 to
+ * count - 1. */
 size_t fracas_results_notes(const fracas_results *results);
 const char *fracas_results_note(const fracas_results *results, size_t note);
 

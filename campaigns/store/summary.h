@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The summary of a realization: the values of its record that the index keeps beside the place of
- * its bytes, for counts, decisions and comparisons without opening a segment.
+/* The summary of a realization: values of its record in the index, beside the place of its bytes,
+ * for counts, decisions and comparisons without opening a segment.
  *
  * A new value is one line of FRACAS_EACH_SUMMARY. The table makes the struct, its comparison, the
  * columns of `realization` in index.sqlite with their statements, and docs/formats/study.md. */

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Looking after a study: the index made anew, what nobody needs removed, two studies made one,
- * failures forgotten.
+/* Upkeep of a study: index made anew, needless files removed, two studies joined, failures retried.
  *
- * The caller holds the lock of every study that is named, and has opened the indexes that are
- * given. Whatever kills a command, the study is as before or as after, or the same command goes on.
+ * The caller holds the lock of every study, and has opened its index. After a death at any moment
+ * the study is as before or as after, or the same command goes on.
  */
 #ifndef FRACAS_CAMPAIGNS_STORE_UPKEEP_H
 #define FRACAS_CAMPAIGNS_STORE_UPKEEP_H
 
 #include "campaigns/store/store.h"
 
-/* What was done, for people: calls `line` with each, without its end. */
+/* Calls `line` with each line for people, without its end. */
 typedef struct {
     void (*line)(void *context, const char *text);
     void *context;
@@ -35,15 +34,14 @@ FRACAS_MUST_USE fracas_err fracas_study_reindex(const char *study, const fracas_
                                                 const fracas_point_table *table,
                                                 const fracas_said *said);
 
-/* Makes the realizations that failed for good (of `point`, NULL: of all) planned ones, with no
- * attempts behind them, and forgets the decisions that were made with them; one transaction,
- * durable on return. *rows counts them. */
+/* Plans the failed realizations (of `point`, NULL: of all) again, with 0 attempts, and deletes the
+ * decisions made with them; one transaction, durable on return. *rows counts them. */
 FRACAS_MUST_USE fracas_err fracas_index_retry(fracas_index *index, const fracas_hash *point,
                                               int64_t *rows);
 
-/* ---- what nobody needs ---- */
+/* ---- needless files ---- */
 
-/* One file or folder that fracas_study_collect came by. */
+/* One file or folder on the way of fracas_study_collect. */
 typedef struct {
     const char *path; /* STUDY/... */
     uint64_t bytes;
@@ -52,41 +50,40 @@ typedef struct {
 } fracas_collected;
 
 typedef struct {
-    const char *const *attachment; /* digests of the files that the campaign names */
+    const char *const *attachment; /* digests of the campaign's files */
     size_t nattachments;
-    bool dry; /* only says what it would remove */
+    bool dry; /* removes nothing, only calls `found` */
     void (*found)(void *context, const fracas_collected *item);
     void *context;
 } fracas_collect_options;
 
-/* Removes temporaries, what interrupted commands left, segments that no row of the index names any
- * more and attachments that no one names; gives free pages of the index back to the system. What it
- * does not know it leaves; `found` is called for both. A segment leaves the index before its file
- * goes: killed in between, it is found and known again. *freed: bytes. */
+/* Removes temporaries, leftovers of interrupted commands, segments without a row in the index and
+ * attachments without a name in the campaign; gives free pages of the index back to the system.
+ * Unknown files stay; `found` is called for both. A segment leaves the index before its file goes,
+ * so that a death in between leaves a file to adopt. *freed: bytes. */
 FRACAS_MUST_USE fracas_err fracas_study_collect(const char *study, fracas_index *index,
                                                 const fracas_collect_options *options,
                                                 uint64_t *freed);
 
 /* ---- two studies of one campaign ---- */
 
-/* Reads every record of `from` (those of `table`, as many replicas as it has there) with the
- * checksums of their segments, and compares those that `into` has, too: FRACAS_DAMAGED names the
- * first realization that differs in any bit, or a damaged segment. *both counts the compared.
- * Writes nothing. */
+/* Reads every record of `from` in `table` with the checksums of their segments, and compares the
+ * records in both studies: FRACAS_DAMAGED names the first realization with a different bit, or a
+ * damaged segment. *both counts the compared ones. Writes nothing. */
 FRACAS_MUST_USE fracas_err fracas_study_compare(const char *into, fracas_index *into_index,
                                                 const char *from, fracas_index *from_index,
                                                 const fracas_file_header *header,
                                                 const fracas_point_table *table, int64_t *both);
 
 typedef struct {
-    int64_t realizations; /* that `into` did not have done */
+    int64_t realizations; /* new in `into` */
     int64_t segments;     /* taken over */
-    int64_t failed;       /* realizations that are failed in `from` and were planned in `into` */
+    int64_t failed;       /* realizations failed in `from`, planned in `into` */
 } fracas_joined;
 
-/* Takes the segments of `from` with realizations that `into` has not done (all planned there) over
- * into it, by link or by copy, and their rows; then the failures of what is not done there. Only
- * after fracas_study_compare. `table` is that of `from`. */
+/* Takes segments of `from` with realizations not done in `into` (all planned there) over into it,
+ * by link or by copy, and their rows; then the failures of realizations not done there. Only after
+ * fracas_study_compare. `table`: of `from`. */
 FRACAS_MUST_USE fracas_err fracas_study_join(const char *into, fracas_index *into_index,
                                              const char *from, fracas_index *from_index,
                                              const fracas_point_table *table,

@@ -21,7 +21,7 @@ FRACAS_MUST_USE fracas_err fracas_disk_each(const char *folder,
                                             fracas_err (*visit)(void *context, const char *path,
                                                                 const char *name),
                                             void *context);
-/* True for a name that does not begin with a dot and ends with this. */
+/* True for a name with this end and without a dot at its beginning. */
 bool fracas_disk_ends(const char *name, const char *end);
 
 /* Makes the names in the folder of `path` durable. */
@@ -34,32 +34,30 @@ FRACAS_MUST_USE fracas_err fracas_disk_seal_first(int fd, const char *path, uint
 /* The same of a closed one; FRACAS_DAMAGED if it is not there. */
 FRACAS_MUST_USE fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal);
 
-/* FRACAS_DAMAGED, with sizes and checksums, unless the file is there and is what the seal says. */
+/* FRACAS_DAMAGED, with sizes and checksums, unless the file is there and fits the seal. */
 FRACAS_MUST_USE fracas_err fracas_disk_check_seal(const char *path, const fracas_file_seal *wanted);
-/* Renames a damaged FOLDER/NAME.h5 to FOLDER/NAME.damaged, durable on return; *aside is that, freed
- * by the caller. One that is not there is no error. */
+/* Renames a damaged FOLDER/NAME.h5 to FOLDER/NAME.damaged, durable on return; *aside is the new
+ * path, freed by the caller. A missing file is no error. */
 FRACAS_MUST_USE fracas_err fracas_disk_set_aside(const char *path, char **aside);
 
 /* True if `path` is there and has so many bytes. */
 FRACAS_MUST_USE fracas_err fracas_disk_has_size(const char *path, uint64_t bytes, bool *has);
 
-/* True if `path` lies on a filesystem of this machine, false on a network one or one that we do not
- * know. */
+/* True if `path` lies on a known filesystem of this machine, false on a network one or another. */
 FRACAS_MUST_USE fracas_err fracas_disk_is_local(const char *path, bool *local);
 
 /* FRACAS_ENVIRONMENT: "cannot VERB PATH: reason" from errno. */
 FRACAS_MUST_USE fracas_err fracas_disk_fail(const char *verb, const char *path);
 
-/* Segments end with a seal of their own, so that one that no index knows can be checked before HDF5
- * opens it, which a damaged file could crash: FRACAS_OWN_SEAL bytes behind the last of HDF5, which
- * does not look there. They are a mark, then the number of bytes before them and the checksum of
- * those (docs/formats/study.md). */
+/* A segment ends with a seal of its own: FRACAS_OWN_SEAL bytes behind the last of HDF5, which does
+ * not look there. A segment unknown to the index is checked by it before HDF5 opens the file, which
+ * could crash on damage. The seal is a mark, the number of bytes before it, and their checksum
+ * (docs/formats/study.md). */
 enum { FRACAS_OWN_SEAL = 32 };
-/* Appends it to what the descriptor holds. */
+/* Appends it to an open file. */
 FRACAS_MUST_USE fracas_err fracas_disk_append_seal(int fd, const char *path);
-/* FRACAS_DAMAGED, naming the file, if the seal at its end is not of the bytes before it, or if
- * there is none and its size is not what HDF5 noted in its first bytes: cut short, or not of HDF5.
- * A whole file without a seal passes: an older program wrote it. */
+/* FRACAS_DAMAGED, naming the file, if its seal does not fit the bytes before it. A file without a
+ * seal passes if it has the size that HDF5 noted in its first bytes. */
 FRACAS_MUST_USE fracas_err fracas_disk_check_own_seal(const char *path);
 
 #endif

@@ -22,7 +22,7 @@ static herr_t look_at_error(unsigned n, const H5E_error2_t *error, void *context
     if (error->maj_num == H5E_RESOURCE || error->min_num == H5E_NOSPACE ||
         error->min_num == H5E_CANTALLOC)
         walk->memory = true;
-    /* What its own default properties lack, memory for them lacked; no file has a say in them. */
+    /* Default properties miss only for want of memory; no file has a say in them. */
     if (n == 0 && error->maj_num == H5E_PLIST && error->min_num == H5E_NOTFOUND)
         walk->memory = true;
     return 0;

@@ -29,14 +29,14 @@ typedef struct {
 
 #define FRACAS_H5_CLOSED ((fracas_h5){.id = H5I_INVALID_HID, .driver = H5I_INVALID_HID, .fd = -1})
 
-/* Creates `name` (or empties it); `path` is what messages call it. fracas_h5_close after an error,
+/* Creates `name` (or empties it); `path` is its name in messages. fracas_h5_close after an error,
  * too. */
 FRACAS_MUST_USE fracas_err fracas_h5_create(fracas_h5 *h5, const char *name, const char *path);
 /* Opens `path` to read. FRACAS_DAMAGED if it is not there or no HDF5 file. */
 FRACAS_MUST_USE fracas_err fracas_h5_open(fracas_h5 *h5, const char *path);
 /* Closes HDF5's side, so that every byte is handed to the system; the descriptor stays open. */
 FRACAS_MUST_USE fracas_err fracas_h5_flush_close(fracas_h5 *h5);
-/* Closes what is open; what was written and not flushed is lost. */
+/* Closes the file; bytes written but not flushed are lost. */
 void fracas_h5_close(fracas_h5 *h5);
 
 /* Turns HDF5's error stack into our message about `what` (a dataset, an attribute):
@@ -73,7 +73,7 @@ FRACAS_MUST_USE fracas_err fracas_h5_text_width(const fracas_h5 *h5, const char 
 FRACAS_MUST_USE fracas_err fracas_h5_create_column(const fracas_h5 *h5,
                                                    const fracas_store_column *column, size_t chunk,
                                                    hid_t *dataset);
-/* FRACAS_DAMAGED unless type, shape, chunk and filters are what the schema says and the rows are in
+/* FRACAS_DAMAGED unless type, shape, chunk and filters are those of the schema and the rows are in
  * the file. */
 FRACAS_MUST_USE fracas_err fracas_h5_open_column(const fracas_h5 *h5,
                                                  const fracas_store_column *column, size_t chunk,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a record depends on beside its point and replica. The hash of a point does not hold it, so
- * files and the index are compared by it. Private to the store. */
+/* Identity of a study: values on which records depend beside their point and replica. The hash of a
+ * point does not hold it, so files and the index are compared by it. Private to the store. */
 #ifndef FRACAS_CAMPAIGNS_STORE_FILE_IDENTITY_H
 #define FRACAS_CAMPAIGNS_STORE_FILE_IDENTITY_H
 

@@ -20,7 +20,7 @@ struct fracas_reader {
     fracas_file_header header;
     fracas_stored_table points;
     bool decisions, meshes; /* has a group /decision, /mesh */
-    unsigned parts;         /* of records, that it was opened for */
+    unsigned parts;         /* parts of records it was opened for */
     set_reader set[FRACAS_NSETS];
 };
 

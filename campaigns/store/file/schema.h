@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The schema of segments and studies: one const table that writer, reader, verification and
- * docs/formats/study.md are driven by. For the store alone, and for analysis/export, whose tables
- * have the same columns. */
+/* The schema of segments and studies: one const table for writer, reader, verification and
+ * docs/formats/study.md. For the store alone, and for analysis/export, whose tables have the same
+ * columns. */
 #ifndef FRACAS_CAMPAIGNS_STORE_FILE_SCHEMA_H
 #define FRACAS_CAMPAIGNS_STORE_FILE_SCHEMA_H
 
@@ -27,10 +27,10 @@ typedef struct {
     size_t width;     /* values in a row; of FRACAS_TEXT: bytes, padded with NUL */
     const char *unit; /* as UDUNITS-2 reads it; "" for text */
     const char *description;
-    size_t offset; /* of the row's first value in its struct in memory */
+    size_t offset; /* in memory: of the first value in the row's struct */
 } fracas_store_column;
 
-/* A set: datasets that grow together, row by row. */
+/* A set of datasets, which grow together, row by row. */
 typedef enum {
     FRACAS_SET_REALIZATION,
     FRACAS_SET_FRAGMENT_OFFSET,
@@ -40,7 +40,7 @@ typedef enum {
     FRACAS_SET_INTERFACE_OFFSET, /* this and the next only in files with interfaces */
     FRACAS_SET_INTERFACE,
     FRACAS_SET_DECISION,         /* only in a study.h5 with points whose replicas a rule decided */
-    FRACAS_SET_MESH_NODE_OFFSET, /* from here on only in a study.h5 that keeps meshes of surfaces */
+    FRACAS_SET_MESH_NODE_OFFSET, /* from here on only in a study.h5 with meshes of surfaces */
     FRACAS_SET_MESH_NODE,
     FRACAS_SET_MESH_ELEMENT_OFFSET,
     FRACAS_SET_MESH_ELEMENT,
@@ -51,7 +51,7 @@ typedef enum {
     FRACAS_NSETS
 } fracas_set_name;
 
-#define FRACAS_MAX_COLUMNS 32 /* of a set */
+#define FRACAS_MAX_COLUMNS 32 /* in a set */
 
 typedef struct {
     const fracas_store_column *column;
@@ -78,7 +78,7 @@ extern const fracas_store_column fracas_store_point_hash, fracas_store_point_rep
 size_t fracas_stored_size(const fracas_store_column *column);
 
 /* Puts `count` rows (structs of `row_size` bytes) into `stored`, NaNs in one bit pattern.
- * Returns the number of integers that do not fit the stored type. */
+ * Returns the number of integers too large for the stored type. */
 size_t fracas_rows_store(const fracas_store_column *column, const void *rows, size_t row_size,
                          size_t count, void *stored);
 /* The inverse. */

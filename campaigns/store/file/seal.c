@@ -57,7 +57,7 @@ static fracas_err damaged(const char *path, const char *why)
 static fracas_err check_end(int fd, const char *path, uint64_t bytes)
 {
     static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};
-    enum { END = 28 }; /* of the end's address, in superblocks of versions 2 and 3 */
+    enum { END = 28 }; /* offset of the end's address in superblocks of versions 2 and 3 */
     unsigned char start[END + 8];
     uint64_t end;
     size_t got;

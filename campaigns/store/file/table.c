@@ -96,7 +96,7 @@ fracas_err fracas_table_write(const fracas_h5 *h5, const fracas_point_table *tab
 
 /* ---- reading ---- */
 
-/* A whole column; `rows` is what it must have, SIZE_MAX for any number. *stored freed by the
+/* A whole column; `rows`: its number of rows, SIZE_MAX for any. *stored freed by the
  * caller. */
 static fracas_err read_column(const fracas_h5 *h5, const fracas_store_column *column, size_t *rows,
                               void **stored)

@@ -12,7 +12,7 @@ typedef struct {
     fracas_column *column;
     fracas_point_row *point;
     fracas_value *value; /* [point][column] */
-    char **text;         /* of each column: one block of texts, NULL if real */
+    char **text;         /* one block of texts a column, NULL if real */
 } fracas_stored_table;
 
 FRACAS_MUST_USE fracas_err fracas_table_write(const fracas_h5 *h5, const fracas_point_table *table);

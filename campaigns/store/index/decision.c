@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Decisions on the number of replicas, and what they are made of. */
+/* Decisions on the number of replicas, and the summaries they rest on. */
 #include "campaigns/store/index/index.h"
 
 #include <inttypes.h>

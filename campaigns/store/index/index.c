@@ -76,8 +76,8 @@ static const char *const sql_text[FRACAS_NSQL] = {
 
 /* ---- errors and statements ---- */
 
-/* What the system said to SQLite. Of a COMMIT that fails SQLite does not tell; errno is as it was
- * left then. */
+/* Error of the system behind SQLite's. SQLite has none for a failed COMMIT; errno is still set
+ * then. */
 static int system_reason(const fracas_index *index, int last)
 {
     const int told = index->db ? sqlite3_system_errno(index->db) : 0;
@@ -188,7 +188,7 @@ fracas_err fracas_index_end(fracas_index *index, fracas_err err)
 
 /* ---- opening ---- */
 
-/* Runs a pragma and compares the first value that it gives. */
+/* Runs a pragma and compares its first value. */
 static fracas_err pragma(fracas_index *index, const char *text, const char *wanted)
 {
     sqlite3_stmt *statement;
@@ -324,7 +324,7 @@ static fracas_err connect_to(fracas_index *index, const char *study, bool create
                : fracas_index_error(index, "open");
 }
 
-/* Counts the tables, and those that are called `meta`. */
+/* Counts the tables, and the ones called `meta`. */
 static fracas_err count_tables(fracas_index *index, int *all, int *meta)
 {
     static const char query[] = "SELECT count(*), count(CASE name WHEN 'meta' THEN 1 END) FROM "

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Inside the index: the database handle, its statements, and what recover, merge and verify ask of
- * it. */
+/* Inside the index: the database handle, its statements, and queries of recover, merge and verify.
+ */
 #ifndef FRACAS_CAMPAIGNS_STORE_INDEX_INDEX_H
 #define FRACAS_CAMPAIGNS_STORE_INDEX_INDEX_H
 
@@ -63,7 +63,7 @@ FRACAS_MUST_USE fracas_err fracas_index_error(const fracas_index *index, const c
  */
 FRACAS_MUST_USE fracas_err fracas_index_step(fracas_index *index, fracas_sql sql, bool *row);
 void fracas_index_reset(fracas_index *index, fracas_sql sql);
-/* Steps a statement that gives no rows, and resets it. */
+/* Steps a statement without rows, and resets it. */
 FRACAS_MUST_USE fracas_err fracas_index_do(fracas_index *index, fracas_sql sql);
 /* Binds argument `n` (from 1). */
 FRACAS_MUST_USE fracas_err fracas_index_bind(fracas_index *index, fracas_sql sql, int n,
@@ -76,7 +76,7 @@ FRACAS_MUST_USE fracas_err fracas_index_bind_text(fracas_index *index, fracas_sq
 /* The value under `key` in meta, cut to `size`; "" if there is none. */
 FRACAS_MUST_USE fracas_err fracas_index_read_meta(fracas_index *index, const char *key, char *value,
                                                   size_t size);
-/* What the study was begun with, as fracas_index_claim left it. */
+/* Identity of the study, as fracas_index_claim left it. */
 FRACAS_MUST_USE fracas_err fracas_index_identity(fracas_index *index, fracas_identity *identity);
 /* Keeps the seal of study.h5, durable on return; NULL takes it away. */
 FRACAS_MUST_USE fracas_err fracas_index_seal_study(fracas_index *index,
@@ -84,9 +84,9 @@ FRACAS_MUST_USE fracas_err fracas_index_seal_study(fracas_index *index,
 FRACAS_MUST_USE fracas_err fracas_index_study_seal(fracas_index *index, bool *sealed,
                                                    fracas_file_seal *seal);
 
-/* FRACAS_DAMAGED with the first thing that SQLite's quick_check finds. */
+/* FRACAS_DAMAGED with the first finding of SQLite's quick_check. */
 FRACAS_MUST_USE fracas_err fracas_index_quick_check(fracas_index *index);
-/* True for what the table `segment` takes as provenance. */
+/* True for JSON, which the table `segment` takes as provenance. */
 bool fracas_index_is_json(fracas_index *index, const char *text);
 FRACAS_MUST_USE fracas_err fracas_index_points(fracas_index *index, int64_t *points);
 
@@ -94,7 +94,7 @@ FRACAS_MUST_USE fracas_err fracas_index_points(fracas_index *index, int64_t *poi
 FRACAS_MUST_USE fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point,
                                                    int64_t *id);
 
-/* Plans the replicas of a point that are not there yet, within a transaction. */
+/* Plans the missing replicas of a point, within a transaction. */
 FRACAS_MUST_USE fracas_err fracas_index_plan_point(fracas_index *index,
                                                    const fracas_point_row *point);
 
@@ -107,12 +107,11 @@ typedef struct {
     fracas_summary summary;
 } fracas_place;
 
-/* The place in the row of a statement that selects FRACAS_PLACE_COLUMNS, the first of which is
- * column `first`. */
+/* The place in a row with FRACAS_PLACE_COLUMNS from column `first` on. */
 fracas_place fracas_place_read(sqlite3_stmt *row, int first);
 
 /* True if place and record agree: a flipped bit in the index, which SQLite does not see, gets no
- * further. `sized`: the record has its fragments, so that the mean size counts, too. */
+ * further. `sized`: the record has its fragments, and the mean size counts, too. */
 bool fracas_place_fits(const fracas_place *place, const fracas_record *record, bool sized);
 
 /* Visits the realizations of every segment by its id, in the order of their rows; *point is NULL
@@ -130,7 +129,7 @@ fracas_row_status fracas_index_status(const unsigned char *text);
 /* Value of a column, NaN for NULL. */
 double fracas_index_real(sqlite3_stmt *row, int column);
 
-/* What the index knows of a segment. */
+/* A segment in the index. */
 typedef struct {
     int64_t id;
     char *name;
@@ -153,7 +152,7 @@ const fracas_known_segment *fracas_segment_is_known(const fracas_known_segment *
 FRACAS_MUST_USE fracas_err fracas_segment_is_there(const char *study,
                                                    const fracas_known_segment *segment,
                                                    bool *there);
-/* FRACAS_DAMAGED, naming it, unless its every byte is what the index says. */
+/* FRACAS_DAMAGED, naming it, unless its bytes fit the checksum in the index. */
 FRACAS_MUST_USE fracas_err fracas_segment_check(const char *study,
                                                 const fracas_known_segment *segment);
 /* Turns the rows of these segments back to planned and forgets the segments; one transaction. *rows

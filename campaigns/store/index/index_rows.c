@@ -18,7 +18,7 @@ static const char *const status_text[] = {
     [FRACAS_FAILED_ROW] = "failed", [FRACAS_QUARANTINED] = "quarantined",
 };
 
-/* The tables' CHECK allows nothing else; what a flipped bit has made of a text is to be computed.
+/* The tables' CHECK allows nothing else; a text with a flipped bit counts as planned.
  */
 fracas_row_status fracas_index_status(const unsigned char *text)
 {
@@ -420,7 +420,7 @@ fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment, size
     if (!count) return FRACAS_OK;
     TRY(fracas_index_do(index, FRACAS_SQL_BEGIN));
     fracas_err err = FRACAS_OK;
-    /* Marked by a size that no file has, so that one scan of the realizations serves them all. */
+    /* Marked by an impossible size, so that one scan of the realizations serves them all. */
     for (size_t s = 0; !err && s < count; s++) {
         err = fracas_index_bind(index, FRACAS_SQL_SEGMENT_LOSE, 1, segment[s]);
         if (!err) err = fracas_index_do(index, FRACAS_SQL_SEGMENT_LOSE);

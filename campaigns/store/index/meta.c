@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The table `meta`: what the study is of, and the seal of study.h5. */
+/* The table `meta`: identity of the study, part of the campaign, seal of study.h5. */
 #include "campaigns/store/index/index.h"
 
 #include <inttypes.h>
@@ -34,7 +34,7 @@ static fracas_err write_meta(fracas_index *index, const char *key, const char *v
     return code == SQLITE_OK ? FRACAS_OK : fracas_index_error(index, "write `meta`");
 }
 
-/* ---- what the study is of ---- */
+/* ---- identity ---- */
 
 fracas_err fracas_index_identity(fracas_index *index, fracas_identity *identity)
 {
@@ -83,7 +83,7 @@ fracas_err fracas_index_part(fracas_index *index, int *part, int *parts)
     return FRACAS_OK;
 }
 
-/* ---- what SQLite says ---- */
+/* ---- SQLite ---- */
 
 const char *fracas_sqlite_version(void)
 {

@@ -13,12 +13,12 @@
 #define FRACAS_SQL_SET(key, type, value, meaning) ", " #key " = ?"
 #define FRACAS_SQL_UNSET(key, type, value, meaning) ", " #key " = NULL"
 
-/* The columns of a fracas_place, and what takes them away. */
+/* The columns of a fracas_place, and assignments to forget it. */
 #define FRACAS_PLACE_COLUMNS "status, segment, row" FRACAS_EACH_SUMMARY(FRACAS_SQL_NAME)
 #define FRACAS_UNSET_PLACE \
     "status = 'planned', segment = NULL, row = NULL" FRACAS_EACH_SUMMARY(FRACAS_SQL_UNSET)
 
-/* Prints the statements that create the tables that are not there. */
+/* Prints the statements that create missing tables. */
 void fracas_index_print_schema(FILE *out);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What nobody needs in a study: found, and removed. */
+/* Needless files of a study: found, and removed. */
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/query.h"
 #include "campaigns/store/upkeep.h"
@@ -17,7 +17,7 @@ typedef struct {
     const fracas_collect_options *options;
     fracas_known_segment *segment; /* by name */
     size_t nsegments;
-    int64_t *needless; /* ids of segments that no row names, ascending */
+    int64_t *needless; /* ids of segments without a row, ascending */
     size_t nneedless;
     uint64_t freed;
 } collection;
@@ -29,7 +29,7 @@ static bool starts_with(const char *name, const char *start)
     return strncmp(name, start, strlen(start)) == 0;
 }
 
-/* Says what becomes of a file, and removes it; an empty folder, too. */
+/* Reports the fate of a file or an empty folder, and removes it. */
 static fracas_err dispose(collection *c, const char *path, fate what, const char *why)
 {
     struct stat info;
@@ -63,7 +63,7 @@ static fracas_err each(collection *c, const char *folder,
     return fracas_disk_each(folder, judge_file, &(judging){c, judge});
 }
 
-/* ---- the study folder, and what a reindex left ---- */
+/* ---- the study folder, and the leftovers of a reindex ---- */
 
 static fate judge_nursery(const collection *c, const char *name, const char **why)
 {

@@ -17,7 +17,7 @@
 
 typedef struct {
     const char *into, *from;
-    fracas_index *index; /* of `into` */
+    fracas_index *index; /* `into`'s */
     fracas_segments *segments;
     const fracas_point_table *table;
     fracas_record record; /* as `into` has it */
@@ -85,9 +85,9 @@ fracas_err fracas_study_compare(const char *into, fracas_index *into_index, cons
 typedef struct {
     const char *into, *from;
     fracas_index *index, *theirs;
-    fracas_known_segment *segment; /* of `from`, by id */
+    fracas_known_segment *segment; /* `from`'s, by id */
     size_t nsegments;
-    int64_t id; /* of the segment that is looked at, and its rows */
+    int64_t id; /* the segment at hand, and its rows */
     fracas_segment_row *row;
     size_t nrows, room;
     fracas_joined *joined;
@@ -149,8 +149,8 @@ static fracas_err bring(const char *theirs, const fracas_file_seal *seal, const 
     return err ? err : fracas_disk_sync_folder(ours);
 }
 
-/* Its name in `into`: the same, or one that tells it from another segment there; *there: its bytes
- * are. */
+/* Its name in `into`: the same, or another beside a different segment; *there: its bytes are there
+ * already. */
 static fracas_err choose_name(const joining *j, const fracas_known_segment *segment, char **name,
                               char **path, bool *there)
 {
@@ -205,7 +205,7 @@ static fracas_err provenance_of(fracas_index *index, int64_t id, char **text)
     return err;
 }
 
-/* Decisions that counted this realization as failed. */
+/* Deletes the decisions with this realization as failed. */
 static fracas_err undecide(fracas_index *index, const fracas_segment_row *row)
 {
     sqlite3_stmt *statement;
@@ -220,7 +220,7 @@ static fracas_err undecide(fracas_index *index, const fracas_segment_row *row)
     return err;
 }
 
-/* Those rows that `into` has not done; where it has failed, study.h5 will change. */
+/* Counts the rows not done in `into`; where one failed there, study.h5 will change. */
 static fracas_err count_fresh(joining *j, int64_t *fresh)
 {
     *fresh = 0;

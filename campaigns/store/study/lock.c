@@ -20,10 +20,10 @@
 typedef struct {
     char host[257];
     char since[32]; /* UTC */
-    char boot[64];  /* of the kernel */
+    char boot[64];  /* the kernel's */
     char job[64];   /* SLURM_JOB_ID */
     long pid;
-    unsigned long long start; /* of the process, as /proc/PID/stat has it */
+    unsigned long long start; /* the process's, as in /proc/PID/stat */
     int restart;              /* SLURM_RESTART_COUNT: times that the job was requeued */
 } holder;
 
@@ -79,7 +79,7 @@ static holder this_process(void)
     return self;
 }
 
-/* "host=H pid=N since=T start=N boot=B job=J restart=N", "-" for what is not known; "H N" before
+/* "host=H pid=N since=T start=N boot=B job=J restart=N", "-" for an unknown value; "H N" before
  * there was more. */
 static bool parse(const char *text, holder *h)
 {
@@ -191,7 +191,7 @@ static fracas_err judge(const char *path, const holder *before, bool force)
         path, text);
 }
 
-/* Who has it has not signed it: it only looks, or is about to sign. That is over soon. */
+/* Who has it has not signed it: it only looks, or is about to sign. This ends soon. */
 static bool is_passing(int fd)
 {
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};

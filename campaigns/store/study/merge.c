@@ -59,8 +59,8 @@ static fracas_err append_meshes(const merging *m, const fracas_mesh_source *mesh
     return err;
 }
 
-/* After a merge that found damage. If that is in the bytes of segments, they are set aside and
- * FRACAS_INTERRUPTED says so; else it says what it said. */
+/* After a merge that found damage: sets damaged segments aside, and FRACAS_INTERRUPTED says so.
+ * Without any, the message of the merge stands. */
 static fracas_err plan_damaged_again(const char *study, fracas_index *index)
 {
     char *text = NULL, before[1024];

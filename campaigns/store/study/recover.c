@@ -25,7 +25,7 @@ static fracas_err remove_temporary(void *report, const char *path, const char *n
     return FRACAS_OK;
 }
 
-/* Removes what merges and workers have half written. */
+/* Removes half-written files of merges and workers. */
 static fracas_err sweep(const char *study, FILE *report)
 {
     char *folder;
@@ -48,7 +48,7 @@ fracas_err fracas_study_sweep(const char *study, char **report)
     return err;
 }
 
-/* ---- segments that the index knows, but the folder has not ---- */
+/* ---- lost segments ---- */
 
 fracas_err fracas_segment_is_there(const char *study, const fracas_known_segment *segment,
                                    bool *there)
@@ -69,7 +69,7 @@ fracas_err fracas_segment_check(const char *study, const fracas_known_segment *s
     return err;
 }
 
-/* Out of the way, but kept: nothing that was once a result is removed by itself. */
+/* Out of the way, but kept: no result is removed without a command. */
 static fracas_err set_aside(const char *path, FILE *report)
 {
     char *aside;
@@ -125,7 +125,7 @@ fracas_err fracas_segments_sweep(const char *study, fracas_index *index, bool se
 
 /* ---- study.h5 ---- */
 
-/* One whose bytes are not those of its seal loses that: it is merged again. */
+/* A study.h5 with another checksum than its seal loses the seal, and is merged again. */
 static fracas_err unseal_damaged(const char *study, fracas_index *index, FILE *report)
 {
     char *path;
@@ -143,8 +143,8 @@ static fracas_err unseal_damaged(const char *study, fracas_index *index, FILE *r
     return err;
 }
 
-/* Whether every byte is read at the start of a run: it takes seconds in studies that are not of
- * many gigabytes. In those the merge finds what is damaged. */
+/* True if every byte is to be read at the start of a run: seconds, but for studies of many
+ * gigabytes. In those the merge finds damage. */
 static fracas_err is_quick_to_check(fracas_index *index, bool *quick)
 {
     static const double most = 2e9; /* bytes: 1 s from memory, some 7 s from a slow disk */
@@ -188,10 +188,10 @@ fracas_err fracas_study_sound(const char *study, fracas_index *index, bool *soun
     return *sound ? err : FRACAS_OK;
 }
 
-/* ---- segments that the folder has, but the index does not know ---- */
+/* ---- segments unknown to the index ---- */
 
-/* A realization that the index does not know, but a rule may have asked for before the index was
- * lost, is planned now. */
+/* Finds a realization in the index, or plans it if a rule may have asked for it before the index
+ * was lost. */
 static fracas_err place_or_plan(fracas_index *index, const fracas_point_table *table,
                                 const fracas_hash *point, int64_t replica)
 {
@@ -206,19 +206,19 @@ static fracas_err place_or_plan(fracas_index *index, const fracas_point_table *t
     return err;
 }
 
-/* Segments that the folder has, on their way into the index. */
+/* Segments of the folder on their way into the index. */
 typedef struct {
     fracas_index *index;
     const fracas_point_table *table;
-    const fracas_identity *identity; /* of the study */
+    const fracas_identity *identity; /* the study's */
     FILE *report;
     const fracas_known_segment *known; /* by name */
     size_t nknown;
-    /* The segment that is looked at. */
+    /* The segment at hand. */
     fracas_reader *reader;
     fracas_segment_row *row;
     bool asked; /* the campaign asks for every realization so far */
-    bool sound; /* it was read whole: what goes wrong later is not its fault */
+    bool sound; /* it was read whole: a later error is not its fault */
 } adoption;
 
 static fracas_err read_row(void *context, fracas_result *result)
@@ -235,7 +235,7 @@ static fracas_err read_row(void *context, fracas_result *result)
     return err;
 }
 
-/* The rows of a segment that was read whole go into the index. */
+/* Commits the rows of a segment read whole. */
 static fracas_err commit(adoption *a, const char *path, const char *name,
                          const fracas_file_seal *seal)
 {
@@ -341,9 +341,9 @@ static fracas_err adopt_orphans(const char *folder, const fracas_point_table *ta
 
 /* ---- the index itself ---- */
 
-/* Before anything is computed by it. An index of so many realizations that this would take long is
- * believed here: what is damaged in it is found where it is used, at the latest when rows are
- * compared with records in the merge. */
+/* Checks the index before anything is computed by it. A large index, where this would take long, is
+ * believed here: damage shows at its use, at the latest when the merge compares rows with records.
+ */
 static fracas_err check_index(fracas_index *index, const fracas_point_table *table)
 {
     enum { MOST = 32 << 20 }; /* bytes: about a second */

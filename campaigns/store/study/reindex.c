@@ -15,7 +15,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* What SQLite has beside a database, and the database itself. */
+/* The files of a database: itself, and SQLite's beside it. */
 static const char *const tail[] = {"", "-wal", "-shm", "-journal"};
 enum { NTAILS = sizeof tail / sizeof *tail };
 
@@ -47,7 +47,7 @@ void fracas_say_lines(const fracas_said *said, const char *text)
     }
 }
 
-/* ---- what is there ---- */
+/* ---- before ---- */
 
 typedef struct {
     bool ours;        /* a segment of this format version is there */
@@ -145,7 +145,7 @@ static fracas_err clear_nursery(const reindexing *r)
     return fracas_disk_fail("remove folder", r->nursery);
 }
 
-/* Replicas that the old index had planned where a rule decides how many. */
+/* Plans as many replicas as in the old index where a rule decides their number. */
 static fracas_err plan_as_before(reindexing *r)
 {
     sqlite3_stmt *most;
@@ -195,7 +195,7 @@ static fracas_err carry(reindexing *r)
     return fracas_index_end(r->index, err);
 }
 
-/* What only the old index knows. */
+/* Takes over facts of the old index that no segment has. */
 static fracas_err take_over(reindexing *r)
 {
     sqlite3_stmt *attach;
@@ -206,12 +206,12 @@ static fracas_err take_over(reindexing *r)
     sqlite3_finalize(attach);
     if (err) return err;
     err = carry(r);
-    /* Told first: what went wrong before may keep it attached. */
+    /* The first error is told: it may be the reason that the index stays attached. */
     const fracas_err left = err ? FRACAS_OK : fracas_query_all(r->index, "DETACH old");
     return err ? err : left;
 }
 
-/* The lines of the sweep, with one for all that was adopted. */
+/* Prints the lines of the sweep, one for all adopted segments. */
 static void tell(const reindexing *r, char *report)
 {
     int64_t adopted = 0;
@@ -300,7 +300,7 @@ static fracas_err exchange(const reindexing *r)
 static fracas_err reindex(reindexing *r, const fracas_file_header *header)
 {
     TRY(check_versions(r->study));
-    TRY(clear_nursery(r)); /* of one that was interrupted */
+    TRY(clear_nursery(r)); /* an interrupted one's */
     TRY(look_at_old(r));
     fracas_err err = make(r, header);
     if (!err) err = exchange(r);

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A realization that is done or failed, as the index had it. */
+/* A done or failed realization, as in the index. */
 typedef struct {
     size_t point;
     int64_t replica;
@@ -22,17 +22,17 @@ typedef struct {
 } entry;
 
 struct fracas_results {
-    fracas_reader *reader; /* study.h5; NULL of partial ones, which are all that follows */
+    fracas_reader *reader; /* study.h5; NULL of partial ones, to which the rest belongs */
     fracas_file_header header;
     fracas_point_table table;
-    fracas_point_row *point; /* of the table, with the replicas of by now */
-    int64_t *missing;        /* of each point */
+    fracas_point_row *point; /* the table's, with the replicas so far */
+    int64_t *missing;        /* at each point */
     entry *row;
     size_t nrows, room;
     fracas_segments *segments;
     fracas_decision *decision;
     size_t ndecisions;
-    char **note; /* of both */
+    char **note; /* study.h5 has them, too */
     size_t nnotes;
     int64_t *named; /* segments that a note names */
     size_t nnamed;
@@ -79,7 +79,7 @@ static fracas_err open_file(const char *study, fracas_reader **reader)
     return err;
 }
 
-/* Takes study.h5 if it is of all that the index has; else leaves results->reader NULL. */
+/* Takes study.h5 if it has every realization of the index; else leaves results->reader NULL. */
 static fracas_err take_file(const char *study, fracas_index *index, const fracas_hash *campaign,
                             fracas_results *results)
 {
@@ -135,7 +135,7 @@ static fracas_err add_row(fracas_results *results, size_t p, int64_t replica,
     return FRACAS_OK;
 }
 
-/* The rows of a point that `statement` gives; those that the campaign has not are none of ours. */
+/* The rows of a point in `s`, without replicas beyond the campaign's. */
 static fracas_err read_rows(fracas_results *results, fracas_index *index, sqlite3_stmt *s, size_t p)
 {
     fracas_point_row *point = &results->point[p];
@@ -195,7 +195,7 @@ static fracas_err read_decisions(fracas_results *results, fracas_index *index)
     return FRACAS_OK;
 }
 
-/* What the study was begun with: its segments are of that. */
+/* The header of its segments, from the identity of the study. */
 static void read_header(const fracas_identity *identity, const fracas_hash *campaign,
                         fracas_file_header *header)
 {
@@ -206,7 +206,7 @@ static void read_header(const fracas_identity *identity, const fracas_hash *camp
     header->interfaces = !strcmp(identity->value[3], "1");
 }
 
-/* Within a transaction, so that all of it is of one moment. */
+/* Within a transaction, at one moment. */
 static fracas_err read_index(const char *study, fracas_index *index, const fracas_hash *campaign,
                              fracas_results *results)
 {
@@ -300,7 +300,7 @@ void fracas_results_close(fracas_results *results)
 
 /* ---- one realization ---- */
 
-/* After a failure that the present message tells: it is left out, and its segment named once. */
+/* Leaves a row out; the present message says why. Its segment is named once. */
 static fracas_err lose(fracas_results *results, entry *row)
 {
     const int64_t id = row->place.segment;
@@ -392,7 +392,7 @@ fracas_err fracas_results_walk(fracas_results *results, unsigned parts,
                            : fracas_study_each(results->segments, &want);
 }
 
-/* ---- what is known of them ---- */
+/* ---- facts about them ---- */
 
 bool fracas_results_partial(const fracas_results *results)
 {

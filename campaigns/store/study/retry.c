@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Failed realizations that are to be computed again. */
+/* Failed realizations planned again. */
 #include "campaigns/store/index/query.h"
 #include "campaigns/store/index/tables.h"
 #include "campaigns/store/upkeep.h"

@@ -16,7 +16,7 @@ struct fracas_segments {
     uint64_t history;              /* most history rows of a record */
     fracas_known_segment *segment; /* by id */
     size_t count;
-    bool *checked, *bad; /* of each segment */
+    bool *checked, *bad; /* each segment */
     bool only_records;
     size_t current;        /* the one that is open, */
     unsigned parts;        /* with these parts */
@@ -64,7 +64,7 @@ static int compare_id(const void *id, const void *segment)
     return (a > b) - (a < b);
 }
 
-/* Its place in the list, SIZE_MAX if the index has none of that id. */
+/* Its number in the list, SIZE_MAX for an unknown id. */
 static size_t find(const fracas_segments *segments, int64_t id)
 {
     if (!segments->count) return SIZE_MAX;

@@ -17,39 +17,39 @@ FRACAS_MUST_USE fracas_err fracas_segments_create(const char *study, fracas_inde
                                                   fracas_segments **segments);
 void fracas_segments_destroy(fracas_segments *segments); /* NULL is allowed */
 /* From now on segments are opened for their records alone (fracas_reader_open_records), with the
- * parts that each is asked for. */
+ * parts asked for. */
 void fracas_segments_only_records(fracas_segments *segments);
 
-/* Forgets what is lost of the segments that the index knows: those that are missing, and those of
- * another size or (with `seals`, which reads them all) with another byte than the index says, which
- * are set aside as NAME.damaged. *rows: realizations planned again. Each is a line in `report`. */
+/* Forgets lost segments: a missing one, and one of another size or (with `seals`, which reads every
+ * byte) checksum than in the index, which is set aside as NAME.damaged. *rows: realizations planned
+ * again. Each loss is a line in `report`. */
 FRACAS_MUST_USE fracas_err fracas_segments_sweep(const char *study, fracas_index *index, bool seals,
                                                  FILE *report, int64_t *rows);
 
-/* Opens a segment by its id and closes the one before; its bytes are compared with the index's seal
- * the first time. FRACAS_DAMAGED names it and says what to do, or that it was found so before. */
+/* Opens a segment by its id and closes the one before. The first time, its bytes are compared with
+ * the seal in the index. FRACAS_DAMAGED names it, with a remedy when it is found first. */
 FRACAS_MUST_USE fracas_err fracas_segments_open(fracas_segments *segments, int64_t id);
-/* Of the one that is open. */
+/* The reader of the open one. */
 fracas_reader *fracas_segments_reader(const fracas_segments *segments);
 /* True after fracas_segments_open has found it damaged. */
 bool fracas_segments_is_bad(const fracas_segments *segments, int64_t id);
 
-/* The record in a place, which must be that of this realization; parts as fracas_reader_record.
- * Cheapest by segment and row. */
+/* The record in a place, checked to be of this realization; parts as fracas_reader_record. Cheapest
+ * by segment and row. */
 FRACAS_MUST_USE fracas_err fracas_segments_record(fracas_segments *segments,
                                                   const fracas_place *place,
                                                   const fracas_hash *point, int64_t replica,
                                                   unsigned parts, fracas_record *record);
-/* File name of a segment, "" if there is none of that id. */
+/* File name of a segment, "" for an unknown id. */
 const char *fracas_segments_name(const fracas_segments *segments, int64_t id);
 /* Bytes of these parts of a record in memory; an estimate for interfaces. */
 uint64_t fracas_segments_size(const fracas_segments *segments, const fracas_place *place,
                               unsigned parts);
-/* FRACAS_DAMAGED for a realization that failed with another outcome than FAILED. */
+/* FRACAS_DAMAGED for a failed realization with another outcome than FAILED. */
 FRACAS_MUST_USE fracas_err fracas_segments_check_failed(const fracas_segments *segments,
                                                         const fracas_place *place, int64_t replica);
 
-/* True if study.h5 has the size that its merge left. */
+/* True if study.h5 has the size in its seal. */
 FRACAS_MUST_USE fracas_err fracas_study_file_sealed(const char *study, fracas_index *index,
                                                     bool *sealed);
 
@@ -65,8 +65,8 @@ typedef struct {
 /* Realizations to walk over, parts of their records to read (FRACAS_READ_...), functions to call.
  * `next` gives result.point, result.replica and place of the row result.row, *more false after the
  * last row; with `damaged` set the record is not read.
- * `damaged` hears of a record that cannot be read while fracas_message() says why; NULL: the walk
- * ends with FRACAS_DAMAGED. */
+ * `damaged` hears of a damaged record while fracas_message() says why; NULL: the walk ends with
+ * FRACAS_DAMAGED. */
 typedef struct {
     const fracas_point_table *table;
     unsigned parts;

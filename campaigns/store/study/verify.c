@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What is wrong with a study: segments against the index, study.h5 against the segments. */
+/* The check of a study: segments against the index, study.h5 against the segments. */
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
 
@@ -17,7 +17,7 @@ typedef struct {
     const char *study;
     fracas_index *index;
     fracas_segments *segments;
-    fracas_identity identity; /* what the study was begun with */
+    fracas_identity identity; /* the study's */
     fracas_reader *merged;    /* study.h5, NULL if it is not there or not sound */
     bool there;               /* study.h5 is there */
     fracas_record record;     /* as read last */
@@ -48,7 +48,7 @@ static fracas_err found(verification *v, const char *format, ...)
 
 /* ---- the database itself ---- */
 
-/* Each row of a pragma that checks the database is a problem, but "ok". */
+/* Each row of a checking pragma is a problem, but "ok". */
 static fracas_err check_database(verification *v, const char *pragma)
 {
     sqlite3_stmt *statement;
@@ -67,7 +67,7 @@ static fracas_err check_database(verification *v, const char *pragma)
     return err;
 }
 
-/* What no run leaves in the index: each query counts such rows. */
+/* Rows that no run leaves in the index, each counted by a query. */
 static const struct {
     const char *query, *what;
 } never[] = {
@@ -108,7 +108,7 @@ static fracas_err check_consistency(verification *v)
     return FRACAS_OK;
 }
 
-/* ---- what an interrupted run leaves, which is no damage ---- */
+/* ---- leftovers of an interrupted run, which are no damage ---- */
 
 static void note(const verification *v, const char *format, ...) FRACAS_PRINTF(2, 3);
 static void note(const verification *v, const char *format, ...)
@@ -302,8 +302,8 @@ static bool same_rule(const fracas_decision *a, const fracas_decision *b)
            a->relative_half_width == b->relative_half_width && a->confidence == b->confidence;
 }
 
-/* Of one point: what study.h5 has from *next on against what the index recorded, unless that is by
- * the rule of a longer campaign, which has not come to its end: study.h5 is sound then, but older.
+/* Decisions of one point: study.h5 from *next on against the index. Decisions in the index by
+ * another rule are of an extended campaign: study.h5 is sound then, but older.
  */
 static fracas_err check_decisions_of(verification *v, size_t p, const fracas_decision *merged,
                                      size_t nmerged, size_t *next)
