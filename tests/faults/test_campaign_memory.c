@@ -5,12 +5,16 @@
 #include "campaigns/file/read.h"
 #include "campaigns/plan/plan.h"
 #include "tests/support/campaign_text.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <limits.h>
 
 #ifdef __SANITIZE_ADDRESS__
 /* AddressSanitizer owns malloc; this program has nothing to do there. */
-int main(void)
+int fracas_test(void)
 {
     return 0;
 }
@@ -65,7 +69,6 @@ static fracas_err read_source(void *context)
 
 static void test_read(void **state)
 {
-    (void)state;
     source from;
     make_path(from.path);
     assert_int_equal(fracas_units_create(&from.units), FRACAS_OK);
@@ -83,7 +86,6 @@ static void test_read(void **state)
 /* The same of a campaign that names a file. */
 static void test_read_file(void **state)
 {
-    (void)state;
     source from;
     char strengths[40], named[100], copy[60];
     make_path(from.path);
@@ -133,7 +135,6 @@ static fracas_err print_plan(void *context)
 
 static void test_use(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced("", sweep);
     fail_each(write_and_compare, campaign, LONG_MAX);
     /* The plan repeats short batches until the clock has seen enough: all of it would take a
@@ -152,7 +153,6 @@ static fracas_err count_cost(void *context)
  * planned, and timed. */
 static void test_surface(void **state)
 {
-    (void)state;
     static const char text[] =
         "name: test\nseed: 7\nmodel: membrane\ngeometry: {width: 0.01, height: 0.005, thickness: "
         "1e-4}\n"
@@ -174,12 +174,6 @@ static void test_surface(void **state)
     fracas_units_destroy(from.units);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_read),
-                                       cmocka_unit_test(test_read_file), cmocka_unit_test(test_use),
-                                       cmocka_unit_test(test_surface)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_read, test_read_file, test_use, test_surface)
 
 #endif

@@ -4,10 +4,14 @@
 #include "sampler/field/sparse_factor.h"
 #include "sampler/api/sampler.h"
 #include "tests/support/sites.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #ifdef __SANITIZE_ADDRESS__
 /* AddressSanitizer owns malloc; this program has nothing to do there. */
-int main(void)
+int fracas_test(void)
 {
     return 0;
 }
@@ -56,7 +60,6 @@ static void fail_each(fracas_strength strength, size_t n, long each)
 
 static void test_circle(void **state)
 {
-    (void)state;
     sites_on_circle(20, 1.0, position);
     fail_each(correlated(&fracas_covariance_matern, 0.3, 0.8), 20,
               LONG_MAX); /* with a table of the covariance */
@@ -65,7 +68,6 @@ static void test_circle(void **state)
 /* Larger circles are tried, and for the second covariance none will do. */
 static void test_line(void **state)
 {
-    (void)state;
     sites_on_line(20, 1.0, position);
     fail_each(correlated(&fracas_covariance_matern, 2.0, NAN), 20, LONG_MAX);
     fail_each(correlated(&fracas_covariance_gaussian, 100.0, NAN), 20, LONG_MAX);
@@ -75,7 +77,6 @@ static void test_line(void **state)
  * and some of what measures its error. */
 static void test_scattered(void **state)
 {
-    (void)state;
     sites_scattered(MOST, position);
     fail_each(correlated(&fracas_covariance_exponential, 0.3, NAN), 20, LONG_MAX);
     fail_each(correlated(&fracas_covariance_exponential, 0.3, NAN), MOST, 40);
@@ -84,7 +85,6 @@ static void test_scattered(void **state)
 /* Measured strengths, graded along x, correlated. */
 static void test_tables(void **state)
 {
-    (void)state;
     const fracas_attachment measured = {.path = "s.csv", .text = "3e8\n4e8\n3.5e8\n", .size = 14};
     const fracas_attachment factor = {.path = "f.csv", .text = "0 1\n0.5 2\n1 1\n", .size = 14};
     for (size_t k = 0; k < fracas_strength_section.nkinds; k++) {
@@ -102,12 +102,6 @@ static void test_tables(void **state)
     fail_msg("there is no distribution `empirical`");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_circle), cmocka_unit_test(test_line),
-                                       cmocka_unit_test(test_scattered),
-                                       cmocka_unit_test(test_tables)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_circle, test_line, test_scattered, test_tables)
 
 #endif

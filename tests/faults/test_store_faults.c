@@ -5,6 +5,10 @@
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/file/h5.h"
 #include "campaigns/store/index/index.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -55,7 +59,6 @@ static fracas_point_table table;
 
 static int set_up(void **state)
 {
-    (void)state;
     study = sample_folder();
     table = sample_table(point_row, REPLICAS);
     return mkdir(sample_path(study, "segments"), 0777);
@@ -63,7 +66,6 @@ static int set_up(void **state)
 
 static int tear_down(void **state)
 {
-    (void)state;
     sample_remove(study);
     return 0;
 }
@@ -151,7 +153,6 @@ static reading read_all(const char *path)
 
 static void flipped_bytes_are_found(void **state)
 {
-    (void)state;
     fracas_file_seal seal;
     fracas_segment_row row[ALL];
     write_segment(&seal, row);
@@ -185,7 +186,6 @@ static void flipped_bytes_are_found(void **state)
 
 static void truncated_files_are_found(void **state)
 {
-    (void)state;
     fracas_file_seal seal;
     fracas_segment_row row[ALL];
     write_segment(&seal, row);
@@ -219,7 +219,6 @@ static void truncated_files_are_found(void **state)
  * missed. */
 static void lost_columns_are_found(void **state)
 {
-    (void)state;
     fracas_file_seal seal;
     fracas_segment_row row[ALL];
     write_segment(&seal, row);
@@ -241,7 +240,6 @@ static void lost_columns_are_found(void **state)
 /* Rubbish over whole stretches: errors, never a crash. */
 static void overwritten_stretches_are_found(void **state)
 {
-    (void)state;
     fracas_file_seal seal;
     fracas_segment_row row[ALL];
     write_segment(&seal, row);
@@ -266,7 +264,6 @@ static void overwritten_stretches_are_found(void **state)
 /* A table `segment` that is damaged where SQLite does not see it. */
 static void damaged_rows_of_the_index_are_found(void **state)
 {
-    (void)state;
     static const char *const damage[] = {"checksum = '00000000000zzzzz'", "checksum = ''",
                                          "name = 'a/b'", "rows = -1"};
     fracas_file_seal seal;
@@ -327,7 +324,6 @@ static fracas_err write_some(const char *path, size_t most)
 
 static void full_disk_is_said_and_leaves_nothing(void **state)
 {
-    (void)state;
     signal(SIGXFSZ, SIG_IGN);
     char *folder = sample_path(study, "segments"), *path = sample_path(study, "segments/big.h5");
     OK(write_some(path, 4000));
@@ -356,7 +352,6 @@ static void full_disk_is_said_and_leaves_nothing(void **state)
 
 static void bytes_are_durable_before_their_name(void **state)
 {
-    (void)state;
     char *folder = sample_path(study, "segments"), *path = sample_path(study, "segments/a.h5");
     memset(calls, 0, sizeof calls);
     OK(write_some(path, 10));
@@ -376,7 +371,6 @@ static void bytes_are_durable_before_their_name(void **state)
 /* What the system refuses, and what the person should do. */
 static void limits_are_said_with_their_remedy(void **state)
 {
-    (void)state;
     static const struct {
         int reason;
         const char *remedy;
@@ -401,7 +395,6 @@ static void limits_are_said_with_their_remedy(void **state)
 
 static void too_many_open_files_are_said(void **state)
 {
-    (void)state;
     fracas_index *index;
     struct rlimit before, none;
     int next = dup(STDERR_FILENO), lock; /* files with smaller numbers than this are open */
@@ -424,7 +417,6 @@ static void too_many_open_files_are_said(void **state)
 /* Damage is found while the disk fails: nothing is lost by that, the next sweep goes on. */
 static void setting_aside_can_fail_anywhere(void **state)
 {
-    (void)state;
     fracas_index *index;
     fracas_file_seal seal;
     fracas_segment_row row[ALL];
@@ -462,7 +454,6 @@ static void setting_aside_can_fail_anywhere(void **state)
  */
 static void an_interrupted_merge_leaves_no_seal(void **state)
 {
-    (void)state;
     fracas_index *index;
     fracas_file_seal seal;
     fracas_segment_row row[ALL];
@@ -493,7 +484,6 @@ static void an_interrupted_merge_leaves_no_seal(void **state)
 
 static void full_disk_leaves_the_index_as_it_was(void **state)
 {
-    (void)state;
     fracas_index *index;
     fracas_file_seal seal;
     fracas_segment_row row[ALL];
@@ -535,7 +525,6 @@ static void commit_until_killed(int out)
 
 static void commits_survive_the_death_of_the_process(void **state)
 {
-    (void)state;
     fracas_index *index;
     OK(fracas_index_open(study, true, &index));
     point_row[0].replicas = 20000;
@@ -601,7 +590,6 @@ static int whole_segments(const char *folder)
  * machine the first kills may all come too early. */
 static void segments_are_whole_or_not_there(void **state)
 {
-    (void)state;
     char folder[256];
     snprintf(folder, sizeof folder, "%s/segments", study);
     int whole = 0, kills = 0;
@@ -629,25 +617,10 @@ static void segments_are_whole_or_not_there(void **state)
     assert_true(whole > 0);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(flipped_bytes_are_found),
-        TEST(lost_columns_are_found),
-        TEST(truncated_files_are_found),
-        TEST(overwritten_stretches_are_found),
-        TEST(damaged_rows_of_the_index_are_found),
-        TEST(full_disk_is_said_and_leaves_nothing),
-        TEST(bytes_are_durable_before_their_name),
-        TEST(an_interrupted_merge_leaves_no_seal),
-        TEST(limits_are_said_with_their_remedy),
-        TEST(too_many_open_files_are_said),
-        TEST(setting_aside_can_fail_anywhere),
-        TEST(full_disk_leaves_the_index_as_it_was),
-        TEST(commits_survive_the_death_of_the_process),
-        TEST(segments_are_whole_or_not_there),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS_EACH(set_up, tear_down, flipped_bytes_are_found, lost_columns_are_found,
+           truncated_files_are_found, overwritten_stretches_are_found,
+           damaged_rows_of_the_index_are_found, full_disk_is_said_and_leaves_nothing,
+           bytes_are_durable_before_their_name, an_interrupted_merge_leaves_no_seal,
+           limits_are_said_with_their_remedy, too_many_open_files_are_said,
+           setting_aside_can_fail_anywhere, full_disk_leaves_the_index_as_it_was,
+           commits_survive_the_death_of_the_process, segments_are_whole_or_not_there)

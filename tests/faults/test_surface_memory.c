@@ -2,10 +2,14 @@
 /* Making and reading a surface when the k-th allocation fails, for every k: an error, never a
  * crash. */
 #include "tests/support/gmsh.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #ifdef __SANITIZE_ADDRESS__
 /* AddressSanitizer owns malloc; this program has nothing to do there. */
-int main(void)
+int fracas_test(void)
 {
     return 0;
 }
@@ -40,7 +44,6 @@ static fracas_err read_mesh(const void *context)
 
 static void test_made(void **state)
 {
-    (void)state;
     static const double numbers[10][2] = {{0.5, -0.5}};
     shift = numbers;
     nshifts = 10;
@@ -49,7 +52,6 @@ static void test_made(void **state)
 
 static void test_read(void **state)
 {
-    (void)state;
     for (int order = 1; order <= 2; order++) {
         const fracas_surface_fineness fineness = {.divisions = 2, .order = order};
         const fracas_surface *s = NULL;
@@ -63,10 +65,6 @@ static void test_read(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_made), cmocka_unit_test(test_read)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_made, test_read)
 
 #endif

@@ -7,6 +7,10 @@
 
 #include "base/param.h"
 #include "campaigns/store/upkeep.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -389,7 +393,6 @@ static void count_outcomes(size_t point, int64_t first, int64_t end, trial *t)
 
 static void the_index_anew(void **state)
 {
-    (void)state;
     trial t = {.name = "reindex", .make = make_incomplete, .run = reindex, .failed = 2};
     count_outcomes(0, 0, 4, &t);
     count_outcomes(1, 0, 4, &t);
@@ -398,7 +401,6 @@ static void the_index_anew(void **state)
 
 static void the_index_anew_from_a_damaged_one(void **state)
 {
-    (void)state;
     trial t = {
         .name = "reindex of a damaged one", .make = make_damaged, .run = reindex, .damaged = true};
     count_outcomes(0, 0, 4, &t);
@@ -408,7 +410,6 @@ static void the_index_anew_from_a_damaged_one(void **state)
 
 static void garbage_goes(void **state)
 {
-    (void)state;
     trial t = {.name = "gc", .make = make_garbage, .run = collect, .failed = 0};
     count_outcomes(0, 0, 4, &t);
     t.failed += 2; /* without a record */
@@ -418,7 +419,6 @@ static void garbage_goes(void **state)
 
 static void failures_again(void **state)
 {
-    (void)state;
     trial t = {.name = "retry", .make = make_incomplete, .run = retry};
     count_outcomes(0, 0, 4, &t);
     count_outcomes(1, 0, 4, &t);
@@ -441,19 +441,16 @@ static void one_of_two(bool copies)
 
 static void one_of_two_by_links(void **state)
 {
-    (void)state;
     one_of_two(false);
 }
 
 static void one_of_two_by_copies(void **state)
 {
-    (void)state;
     one_of_two(true);
 }
 
 static void study_h5(void **state)
 {
-    (void)state;
     trial t = {.name = "merge", .make = make_whole, .run = merge_all, .pending = true, .each = 16};
     for (size_t p = 0; p < SAMPLE_POINTS; p++) count_outcomes(p, 0, REPLICAS, &t);
     try_every_call(&t);
@@ -461,7 +458,7 @@ static void study_h5(void **state)
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
-int main(void)
+int fracas_test(void)
 {
     if (access("/dev/shm", W_OK) == 0)
         setenv("TMPDIR", "/dev/shm", 0); /* syncing to a disk would take minutes */

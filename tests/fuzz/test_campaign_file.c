@@ -8,11 +8,11 @@
 
 #include "campaigns/file/read.h"
 #include "tests/support/campaign_text.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
-#include <math.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <time.h>
 
@@ -234,7 +234,6 @@ static void test_mutations_of(const unsigned char *example, size_t size, bool of
 
 static void test_bars(void **state)
 {
-    (void)state;
     static unsigned char example[LARGEST];
     FILE *in = fopen(FRACAS_SOURCE_DIR "/campaigns/examples/bar-rate-sweep.yaml", "rb");
     assert_non_null(in);
@@ -248,13 +247,11 @@ static const char strengths[] =
 
 static void test_rings(void **state)
 {
-    (void)state;
     test_mutations_of((const unsigned char *)ring, sizeof ring - 1, false);
 }
 
 static void test_strengths(void **state)
 {
-    (void)state;
     test_mutations_of((const unsigned char *)strengths, sizeof strengths - 1, true);
 }
 
@@ -266,9 +263,4 @@ static int make_files(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_bars), cmocka_unit_test(test_rings),
-                                       cmocka_unit_test(test_strengths)};
-    return cmocka_run_group_tests(tests, make_files, remove_folder);
-}
+TESTS_ALL(make_files, remove_folder, test_bars, test_rings, test_strengths)

@@ -2,9 +2,7 @@
 /* A lane's record depends on its own strengths alone: not on its slot, its neighbours, the width or
  * the instruction set. */
 #include "tests/support/bar.h"
-
-#include <math.h>
-#include <string.h>
+#include "tests/support/test.h"
 
 static fracas_model *model_of(const fracas_kind *law, const fracas_kind *stop, double amplitude)
 {
@@ -59,7 +57,6 @@ static void assert_same(const fracas_record *a, const fracas_record *b)
 
 static void a_lane_is_its_run_alone(void **unused)
 {
-    (void)unused;
     const fracas_kind *laws[] = {&fracas_law_nitsche.kind, &fracas_law_rigid_link.kind},
                       *stops[] = {&fracas_stop_time, &fracas_stop_settled};
     const int widths[] = {1, 4, 8};
@@ -100,8 +97,4 @@ static void a_lane_is_its_run_alone(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_lane_is_its_run_alone)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_lane_is_its_run_alone)

@@ -2,9 +2,7 @@
 /* The ledger of the bar: constant before onset, closed after it, momentum zero, forces the gradient
  * of the energy. */
 #include "tests/support/bar.h"
-
-#include <math.h>
-#include <stdlib.h>
+#include "tests/support/test.h"
 
 enum { W_LEFT, W_RIGHT, V_LEFT, V_RIGHT, DAMAGE, FIELDS = 7 };
 
@@ -52,7 +50,6 @@ static double size_of(const fracas_model *model, size_t e)
  * larger of kinetic and elastic energy, the figure promised. */
 static void linear_ledger_is_constant_to_round_off(void **unused)
 {
-    (void)unused;
     const fracas_kind *laws[] = {&fracas_law_nitsche.kind, &fracas_law_rigid_link.kind},
                       *ends[] = {&fracas_ends_periodic, &fracas_ends_held};
     for (int i = 0; i < 4 * MESHES; i++) {
@@ -103,7 +100,6 @@ static void linear_ledger_is_constant_to_round_off(void **unused)
  * (second order), so it is the step's, not a missing term. */
 static void residual_stays_small_and_is_second_order(void **unused)
 {
-    (void)unused;
     static const struct {
         double rate, end;
         int64_t elements;
@@ -227,7 +223,6 @@ static void check_forces(int mesh)
 
 static void forces_are_the_gradient_of_the_potential(void **unused)
 {
-    (void)unused;
     for (int mesh = 0; mesh < MESHES; mesh++) check_forces(mesh);
 }
 
@@ -236,7 +231,6 @@ static void forces_are_the_gradient_of_the_potential(void **unused)
  * most: 1e-6 of created, which is 1e-3 G_c. */
 static void a_break_creates_what_the_flux_drops(void **unused)
 {
-    (void)unused;
     enum { N = 4 };
     fracas_spec spec = bar_reference(N, 1e4, 1);
     spec.geometry.length = N * 2e-5;
@@ -264,13 +258,5 @@ static void a_break_creates_what_the_flux_drops(void **unused)
     fracas_model_destroy(model);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(linear_ledger_is_constant_to_round_off),
-        cmocka_unit_test(residual_stays_small_and_is_second_order),
-        cmocka_unit_test(forces_are_the_gradient_of_the_potential),
-        cmocka_unit_test(a_break_creates_what_the_flux_drops),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(linear_ledger_is_constant_to_round_off, residual_stays_small_and_is_second_order,
+      forces_are_the_gradient_of_the_potential, a_break_creates_what_the_flux_drops)

@@ -4,6 +4,10 @@
 #include "tests/support/gmsh.h"
 #include "tests/support/same_record.h"
 #include "tests/support/membrane_cracks.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* ---- lanes ---- */
 
@@ -81,7 +85,6 @@ static void check_batch(const fracas_model *model, const fracas_record alone[8],
 
 static void a_lane_is_its_run_alone(void **unused)
 {
-    (void)unused;
     for (int v = 0; v < VARIANTS; v++) {
         fracas_model *model = distorted_model(
             spec_of(&variants[v], variants[v].order == 1 ? 10 : 6, 3e4, 4e-7), DISTORTION, 3);
@@ -127,7 +130,6 @@ static void a_lane_is_its_run_alone(void **unused)
  * sum of |M v| in each of some 500 steps would be 1e-12: the bound. */
 static void momenta_are_kept_to_round_off(void **unused)
 {
-    (void)unused;
     for (int v = 0; v < VARIANTS; v++) {
         fracas_model *model = distorted_model(spec_of(&variants[v], 6, 3e4, 4e-7), DISTORTION, 3);
         fracas_batch *batch = lane_of(model, 0.3, 1, 0);
@@ -184,7 +186,6 @@ static void momenta_are_kept_to_round_off(void **unused)
  * 200 m/s, sums are of some 400 nodes: 1e-12. */
 static void a_body_that_turns_has_that_spin(void **unused)
 {
-    (void)unused;
     uint64_t state = 7;
     for (int v = 0; v < VARIANTS; v++) {
         fracas_model *model = distorted_model(spec_of(&variants[v], 6, 0, 4e-7), DISTORTION, 3);
@@ -295,7 +296,6 @@ static double residual_of(int which, double safety, double *created, double *wor
  * frequencies, and where the load does not let go. */
 static void ledgers_close_to_second_order(void **unused)
 {
-    (void)unused;
     for (int which = 0; which < LEDGERS; which++) {
         double residual[3], created, work;
         int64_t broken;
@@ -462,19 +462,11 @@ static void check_moved(const variant *v, bool mirrored)
 
 static void numbers_and_axes_do_not_matter(void **unused)
 {
-    (void)unused;
     for (int v = 0; v < VARIANTS; v++) {
         check_moved(&variants[v], false);
         check_moved(&variants[v], true);
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_lane_is_its_run_alone),
-                                       cmocka_unit_test(momenta_are_kept_to_round_off),
-                                       cmocka_unit_test(a_body_that_turns_has_that_spin),
-                                       cmocka_unit_test(ledgers_close_to_second_order),
-                                       cmocka_unit_test(numbers_and_axes_do_not_matter)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_lane_is_its_run_alone, momenta_are_kept_to_round_off, a_body_that_turns_has_that_spin,
+      ledgers_close_to_second_order, numbers_and_axes_do_not_matter)

@@ -2,9 +2,12 @@
 /* The ring's energy: forces are its gradient, it does not see where the ring is, the ledger closes
  * with it, and the critical step is that of its curvature. */
 #include "tests/support/ring_sample.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_eigen.h>
-#include <string.h>
 
 enum { MOST = 12 }; /* elements of the rings of which states are set */
 
@@ -177,7 +180,6 @@ static void next_state(const ring_run *s, int kind, size_t trial, uint64_t *seed
  * branch, where its curvature does. 2e-8 of the largest force covers both. */
 static void forces_are_the_gradient_of_the_energy(void **unused)
 {
-    (void)unused;
     uint64_t seed = 11;
     int seen[NKINDS] = {0};
     for (int k = 0; k < NSTATES; k++) {
@@ -231,7 +233,6 @@ static ring_state moved(const ring_run *s, const ring_state *state, double angle
  * be moved, not turned: a tenth of a radian must show. */
 static void the_energy_does_not_see_where_the_ring_is(void **unused)
 {
-    (void)unused;
     uint64_t seed = 5;
     int seen[NKINDS] = {0};
     double worst = 0, turned = 0;
@@ -315,7 +316,6 @@ static ring_answer one_event(ring_run *s, double damage, double strain, double t
  * 7e-21 m, some of them, at 1 m/s. */
 static void events_book_what_they_drop_at_the_time_they_happen(void **unused)
 {
-    (void)unused;
     for (int i = 0; i < 2; i++) {
         ring_run s = small_ring(12, 4, i ? &fracas_direction_initial : &fracas_direction_current);
         const double young = 275e9, spring = 4 * young / s.model->element_size, p = 1e-8,
@@ -419,7 +419,6 @@ static ledger_figures broken_up_ledger(const fracas_spec *spec)
  * and so it is the step's, not a missing term. */
 static void the_ledger_closes_to_second_order(void **unused)
 {
-    (void)unused;
     static const char *const load[] = {"free",          "free, spinning", "imposed rate",
                                        "held velocity", "force",          "growing force"};
     for (int i = 0; i < 7; i++) {
@@ -446,7 +445,6 @@ static void the_ledger_closes_to_second_order(void **unused)
  */
 static void the_work_of_turning_drives_is_of_second_order(void **unused)
 {
-    (void)unused;
     for (int i = 0; i < 3; i++) {
         double residual[2], work[2];
         for (int half = 0; half < 2; half++) {
@@ -543,7 +541,6 @@ static double limit_of(ring_run *s, const double *damage)
  * the ring less of it (bar.16). */
 static void no_state_of_a_small_ring_has_a_smaller_limit(void **unused)
 {
-    (void)unused;
     static const size_t elements[] = {3, 4, 5, 6, 12};
     static const double betas[] = {1.5, 4, 10};
     uint64_t seed = 17;
@@ -634,7 +631,6 @@ static double growth(size_t n, double part, bool broken, bool current)
  * chords changes. */
 static void the_critical_step_is_the_limit(void **unused)
 {
-    (void)unused;
     for (int i = 0; i < 4; i++) {
         const bool broken = i & 1, current = i & 2;
         const double below = growth(400, 0.99, broken, current),
@@ -659,7 +655,6 @@ static void the_critical_step_is_the_limit(void **unused)
  * that, + (pi/n)^4/15 = 2.5e-10. */
 static void a_spinning_ring_swings_about_its_hoop_stress(void **unused)
 {
-    (void)unused;
     const double speed = 10, w = BAR_WAVE_SPEED / RING_RADIUS, stress = 2750 * speed * speed;
     fracas_spec spec = ring_reference(400, 0, 3 * 2 * RING_PI / w);
     spec.loading.circumferential = speed;
@@ -688,16 +683,7 @@ static void a_spinning_ring_swings_about_its_hoop_stress(void **unused)
     clear(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(forces_are_the_gradient_of_the_energy),
-        cmocka_unit_test(the_energy_does_not_see_where_the_ring_is),
-        cmocka_unit_test(events_book_what_they_drop_at_the_time_they_happen),
-        cmocka_unit_test(the_ledger_closes_to_second_order),
-        cmocka_unit_test(the_work_of_turning_drives_is_of_second_order),
-        cmocka_unit_test(the_critical_step_is_the_limit),
-        cmocka_unit_test(no_state_of_a_small_ring_has_a_smaller_limit),
-        cmocka_unit_test(a_spinning_ring_swings_about_its_hoop_stress)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(forces_are_the_gradient_of_the_energy, the_energy_does_not_see_where_the_ring_is,
+      events_book_what_they_drop_at_the_time_they_happen, the_ledger_closes_to_second_order,
+      the_work_of_turning_drives_is_of_second_order, the_critical_step_is_the_limit,
+      no_state_of_a_small_ring_has_a_smaller_limit, a_spinning_ring_swings_about_its_hoop_stress)

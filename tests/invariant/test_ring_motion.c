@@ -4,9 +4,10 @@
  * other.
  */
 #include "tests/support/ring_sample.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* Strengths uniform in 300 MPa +- 0.33 %, of replica `replica`, interface i having that of i +
  * shift, or backwards. */
@@ -54,7 +55,6 @@ static double motion_of(const ring_run *s)
  * their directions, and it is a hundred times that. */
 static void a_free_ring_keeps_its_momenta(void **unused)
 {
-    (void)unused;
     for (int i = 0; i < 4; i++) {
         const bool current = i < 2;
         ring_run s = fragmenting(current ? &fracas_direction_current : &fracas_direction_initial,
@@ -198,7 +198,6 @@ static size_t fly(ring_run *s, double cut, piece *then, piece *now)
  * its nodes, which move with nearly the same speed: 2.5e-13 in 2240 steps, if all had one sign. */
 static void fragments_fly_on(void **unused)
 {
-    (void)unused;
     static piece then[1250], now[1250];
     for (int i = 0; i < 2; i++) {
         const bool current = !i;
@@ -284,7 +283,6 @@ static double difference(const outcome *a, const outcome *b, size_t shift, bool 
  * 1e-16 of an element, 1e-13 of its strain, and that in each of 900 steps. */
 static void strengths_moved_on_or_mirrored_give_the_same_ring(void **unused)
 {
-    (void)unused;
     static outcome plain, other;
     for (int i = 0; i < 2; i++) {
         const fracas_kind *direction = i ? &fracas_direction_initial : &fracas_direction_current;
@@ -394,7 +392,6 @@ static void compare_lanes(const fracas_model *model, int width, fracas_isa isa,
  * the instruction set. */
 static void a_lane_is_its_run_alone(void **unused)
 {
-    (void)unused;
     const fracas_batch_options single = {
         .history = 20, .interfaces = true, .width = 1, .isa = FRACAS_ISA_BASELINE};
     const fracas_batch_options widest = {
@@ -418,11 +415,5 @@ static void a_lane_is_its_run_alone(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_free_ring_keeps_its_momenta), cmocka_unit_test(fragments_fly_on),
-        cmocka_unit_test(strengths_moved_on_or_mirrored_give_the_same_ring),
-        cmocka_unit_test(a_lane_is_its_run_alone)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_free_ring_keeps_its_momenta, fragments_fly_on,
+      strengths_moved_on_or_mirrored_give_the_same_ring, a_lane_is_its_run_alone)

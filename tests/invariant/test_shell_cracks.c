@@ -5,6 +5,10 @@
  */
 #include "tests/support/shell_cracks.h"
 #include "tests/support/same_record.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 typedef struct {
     const fracas_kind *shape, *part;
@@ -89,7 +93,6 @@ static void check_batch(const fracas_model *model, const fracas_record alone[8],
 
 static void a_lane_is_its_run_alone(void **unused)
 {
-    (void)unused;
     for (int v = 0; v < VARIANTS; v++) {
         const fracas_spec spec = spec_of(&variants[v]);
         fracas_model *model = distorted_model(spec, distortion_of(&variants[v]), 3);
@@ -159,7 +162,6 @@ static shell_sums sums_of(const fracas_batch *batch)
  * the largest is no tenth: 1e-12 is the bound. */
 static void momenta_are_kept_to_round_off(void **unused)
 {
-    (void)unused;
     for (int v = 0; v < VARIANTS; v++) {
         fracas_spec spec = spec_of(&variants[v]);
         spec.geometry.part = &fracas_part_whole;
@@ -241,7 +243,6 @@ static double residual_of(fracas_spec spec, double distortion, double safety, do
  * long. */
 static void ledgers_close(void **unused)
 {
-    (void)unused;
     for (int v = 0; v < VARIANTS; v++) {
         double residual[3], created;
         int64_t broken;
@@ -285,7 +286,6 @@ static void ledgers_close(void **unused)
  * h) = 0.67 mm: measured. */
 static void a_sphere_cracks_when_its_stress_says_so(void **unused)
 {
-    (void)unused;
     for (int part = 0; part < 2; part++) {
         double error[3];
         for (int finer = 0; finer < 3; finer++) {
@@ -328,10 +328,5 @@ static void a_sphere_cracks_when_its_stress_says_so(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_lane_is_its_run_alone), cmocka_unit_test(momenta_are_kept_to_round_off),
-        cmocka_unit_test(ledgers_close), cmocka_unit_test(a_sphere_cracks_when_its_stress_says_so)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_lane_is_its_run_alone, momenta_are_kept_to_round_off, ledgers_close,
+      a_sphere_cracks_when_its_stress_says_so)

@@ -4,8 +4,10 @@
 #include "tests/support/ring.h"
 
 #include "engine/formulation/chain/ring_sweep.h"
-
-#include <string.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 enum { ELEMENTS = 200, POISONED_LINK = 17 };
 
@@ -108,7 +110,6 @@ static void compare_batches(const fracas_model *model, int width, fracas_isa isa
 
 static void a_lane_is_its_run_alone(void **unused)
 {
-    (void)unused;
     const int widths[] = {1, 4, 8};
     for (size_t k = 0; k < FRACAS_COUNT(cases); k++) {
         fracas_model *model = model_of(&cases[k]);
@@ -139,8 +140,4 @@ static void a_lane_is_its_run_alone(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_lane_is_its_run_alone)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_lane_is_its_run_alone)

@@ -4,8 +4,10 @@
  * +- 0.33 %.
  */
 #include "tests/support/bar.h"
-
-#include <math.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 typedef struct {
     double mean, variance; /* of the counts; 1 */
@@ -58,7 +60,6 @@ static double zmr_size(double rate)
  * 1560-1641), the size law's tolerance is its own scatter against simulations. */
 static void mean_counts_are_those_of_independent_codes(void **unused)
 {
-    (void)unused;
     static const struct {
         double rate, end, low, high, zmr;
         int64_t elements;
@@ -82,7 +83,6 @@ static void mean_counts_are_those_of_independent_codes(void **unused)
  * code; within 8 %, the difference between its mesh and end time and ours. */
 static void wider_scatter_gives_fewer_fragments(void **unused)
 {
-    (void)unused;
     const double scatter[] = {1.0 / 300, 0.10, 0.30}, theirs[] = {374, 319, 282};
     for (int i = 0; i < 3; i++) {
         double count = mean_count(5000, 1e5, 3e-7, scatter[i], 8);
@@ -100,7 +100,6 @@ static void wider_scatter_gives_fewer_fragments(void **unused)
  */
 static void moved_nodes_do_not_bias_the_count(void **unused)
 {
-    (void)unused;
     enum { N = 1250, MESHES = 4 };
     fracas_spec spec = bar_reference(N, 1e4, 0.6e-6);
     const counts uniform = count_fragments(&spec, 1.0 / 300, 8);
@@ -126,12 +125,5 @@ static void moved_nodes_do_not_bias_the_count(void **unused)
     assert_true(error < 0.02 * uniform.mean); /* it could have been seen */
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mean_counts_are_those_of_independent_codes),
-        cmocka_unit_test(wider_scatter_gives_fewer_fragments),
-        cmocka_unit_test(moved_nodes_do_not_bias_the_count),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(mean_counts_are_those_of_independent_codes, wider_scatter_gives_fewer_fragments,
+      moved_nodes_do_not_bias_the_count)

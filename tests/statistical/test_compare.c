@@ -7,18 +7,14 @@
 #include "analysis/compare/match.h"
 #include "analysis/compare/permutation.h"
 #include "analysis/summary/study.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_sort.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #define OK(call) assert_int_equal(call, FRACAS_OK)
 
@@ -29,7 +25,6 @@
  * = 1.27148207485, 5.832747861305 degrees of freedom, t = 2.464020944024. */
 static void welch_by_hand(void **state)
 {
-    (void)state;
     const double a[] = {3, 4, 4, 5, 6, 8}, b[] = {5, NAN, 7, 8, 10};
     fracas_compared_value value;
     fracas_difference_of(a, 6, b, 5, 1, &value);
@@ -52,7 +47,6 @@ static void welch_by_hand(void **state)
 /* Differences 1, 2, NAN, 3, 2: mean 2, deviation sqrt(2/3), four pairs, t_(0.975, 3) = 3.182446. */
 static void pairs_by_hand(void **state)
 {
-    (void)state;
     const double a[] = {1, 5, NAN, 9, 2}, b[] = {2, 7, 3, 12, 4};
     fracas_compared_value value;
     fracas_difference_of_pairs(a, b, 5, 1, &value);
@@ -72,7 +66,6 @@ static void pairs_by_hand(void **state)
 
 static void holm_by_hand(void **state)
 {
-    (void)state;
     const double p[] = {0.01, 0.04, NAN, 0.03, 0.005}, expected[] = {0.03, 0.06, NAN, 0.06, 0.02};
     double corrected[5];
     OK(fracas_holm(p, 5, 1, corrected));
@@ -88,7 +81,6 @@ static void holm_by_hand(void **state)
  * so that a common variance would not do; then 12 pairs with a correlation of 0.9. */
 static void intervals_cover(void **state)
 {
-    (void)state;
     enum { REPETITIONS = 2000 };
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     int held[4] = {0};
@@ -153,7 +145,6 @@ static void test_samples(const sample *of, size_t na, size_t nb, bool paired, in
 
 static void all_assignments(void **state)
 {
-    (void)state;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     sample of;
     fracas_permuted result[2];
@@ -226,7 +217,6 @@ static double distance_to_uniform(double *p, int n)
  * Smirnov at 1e-6 is sqrt(ln(2e6)/(2 n)) = 0.0602 for n = 2000. */
 static void null_is_uniform(void **state)
 {
-    (void)state;
     static double means[TESTS], sizes[TESTS];
     const double limit = sqrt(log(2e6) / (2 * TESTS)) + 1.0 / (PERMUTATIONS + 1);
     for (int paired = 0; paired < 2; paired++) {
@@ -245,7 +235,6 @@ static void null_is_uniform(void **state)
  * some 20 %. */
 static void unequal_variances(void **state)
 {
-    (void)state;
     enum { ROUNDS = 1000 };
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     int found = 0;
@@ -270,7 +259,6 @@ static void unequal_variances(void **state)
  * %. */
 static void shift_is_found(void **state)
 {
-    (void)state;
     enum { SHIFTED = 400 };
     static double means[SHIFTED], sizes[SHIFTED];
     for (int paired = 0; paired < 2; paired++) {
@@ -342,7 +330,6 @@ static void drop(study *of)
 
 static void points_and_partners(void **state)
 {
-    (void)state;
     study a, b;
     fracas_comparison found;
     fracas_compare_options how = {.permutations = 99};
@@ -398,7 +385,6 @@ static void points_and_partners(void **state)
  * replica, those alone that both have. */
 static void partners_of_replicas(void **state)
 {
-    (void)state;
     study a, b;
     fracas_comparison found;
     fracas_compare_options how = {.permutations = 99};
@@ -435,14 +421,5 @@ static void partners_of_replicas(void **state)
     drop(&b);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(welch_by_hand),       cmocka_unit_test(pairs_by_hand),
-        cmocka_unit_test(holm_by_hand),        cmocka_unit_test(intervals_cover),
-        cmocka_unit_test(all_assignments),     cmocka_unit_test(null_is_uniform),
-        cmocka_unit_test(unequal_variances),   cmocka_unit_test(shift_is_found),
-        cmocka_unit_test(points_and_partners), cmocka_unit_test(partners_of_replicas),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(welch_by_hand, pairs_by_hand, holm_by_hand, intervals_cover, all_assignments, null_is_uniform,
+      unequal_variances, shift_is_found, points_and_partners, partners_of_replicas)

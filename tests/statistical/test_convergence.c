@@ -2,17 +2,13 @@
 /* Verdicts on what a refinement moves: on rows that are given, and on samples of known truth, fixed
  * seeds. */
 #include "analysis/converge/rows.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 /* ---- rows that are given ---- */
 
@@ -32,7 +28,6 @@ static fracas_convergence_row row_of(double low, double high, double p)
 
 static void verdicts(void **state)
 {
-    (void)state;
     fracas_convergence_row row[] = {
         row_of(0.03, 0.05, 1e-4),                                /* surely beyond 2 % */
         row_of(0.001, 0.03, 1e-3),                               /* differs, perhaps within 2 % */
@@ -61,7 +56,6 @@ static void verdicts(void **state)
  * many, and never that something did. */
 static void realizations_that_are_alike(void **state)
 {
-    (void)state;
     fracas_convergence_row row[] = {row_of(0.5, 0.5, NAN), row_of(0, 0, 1), row_of(0, 0, 1)};
     row[2].value.a.n = row[2].value.b.n = 2;
     const fracas_number_verdict expected[] = {FRACAS_NUMBER_UNCLEAR, FRACAS_NUMBER_HOLDS,
@@ -83,7 +77,6 @@ static void realizations_that_are_alike(void **state)
  * = 1 - 2/pi (atan x + x/(1 + x^2)), x = t/sqrt(3). Energies are equal. */
 static void pairs_by_replica(void **state)
 {
-    (void)state;
     fracas_replica_values before[5], after[5];
     int64_t replica[2][5] = {{0, 1, 2, 3, 5}, {0, 1, 2, 3, 4}};
     const double count[5] = {40, 70, 50, 60, 1};
@@ -127,7 +120,6 @@ static void hear(void *context, const char *text)
  * not by one that is known to 900 %, or has no parts. */
 static void replicas_of_what_is_known(void **state)
 {
-    (void)state;
     fracas_convergence_row row[] = {row_of(-0.05, 0.05, 0.7), row_of(-0.3, 0.3, 0.8),
                                     row_of(-9, 9, 0.9), row_of(-0.1, 0.1, 0.9)};
     row[3].value.relative_low = row[3].value.relative_high = NAN;
@@ -187,7 +179,6 @@ static void scale(size_t n, double factor, bool paired, fracas_convergence *conv
  * an onset time from two on. One of 1e-6 is a change. */
 static void rounding_is_no_change(void **state)
 {
-    (void)state;
     const size_t replicas[] = {2, 7, 8};
     for (int paired = 0; paired < 2; paired++)
         for (int r = 0; r < 3; r++) {
@@ -274,7 +265,6 @@ static size_t count_verdicts(gsl_rng *random, size_t points, size_t n, double sh
  * counted, too. */
 static void intervals_agree_with_verdicts(void **state)
 {
-    (void)state;
     enum { TABLES = 400, N = 60 };
     static sample before, after;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
@@ -320,7 +310,6 @@ static void intervals_agree_with_verdicts(void **state)
  * 0.95^20: two numbers of three are independent). */
 static void no_false_alarm(void **state)
 {
-    (void)state;
     enum { TABLES = 2000, POINTS = 10 };
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     for (int paired = 0; paired < 2; paired++) {
@@ -341,7 +330,6 @@ static void no_false_alarm(void **state)
  * spare: 99 %. In pairs it is found with 8. */
 static void moves_are_found(void **state)
 {
-    (void)state;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     size_t rows, found = 0, all = 0;
     for (int t = 0; t < 20; t++) {
@@ -360,15 +348,5 @@ static void moves_are_found(void **state)
     gsl_rng_free(random);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(verdicts),
-                                       cmocka_unit_test(realizations_that_are_alike),
-                                       cmocka_unit_test(pairs_by_replica),
-                                       cmocka_unit_test(rounding_is_no_change),
-                                       cmocka_unit_test(replicas_of_what_is_known),
-                                       cmocka_unit_test(intervals_agree_with_verdicts),
-                                       cmocka_unit_test(no_false_alarm),
-                                       cmocka_unit_test(moves_are_found)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(verdicts, realizations_that_are_alike, pairs_by_replica, rounding_is_no_change,
+      replicas_of_what_is_known, intervals_agree_with_verdicts, no_false_alarm, moves_are_found)

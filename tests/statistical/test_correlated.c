@@ -6,16 +6,13 @@
 #include "sampler/field/sparse_factor.h"
 #include "sampler/api/sampler.h"
 #include "tests/support/sites.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <inttypes.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #define ALPHA 1e-6
 
@@ -94,7 +91,6 @@ static void check_covariances(const fracas_strength *strength, size_t n, double 
 
 static void samples_have_the_covariance(void **state)
 {
-    (void)state;
     const fracas_strength exponential = correlated(&fracas_covariance_exponential, 0.2, NAN);
     const fracas_strength matern = correlated(&fracas_covariance_matern, 0.1, 2.2);
     sites_on_line(LINE, 1, position);
@@ -131,7 +127,6 @@ static void assert_uniform(double *u, size_t n)
  * extent: of Weibull's law by the law, of flaws by their number there. */
 static void each_strength_follows_its_law(void **state)
 {
-    (void)state;
     static double u[2][WATCHED][REALIZATIONS];
     fracas_strength laws[2] = {correlated(&fracas_covariance_exponential, 0.3, NAN),
                                correlated(&fracas_covariance_matern, 5, NAN)};
@@ -177,7 +172,6 @@ static uint64_t digest(const double *value, size_t n, size_t stride)
  * compiler that disagrees. */
 static void a_strength_depends_on_its_name_alone(void **state)
 {
-    (void)state;
     static const uint64_t expected[4] = {0xd80c86043f5d360eu, 0xc60103191eff18b5u,
                                          0xa79f810e7f389460u, 0x410ac76c66bfac9fu};
     static double lanes[8 * N];
@@ -215,7 +209,6 @@ static void a_strength_depends_on_its_name_alone(void **state)
  * the names of their uniform numbers differ, and extents are those of the interface. */
 static void gauss_points_are_sites(void **state)
 {
-    (void)state;
     const fracas_strength strength = correlated(&fracas_covariance_exponential, 1e9,
                                                 NAN); /* all are alike */
     const fracas_stream named = stream(0);
@@ -238,13 +231,5 @@ static void gauss_points_are_sites(void **state)
     fracas_field_destroy(field);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(samples_have_the_covariance),
-        cmocka_unit_test(each_strength_follows_its_law),
-        cmocka_unit_test(a_strength_depends_on_its_name_alone),
-        cmocka_unit_test(gauss_points_are_sites),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(samples_have_the_covariance, each_strength_follows_its_law,
+      a_strength_depends_on_its_name_alone, gauss_points_are_sites)

@@ -3,15 +3,12 @@
  * Latin hypercubes as n^(-3/2), smooth ones by shifted Sobol sequences about as 1/n. */
 #include "base/elementary.h"
 #include "sampler/design/design.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
 
 enum { LATIN_HYPERCUBE, SOBOL, RANDOM };
 enum { PARAMETERS = 2, SEEDS = 256, FEW = 16, MANY = 4096 };
@@ -62,7 +59,6 @@ static void check_variance(const char *what, double square, double variance, dou
 
 static void test_random(void **state)
 {
-    (void)state;
     check_variance("sum, few", mean_square(RANDOM, FEW, sum), 1.0 / FEW, 0.0);
     check_variance("sum, many", mean_square(RANDOM, MANY, sum), 1.0 / MANY, 0.0);
     check_variance("product, many", mean_square(RANDOM, MANY, product), 1.25 / MANY, 0.0);
@@ -73,7 +69,6 @@ static void test_random(void **state)
  * the rest, nothing changes but a share of 1/n (Stein, Technometrics 29, 143-151, 1987). */
 static void test_latin_hypercube(void **state)
 {
-    (void)state;
     const double additive = 2.0 * M_PI * M_PI / 24.0;
     check_variance("sum, few", mean_square(LATIN_HYPERCUBE, FEW, sum), additive / pow(FEW, 3),
                    1.0 / FEW);
@@ -90,7 +85,6 @@ static void test_latin_hypercube(void **state)
  * of Sobol are not normal: twice that. */
 static void test_slopes(void **state)
 {
-    (void)state;
     double slope[3];
     for (int type = 0; type < 3; type++) {
         slope[type] = 0.5 *
@@ -103,12 +97,4 @@ static void test_slopes(void **state)
     assert_true(slope[SOBOL] < -0.80 + 0.11);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random),
-        cmocka_unit_test(test_latin_hypercube),
-        cmocka_unit_test(test_slopes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_random, test_latin_hypercube, test_slopes)

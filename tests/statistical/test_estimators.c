@@ -7,19 +7,14 @@
  */
 #include "analysis/data/estimate.h"
 #include "analysis/estimate/pooled.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 /* Realization i has a scale A_i, lognormal of deviation SIGMA, and 10 + Poisson(30/A_i) fragments
  * of size A_i x, x gamma of shape 3 and mean 1: the larger the fragments, the fewer. Masses are as
@@ -231,7 +226,6 @@ static void check(number v, int c, double truth, double stated, const tally *of)
 
 static void intervals_hold_the_truth_as_often_as_stated(void **state)
 {
-    (void)state;
     const char *asked = getenv("FRACAS_REPETITIONS");
     const int repetitions = asked ? atoi(asked) : ORDINARY;
     double truth[NNUMBERS], stated[COLUMNS];
@@ -259,7 +253,6 @@ static void intervals_hold_the_truth_as_often_as_stated(void **state)
  * resampling held 83 to 91 % of means of four and five, and less of the others. */
 static void intervals_of_few_realizations(void **state)
 {
-    (void)state;
     double truth[NNUMBERS], stated[COLUMNS];
     tally of[FEWS];
     truths(truth);
@@ -278,10 +271,4 @@ static void intervals_of_few_realizations(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(intervals_hold_the_truth_as_often_as_stated),
-        cmocka_unit_test(intervals_of_few_realizations)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(intervals_hold_the_truth_as_often_as_stated, intervals_of_few_realizations)

@@ -5,6 +5,10 @@
  * test_few_replicas_storm.c has thousands.
  */
 #include "tests/support/few_replicas.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 
@@ -28,7 +32,6 @@ static double exact_share(double q, double f)
 
 static void lines(void **state)
 {
-    (void)state;
     enum { ROUNDS = 20000 };
     for (size_t c = 0; c < FEW_CLAIMS; c++) {
         const few_stated *claim = &few_claims[c];
@@ -46,7 +49,6 @@ static void lines(void **state)
 /* Why errors are pooled. */
 static void own_weights(void **state)
 {
-    (void)state;
     enum { ROUNDS = 20000 };
     static const double stated[] = {0.71, 0.87, 0.92};
     for (int i = 0; i < 3; i++)
@@ -59,7 +61,6 @@ static void own_weights(void **state)
  * numbers, and what the page states for equal and for falling scatter. */
 static void mixed(void **state)
 {
-    (void)state;
     enum { ROUNDS = 20000 };
     for (size_t k = 0; k < FRACAS_COUNT(few_mixed); k++)
         for (int falling = 0; falling < 2; falling++) {
@@ -74,7 +75,6 @@ static void mixed(void **state)
 /* Of many points, each of its own weight from eight replicas, intervals are short. */
 static void many_points(void **state)
 {
-    (void)state;
     enum { ROUNDS = 5000 };
     static const struct {
         size_t points;
@@ -92,7 +92,6 @@ static void many_points(void **state)
 /* Of more points pooling holds less where scatter falls. */
 static void twelve_points(void **state)
 {
-    (void)state;
     enum { ROUNDS = 20000 };
     static const double stated[] = {0.95, 0.95, 0.95};
     for (int i = 0; i < 3; i++)
@@ -102,7 +101,6 @@ static void twelve_points(void **state)
 
 static void crossovers(void **state)
 {
-    (void)state;
     for (size_t c = 0; c < FEW_CLAIMS; c += 2) few_assert_bends(&few_claims[c], 200, 2000 + c);
 }
 
@@ -135,7 +133,6 @@ static double width_of(int64_t replicas, int64_t of_last, double zigzag)
 
 static void draws_are_students(void **state)
 {
-    (void)state;
     const double known = width_of(100000, 100000, 0), normal = gsl_cdf_ugaussian_Pinv(0.975);
     assert_true(fabs(width_of(2, 2, 0) / known / (gsl_cdf_tdist_Pinv(0.975, 9) / normal) - 1) <
                 0.05);
@@ -162,7 +159,6 @@ static void draws_are_students(void **state)
  * pooled error, both widths would be equal. */
 static void draws_know_who_scatters(void **state)
 {
-    (void)state;
     double width[2];
     for (int one = 0; one < 2; one++) {
         fracas_size_point point[FEW_RATES];
@@ -182,15 +178,5 @@ static void draws_know_who_scatters(void **state)
     assert_true(width[1] > 1.2 * width[0]);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(lines),
-                                       cmocka_unit_test(own_weights),
-                                       cmocka_unit_test(twelve_points),
-                                       cmocka_unit_test(mixed),
-                                       cmocka_unit_test(many_points),
-                                       cmocka_unit_test(crossovers),
-                                       cmocka_unit_test(draws_are_students),
-                                       cmocka_unit_test(draws_know_who_scatters)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(lines, own_weights, twelve_points, mixed, many_points, crossovers, draws_are_students,
+      draws_know_who_scatters)

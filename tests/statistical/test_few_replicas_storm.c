@@ -4,15 +4,14 @@
 /* Crossovers from few replicas, of 3000 repetitions each: the table of docs/theory/size-laws.md.
  */
 #include "tests/support/few_replicas.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 static void crossovers(void **state)
 {
-    (void)state;
     for (size_t c = 0; c < FEW_CLAIMS; c++) few_assert_bends(&few_claims[c], 3000, 3000 + c);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(crossovers)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(crossovers)

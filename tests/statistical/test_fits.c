@@ -5,6 +5,10 @@
  * test_fits_storm.c has a thousand of.
  */
 #include "tests/support/fit_checks.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 
@@ -43,7 +47,6 @@ static void of(const synthetic *what, unsigned long seed)
 
 static void intervals_and_p_values(void **state)
 {
-    (void)state;
     for (size_t t = 0; t < sizeof truth / sizeof *truth; t++)
         for (int how = 0; how < NDEPENDENCES; how++) {
             synthetic what = truth[t];
@@ -55,7 +58,6 @@ static void intervals_and_p_values(void **state)
 /* Sizes of half a wrong law: p-values go to the least that the resamples can show. */
 static void a_wrong_law_is_found(void **state)
 {
-    (void)state;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     const fracas_family *family = &fracas_family_exponential;
     fracas_ensemble ensemble;
@@ -73,7 +75,6 @@ static void a_wrong_law_is_found(void **state)
  * dependence. */
 static void nested_families(void **state)
 {
-    (void)state;
     const fracas_family *const family[2] = {&fracas_family_exponential, &fracas_family_weibull};
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     for (int how = 0; how < NDEPENDENCES; how++) {
@@ -106,7 +107,6 @@ static void nested_families(void **state)
  * 200 it is far beyond chance. Turned round it changes its sign, to rounding. */
 static void not_nested_families(void **state)
 {
-    (void)state;
     const fracas_family *const family[2] = {&fracas_family_lognormal, &fracas_family_weibull};
     synthetic what = {.family = &fracas_family_weibull,
                       .parameter = {20, 1.5},
@@ -136,7 +136,7 @@ static void not_nested_families(void **state)
     gsl_rng_free(random);
 }
 
-int main(void)
+int fracas_test(void)
 {
     gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {

@@ -5,6 +5,10 @@
  * the table of docs/results/fits.md.
  */
 #include "tests/support/fit_checks.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 enum { REPETITIONS = 1000, RESAMPLES = 299 };
 
@@ -43,7 +47,6 @@ static const synthetic truth[] =
  * 1000 beside it. */
 static void fifty_realizations(void **state)
 {
-    (void)state;
     for (size_t t = 0; t < sizeof truth / sizeof *truth; t++) {
         const fit_check found = fit_check_of(&truth[t], REPETITIONS, RESAMPLES, 1000 + 7919 * t);
         fit_check_print(&truth[t], &found);
@@ -61,7 +64,6 @@ static void fifty_realizations(void **state)
 /* What it is with 16 is printed; below 85 % nobody would call it an interval of 95 %. */
 static void sixteen_realizations(void **state)
 {
-    (void)state;
     for (size_t t = 0; t < sizeof few / sizeof *few; t++) {
         const fit_check found = fit_check_of(&few[t], REPETITIONS, RESAMPLES, 2000 + 7919 * t);
         fit_check_print(&few[t], &found);
@@ -70,7 +72,7 @@ static void sixteen_realizations(void **state)
     }
 }
 
-int main(void)
+int fracas_test(void)
 {
     gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {cmocka_unit_test(fifty_realizations),

@@ -3,19 +3,16 @@
  * differ are found to: fixed seeds. */
 #include "analysis/estimate/convergence.h"
 #include "analysis/estimate/pooled.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
 
 enum { MOST = 64 };
 
@@ -53,7 +50,6 @@ static double room(double p, int repetitions)
  * seen. */
 static void false_alarms(void **state)
 {
-    (void)state;
     enum { REPETITIONS = 200000 };
     const size_t n[] = {4, 5, 8, 16, 50};
     for (size_t k = 0; k < sizeof n / sizeof *n; k++) {
@@ -96,7 +92,6 @@ static double power_of(size_t n, double shift)
  */
 static void power(void **state)
 {
-    (void)state;
     enum { REPETITIONS = 20000 };
     static const struct {
         size_t n;
@@ -123,7 +118,6 @@ static void power(void **state)
  * deviations above 2/1600 are allowed. */
 static void counts_that_repeat(void **state)
 {
-    (void)state;
     enum { REPETITIONS = 50000 };
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(random, 1);
@@ -151,7 +145,6 @@ static void counts_that_repeat(void **state)
  * those of the second half three times as large are found in most samples. */
 static void halves_of_ratios(void **state)
 {
-    (void)state;
     enum { REPETITIONS = 10000, N = 16, FRAGMENTS = 80 };
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(random, 1);
@@ -197,7 +190,7 @@ static void halves_of_ratios(void **state)
     gsl_rng_free(random);
 }
 
-int main(void)
+int fracas_test(void)
 {
     gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {cmocka_unit_test(false_alarms), cmocka_unit_test(power),

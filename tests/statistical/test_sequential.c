@@ -3,18 +3,13 @@
  * interval happens to be narrow makes it hold the mean less often than its confidence says;
  * docs/theory/sequential.md states the table below. */
 #include "sampler/sequential/sequential.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { REPETITIONS = 4000, MOST = 512, LAWS = 4, MINIMA = 3, WIDTHS = 4 };
 
@@ -96,7 +91,6 @@ static void read_stated(const char *name, double stated[MINIMA])
  * stopping early makes intervals better, which nothing can. */
 static void intervals_hold_the_mean_as_often_as_stated(void **state)
 {
-    (void)state;
     const double five = 5 * 0.004;
     gsl_rng *stream = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(stream, 20261121);
@@ -131,7 +125,6 @@ static void intervals_hold_the_mean_as_often_as_stated(void **state)
  * scatter), less for skewed ones. */
 static void a_fixed_number_is_the_measure(void **state)
 {
-    (void)state;
     static const int64_t fixed[MINIMA] = {17, 33, 60}; /* as many as the campaigns above come to */
     gsl_rng *stream = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(stream, 11);
@@ -154,7 +147,6 @@ static void a_fixed_number_is_the_measure(void **state)
  * again. */
 static void two_narrow_rounds_in_a_row_cost_much(void **state)
 {
-    (void)state;
     gsl_rng *stream = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(stream, 7);
     for (size_t l = 0; l < 2; l++) {
@@ -174,10 +166,5 @@ static void two_narrow_rounds_in_a_row_cost_much(void **state)
     gsl_rng_free(stream);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(intervals_hold_the_mean_as_often_as_stated),
-                                       cmocka_unit_test(a_fixed_number_is_the_measure),
-                                       cmocka_unit_test(two_narrow_rounds_in_a_row_cost_much)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(intervals_hold_the_mean_as_often_as_stated, a_fixed_number_is_the_measure,
+      two_narrow_rounds_in_a_row_cost_much)

@@ -4,16 +4,13 @@
 #include "analysis/scaling/crossover.h"
 #include "analysis/scaling/windows.h"
 #include "analysis/data/estimate.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { RATES = 9, REPLICAS = 16 };
 static const double TRUE_SIZE = 1e-3, TRUE_RATE = 3e4, TRUE_K = 0.7;
@@ -43,7 +40,6 @@ static void make(fracas_size_point point[RATES], double error, gsl_rng *random)
 
 static void exact_windows(void **state)
 {
-    (void)state;
     fracas_size_point low = {.replicas = 8, .rate = 1e3, .size = 2e-4, .error = 0.03},
                       high = {.replicas = 8, .rate = 1e4, .size = 2e-5, .error = 0.04};
     fracas_window window = fracas_window_of(&low, &high);
@@ -70,7 +66,6 @@ static void exact_windows(void **state)
 /* Sizes of 16 replicas, of unequal spread: 2000 repetitions know the coverage to 0.5 %. */
 static void windows_cover(void **state)
 {
-    (void)state;
     enum { REPETITIONS = 2000 };
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     int held = 0;
@@ -98,7 +93,6 @@ static void windows_cover(void **state)
 /* Without noise the constants are those of the truth; the fit stops at steps of 1e-9. */
 static void exact_crossover(void **state)
 {
-    (void)state;
     fracas_size_point point[RATES];
     make(point, 0.01, NULL);
     const fracas_size_series series = {.name = "all points", .n = RATES, .point = point};
@@ -153,7 +147,6 @@ static shares covers(double factor, int repetitions, unsigned long seed)
  * the other to 1.6 %. */
 static void crossover_covers(void **state)
 {
-    (void)state;
     const shares of = covers(1, 1000, 2);
     for (int i = 0; i < 3; i++) assert_true(of.held[i] > 0.945 && of.held[i] < 0.99);
     assert_true(fabs(of.inflated - 0.423) < 0.08);
@@ -165,7 +158,6 @@ static void crossover_covers(void **state)
  * would hold it in 0.84 of those with 1.5 and 2; not at all, in 0.30 of those with 5. */
 static void understated_errors(void **state)
 {
-    (void)state;
     static const double factor[] = {1.5, 2, 5};
     for (int f = 0; f < 3; f++) {
         const shares of = covers(factor[f], 300, 3);
@@ -177,7 +169,6 @@ static void understated_errors(void **state)
  * others say. */
 static void draws_that_run_away(void **state)
 {
-    (void)state;
     fracas_size_point point[RATES];
     make(point, 0.6, NULL);
     const fracas_size_series series = {.name = "", .n = RATES, .point = point};
@@ -192,7 +183,6 @@ static void draws_that_run_away(void **state)
 
 static void without_a_fit(void **state)
 {
-    (void)state;
     fracas_size_point point[RATES];
     fracas_size_series series = {.name = "steel", .n = RATES, .point = point};
     fracas_size_crossover found;
@@ -223,13 +213,5 @@ static void without_a_fit(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact_windows),      cmocka_unit_test(windows_cover),
-        cmocka_unit_test(exact_crossover),    cmocka_unit_test(crossover_covers),
-        cmocka_unit_test(understated_errors), cmocka_unit_test(draws_that_run_away),
-        cmocka_unit_test(without_a_fit),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(exact_windows, windows_cover, exact_crossover, crossover_covers, understated_errors,
+      draws_that_run_away, without_a_fit)

@@ -4,17 +4,12 @@
  * every run; a right generator fails any one of the checks with probability ALPHA. */
 #include "base/param.h"
 #include "sampler/stream.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #define ALPHA 1e-6
 
@@ -51,7 +46,6 @@ static void assert_even(const char *what, const uint32_t count[CELLS])
 /* The highest 12 bits, those in the middle and the lowest as the number of a cell. */
 static void numbers_are_even(void **state)
 {
-    (void)state;
     fracas_stream_fill(&here, 0, N, u);
     static const struct {
         const char *what;
@@ -68,7 +62,6 @@ static void numbers_are_even(void **state)
  * normal, but for O(LAGS/N). */
 static void numbers_are_uncorrelated(void **state)
 {
-    (void)state;
     enum { LAGS = 200 };
     fracas_stream_fill(&here, 0, N, u);
     double squares = 0.0;
@@ -94,7 +87,6 @@ static void assert_independent(const char *what)
 
 static void neighbouring_streams_are_independent(void **state)
 {
-    (void)state;
     enum { NEXT = 10 };
     fracas_stream next[NEXT];
     for (size_t k = 0; k < NEXT; k++) next[k] = here;
@@ -155,7 +147,6 @@ static uint64_t bits_of_name(const uint64_t name[6])
  * independent. */
 static void every_bit_of_a_name_counts(void **state)
 {
-    (void)state;
     enum { NAMES = 4096 };
     static const char *const what[6] = {"bits of the site",
                                         "bits of the seed",
@@ -183,13 +174,5 @@ static void every_bit_of_a_name_counts(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(numbers_are_even),
-        cmocka_unit_test(numbers_are_uncorrelated),
-        cmocka_unit_test(neighbouring_streams_are_independent),
-        cmocka_unit_test(every_bit_of_a_name_counts),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(numbers_are_even, numbers_are_uncorrelated, neighbouring_streams_are_independent,
+      every_bit_of_a_name_counts)

@@ -3,18 +3,14 @@
  * streams. Seeds are fixed, so a result is the same in every run; every bound is the one that a
  * right sampler exceeds with probability ALPHA or less. */
 #include "tests/support/strengths.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_sf_gamma.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #define ALPHA 1e-6
 static const double normal_bound = 4.8916; /* |z| exceeds it with probability ALPHA */
@@ -108,7 +104,6 @@ static void assert_follows(const fracas_strength *law, double *value, size_t n)
 
 static void distributions_follow_their_laws(void **state)
 {
-    (void)state;
     const fracas_strength laws[] = {
         weibull(264e6, 50e6, 2.0),
         weibull(0.0, 450e6, 40.0),
@@ -138,7 +133,6 @@ static void distributions_follow_their_laws(void **state)
  * minimum)/scale. */
 static void weibull_moments(void **state)
 {
-    (void)state;
     static const struct {
         double minimum, scale, shape, mean, deviation;
     } published[] = {
@@ -204,7 +198,6 @@ static void assert_moments(const fracas_strength *law, uint64_t seed, const doub
  * 2, by parts. */
 static void normal_moments(void **state)
 {
-    (void)state;
     fill_volumes(body);
     static const double means[] = {300e6, 100e6, 10e6}, d = 120e6;
     for (size_t k = 0; k < FRACAS_COUNT(means); k++) {
@@ -221,7 +214,6 @@ static void normal_moments(void **state)
 /* M_n = scale^n k (k + 1) ... (k + n - 1). */
 static void gamma_moments(void **state)
 {
-    (void)state;
     fill_volumes(body);
     static const double shapes[] = {0.3, 2.0, 12.0, 500.0}, t = 30e6;
     for (size_t k = 0; k < FRACAS_COUNT(shapes); k++) {
@@ -237,7 +229,6 @@ static void gamma_moments(void **state)
  * mu). */
 static void flaws_moments(void **state)
 {
-    (void)state;
     fill_volumes(body);
     static const double numbers[] = {0.1, 0.7, 3.0, 40.0};
     for (size_t k = 0; k < FRACAS_COUNT(numbers); k++) {
@@ -253,7 +244,6 @@ static void flaws_moments(void **state)
 /* The weakest of n interfaces that share a body is that of the body, however many they are. */
 static void flaws_do_not_see_the_mesh(void **state)
 {
-    (void)state;
     enum { CHAINS = 10000, LONGEST = 64 };
     fracas_strength law = flaws(5.0);
     for (size_t n = 1; n <= LONGEST; n *= 4) {
@@ -275,7 +265,6 @@ static void flaws_do_not_see_the_mesh(void **state)
  */
 static void the_weakest_of_n_scales(void **state)
 {
-    (void)state;
     enum { CHAINS = 10000, LONGEST = 64 };
     static const double shapes[] = {2.0, 10.0};
     for (size_t k = 0; k < FRACAS_COUNT(shapes); k++) {
@@ -315,7 +304,6 @@ static void fill(fracas_stream named, double *u)
 
 static void neighbouring_streams_are_independent(void **state)
 {
-    (void)state;
     fracas_stream first = stream(400);
     fill(first, sample);
     for (size_t lag = 1; lag <= 4; lag++)
@@ -339,17 +327,6 @@ static void neighbouring_streams_are_independent(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(distributions_follow_their_laws),
-        cmocka_unit_test(weibull_moments),
-        cmocka_unit_test(normal_moments),
-        cmocka_unit_test(gamma_moments),
-        cmocka_unit_test(flaws_moments),
-        cmocka_unit_test(flaws_do_not_see_the_mesh),
-        cmocka_unit_test(the_weakest_of_n_scales),
-        cmocka_unit_test(neighbouring_streams_are_independent),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(distributions_follow_their_laws, weibull_moments, normal_moments, gamma_moments,
+      flaws_moments, flaws_do_not_see_the_mesh, the_weakest_of_n_scales,
+      neighbouring_streams_are_independent)

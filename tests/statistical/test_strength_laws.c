@@ -4,14 +4,12 @@
  * that a right sampler exceeds with probability ALPHA or less. */
 #include "tests/support/laws.h"
 #include "tests/support/strengths.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-
-#include <cmocka.h>
 
 #define ALPHA 1e-6
 static const double normal_bound = 4.8916; /* |z| exceeds it with probability ALPHA */
@@ -104,7 +102,6 @@ static void assert_moments(double mean, double deviation)
 
 static void moments_are_those_that_are_given(void **state)
 {
-    (void)state;
     static const struct {
         const char *law;
         double minimum, ratio;
@@ -125,7 +122,6 @@ static void moments_are_those_that_are_given(void **state)
 
 static void interfaces_are_as_weak_as_the_weakest_specimen(void **state)
 {
-    (void)state;
     fracas_strength laws[] = {
         law_by_moments("lognormal", 0.0, 308e6, 60e6),
         law_by_moments("gamma", 0.0, 308e6, 60e6),
@@ -149,7 +145,6 @@ static void interfaces_are_as_weak_as_the_weakest_specimen(void **state)
  */
 static void steps_are_equally_frequent(void **state)
 {
-    (void)state;
     const fracas_strength law = law_of_file(&measured, true);
     draw(&law, 800, specimen);
     qsort(sample, N, sizeof *sample, ascending);
@@ -168,7 +163,6 @@ static void steps_are_equally_frequent(void **state)
  */
 static void the_weakest_of_a_body_does_not_see_the_mesh(void **state)
 {
-    (void)state;
     enum { CHAINS = 10000, LONGEST = 64 };
     fracas_strength laws[] = {law_by_moments("lognormal", 0.0, 308e6, 60e6),
                               law_of_file(&table, false)};
@@ -190,13 +184,5 @@ static void the_weakest_of_a_body_does_not_see_the_mesh(void **state)
         }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(moments_are_those_that_are_given),
-        cmocka_unit_test(interfaces_are_as_weak_as_the_weakest_specimen),
-        cmocka_unit_test(steps_are_equally_frequent),
-        cmocka_unit_test(the_weakest_of_a_body_does_not_see_the_mesh),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(moments_are_those_that_are_given, interfaces_are_as_weak_as_the_weakest_specimen,
+      steps_are_equally_frequent, the_weakest_of_a_body_does_not_see_the_mesh)

@@ -6,10 +6,10 @@
 #ifndef FRACAS_TESTS_SUPPORT_AXISYMMETRIC_H
 #define FRACAS_TESTS_SUPPORT_AXISYMMETRIC_H
 
+#include "tests/support/test.h"
+
 #include <assert.h>
 #include <gsl/gsl_sf_bessel.h>
-#include <math.h>
-#include <stdlib.h>
 
 typedef struct {
     double young, poisson, density; /* Pa, 1, kg/m3 */

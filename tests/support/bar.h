@@ -9,12 +9,7 @@
 #include "engine/mesh/body.h"
 #include "engine/solver/batch.h"
 #include "sampler/api/sampler.h"
-
-#include <stdarg.h>
-#include <stddef.h>
-#include <setjmp.h>
-#include <stdint.h>
-#include <cmocka.h>
+#include "tests/support/test.h"
 
 #define BAR_WAVE_SPEED 1e4                           /* m/s */
 #define BAR_STRENGTH_MEAN 300e6                      /* Pa */

@@ -9,9 +9,7 @@
 #include "analysis/draw/facets.h"
 #include "analysis/draw/surface_picture.h"
 #include "engine/mesh/surface/surface.h"
-
-#include <math.h>
-#include <stdlib.h>
+#include "tests/support/test.h"
 
 /* Cleared by the caller; the surface is destroyed. */
 static inline void body_copy(const fracas_surface *surface, fracas_stored_mesh *mesh)

@@ -2,10 +2,7 @@
 /* In the place of campaigns/file/memory.c in sanitized builds: a block for each piece, so that the
  * sanitizer sees its end. */
 #include "campaigns/file/memory.h"
-
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/support/test.h"
 
 typedef struct piece {
     struct piece *next;

@@ -5,14 +5,9 @@
 
 #include "campaigns/campaign.h"
 #include "campaigns/plan/plan.h"
+#include "tests/support/test.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 /* A complete campaign without a sweep; tests replace parts of it. */
 static const char plain_campaign[] = "name: test\n"                  /* 1 */

@@ -3,14 +3,9 @@
 #ifndef FRACAS_TESTS_SUPPORT_DENSE_H
 #define FRACAS_TESTS_SUPPORT_DENSE_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
+#include "tests/support/test.h"
 
-#include <cmocka.h>
 #include <gsl/gsl_eigen.h>
-#include <stdlib.h>
 
 /* n zeros; the caller frees. */
 static inline double *vector_of(size_t n)

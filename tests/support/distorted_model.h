@@ -7,8 +7,7 @@
 #include "engine/mesh/make.h"
 #include "sampler/api/sampler.h"
 #include "tests/support/bar.h"
-
-#include <stdlib.h>
+#include "tests/support/test.h"
 
 /* The model of a spec; `distortion` moves inner vertices by up to that share of the local edge, by
  * random numbers of this seed. A mesh from a file stays as it is. */

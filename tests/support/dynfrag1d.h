@@ -5,11 +5,7 @@
 #define FRACAS_TESTS_SUPPORT_DYNFRAG1D_H
 
 #include "tests/support/bar.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/support/test.h"
 
 typedef struct {
     const char *name;

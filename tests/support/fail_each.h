@@ -5,13 +5,7 @@
 
 #include "base/err.h"
 #include "tests/support/failing_malloc.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdint.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "tests/support/test.h"
 
 /* Calls `work` with the first, second, ... allocation failing, until it succeeds without; nothing
  * stays behind. Of more than `each` of them only some are tried, a quarter further on each time. */

@@ -16,13 +16,10 @@
  * pid of the parent, point, replicas. */
 #include "campaigns/scheduler/worker/models.h"
 #include "campaigns/scheduler/worker/solve.h"
+#include "tests/support/test.h"
 
 #include <fcntl.h>
 #include <signal.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 fracas_err __real_fracas_solve(const fracas_computation *computation, const int64_t *replica,

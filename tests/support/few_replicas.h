@@ -9,15 +9,10 @@
 #include "analysis/scaling/slope.h"
 #include "analysis/data/estimate.h"
 #include "base/param.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-
-#include <cmocka.h>
 
 enum { FEW_MOST = 32, FEW_POINTS = 8, FEW_MOST_POINTS = 30, FEW_RATES = 9, FEW_DRAWS = 199 };
 

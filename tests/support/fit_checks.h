@@ -4,20 +4,12 @@
 #ifndef FRACAS_TESTS_SUPPORT_FIT_CHECKS_H
 #define FRACAS_TESTS_SUPPORT_FIT_CHECKS_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "analysis/fit/point.h"
 #include "tests/support/fit_sample.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sort.h>
-#include <stdio.h>
-#include <string.h>
 
 #define OK(call) assert_int_equal(call, FRACAS_OK)
 

@@ -6,12 +6,11 @@
 
 #include "analysis/fit/family.h"
 #include "analysis/data/ensemble.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
-#include <math.h>
-#include <stdlib.h>
 
 /* How the fragments of a realization depend on each other. Every one has the law's distribution
  * exactly: its normal score is standard. RING: neighbours of score (e_j - e_(j+1))/sqrt(2),

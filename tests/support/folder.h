@@ -4,20 +4,17 @@
 #ifndef FRACAS_TESTS_SUPPORT_FOLDER_H
 #define FRACAS_TESTS_SUPPORT_FOLDER_H
 
-#include <stdio.h>
-#include <stdlib.h>
+#include "tests/support/test.h"
 
 static char folder[] = "/tmp/" FOLDER "-XXXXXX";
 
 static inline int make_folder(void **state)
 {
-    (void)state;
     return mkdtemp(folder) ? 0 : -1;
 }
 
 static inline int remove_folder(void **state)
 {
-    (void)state;
     char command[100];
     snprintf(command, sizeof command, "rm -r %s", folder);
     return system(command);

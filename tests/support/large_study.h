@@ -5,12 +5,7 @@
 #define FRACAS_TESTS_SUPPORT_LARGE_STUDY_H
 
 #include "campaigns/store/store.h"
-
-#include <math.h>
-#include <stdbool.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/support/test.h"
 
 enum { LARGE_COLUMNS = 10, LARGE_MOST_POINTS = 64, LARGE_HISTORY = 100 };
 

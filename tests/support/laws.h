@@ -4,9 +4,7 @@
 #define FRACAS_TESTS_SUPPORT_LAWS_H
 
 #include "sampler/api/sampler.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "tests/support/test.h"
 
 static inline const fracas_kind *law_named(const char *name)
 {

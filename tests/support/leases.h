@@ -4,15 +4,7 @@
 #define FRACAS_TESTS_SUPPORT_LEASES_H
 
 #include "campaigns/scheduler/lease/scheduler.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "tests/support/test.h"
 
 #define OK(call) assert_int_equal(call, FRACAS_OK)
 

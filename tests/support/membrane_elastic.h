@@ -14,10 +14,7 @@
 #include "sampler/api/sampler.h"
 #include "tests/support/dense.h"
 #include "tests/support/distorted_model.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/support/test.h"
 
 #define PI 3.14159265358979323846
 

@@ -5,17 +5,7 @@
 #define FRACAS_TESTS_SUPPORT_PLANE_H
 
 #include "tests/support/plane_point.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
-#include <math.h>
-#include <string.h>
+#include "tests/support/test.h"
 
 /* Where a walk is, where it was, and what has been done. The ledger of a walk is
  *   work of T on q and of s on m = flux + stored + dissipated + rubbed - created

@@ -4,19 +4,10 @@
 #ifndef FRACAS_TESTS_SUPPORT_REPORT_H
 #define FRACAS_TESTS_SUPPORT_REPORT_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "analysis/analysis.h"
 #include "campaigns/store/store.h"
+#include "tests/support/test.h"
 
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -106,14 +97,12 @@ static char report_root[256];
 
 static inline int report_make_root(void **state)
 {
-    (void)state;
     snprintf(report_root, sizeof report_root, "%s/analysis-study-XXXXXX", FRACAS_BINARY_DIR);
     return mkdtemp(report_root) ? 0 : -1;
 }
 
 static inline int report_remove_root(void **state)
 {
-    (void)state;
     char command[sizeof report_root + 16];
     snprintf(command, sizeof command, "rm -rf '%s'", report_root);
     return getenv("FRACAS_KEEP") ? 0 : system(command);

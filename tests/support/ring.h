@@ -5,8 +5,7 @@
 #define FRACAS_TESTS_SUPPORT_RING_H
 
 #include "tests/support/bar.h"
-
-#include <math.h>
+#include "tests/support/test.h"
 
 #define RING_CIRCUMFERENCE 0.05 /* m */
 #define RING_RADIUS (RING_CIRCUMFERENCE / (2 * 3.14159265358979323846))

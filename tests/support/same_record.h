@@ -4,13 +4,7 @@
 #define FRACAS_TESTS_SUPPORT_SAME_RECORD_H
 
 #include "engine/record.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "tests/support/test.h"
 
 /* Every scalar, then every row, byte by byte; pointers apart. */
 static inline void assert_same_record(const fracas_record *a, const fracas_record *b)

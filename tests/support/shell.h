@@ -11,10 +11,7 @@
 #include "tests/support/dense.h"
 #include "tests/support/distorted_model.h"
 #include "tests/support/gmsh.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/support/test.h"
 
 #define PI 3.14159265358979323846
 #define DISTORTION 0.2

@@ -13,10 +13,7 @@
 #include "engine/solver/batch.h"
 #include "sampler/api/sampler.h"
 #include "tests/support/distorted_model.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/support/test.h"
 
 /* E 320 GPa, nu 0.3, rho 3300, G_c 200 J/m2, 0.3 mm thick; law nitsche, beta 5; half the critical
  * step. A plate has 1 mm x 1 mm, an annulus 1 to 3 mm, a sphere 1.5 mm. */

@@ -4,8 +4,7 @@
 #define FRACAS_TESTS_SUPPORT_SITES_H
 
 #include "sampler/field/covariance.h"
-
-#include <math.h>
+#include "tests/support/test.h"
 
 /* Lognormal strengths of sigma 1 and median 1 Pa: their logarithms are the normal field. */
 static inline fracas_strength correlated(const fracas_kind *covariance, double length,

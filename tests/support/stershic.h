@@ -7,9 +7,7 @@
 #include "tests/support/ring.h"
 
 #include "engine/formulation/chain/ring_sweep.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "tests/support/test.h"
 
 #define YOUNG 275e9
 #define DENSITY 2750.0

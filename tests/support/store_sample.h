@@ -3,20 +3,10 @@
 #ifndef FRACAS_TESTS_STORE_SAMPLE_H
 #define FRACAS_TESTS_STORE_SAMPLE_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "campaigns/store/store.h"
+#include "tests/support/test.h"
 
 #include <dirent.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 

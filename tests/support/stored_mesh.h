@@ -6,11 +6,7 @@
 
 #include "campaigns/store/mesh.h"
 #include "engine/record.h"
-
-#include <math.h>
-#include <stdbool.h>
-#include <stdint.h>
-#include <stdlib.h>
+#include "tests/support/test.h"
 
 /* nx * ny squares. Flat: 1 m each, from (0, 0), tags as those of a plate. Rolled: x goes round
  * (clockwise on radius 2 + y, so that triangles still go counter-clockwise), tag 1 inner, 2 outer

@@ -19,7 +19,6 @@ static fracas_index *index_;
 
 static inline int set_up(void **state)
 {
-    (void)state;
     study = sample_folder();
     table = sample_table(point_row, REPLICAS);
     assert_int_equal(mkdir(sample_path(study, "segments"), 0777), 0);
@@ -30,7 +29,6 @@ static inline int set_up(void **state)
 
 static inline int tear_down(void **state)
 {
-    (void)state;
     fracas_index_close(index_);
     sample_remove(study);
     return 0;

@@ -3,22 +3,10 @@
 #ifndef FRACAS_TESTS_SUPPORT_SURFACE_H
 #define FRACAS_TESTS_SUPPORT_SURFACE_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
 #include "base/hash.h"
 #include "base/param.h"
 #include "engine/mesh/surface/surface.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/support/test.h"
 
 /* The numbers 2^-32 k, 0 <= k < 2^32, spread at random. */
 static inline double next_share(uint64_t *x)

@@ -1,13 +1,13 @@
 # A segment as readers without code of ours see it (h5py, h5dump), and the same bytes from processes whose memory
 # starts with other contents.
 set -eu
-writer=$1/tests/test_unit_store_file
+writer="$1/tests/test_unit_store store_file"
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-"$writer" "$folder/a.h5" > "$folder/wanted"
+$writer "$folder/a.h5" > "$folder/wanted"
 for byte in 1 85 170 255; do
-    MALLOC_PERTURB_=$byte "$writer" "$folder/b.h5" > /dev/null
+    MALLOC_PERTURB_=$byte $writer "$folder/b.h5" > /dev/null
     cmp "$folder/a.h5" "$folder/b.h5"
 done
 

@@ -3,17 +3,13 @@
  * ended. */
 #include "campaigns/scheduler/launch/allocation.h"
 #include "campaigns/scheduler/launch/mpirun.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 static void lists_of_slurm(void **state)
 {
-    (void)state;
     assert_int_equal(fracas_allocation_sum("4"), 4);
     assert_int_equal(fracas_allocation_sum("16(x2)"), 32);
     assert_int_equal(fracas_allocation_sum("72(x2),36,8(x10)"), 260);
@@ -25,7 +21,6 @@ static void lists_of_slurm(void **state)
 
 static void jobs_of_an_allocation(void **state)
 {
-    (void)state;
     int jobs;
     unsetenv("SLURM_NTASKS");
     setenv("SLURM_JOB_ID", "7", 1);
@@ -48,7 +43,6 @@ static void jobs_of_an_allocation(void **state)
 
 static void a_task_of_srun_without_mpi(void **state)
 {
-    (void)state;
     setenv("SLURM_STEP_ID", "0", 1);
     setenv("SLURM_STEP_NUM_TASKS", "1", 1);
     assert_int_equal(fracas_allocation_check(), FRACAS_OK);
@@ -63,7 +57,6 @@ static void a_task_of_srun_without_mpi(void **state)
 /* As Open MPI 4.1.4 said them. */
 static void the_line_that_tells(void **state)
 {
-    (void)state;
     static const struct {
         const char *said, *reason;
     } known[] = {
@@ -97,10 +90,4 @@ static void the_line_that_tells(void **state)
     assert_string_equal(small, "a long line");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lists_of_slurm), cmocka_unit_test(jobs_of_an_allocation),
-        cmocka_unit_test(a_task_of_srun_without_mpi), cmocka_unit_test(the_line_that_tells)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(lists_of_slurm, jobs_of_an_allocation, a_task_of_srun_without_mpi, the_line_that_tells)

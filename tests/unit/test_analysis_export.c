@@ -5,6 +5,10 @@
 #include "tests/support/report.h"
 
 #include "analysis/export/sha256.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* A file of so many bytes, all values among them; sha256sum must find what we find. */
 static void same_as_sha256sum(size_t bytes)
@@ -29,14 +33,12 @@ static void same_as_sha256sum(size_t bytes)
 /* Nothing, less than what is read at once, that, and more. */
 static void digests_are_those_of_sha256sum(void **state)
 {
-    (void)state;
     static const size_t bytes[] = {0, 1, 65535, 65536, 65537, 300000};
     for (size_t i = 0; i < sizeof bytes / sizeof *bytes; i++) same_as_sha256sum(bytes[i]);
 }
 
 static void file_that_is_not_there(void **state)
 {
-    (void)state;
     char hex[FRACAS_SHA256_HEX];
     uint64_t size;
     assert_int_equal(fracas_sha256_of_file("/nonexistent", hex, &size), FRACAS_ENVIRONMENT);
@@ -47,7 +49,6 @@ static void file_that_is_not_there(void **state)
 
 static void page_shows_every_key(void **state)
 {
-    (void)state;
     char *wanted;
     size_t size;
     FILE *out = open_memstream(&wanted, &size);
@@ -70,12 +71,5 @@ static void page_shows_every_key(void **state)
     free(wanted);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(digests_are_those_of_sha256sum),
-        cmocka_unit_test(file_that_is_not_there),
-        cmocka_unit_test(page_shows_every_key),
-    };
-    return cmocka_run_group_tests(tests, report_make_root, report_remove_root);
-}
+TESTS_ALL(report_make_root, report_remove_root, digests_are_those_of_sha256sum,
+          file_that_is_not_there, page_shows_every_key)

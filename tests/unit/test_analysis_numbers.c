@@ -8,21 +8,15 @@
 #include "analysis/draw/scale.h"
 #include "analysis/summary/study.h"
 #include "base/param.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* 2, 4, 4, 4, 5, 5, 7, 9: mean 5, squares 32, deviation sqrt(32/7); tabulated t_(0.975, 7)
  * = 2.364624 to 1e-6. */
 static void estimate_of_eight(void **state)
 {
-    (void)state;
     const double value[] = {2, NAN, 4, 4, 4, INFINITY, 5, 5, 7, 9};
     fracas_estimate estimate = fracas_estimate_of(value, 1, 10);
     assert_int_equal(estimate.n, 8);
@@ -33,7 +27,6 @@ static void estimate_of_eight(void **state)
 
 static void estimate_of_few(void **state)
 {
-    (void)state;
     const double value[] = {3, 8};
     assert_true(isnan(fracas_estimate_of(value, 1, 0).mean));
     assert_true(fracas_estimate_of(value, 1, 1).mean == 3);
@@ -54,7 +47,6 @@ static void assert_estimate(double mean, double half_width, double factor, const
 
 static void estimates_as_text(void **state)
 {
-    (void)state;
     assert_estimate(57.8123, 1.2345, 1, "57.8 +- 1.2");
     assert_estimate(442.31e-6, 5.55e-6, 1e6, "442.3 +- 5.5"); /* 5.55 is below the tie in binary */
     assert_estimate(1641.4, 12.3, 1, "1641 +- 12");
@@ -84,7 +76,6 @@ static void assert_interval(double value, double low, double high, const char *e
 /* As many digits as the interval has two of. */
 static void digits_as_the_interval_supports(void **state)
 {
-    (void)state;
     assert_mean(1.01387, 0.0142, 1, "1.014");
     assert_mean(1.01387, 0.142, 1, "1.01");
     assert_mean(1.01387e-4, 0.0000142e-4, 1e4, "1.013870");
@@ -118,7 +109,6 @@ static void assert_short(double value, const char *expected)
 
 static void numbers_as_text(void **state)
 {
-    (void)state;
     assert_short(1e3, "1e3");
     assert_short(2500, "2500");
     assert_short(100, "100");
@@ -147,7 +137,6 @@ static void numbers_as_text(void **state)
 
 static void prefixes(void **state)
 {
-    (void)state;
     assert_string_equal(fracas_prefix_for((double[]){31e-6, 865e-6}, 2).symbol, "u");
     assert_string_equal(fracas_prefix_for((double[]){NAN, 1e-3, -5}, 3).symbol, "m");
     assert_string_equal(fracas_prefix_for((double[]){999}, 1).symbol, "");
@@ -159,7 +148,6 @@ static void prefixes(void **state)
  * points apart. */
 static void columns_that_tell_points_apart(void **state)
 {
-    (void)state;
     static const fracas_column column[] = {
         {"derived.strength_mean", "Pa", "", false},
         {"loading.rate", "1/s", "", false},
@@ -211,7 +199,6 @@ static void columns_that_tell_points_apart(void **state)
 /* Two laws of which one has a beta: the law names the points. */
 static void names_come_before_their_numbers(void **state)
 {
-    (void)state;
     static const fracas_column column[] = {{"cohesive.beta", "1", "", false},
                                            {"cohesive.law", "", "", true}};
     fracas_value value[2][2] = {{{.real = 4, .text = ""}, {.real = NAN, .text = "nitsche"}},
@@ -231,7 +218,6 @@ static void names_come_before_their_numbers(void **state)
  * comma. */
 static void labels_leave_out_what_a_point_lacks(void **state)
 {
-    (void)state;
     static const fracas_column column[] = {{"loading.acceleration", "m/s2", "", false},
                                            {"loading.force", "N/m", "", false},
                                            {"loading.direction", "", "", true}};
@@ -256,7 +242,6 @@ static void labels_leave_out_what_a_point_lacks(void **state)
  * at rate 0. */
 static void laws_of_a_given_opening(void **state)
 {
-    (void)state;
     static const fracas_column column[] = {{"cohesive.critical_opening", "m", "", false},
                                            {"cohesive.fracture_energy", "J/m2", "", false},
                                            {"derived.strain_rate", "1/s", "", false},
@@ -287,7 +272,6 @@ static void laws_of_a_given_opening(void **state)
 
 static void statistics_of_records(void **state)
 {
-    (void)state;
     static const fracas_column column[] = {{"geometry.length", "m", "", false}};
     fracas_value length = {.real = 0.06, .text = ""};
     fracas_point_row point = {.value = &length};
@@ -347,7 +331,6 @@ static void statistics_of_records(void **state)
  * one each. */
 static void warnings_at_their_limits(void **state)
 {
-    (void)state;
     static const fracas_column column[] = {{"cohesive.zone", "m", "", false}};
     fracas_value zone[] = {{.real = 24e-6, .text = ""}, {.real = 26e-6, .text = ""}};
     fracas_point_row row[] = {{.value = &zone[0]}, {.value = &zone[1]}};
@@ -406,7 +389,6 @@ static void warnings_at_their_limits(void **state)
  * quarter >= 4 mm. */
 static void figure_of_sizes(void **state)
 {
-    (void)state;
     fracas_point_table table = {.npoints = 1};
     double size[] = {1e-3, 1e-3 * (1 + 1e-15), 2e-3, 4e-3};
     fracas_point_statistics point = {.nfragments = 4, .fragment_size = size, .usable = 1};
@@ -444,7 +426,6 @@ static void assert_labels(bool log, double least, double greatest, const char *e
 
 static void ticks(void **state)
 {
-    (void)state;
     assert_labels(false, 0, 9.3, "0 2 4 6 8 10 ");
     assert_labels(false, -0.02, 0.31, "-0.1 0.0 0.1 0.2 0.3 0.4 ");
     assert_labels(false, 5, 5, "2 3 4 5 6 7 8 ");
@@ -458,23 +439,7 @@ static void ticks(void **state)
     assert_labels(true, 2, 2, "1 10 ");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(estimate_of_eight),
-        cmocka_unit_test(estimate_of_few),
-        cmocka_unit_test(estimates_as_text),
-        cmocka_unit_test(digits_as_the_interval_supports),
-        cmocka_unit_test(numbers_as_text),
-        cmocka_unit_test(prefixes),
-        cmocka_unit_test(columns_that_tell_points_apart),
-        cmocka_unit_test(names_come_before_their_numbers),
-        cmocka_unit_test(labels_leave_out_what_a_point_lacks),
-        cmocka_unit_test(laws_of_a_given_opening),
-        cmocka_unit_test(statistics_of_records),
-        cmocka_unit_test(warnings_at_their_limits),
-        cmocka_unit_test(figure_of_sizes),
-        cmocka_unit_test(ticks),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(estimate_of_eight, estimate_of_few, estimates_as_text, digits_as_the_interval_supports,
+      numbers_as_text, prefixes, columns_that_tell_points_apart, names_come_before_their_numbers,
+      labels_leave_out_what_a_point_lacks, laws_of_a_given_opening, statistics_of_records,
+      warnings_at_their_limits, figure_of_sizes, ticks)

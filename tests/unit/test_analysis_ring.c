@@ -9,15 +9,16 @@
 #include "analysis/data/ring.h"
 #include "base/param.h"
 #include "base/version.h"
-
-#include <math.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* ---- arcs ---- */
 
 /* Midpoint rule over the arc, error of the order 1/PARTS^2 = 1e-10 of the value. */
 static void arcs(void **state)
 {
-    (void)state;
     enum { PARTS = 100000 };
     const double half[] = {0.3, 1, M_PI / 2, 2.5, M_PI};
     for (size_t i = 0; i < sizeof half / sizeof *half; i++) {
@@ -62,7 +63,6 @@ static void expanded_ring(double radius, double push, double speed, const double
 /* Quarters and an eighth moving as one, then one of them with a kick along the ring and a spin. */
 static void motion_of_fragments(void **state)
 {
-    (void)state;
     enum { N = 4 };
     const double share[N] = {0.25, 0.25, 0.25, 0.25}, radius = 8e-3;
     fracas_fragment fragment[N];
@@ -93,7 +93,6 @@ static void motion_of_fragments(void **state)
 /* Under a uniform expansion every displacement is push sin(a)/a and nothing moves beside it. */
 static void pattern_of_uniform_expansion(void **state)
 {
-    (void)state;
     enum { N = 5 };
     const double share[N] = {0.4, 0.05, 0.3, 0.05, 0.2}, radius = 16e-3, push = 5e-5;
     fracas_fragment fragment[N];
@@ -271,7 +270,6 @@ static void make_record(const void *context, size_t p, int64_t replica, fracas_r
 
 static void report_of_rings(void **state)
 {
-    (void)state;
     static made_table made;
     make_table(&made);
     char folder[512];
@@ -312,7 +310,6 @@ static double rate_of(const fracas_column *columns, const double *real, size_t n
  * column. */
 static void strain_rate_of_a_point(void **state)
 {
-    (void)state;
     static const fracas_column both[] = {{"derived.strain_rate", "1/s", "", false},
                                          {"loading.rate", "1/s", "", false}};
     assert_true(rate_of(both, (double[]){2e3, 1e3}, 2) == 2e3);
@@ -351,7 +348,6 @@ static void assert_columns(const double real[][3], size_t npoints, const char *e
 
 static void columns_of_rings(void **state)
 {
-    (void)state;
     assert_columns((double[][3]){{8, 80, 100}, {8, 160, 100}, {16, 80, 100}, {16, 160, 100}}, 4,
                    "radius,radial,|radius,");
     /* Velocities that no two radii share: the radius still makes series. */
@@ -367,7 +363,6 @@ static void columns_of_rings(void **state)
 /* Two radii: two series of marks, named by the radius; sizes over the strain rate v/R. */
 static void figure_of_rings(void **state)
 {
-    (void)state;
     static made_table made;
     static fracas_point_statistics point[NPOINTS];
     make_table(&made);
@@ -411,7 +406,6 @@ static void figure_of_rings(void **state)
 /* A law is drawn for a series of one material, and for none that mixes them, as a design does. */
 static void laws_of_mixed_series(void **state)
 {
-    (void)state;
     static made_table made;
     static fracas_point_statistics point[NPOINTS];
     static const struct {
@@ -468,7 +462,6 @@ static void assert_pictures(size_t npoints, size_t without, const size_t *expect
 
 static void points_with_pictures(void **state)
 {
-    (void)state;
     assert_pictures(1, 9, (size_t[]){0}, 1);
     assert_pictures(4, 2, (size_t[]){0, 1, 3}, 3);
     assert_pictures(6, 9, (size_t[]){0, 1, 2, 3, 4, 5}, 6);
@@ -481,7 +474,6 @@ static void points_with_pictures(void **state)
  * sigma_c/2. */
 static void scales_of_critical_opening(void **state)
 {
-    (void)state;
     static const char text[] =
         "name: r\nseed: 1\nmodel: ring\ngeometry: {radius: 8 mm}\nmesh: {elements: 100}\nmaterial: "
         "{young: 275 GPa, density: 2750 kg/m3}\n"
@@ -503,19 +495,7 @@ static void scales_of_critical_opening(void **state)
     fracas_campaign_destroy(campaign);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scales_of_critical_opening),
-        cmocka_unit_test(arcs),
-        cmocka_unit_test(motion_of_fragments),
-        cmocka_unit_test(pattern_of_uniform_expansion),
-        cmocka_unit_test(report_of_rings),
-        cmocka_unit_test(strain_rate_of_a_point),
-        cmocka_unit_test(columns_of_rings),
-        cmocka_unit_test(figure_of_rings),
-        cmocka_unit_test(laws_of_mixed_series),
-        cmocka_unit_test(points_with_pictures),
-    };
-    return cmocka_run_group_tests(tests, report_make_root, report_remove_root);
-}
+TESTS_ALL(report_make_root, report_remove_root, scales_of_critical_opening, arcs,
+          motion_of_fragments, pattern_of_uniform_expansion, report_of_rings,
+          strain_rate_of_a_point, columns_of_rings, figure_of_rings, laws_of_mixed_series,
+          points_with_pictures)

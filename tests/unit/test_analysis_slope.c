@@ -3,19 +3,15 @@
  * points share, and which points of a study count. */
 #include "analysis/scaling/slope.h"
 #include "analysis/summary/study.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 /* A variance that is given, not estimated. */
 static fracas_mean_error given(double variance)
@@ -27,7 +23,6 @@ static fracas_mean_error given(double variance)
  * range of 7 to 1e-15. */
 static void exact_power_law(void **state)
 {
-    (void)state;
     double x[5], y[5];
     fracas_mean_error error[5];
     for (size_t i = 0; i < 5; i++) {
@@ -48,7 +43,6 @@ static void exact_power_law(void **state)
 /* GSL sums in another order: 1e-12 is ten times what nine values of size 10 round to. */
 static void as_gsl_has_it(void **state)
 {
-    (void)state;
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     for (int round = 0; round < 50; round++) {
         enum { N = 9 };
@@ -122,7 +116,6 @@ static double expected_coverage(double dof)
  * interval holds more than 95 %, as much as the integral says. */
 static void interval_covers(void **state)
 {
-    (void)state;
     double above = coverage(4, true, 1), unstated = coverage(1, false, 2),
            exact = coverage(1, true, 3);
     double expected = expected_coverage(RATES - 2);
@@ -145,7 +138,6 @@ static void assert_no_slope(fracas_slope line, int64_t n)
 
 static void values_left_out(void **state)
 {
-    (void)state;
     const double x[] = {1, 2, 3, 4, NAN, 5}, y[] = {2, 4, 6, 100, 3, -INFINITY};
     const fracas_mean_error error[] = {given(1),   given(4), given(1),
                                        given(NAN), given(1), given(1)};
@@ -176,7 +168,6 @@ static void assert_variance(const fracas_mean_error *error, double variance, boo
  * r^2 = (2 0.0004 + 3 0.0016 + 1 0)/(2 + 3 + 1). */
 static void shared_errors(void **state)
 {
-    (void)state;
     fracas_mean mean[] = {{3, 0.02}, {1, NAN}, {4, 0.04}, {2, 0}, {9, 0.1}};
     fracas_mean_error error[5];
     for (size_t n = 4; n <= 5; n++) { /* with the last or without, the few are as they are */
@@ -222,7 +213,6 @@ static void shared_errors(void **state)
  */
 static void misfits(void **state)
 {
-    (void)state;
     fracas_misfit shared = {0}, own = {0}, mixed = {0}, known = {0};
     for (int i = 0; i < 4; i++) {
         fracas_misfit_add(&shared, 0.5,
@@ -255,7 +245,6 @@ enum { NPOINTS = 8, NCOLUMNS = 3 };
  * and -2/3 for the other. Velocities and rates coincide between radii. */
 static void slopes_of_series(void **state)
 {
-    (void)state;
     static const fracas_column column[NCOLUMNS] = {{"derived.strain_rate", "1/s", "", false},
                                                    {"geometry.radius", "m", "", false},
                                                    {"loading.radial", "m/s", "", false}};
@@ -329,13 +318,5 @@ static void slopes_of_series(void **state)
     fracas_columns_clear(&analysis.shown);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact_power_law),  cmocka_unit_test(as_gsl_has_it),
-        cmocka_unit_test(interval_covers),  cmocka_unit_test(values_left_out),
-        cmocka_unit_test(shared_errors),    cmocka_unit_test(misfits),
-        cmocka_unit_test(slopes_of_series),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(exact_power_law, as_gsl_has_it, interval_covers, values_left_out, shared_errors, misfits,
+      slopes_of_series)

@@ -4,8 +4,10 @@
 #include "tests/support/report.h"
 
 #include "base/version.h"
-
-#include <math.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 enum { NCOLUMNS = 10, NPOINTS = 4, HISTORY = 50 };
 
@@ -200,7 +202,6 @@ static void make_study(const truth *of, char *folder, size_t size)
  */
 static void table_of_a_sweep(void **state)
 {
-    (void)state;
     char folder[512];
     make_study(&sweep, folder, sizeof folder);
     char *table = report_contents(folder, "table.txt");
@@ -224,7 +225,6 @@ static void table_of_a_sweep(void **state)
  * materials. */
 static void table_of_awkward_points(void **state)
 {
-    (void)state;
     char folder[512];
     make_study(&awkward, folder, sizeof folder);
     char *table = report_contents(folder, "table.txt");
@@ -241,7 +241,6 @@ static void table_of_awkward_points(void **state)
 
 static void study_that_is_not_there(void **state)
 {
-    (void)state;
     fracas_analysis *analysis;
     assert_int_equal(fracas_analysis_create("/nonexistent", NULL, NULL, &analysis), FRACAS_DAMAGED);
     assert_null(analysis);
@@ -251,7 +250,6 @@ static void study_that_is_not_there(void **state)
 
 static void report_that_cannot_be_written(void **state)
 {
-    (void)state;
     char folder[512], blocker[520];
     snprintf(folder, sizeof folder, "%s/blocked", report_root);
     write_study(&awkward, folder);
@@ -266,13 +264,5 @@ static void report_that_cannot_be_written(void **state)
     fracas_analysis_destroy(analysis);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(table_of_a_sweep),
-        cmocka_unit_test(table_of_awkward_points),
-        cmocka_unit_test(study_that_is_not_there),
-        cmocka_unit_test(report_that_cannot_be_written),
-    };
-    return cmocka_run_group_tests(tests, report_make_root, report_remove_root);
-}
+TESTS_ALL(report_make_root, report_remove_root, table_of_a_sweep, table_of_awkward_points,
+          study_that_is_not_there, report_that_cannot_be_written)

@@ -7,6 +7,10 @@
 #include "analysis/draw/tint.h"
 #include "analysis/draw/surface_picture.h"
 #include "base/hash.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 static const grid_shape plate = {.nx = 6, .ny = 4}, ring = {.nx = 12, .ny = 3, .rolled = true};
 
@@ -47,7 +51,6 @@ static void assert_state(const fracas_stored_mesh *mesh, const fracas_record *re
  * them. */
 static void a_plate_is_cut_in_two_and_in_four(void **state)
 {
-    (void)state;
     fracas_stored_mesh mesh;
     fracas_record record;
     fracas_surface_state now;
@@ -87,7 +90,6 @@ static void a_plate_is_cut_in_two_and_in_four(void **state)
  * square, 3 is beside 0, and 2 beside 3. */
 static void small_pieces_are_dust(void **state)
 {
-    (void)state;
     static const struct {
         unsigned cut; /* bit e: element e is cut out */
         size_t fragments, dust;
@@ -119,7 +121,6 @@ static void small_pieces_are_dust(void **state)
  * whatever breaks elsewhere. */
 static void a_ring_cracks_through(void **state)
 {
-    (void)state;
     static const int64_t width[2] = {1, 2}, nowhere[2] = {1, 7};
     fracas_stored_mesh mesh;
     fracas_record record;
@@ -153,7 +154,6 @@ static void a_ring_cracks_through(void **state)
 /* A plate whose left and lower edge meet in a corner: every crack from there would reach both. */
 static void edges_that_meet_have_no_width(void **state)
 {
-    (void)state;
     static const int64_t corner[2] = {1, 3};
     fracas_stored_mesh mesh;
     fracas_record record;
@@ -198,7 +198,6 @@ static bool walk_through(const fracas_stored_mesh *mesh, const fracas_record *re
 
 static void crack_through_against_a_walk(void **state)
 {
-    (void)state;
     static const int64_t width[2] = {1, 2};
     uint64_t random = 11;
     size_t through = 0;
@@ -224,7 +223,6 @@ static void crack_through_against_a_walk(void **state)
 
 static void moments_end_at_the_end(void **state)
 {
-    (void)state;
     fracas_record record;
     double time[6];
     fracas_record_init(&record);
@@ -314,7 +312,6 @@ static path_measures measure(const char *svg, const char *class)
  * outline, of which there are 30 at most: 0.02. */
 static void fragments_are_filled(void **state)
 {
-    (void)state;
     fracas_stored_mesh mesh;
     fracas_record record;
     const double square = 7840.0 / 6 * 7840.0 / 6;
@@ -370,7 +367,6 @@ static void fragments_are_filled(void **state)
  * sides, 45 m long altogether. */
 static void holes_stay_holes(void **state)
 {
-    (void)state;
     fracas_stored_mesh mesh;
     fracas_record record;
     grid_make(&ring, &mesh);
@@ -388,7 +384,6 @@ static void holes_stay_holes(void **state)
  * parabola, in both fragments beside it, and what is left of it by 2/3 of 0.1 squares larger. */
 static void curved_edges_are_curved(void **state)
 {
-    (void)state;
     fracas_stored_mesh straight, curved;
     fracas_record record;
     grid_shape shape = plate;
@@ -426,7 +421,6 @@ static void curved_edges_are_curved(void **state)
  * but the words below. */
 static void flat_pictures_stay_as_they_are(void **state)
 {
-    (void)state;
     static const uint64_t expected[] = {0xa0103701084ef84c, 0xe576ce8a4a7738b5, 0x3c7ad3191731f98a};
     uint64_t random = 3;
     const grid_shape curved = {.nx = 12, .ny = 3, .rolled = true, .middles = true};
@@ -456,7 +450,6 @@ static void flat_pictures_stay_as_they_are(void **state)
  * seven. */
 static void neighbours_have_different_tints(void **state)
 {
-    (void)state;
     uint64_t random = 5;
     const grid_shape large = {.nx = 30, .ny = 20};
     fracas_stored_mesh mesh;
@@ -488,7 +481,6 @@ static void neighbours_have_different_tints(void **state)
 /* Of 30 000 elements, everything broken: the largest picture that such a mesh makes. */
 static void pictures_stay_small(void **state)
 {
-    (void)state;
     uint64_t random = 7;
     const grid_shape huge = {.nx = 150, .ny = 100};
     fracas_stored_mesh mesh;
@@ -508,21 +500,7 @@ static void pictures_stay_small(void **state)
     fracas_stored_mesh_clear(&mesh);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_plate_is_cut_in_two_and_in_four),
-        cmocka_unit_test(small_pieces_are_dust),
-        cmocka_unit_test(a_ring_cracks_through),
-        cmocka_unit_test(edges_that_meet_have_no_width),
-        cmocka_unit_test(crack_through_against_a_walk),
-        cmocka_unit_test(moments_end_at_the_end),
-        cmocka_unit_test(fragments_are_filled),
-        cmocka_unit_test(holes_stay_holes),
-        cmocka_unit_test(curved_edges_are_curved),
-        cmocka_unit_test(flat_pictures_stay_as_they_are),
-        cmocka_unit_test(neighbours_have_different_tints),
-        cmocka_unit_test(pictures_stay_small),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_plate_is_cut_in_two_and_in_four, small_pieces_are_dust, a_ring_cracks_through,
+      edges_that_meet_have_no_width, crack_through_against_a_walk, moments_end_at_the_end,
+      fragments_are_filled, holes_stay_holes, curved_edges_are_curved,
+      flat_pictures_stay_as_they_are, neighbours_have_different_tints, pictures_stay_small)

@@ -5,6 +5,10 @@
 #include "analysis/report/figures.h"
 #include "analysis/scaling/slope.h"
 #include "analysis/export/table.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 enum { NPOINTS = 4 };
 
@@ -94,7 +98,6 @@ static size_t curves_of(const fracas_analysis *analysis, bool normalised, size_t
  * slopes are those of bars alone, and a study without a bar does not speak of them. */
 static void surfaces_have_no_laws_of_one_dimension(void **state)
 {
-    (void)state;
     static const struct {
         size_t bars, curves, slopes, normalised;
         const char *names;
@@ -154,7 +157,6 @@ static void cell_says(const fracas_analysis *analysis, size_t row, const char *n
  * 0.01775. A bar has none, nor has a body in one piece. */
 static void fragments_of_surfaces_fly_and_turn(void **state)
 {
-    (void)state;
     fracas_point_statistics point[NPOINTS];
     fracas_analysis analysis;
     make_analysis(1, 0, point, &analysis);
@@ -187,7 +189,6 @@ static void fragments_of_surfaces_fly_and_turn(void **state)
 /* Where bending dissipated anything there are a column and a curve of it, and nowhere else. */
 static void bending_is_shown_where_it_is(void **state)
 {
-    (void)state;
     for (size_t bent = 0; bent < 2; bent++) {
         fracas_point_statistics point[NPOINTS];
         fracas_analysis analysis;
@@ -225,10 +226,5 @@ static void bending_is_shown_where_it_is(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(surfaces_have_no_laws_of_one_dimension),
-                                       cmocka_unit_test(fragments_of_surfaces_fly_and_turn),
-                                       cmocka_unit_test(bending_is_shown_where_it_is)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(surfaces_have_no_laws_of_one_dimension, fragments_of_surfaces_fly_and_turn,
+      bending_is_shown_where_it_is)

@@ -9,10 +9,12 @@
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/point_model.h"
 #include "tests/support/campaign_text.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <errno.h>
-#include <math.h>
-#include <stdio.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -35,7 +37,6 @@ static const fracas_kind *file_kind(void)
 
 static void test_values(void **state)
 {
-    (void)state;
     /* The same three strengths, 3, 1 and 8 Pa: sums and quotients of such numbers are exact. */
     static const char *const texts[] = {
         "3\n1\n8\n",
@@ -81,7 +82,6 @@ static void test_values(void **state)
 
 static void test_bad_values(void **state)
 {
-    (void)state;
     static const struct {
         const char *text, *message;
     } table[] = {
@@ -133,7 +133,6 @@ static fracas_err sample_places(const char *text, size_t n, const double (*posit
 
 static void test_places(void **state)
 {
-    (void)state;
     static const char *const texts[] = {
         "0,0,1\n1,0,2\n0,1,3\n1,1,4\n", "1 1 4\n0 1 3\n1 0 2\n0 0 1", /* in any order */
         ("x,y,sigma_c,elements\n0 , 0,1,2\n1,0 2 5\n# "
@@ -182,7 +181,6 @@ static void test_places(void **state)
 
 static void test_bad_places(void **state)
 {
-    (void)state;
     static const double twice[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}};
     static const struct {
         const char *text, *message;
@@ -223,7 +221,6 @@ static void test_bad_places(void **state)
  * and soon. */
 static void test_many_places(void **state)
 {
-    (void)state;
     enum { SIDE = 200, N = SIDE * SIDE, LINE = 64 };
     double(*position)[3] = calloc(N, sizeof *position), *got = calloc(N, sizeof *got);
     char *text = malloc((size_t)N * LINE);
@@ -308,7 +305,6 @@ static void bad(const char *strength, const char *end, int line, int column, con
 
 static void test_errors(void **state)
 {
-    (void)state;
     put("s.csv", "3e8\n");
     put("empty.csv", "");
     put("wrong.csv", "strength\n3e8\n4e8 Pa\n");
@@ -339,7 +335,6 @@ static void test_errors(void **state)
 
 static void test_empirical(void **state)
 {
-    (void)state;
     put("m.csv", "strength\n3e8\n5e8\n4e8\n");
     put("bad.csv", "3e8\n5e8\n4e8;\n");
     fracas_campaign *campaign = good("  distribution: empirical\n  file: m.csv\n",
@@ -361,7 +356,6 @@ static void test_empirical(void **state)
 /* The digest was computed by xxhsum -H2. */
 static void test_identity(void **state)
 {
-    (void)state;
     static const char digest[] = "a8656c114748e72a07935612a8c8332a";
     put("s.csv", "strength\n300e6\n1,301e6\n");
     put("t.csv", "strength\n300e6\n1,301e6\n");
@@ -402,7 +396,6 @@ static void write_campaign(const fracas_campaign *campaign, const char *path)
  * that is not what its name says is refused. */
 static void test_round_trip(void **state)
 {
-    (void)state;
     put("s.csv", "300e6\n");
     put("t.csv", "301e6\n");
     fracas_campaign *campaign = good(
@@ -442,7 +435,6 @@ static void test_round_trip(void **state)
 
 static void test_forecast(void **state)
 {
-    (void)state;
     char text[100 * 16] = "";
     fracas_forecast forecast;
     for (int i = 0; i < 99; i++) strcat(text, "300e6\n");
@@ -490,7 +482,6 @@ static const char ring[] =
  * its circle, 2 pi/8 apart. */
 static void test_positions(void **state)
 {
-    (void)state;
     double x[100][3];
     fracas_campaign *campaign = read_replaced("", "");
     fracas_model *model = model_of(campaign, x);
@@ -535,7 +526,6 @@ static const char by_position[] =
  * its own, drawn and in the plan's check. */
 static void test_positions_of_a_surface(void **state)
 {
-    (void)state;
     double x[8][3], got[8];
     char text[1000] = "x,y,strength\n";
     put("p.csv", "0,0,3e8\n");
@@ -582,7 +572,6 @@ static void test_positions_of_a_surface(void **state)
 
 static void test_noise(void **state)
 {
-    (void)state;
     enum { N = 1000 };
     fracas_campaign *campaign = read_replaced(
         "", "sweep:\n  - mesh: [{elements: 50, spacing: perturbed, amplitude: 0.2}, {elements: "
@@ -610,22 +599,6 @@ static void test_noise(void **state)
     fracas_campaign_destroy(campaign);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),
-        cmocka_unit_test(test_bad_values),
-        cmocka_unit_test(test_errors),
-        cmocka_unit_test(test_empirical),
-        cmocka_unit_test(test_identity),
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_forecast),
-        cmocka_unit_test(test_noise),
-        cmocka_unit_test(test_places),
-        cmocka_unit_test(test_bad_places),
-        cmocka_unit_test(test_many_places),
-        cmocka_unit_test(test_positions),
-        cmocka_unit_test(test_positions_of_a_surface),
-    };
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+TESTS_ALL(make_folder, remove_folder, test_values, test_bad_values, test_errors, test_empirical,
+          test_identity, test_round_trip, test_forecast, test_noise, test_places, test_bad_places,
+          test_many_places, test_positions, test_positions_of_a_surface)

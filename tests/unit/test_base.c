@@ -4,16 +4,10 @@
 #include "base/hash.h"
 #include "base/json.h"
 #include "base/param.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 static fracas_err fails(int level)
 {
@@ -24,7 +18,6 @@ static fracas_err fails(int level)
 
 static void an_error_carries_its_message_up(void **unused)
 {
-    (void)unused;
     assert_int_equal(fails(3), FRACAS_USAGE);
     assert_string_equal(fracas_message(), "value 7");
     assert_int_equal(fracas_fail_within(FRACAS_USAGE, "file %s", "a.yaml"), FRACAS_USAGE);
@@ -43,7 +36,6 @@ static void an_error_carries_its_message_up(void **unused)
 /* XXH3-128 of no bytes and of "abc", as xxhsum -H2 prints them. */
 static void hashes_are_xxh3(void **unused)
 {
-    (void)unused;
     char text[FRACAS_HASH_HEX];
     fracas_hash hash = fracas_hash_of("", 0), again;
     fracas_hash_hex(&hash, text);
@@ -63,7 +55,6 @@ static void hashes_are_xxh3(void **unused)
 
 static void json_is_well_formed(void **unused)
 {
-    (void)unused;
     char *text = NULL;
     size_t size;
     FILE *out = open_memstream(&text, &size);
@@ -91,7 +82,6 @@ static void json_is_well_formed(void **unused)
 
 static void parameters_reach_their_place(void **unused)
 {
-    (void)unused;
     struct {
         int64_t n;
         bool b;
@@ -118,7 +108,6 @@ static void parameters_reach_their_place(void **unused)
 
 static void names_and_files_reach_their_place(void **unused)
 {
-    (void)unused;
     static const fracas_kind left = {.name = "left"}, right = {.name = "right"};
     static const fracas_kind *const sides[] = {&left, &right};
     struct named {
@@ -148,7 +137,6 @@ static void names_and_files_reach_their_place(void **unused)
 
 static void kinds_know_their_partners(void **unused)
 {
-    (void)unused;
     static const fracas_kind a = {.name = "a"}, b = {.name = "b"}, c = {.name = "c"},
                              other = {.name = "other"};
     static const fracas_kind *const kinds[] = {&a, &b, &c}, *const partners[] = {&c, &other, &a};
@@ -164,15 +152,5 @@ static void kinds_know_their_partners(void **unused)
     assert_null(fracas_kind_partner(&plain, &section, 0));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_error_carries_its_message_up),
-        cmocka_unit_test(hashes_are_xxh3),
-        cmocka_unit_test(json_is_well_formed),
-        cmocka_unit_test(parameters_reach_their_place),
-        cmocka_unit_test(names_and_files_reach_their_place),
-        cmocka_unit_test(kinds_know_their_partners),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(an_error_carries_its_message_up, hashes_are_xxh3, json_is_well_formed,
+      parameters_reach_their_place, names_and_files_reach_their_place, kinds_know_their_partners)

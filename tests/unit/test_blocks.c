@@ -3,15 +3,7 @@
  * this CPU. */
 #include "sampler/distribution/distribution.h"
 #include "sampler/api/sampler.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "tests/support/test.h"
 
 static fracas_strength weibull(double minimum, double shape)
 {
@@ -64,7 +56,6 @@ static void assert_block(const fracas_strength *strength, size_t n, const double
 /* Three million numbers of streams for each law. */
 static void blocks_have_the_scalar_bits(void **state)
 {
-    (void)state;
     enum { N = 4096, BLOCKS = 750 };
     static double u[N] __attribute__((aligned(64)));
     const fracas_strength laws[] = {weibull(0.0, 0.1), weibull(264e6, 2.0), weibull(0.0, 41.7),
@@ -85,7 +76,6 @@ static double drawable(double u)
 /* The ends, the middle, and where the quantiles take another branch: in each lane, among others. */
 static void blocks_have_the_scalar_bits_at_the_ends(void **state)
 {
-    (void)state;
     enum { PLACES = 15, N = 64 * PLACES };
     const double r_5 = 1.388794386496402e-11 /* e^-25 */, t_1 = 0.6321205588285577 /* 1 - 1/e */;
     const double places[PLACES] = {0.0,       0x1p-52,       0x1p-51, 0x1p-30, r_5,
@@ -107,7 +97,6 @@ static void blocks_have_the_scalar_bits_at_the_ends(void **state)
  * between and behind stays. */
 static void fields_are_drawn_over_lanes(void **state)
 {
-    (void)state;
     enum { MOST = 3 * 1100 * 8 + 8 };
     static double sigma_c[MOST];
     static const size_t numbers[] = {0, 1, 2, 7, 8, 9, 255, 256, 257, 300, 1100},
@@ -148,12 +137,5 @@ static void fields_are_drawn_over_lanes(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(blocks_have_the_scalar_bits),
-        cmocka_unit_test(blocks_have_the_scalar_bits_at_the_ends),
-        cmocka_unit_test(fields_are_drawn_over_lanes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(blocks_have_the_scalar_bits, blocks_have_the_scalar_bits_at_the_ends,
+      fields_are_drawn_over_lanes)

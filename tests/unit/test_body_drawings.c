@@ -5,6 +5,10 @@
 
 #include "analysis/draw/frame.h"
 #include "analysis/draw/tint.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 static char *draw(const body *b, const fracas_view *view, double explode, double thickness,
                   fracas_surface_show show)
@@ -132,7 +136,6 @@ static uint8_t nearest_tint(const fracas_facets *facets, const uint8_t *tint, co
  * last. */
 static void drawings_show_the_nearest(void **state)
 {
-    (void)state;
     static const struct {
         bool octant;
         fracas_view view;
@@ -207,7 +210,6 @@ static size_t cracks_of(const body *b, fracas_interface_state state, double *len
 /* Each end of an edge is rounded by at most 0.71 units. */
 static void cracks_have_their_length(void **state)
 {
-    (void)state;
     static const struct {
         fracas_interface_state state;
         const char *class;
@@ -288,7 +290,6 @@ static double filled(const char *svg, const char *classes)
  * area: h^4/192. Rounding: 0.71 units along an outline of some 3 widths. */
 static void curved_edges_are_curved(void **state)
 {
-    (void)state;
     static const fracas_view views[] = {{45, 35.264389682754654}, {225, -35.264389682754654}};
     body b;
     make_body(true, 6, 2, 4, false, &b);
@@ -313,7 +314,6 @@ static size_t count_of(const char *svg, const char *part)
  */
 static void cuts_are_shaded(void **state)
 {
-    (void)state;
     static const fracas_view behind = {225, -35.264389682754654};
     body b;
     make_body(true, 10, 1, 0, false, &b);
@@ -331,7 +331,6 @@ static void cuts_are_shaded(void **state)
  * 6 shades of 0.98 (0.886), and 0.6 of that from the inner side, 31 shades (0.535). */
 static void flat_surfaces_can_be_looked_at_too(void **state)
 {
-    (void)state;
     static const fracas_view above = {-90, 90}, below = {-90, -90};
     const grid_shape plate = {.nx = 6, .ny = 4};
     body b = {.cell = NULL};
@@ -361,7 +360,6 @@ static void flat_surfaces_can_be_looked_at_too(void **state)
  * sphere that was broken first. */
 static void pictures_of_bodies_stay_small(void **state)
 {
-    (void)state;
     uint64_t random = 7;
     body b;
     make_body(false, 31, 2, 60, false, &b);
@@ -379,15 +377,5 @@ static void pictures_of_bodies_stay_small(void **state)
     clear_body(&b);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(drawings_show_the_nearest),
-        cmocka_unit_test(cracks_have_their_length),
-        cmocka_unit_test(curved_edges_are_curved),
-        cmocka_unit_test(cuts_are_shaded),
-        cmocka_unit_test(flat_surfaces_can_be_looked_at_too),
-        cmocka_unit_test(pictures_of_bodies_stay_small),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(drawings_show_the_nearest, cracks_have_their_length, curved_edges_are_curved, cuts_are_shaded,
+      flat_surfaces_can_be_looked_at_too, pictures_of_bodies_stay_small)

@@ -3,6 +3,10 @@
  * and a search for what is nearest. Spheres and octants of 1 m, broken along the borders of Voronoi
  * cells. */
 #include "tests/support/body.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* Largest circumradius of an element: the planes of the elements are at least sqrt(1 - that^2) from
  * the centre. */
@@ -28,7 +32,6 @@ static double widest(const fracas_stored_mesh *mesh)
  * what it covers, to rounding. */
 static void half_of_a_sphere_shows(void **state)
 {
-    (void)state;
     static const double view[][2] = {
         {45, 35.264389682754654}, {20, 30}, {-100, -70}, {0.3, 89.1}, {-90, 90}};
     body b;
@@ -65,7 +68,6 @@ static void half_of_a_sphere_shows(void **state)
  * h^2/6 of a sector's area, h = pi/2/20. */
 static void all_of_an_octant_shows(void **state)
 {
-    (void)state;
     body b;
     make_body(true, 20, 1, 20, false, &b);
     const double h = M_PI / 2 / 20, exact = 3 * M_PI / 4 / sqrt(3);
@@ -89,7 +91,6 @@ static void all_of_an_octant_shows(void **state)
  * lengths. */
 static void views_turn(void **state)
 {
-    (void)state;
     static const fracas_view view[] = {{-90, 90}, {0, 0}, {45, 35.264389682754654}};
     static const double expected[][3] = {
         {1, 2, 3}, {2, 3, 1}, {0.70710678118654757, 1.2247448713915889, 3.4641016151377544}};
@@ -137,7 +138,6 @@ static void assert_nearest_last(const fracas_facets *facets, size_t at_least)
 
 static void the_nearest_is_drawn_last(void **state)
 {
-    (void)state;
     static const struct {
         bool octant;
         double view[2], explode, thickness;
@@ -167,7 +167,6 @@ static void the_nearest_is_drawn_last(void **state)
  * to its own, of straight triangles, to the rounding of a few hundred sums. */
 static void fragments_move_apart(void **state)
 {
-    (void)state;
     body b;
     make_body(true, 20, 2, 9, false, &b);
     fracas_facets still = look(&b, 45, 35, 0, 0), apart = look(&b, 45, 35, 0.3, 0);
@@ -233,7 +232,6 @@ static void fragments_move_apart(void **state)
  * side alone, up to h/2 aside, which loses h^2/8: 0.2 % with h = 0.08. */
 static void the_thickness_shows_at_borders(void **state)
 {
-    (void)state;
     body b;
     make_body(true, 20, 2, 0, false, &b);
     const double t = 0.04, exact = M_PI / 2 * t;
@@ -272,15 +270,5 @@ static void the_thickness_shows_at_borders(void **state)
     clear_body(&b);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(half_of_a_sphere_shows),
-        cmocka_unit_test(all_of_an_octant_shows),
-        cmocka_unit_test(views_turn),
-        cmocka_unit_test(the_nearest_is_drawn_last),
-        cmocka_unit_test(fragments_move_apart),
-        cmocka_unit_test(the_thickness_shows_at_borders),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(half_of_a_sphere_shows, all_of_an_octant_shows, views_turn, the_nearest_is_drawn_last,
+      fragments_move_apart, the_thickness_shows_at_borders)

@@ -2,15 +2,10 @@
 /* Intervals by resampling realizations, and the cut-off of what a mesh resolves. */
 #include "analysis/estimate/bootstrap.h"
 #include "analysis/data/ensemble.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 typedef struct {
     size_t n;
@@ -44,7 +39,6 @@ static void moments(void *context, const uint32_t *weight, double *value)
  * the 15 and 26 to the percentile interval. */
 static void interval_of_a_published_example(void **state)
 {
-    (void)state;
     static const double score[26] = {48, 36, 20, 29, 42, 42, 20, 42, 22, 41, 45, 14, 6,
                                      0,  33, 28, 34, 4,  32, 24, 47, 41, 24, 26, 30, 41};
     sample s = {.n = 26, .x = score, .whole = true};
@@ -80,7 +74,6 @@ static void interval_of_a_published_example(void **state)
 /* Equal seeds, equal intervals; another seed, others; a longer confidence, longer. */
 static void options_are_heard(void **state)
 {
-    (void)state;
     const double x[] = {1, 2, 4, 3, 7, 2, 9, 3, 4, 5};
     fracas_interval a[2], b[2];
     sample s = {.n = 10, .x = x};
@@ -112,7 +105,6 @@ static void second(void *context, const uint32_t *weight, double *value)
  * 10000: 4.9 of these. Where nothing differs, the interval is a point. None: nothing. */
 static void intervals_of_what_is_not_always_there(void **state)
 {
-    (void)state;
     fracas_interval interval[2];
     const fracas_bootstrap_options options = {.resamples = 10000};
     assert_int_equal(fracas_bootstrap(3, 2, second, NULL, &options, interval),
@@ -136,7 +128,6 @@ static void intervals_of_what_is_not_always_there(void **state)
  * interval. */
 static void intervals_of_few_are_students(void **state)
 {
-    (void)state;
     const double x[] = {1, 2, 4, 5, 9, 1, 1, 1};
     fracas_interval interval[2];
     sample s = {.n = 5, .x = x};
@@ -188,7 +179,6 @@ static void ensemble_of(fracas_ensemble *ensemble, const fracas_fragment *fragme
  * which 1.5, and sqrt(2.5) of its root. */
 static void cut_off_of_each_mesh(void **state)
 {
-    (void)state;
     static const fracas_fragment piece[] = {{.size = 3e-6, .elements = 1},
                                             {.size = 7e-6, .elements = 3}};
     static const fracas_fragment shard[] = {{.size = 2e-6, .elements = 1},
@@ -212,14 +202,5 @@ static void cut_off_of_each_mesh(void **state)
     fracas_ensemble_clear(&ensemble);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(interval_of_a_published_example),
-        cmocka_unit_test(options_are_heard),
-        cmocka_unit_test(intervals_of_what_is_not_always_there),
-        cmocka_unit_test(intervals_of_few_are_students),
-        cmocka_unit_test(cut_off_of_each_mesh),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(interval_of_a_published_example, options_are_heard, intervals_of_what_is_not_always_there,
+      intervals_of_few_are_students, cut_off_of_each_mesh)

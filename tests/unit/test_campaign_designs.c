@@ -7,8 +7,10 @@
 #include "tests/support/campaign_text.h"
 
 #include "base/units.h"
-
-#include <math.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #define YOUNG                                                                                    \
     "        material.young: {distribution: normal, mean: 370 GPa, deviation: 10 GPa, minimum: " \
@@ -53,7 +55,6 @@ static const fracas_kind *law(const char *name)
  * rounding, whole numbers. */
 static void test_points(void **state)
 {
-    (void)state;
     static const char *const types[] = {"latin-hypercube\n      points: 9",
                                         "sobol\n      points: 9", "random\n      points: 9"};
     const double tied[16] = {1, 0.5, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
@@ -88,7 +89,6 @@ static void test_points(void **state)
 
 static void test_shipped(void **state)
 {
-    (void)state;
     fracas_campaign *campaign;
     assert_int_equal(
         fracas_campaign_read(FRACAS_SOURCE_DIR "/campaigns/examples/bar-uncertain.yaml", &campaign),
@@ -105,7 +105,6 @@ static void test_shipped(void **state)
 /* Two designs and a list: the last axis runs fastest, and each design is as it is alone. */
 static void test_product(void **state)
 {
-    (void)state;
     fracas_campaign *young = read_design("sobol\n      points: 3", YOUNG),
                     *rate = read_design("random\n      points: 2", RATE);
     fracas_campaign *both = read_design(
@@ -127,7 +126,6 @@ static void test_product(void **state)
  * point has. */
 static void test_drawn_with_kind(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_design(
         "random\n      points: 3",
         "        strength.shape: {distribution: uniform, minimum: 5, maximum: 9}\n"
@@ -142,7 +140,6 @@ static void test_drawn_with_kind(void **state)
 
 static void test_extension(void **state)
 {
-    (void)state;
     static const struct {
         const char *before, *after, *words[3]; /* no words: it extends */
     } table[] = {
@@ -178,7 +175,6 @@ static void test_extension(void **state)
  */
 static void test_hashes(void **state)
 {
-    (void)state;
     char sweep[1200];
     fracas_campaign *drawn = read_design("latin-hypercube\n      points: 4", YOUNG ELEMENTS);
     int used = snprintf(sweep, sizeof sweep, "sweep:\n  - cases:\n");
@@ -209,7 +205,6 @@ static bool same_stream(const fracas_campaign *campaign, size_t p, size_t q, uin
  * default. */
 static void test_common_random_numbers(void **state)
 {
-    (void)state;
     fracas_campaign *plain = read_replaced("", "sweep:\n  - loading.rate: [1e3, 2e3]\n");
     fracas_campaign *said = read_replaced(
         "", "random_numbers: independent\nsweep:\n  - loading.rate: [1e3, 2e3]\n");
@@ -238,7 +233,6 @@ static void test_common_random_numbers(void **state)
 /* By xxhsum -H2 of what docs/formats/campaign-file.md says, not by this program. */
 static void test_common_hash(void **state)
 {
-    (void)state;
     char hex[FRACAS_HASH_HEX];
     fracas_campaign *common = read_replaced("", "random_numbers: common\n");
     fracas_hash_hex(&common->hash, hex);
@@ -248,7 +242,6 @@ static void test_common_hash(void **state)
 
 static void test_random_numbers_errors(void **state)
 {
-    (void)state;
     static const char *const wrong[] = {"random_numbers: same\n", "random_numbers: [common]\n"};
     for (size_t i = 0; i < FRACAS_COUNT(wrong); i++) {
         char path[40], *text = replace(plain_campaign, "", wrong[i]);
@@ -263,18 +256,5 @@ static void test_random_numbers_errors(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_points),
-        cmocka_unit_test(test_shipped),
-        cmocka_unit_test(test_product),
-        cmocka_unit_test(test_drawn_with_kind),
-        cmocka_unit_test(test_extension),
-        cmocka_unit_test(test_hashes),
-        cmocka_unit_test(test_common_random_numbers),
-        cmocka_unit_test(test_common_hash),
-        cmocka_unit_test(test_random_numbers_errors),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_points, test_shipped, test_product, test_drawn_with_kind, test_extension, test_hashes,
+      test_common_random_numbers, test_common_hash, test_random_numbers_errors)

@@ -4,6 +4,10 @@
 #include "campaigns/file/read.h"
 #include "campaigns/file/setting.h"
 #include "tests/support/campaign_text.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 typedef struct {
     const char *find,
@@ -437,7 +441,6 @@ static void test_other_models(void **state)
 /* Ranges with no lower limit. */
 static void test_any_number(void **state)
 {
-    (void)state;
     fracas_param any = {.name = "v", .unit = "m/s", .minimum = -INFINITY, .maximum = INFINITY},
                  low = any;
     low.maximum = 5;
@@ -881,7 +884,6 @@ static void test_designs(void **state)
 
 static void test_whole_files(void **state)
 {
-    (void)state;
     static const struct {
         const char *text, *words[2];
     } table[] = {
@@ -937,15 +939,6 @@ static int unload(void **state)
     return 0;
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_yaml),         cmocka_unit_test(test_top),
-        cmocka_unit_test(test_keys),         cmocka_unit_test(test_choices),
-        cmocka_unit_test(test_combinations), cmocka_unit_test(test_other_models),
-        cmocka_unit_test(test_any_number),   cmocka_unit_test(test_values),
-        cmocka_unit_test(test_sweeps),       cmocka_unit_test(test_designs),
-        cmocka_unit_test(test_whole_files),
-    };
-    return cmocka_run_group_tests(tests, load, unload);
-}
+TESTS_ALL(load, unload, test_yaml, test_top, test_keys, test_choices, test_combinations,
+          test_other_models, test_any_number, test_values, test_sweeps, test_designs,
+          test_whole_files)

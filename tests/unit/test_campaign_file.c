@@ -4,9 +4,7 @@
 
 #include "campaigns/file/identity.h"
 #include "engine/loading/loading.h"
-
-#include <math.h>
-#include <stdio.h>
+#include "tests/support/test.h"
 
 static const fracas_value *at(const fracas_campaign *campaign, size_t point, const char *path)
 {
@@ -29,7 +27,6 @@ static void check_hex(const fracas_hash *hash, const char *expected)
 
 static void test_example(void **state)
 {
-    (void)state;
     static const double rate[] = {1e3, 1e4, 1e5, 1e6};
     fracas_campaign *campaign;
     assert_int_equal(fracas_campaign_read(
@@ -51,7 +48,6 @@ static void test_example(void **state)
 
 static void test_plain(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_text(plain_campaign);
     const fracas_spec *spec = &campaign->point[0].spec;
     assert_int_equal(campaign->npoints, 1);
@@ -87,7 +83,6 @@ static char *read_whole(const char *path)
  * campaign. */
 static void test_windows(void **state)
 {
-    (void)state;
     char text[4096] = "\xEF\xBB\xBF";
     size_t used = strlen(text);
     for (const char *c = plain_campaign; *c; c++) {
@@ -104,7 +99,6 @@ static void test_windows(void **state)
 
 static void test_golden_hash(void **state)
 {
-    (void)state;
     static const char text[] =
         "cohesive.beta=4\ncohesive.fracture_energy=100\ncohesive.law=nitsche\ngeometry.area=1e-06\n"
         "geometry.ends=periodic\n"
@@ -129,7 +123,6 @@ static void test_golden_hash(void **state)
 /* What is and what is not part of a point's and of a campaign's identity. */
 static void test_hashes(void **state)
 {
-    (void)state;
     static const struct {
         const char *find, *put;
         bool same_point, same_campaign;
@@ -174,7 +167,6 @@ static void test_hashes(void **state)
 
 static void test_product(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced("", "sweep:\n  - loading.rate: [1e3 1/s, 1e4]\n"
                                                   "  - material.young: [1 GPa, 2 GPa, 3 GPa]\n");
     assert_int_equal(campaign->npoints, 6);
@@ -187,7 +179,6 @@ static void test_product(void **state)
 
 static void test_ranges(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced(
         "", "sweep:\n  - loading.rate: {from: 0.1 1/s, to: 0.5, points: 5}\n");
     static const double lin[] = {0.1, 0.2, 0.3, 0.4, 0.5};
@@ -208,7 +199,6 @@ static void test_ranges(void **state)
 
 static void test_zip(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced("",
                                               "sweep:\n  - zip:\n      loading.rate: [1, 2, 3]\n   "
                                               "   mesh.elements: {from: 10, to: 30, points: 3}\n"
@@ -230,7 +220,6 @@ static void test_zip(void **state)
 
 static void test_cases(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced(
         "",
         "sweep:\n  - cases:\n      - name: soft\n        material: {young: 1 GPa}\n        "
@@ -257,7 +246,6 @@ static void test_cases(void **state)
  * keeps common ones. */
 static void test_changed_kind(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced(
         "", "sweep:\n  - strength: [{}, {distribution: weibull, scale: 300 MPa, shape: 10}]\n"
             "  - cohesive.law: [nitsche, rigid-link]\n");
@@ -278,7 +266,6 @@ static void test_changed_kind(void **state)
  * it. */
 static void test_key_of_all_kinds(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced("",
                                               "sweep:\n  - cohesive.law: [nitsche, rigid-link]\n");
     for (size_t p = 0; p < 2; p++)
@@ -291,7 +278,6 @@ static void test_key_of_all_kinds(void **state)
 /* A value that is a name: swept, and by default the first one. */
 static void test_choices(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced("",
                                               "sweep:\n  - geometry.ends: [held, periodic]\n"
                                               "  - geometry: [{}, {shape: bar, length: 1 m}]\n");
@@ -314,7 +300,6 @@ static void test_choices(void **state)
 /* The sweep may supply what the sections leave out. */
 static void test_supplied_by_sweep(void **state)
 {
-    (void)state;
     static const char strength[] =
         "strength:\n  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n";
     char *text = replace(plain_campaign, strength, "");
@@ -339,7 +324,6 @@ static void test_supplied_by_sweep(void **state)
 
 static void test_table(void **state)
 {
-    (void)state;
     static const char sweep[] =
         "sweep:\n  - strength: [{}, {distribution: constant, value: 5 MPa}]\n";
     fracas_campaign *campaign = read_replaced("", sweep);
@@ -411,7 +395,6 @@ static void test_table(void **state)
 /* (size-laws.8), (size-laws.9): the shape by lgamma, which no code of ours uses. */
 static void test_modulus(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced(
         "", "sweep:\n  - strength: [{distribution: weibull, scale: 400 MPa, shape: 10}, "
             "{distribution: weibull, minimum: 100 MPa, mean: 300 MPa, deviation: 50 MPa}, "
@@ -433,7 +416,6 @@ static void test_modulus(void **state)
 /* Powers of two, so that quotients are exact. */
 static void test_strain_rate(void **state)
 {
-    (void)state;
     fracas_spec spec = {.geometry.radius = 0.0078125,
                         .loading = {.type = &fracas_loading_imposed_rate,
                                     .rate = 3e3,
@@ -478,7 +460,6 @@ static void check_section(const fracas_section *section)
 
 static void test_tables_agree(void **state)
 {
-    (void)state;
     for (size_t s = 0; s < fracas_engine_nsections; s++) check_section(fracas_engine_sections[s]);
     check_section(&fracas_strength_section);
 }
@@ -487,7 +468,6 @@ static void test_tables_agree(void **state)
  * (test_campaign_membranes has the other). */
 static void test_page_examples(void **state)
 {
-    (void)state;
     char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md"), *block[4],
          *end = page;
     for (int b = 0; b < 4; b++) {
@@ -512,7 +492,6 @@ static void test_page_examples(void **state)
 
 static void test_round_trip(void **state)
 {
-    (void)state;
     static const char *const sweeps[] = {
         "",
         "sweep:\n  - cases: [{name: alone, replicas: 5}]\n",
@@ -567,7 +546,6 @@ static void test_round_trip(void **state)
 /* The largest campaign, every number of it varied, is still one that can be read back. */
 static void test_largest_round_trip(void **state)
 {
-    (void)state;
     static const char *const paths[] = {"geometry.length",  "geometry.area",
                                         "mesh.elements",    "material.young",
                                         "material.density", "cohesive.fracture_energy",
@@ -596,7 +574,6 @@ static void test_largest_round_trip(void **state)
 /* A file that cannot be written is said. */
 static void test_write_fails(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_text(plain_campaign);
     FILE *full = fopen("/dev/full", "w");
     assert_non_null(full);
@@ -610,7 +587,6 @@ static void test_write_fails(void **state)
 
 static void test_extends(void **state)
 {
-    (void)state;
     static const struct {
         const char *find, *put, *words[3]; /* no words: it extends */
     } table[] = {
@@ -661,7 +637,6 @@ static void test_extends(void **state)
 
 static void test_reference_page(void **state)
 {
-    (void)state;
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
@@ -679,32 +654,8 @@ static void test_reference_page(void **state)
     free(text);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_example),
-        cmocka_unit_test(test_plain),
-        cmocka_unit_test(test_windows),
-        cmocka_unit_test(test_golden_hash),
-        cmocka_unit_test(test_hashes),
-        cmocka_unit_test(test_product),
-        cmocka_unit_test(test_ranges),
-        cmocka_unit_test(test_zip),
-        cmocka_unit_test(test_cases),
-        cmocka_unit_test(test_changed_kind),
-        cmocka_unit_test(test_supplied_by_sweep),
-        cmocka_unit_test(test_table),
-        cmocka_unit_test(test_tables_agree),
-        cmocka_unit_test(test_modulus),
-        cmocka_unit_test(test_strain_rate),
-        cmocka_unit_test(test_round_trip),
-        cmocka_unit_test(test_write_fails),
-        cmocka_unit_test(test_extends),
-        cmocka_unit_test(test_reference_page),
-        cmocka_unit_test(test_choices),
-        cmocka_unit_test(test_key_of_all_kinds),
-        cmocka_unit_test(test_page_examples),
-        cmocka_unit_test(test_largest_round_trip),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_example, test_plain, test_windows, test_golden_hash, test_hashes, test_product,
+      test_ranges, test_zip, test_cases, test_changed_kind, test_supplied_by_sweep, test_table,
+      test_tables_agree, test_modulus, test_strain_rate, test_round_trip, test_write_fails,
+      test_extends, test_reference_page, test_choices, test_key_of_all_kinds, test_page_examples,
+      test_largest_round_trip)

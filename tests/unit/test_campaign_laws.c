@@ -5,9 +5,10 @@
 #include "tests/support/strengths.h"
 
 #include "campaigns/plan/point_model.h"
-
-#include <math.h>
-#include <stdio.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 static const char uniform[] = "  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n";
 
@@ -25,7 +26,6 @@ static double real(const fracas_campaign *campaign, size_t point, const char *pa
 /* What is not given has no column, and so no trace in a hash; what is given has. */
 static void test_what_is_given_counts(void **state)
 {
-    (void)state;
     fracas_campaign *plain = read_text(plain_campaign);
     fracas_campaign *moments = read_replaced(
         uniform, "  distribution: uniform\n  mean: 300 MPa\n  deviation: 0.5 MPa\n");
@@ -44,7 +44,6 @@ static void test_what_is_given_counts(void **state)
  * place of the section's. */
 static void test_sweeps_of_moments(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced(
         "", "sweep:\n  - strength: [{distribution: weibull, mean: 300 MPa, deviation: 30 MPa}, "
             "{distribution: gamma, mean: 300 MPa, deviation: 30 MPa}, {distribution: lognormal, "
@@ -73,7 +72,6 @@ static void test_sweeps_of_moments(void **state)
  * specimen of 1 mm3 times (1/0.5)^(1/m). 1e-13: two powers. */
 static void test_field_has_the_size_effect(void **state)
 {
-    (void)state;
     static const char sweep[] =
         "sweep:\n  - strength: [{distribution: weibull, scale: 300 MPa, shape: 8}, {distribution: "
         "weibull, scale: 300 MPa, shape: 8, reference_volume: 1 mm3}]\n";
@@ -100,12 +98,4 @@ static void test_field_has_the_size_effect(void **state)
     fracas_campaign_destroy(campaign);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_is_given_counts),
-        cmocka_unit_test(test_sweeps_of_moments),
-        cmocka_unit_test(test_field_has_the_size_effect),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_what_is_given_counts, test_sweeps_of_moments, test_field_has_the_size_effect)

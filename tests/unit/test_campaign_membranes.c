@@ -10,9 +10,10 @@
 #include "campaigns/plan/point_model.h"
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
-
-#include <math.h>
-#include <stdio.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 static const char membrane_campaign[] =
     "name: test\n"                                                /* 1 */
@@ -57,7 +58,6 @@ static fracas_model *model_of(const fracas_campaign *campaign, size_t point)
  * program. */
 static void test_plate(void **state)
 {
-    (void)state;
     static const char text[] =
         "cohesive.beta=5\ncohesive.coupling=1\ncohesive.critical_opening=0\ncohesive.fracture_"
         "energy=150\ncohesive.friction=0\ncohesive.law=nitsche\n"
@@ -95,7 +95,6 @@ static void test_plate(void **state)
 
 static void test_annulus(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_membrane(
         "geometry: {width: 10 mm, height: 5 mm, ",
         "geometry: {shape: annulus, inner: 5 mm, outer: 10 mm, outer_edge: held, ");
@@ -136,7 +135,6 @@ static char *file_campaign(const char *path, const char *strength)
 
 static void test_file(void **state)
 {
-    (void)state;
     char path[40];
     make_path(path);
     write_bytes(path, two_triangles, strlen(two_triangles));
@@ -165,7 +163,6 @@ static void test_file(void **state)
 /* What docs/formats/campaign-file.md shows of a mesh file, of a plate that Gmsh has meshed. */
 static void test_page_example(void **state)
 {
-    (void)state;
     FILE *in = fopen(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md", "r");
     assert_non_null(in);
     char *page = calloc(1, 1 << 16);
@@ -199,7 +196,6 @@ static void test_page_example(void **state)
  * volume of an interface. */
 static void test_no_mesh(void **state)
 {
-    (void)state;
     char path[40], campaign_path[40];
     make_path(path);
     make_path(campaign_path);
@@ -226,7 +222,6 @@ static void test_no_mesh(void **state)
  * squares cut in two. */
 static void test_mean_strength(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_membrane(
         "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}",
         "strength: {distribution: flaws, flaw_density: 1e11 1/m3, minimum: 100 MPa, maximum: 400 "
@@ -269,7 +264,6 @@ static void check_round_trip(const fracas_campaign *campaign)
  * points that have them. */
 static void test_swept_model(void **state)
 {
-    (void)state;
     char *text = replace(plain_campaign, "  density: 2750 kg/m3\n",
                          "  density: 2750 kg/m3\n  poisson: 0.25\n");
     char *sliding = replace(text, "  law: nitsche\n", "  law: nitsche\n  coupling: 2\n");
@@ -310,7 +304,6 @@ static void test_swept_model(void **state)
  * shape's thickness. */
 static void test_inherited(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_membrane(
         "  fracture_energy: 150 J/m2\n",
         "  fracture_energy: 150 J/m2\n  beta: 10\n  friction: 0.5\nsweep:\n  - cohesive.law: "
@@ -340,7 +333,6 @@ static void test_inherited(void **state)
 
 static void test_refused(void **state)
 {
-    (void)state;
     static const struct {
         const char *find, *put, *place, *words;
     } table[] = {
@@ -400,7 +392,6 @@ static size_t count_moved(const fracas_model *a, const fracas_model *b)
  * 7 x 3 are inside. */
 static void test_perturbed(void **state)
 {
-    (void)state;
     static const char mesh[] =
         "  divisions: 4\n  amplitude: 0.3\nsweep:\n  - loading.rate: [1e4, 2e4]\n";
     fracas_campaign *campaign = read_membrane("  divisions: 4\n", mesh);
@@ -433,7 +424,6 @@ static void test_perturbed(void **state)
 /* A correlation length that was meant in mm, or is far below an element. */
 static void test_plan_of_fields(void **state)
 {
-    (void)state;
     static const char strength[] = "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}";
     static const struct {
         const char *length, *words; /* no words: no warning */
@@ -473,7 +463,6 @@ static void test_plan_of_fields(void **state)
  */
 static void test_plan(void **state)
 {
-    (void)state;
     static const char lines[] = "warning: point 0: interfaces are equally strong and the mesh is "
                                 "regular, so that cracks follow its lines";
     static const char strength[] = "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}";
@@ -520,7 +509,6 @@ static void test_plan(void **state)
 /* Rows of interfaces take what they take, 6 x 84 more numbers than there are none. */
 static void test_bytes(void **state)
 {
-    (void)state;
     fracas_campaign *without = read_membrane("", ""),
                     *with = read_membrane("", "output: {interfaces: true}\n");
     fracas_forecast a, b;
@@ -557,7 +545,6 @@ static bool cracks(const fracas_model *model, double strength)
  * -1: as much as the stress along the sides, E/(1 + nu), of a bound of E/0.5. */
 static void test_bound(void **state)
 {
-    (void)state;
     static const struct {
         const char *loading, *coupling;
         double stress; /* by E rate t */
@@ -606,7 +593,6 @@ static void test_bound(void **state)
  * has reached. */
 static void test_steps_that_pass_strengths(void **state)
 {
-    (void)state;
     static const struct {
         double widths; /* w by what a step adds */
         bool warned;
@@ -642,7 +628,6 @@ static void test_steps_that_pass_strengths(void **state)
  * stretches by w^2 t^2/2. */
 static void test_bounds_of_others(void **state)
 {
-    (void)state;
     static const struct {
         const char *find, *put;
         double bound;
@@ -672,25 +657,7 @@ static void test_bounds_of_others(void **state)
     fracas_campaign_destroy(still);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_plate),
-        cmocka_unit_test(test_annulus),
-        cmocka_unit_test(test_file),
-        cmocka_unit_test(test_page_example),
-        cmocka_unit_test(test_no_mesh),
-        cmocka_unit_test(test_mean_strength),
-        cmocka_unit_test(test_swept_model),
-        cmocka_unit_test(test_inherited),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_perturbed),
-        cmocka_unit_test(test_plan),
-        cmocka_unit_test(test_plan_of_fields),
-        cmocka_unit_test(test_bytes),
-        cmocka_unit_test(test_bound),
-        cmocka_unit_test(test_steps_that_pass_strengths),
-        cmocka_unit_test(test_bounds_of_others),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_plate, test_annulus, test_file, test_page_example, test_no_mesh, test_mean_strength,
+      test_swept_model, test_inherited, test_refused, test_perturbed, test_plan,
+      test_plan_of_fields, test_bytes, test_bound, test_steps_that_pass_strengths,
+      test_bounds_of_others)

@@ -2,12 +2,10 @@
 /* What goes with what: kinds and defaults by the model, on tables of this test's own with two
  * models. */
 #include "campaigns/file/resolve.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <string.h>
-
-#include <cmocka.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 typedef struct {
     const fracas_kind *model;
@@ -129,7 +127,6 @@ static void bad(said base, said swept, const char *message)
 
 static void defaults_go_by_the_model(void **state)
 {
-    (void)state;
     good((said){.energy = 5}, (said){0}, (body){&rod, &soft, 5, 1, 0, 0});
     good((said){.model = &disc, .depth = 3}, (said){0}, (body){&disc, &hard, 7, 2, 3, 0});
     good((said){.model = &cloud, .energy = 5}, (said){0},
@@ -143,7 +140,6 @@ static void defaults_go_by_the_model(void **state)
  * every kind has. */
 static void a_swept_model_changes_the_default(void **state)
 {
-    (void)state;
     good((said){.energy = 5, .size = 6}, (said){.model = &disc, .depth = 3},
          (body){&disc, &hard, 5, 2, 3, 0});
     good((said){.energy = 5, .size = 6}, (said){.model = &cloud},
@@ -161,7 +157,6 @@ static void a_swept_model_changes_the_default(void **state)
  * there (test_campaign_errors). */
 static void some_models_have_it(void **state)
 {
-    (void)state;
     good((said){.energy = 5, .grip = 3}, (said){0},
          (body){.model = &rod, .law = &soft, .energy = 5, .size = 1});
     good((said){.energy = 5, .grip = 3}, (said){.model = &disc, .depth = 3},
@@ -182,7 +177,6 @@ static void some_models_have_it(void **state)
 
 static void others_are_refused(void **state)
 {
-    (void)state;
     bad((said){.law = &hard, .depth = 1}, (said){0},
         "f:4:3: `law`: hard cannot be combined with model rod, which takes soft or odd");
     bad((said){.model = &disc, .law = &soft, .energy = 1}, (said){.law = &odd},
@@ -199,11 +193,5 @@ static void others_are_refused(void **state)
         "f:1:1: cohesive with law hard (the default) needs `depth` (a number): a pure number");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(defaults_go_by_the_model),
-                                       cmocka_unit_test(a_swept_model_changes_the_default),
-                                       cmocka_unit_test(some_models_have_it),
-                                       cmocka_unit_test(others_are_refused)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(defaults_go_by_the_model, a_swept_model_changes_the_default, some_models_have_it,
+      others_are_refused)

@@ -5,9 +5,11 @@
 #include "campaigns/plan/plan.h"
 #include "engine/engine.h"
 #include "tests/support/campaign_text.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
-#include <math.h>
-#include <stdio.h>
 #include <time.h>
 
 static const char sweep[] =
@@ -20,7 +22,6 @@ static void expect(const char *text, const char *part)
 
 static void test_cost(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_text(plain_campaign);
     fracas_model *model;
     double cost = 0;
@@ -35,7 +36,6 @@ static void test_cost(void **state)
 /* Rows end at the same column, as every cell is right-aligned. */
 static void test_text(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced("", sweep);
     char *text = plan_text(campaign, 2, false);
     expect(text, "Campaign test: 4 points, 12 realizations\n");
@@ -56,7 +56,6 @@ static void test_text(void **state)
 
 static void test_json(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced("", sweep);
     char *text = plan_text(campaign, 2, true);
     expect(text, "\"points\": 4,");
@@ -78,7 +77,6 @@ static void test_json(void **state)
  * scatter. */
 static void test_warnings(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced(
         "", "sweep:\n  - mesh.elements: [100, 1000]\n"
             "  - strength: [{distribution: constant, value: 300 MPa}, {distribution: uniform, "
@@ -130,7 +128,6 @@ static double bound_of(const char *loading)
  * roundings. */
 static void test_bound_of_a_rings_stress(void **state)
 {
-    (void)state;
     const double E = 275e9, R = 0.01, t = 500e-9;
     const struct {
         const char *loading;
@@ -162,7 +159,6 @@ static void test_bound_of_a_rings_stress(void **state)
  * mm. */
 static void test_warnings_of_rings(void **state)
 {
-    (void)state;
     static const char *const says[] = {"swings back: raise its velocity",
                                        "raise its velocity or time.end",
                                        "load it harder, or longer",
@@ -224,7 +220,6 @@ static void test_warnings_of_rings(void **state)
 /* A heavy tail is refused for the strongest interface it will draw, not for its mean. */
 static void test_heavy_tail(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced(
         "", "sweep:\n  - strength: [{distribution: weibull, scale: 30 MPa, shape: 0.5}]\n");
     fracas_model *model;
@@ -245,7 +240,6 @@ static void test_heavy_tail(void **state)
  * bear 255 MPa. */
 static void test_flaws_of_small_elements(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced(
         "", "sweep:\n  - cases:\n"
             "      - {name: small, mesh: {spacing: graded, ratio: 0.001}, strength: {distribution: "
@@ -265,7 +259,6 @@ static void test_flaws_of_small_elements(void **state)
 /* What the engine refuses is refused here, with the point. */
 static void test_refused(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_replaced(
         "", "sweep:\n  - cohesive.fracture_energy: [100, 1e-9]\n");
     FILE *out = fopen("/dev/null", "w");
@@ -295,7 +288,6 @@ static fracas_campaign *refined_ring(const char *refinement)
  * it takes a tenth of a second (a second with sanitizers). */
 static void test_refined(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = refined_ring("1e-4");
     const clock_t before = clock(); /* of the processor */
     char *text = plan_text(campaign, 2, false);
@@ -312,7 +304,6 @@ static void test_refined(void **state)
 /* More steps than can be taken, or counted, are refused. */
 static void test_refined_too_far(void **state)
 {
-    (void)state;
     static const char *const refinements[] = {"5e-5", "1e-10", "1e-154",
                                               "1e-300"}; /* 9.5e3/25e-10 = 3.8e12, ... infinity */
     for (size_t r = 0; r < FRACAS_COUNT(refinements); r++) {
@@ -327,7 +318,6 @@ static void test_refined_too_far(void **state)
 
 static void test_write_fails(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = read_text(plain_campaign);
     FILE *full = fopen("/dev/full", "w");
     assert_non_null(full);
@@ -337,21 +327,6 @@ static void test_write_fails(void **state)
     fracas_campaign_destroy(campaign);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cost),
-        cmocka_unit_test(test_text),
-        cmocka_unit_test(test_json),
-        cmocka_unit_test(test_warnings),
-        cmocka_unit_test(test_heavy_tail),
-        cmocka_unit_test(test_flaws_of_small_elements),
-        cmocka_unit_test(test_bound_of_a_rings_stress),
-        cmocka_unit_test(test_warnings_of_rings),
-        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_refined),
-        cmocka_unit_test(test_refined_too_far),
-        cmocka_unit_test(test_write_fails),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_cost, test_text, test_json, test_warnings, test_heavy_tail, test_flaws_of_small_elements,
+      test_bound_of_a_rings_stress, test_warnings_of_rings, test_refused, test_refined,
+      test_refined_too_far, test_write_fails)

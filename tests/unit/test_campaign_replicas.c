@@ -4,8 +4,10 @@
 #include "tests/support/campaign_text.h"
 
 #include "campaigns/file/replicas.h"
-
-#include <stdio.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #define RULE                                                                                \
     "{minimum: 16, maximum: 256, until: {quantity: mean-count, relative-half-width: 0.02, " \
@@ -23,7 +25,6 @@ static fracas_campaign *with_replicas(const char *replicas)
 
 static void a_rule_is_read(void **state)
 {
-    (void)state;
     fracas_campaign *campaign = with_replicas(RULE);
     const fracas_point *point = &campaign->point[0];
     assert_int_equal(point->replicas, 16);
@@ -50,7 +51,6 @@ static void a_rule_is_read(void **state)
 
 static void wrong_rules_are_refused(void **state)
 {
-    (void)state;
 #define UNTIL "until: {quantity: mean-count, relative-half-width: 0.02}"
     static const struct {
         const char *replicas, *words[3];
@@ -113,7 +113,6 @@ static void wrong_rules_are_refused(void **state)
  * does not. */
 static void a_rule_is_written_and_hashed(void **state)
 {
-    (void)state;
     static const char *const other[] = {
         "16",
         "{minimum: 24, maximum: 256, until: {quantity: mean-count, relative-half-width: 0.02, "
@@ -149,7 +148,6 @@ static void a_rule_is_written_and_hashed(void **state)
 /* A case may have its own, a number beside rules. */
 static void cases_have_their_own(void **state)
 {
-    (void)state;
     char *text = replace(
         plain_campaign, "",
         "sweep:\n  - cases:\n      - {name: a, loading: {rate: 1e3}, replicas: " RULE "}\n"
@@ -171,7 +169,6 @@ static void cases_have_their_own(void **state)
 
 static void only_more_extends(void **state)
 {
-    (void)state;
 #define MADE(minimum, maximum, quantity, width, confidence)                    \
     "{minimum: " minimum ", maximum: " maximum ", until: {quantity: " quantity \
     ", relative-half-width: " width ", confidence: " confidence "}}"
@@ -213,14 +210,5 @@ static void only_more_extends(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_rule_is_read),
-        cmocka_unit_test(wrong_rules_are_refused),
-        cmocka_unit_test(a_rule_is_written_and_hashed),
-        cmocka_unit_test(cases_have_their_own),
-        cmocka_unit_test(only_more_extends),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_rule_is_read, wrong_rules_are_refused, a_rule_is_written_and_hashed, cases_have_their_own,
+      only_more_extends)

@@ -3,17 +3,13 @@
 #include "analysis/draw/chart.h"
 #include "analysis/report/pdf.h"
 #include "base/param.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 /* A mark without a bar and one that no log axis shows, a line without a name in the look of the
  * marks, and a band with a gap. */
@@ -105,7 +101,6 @@ static char *written(void (*write)(const fracas_chart *chart, FILE *out))
 
 static void the_csv_has_what_is_drawn(void **state)
 {
-    (void)state;
     char *text = written(fracas_chart_csv);
     assert_string_equal(text,
                         "panel,series,kind,\"rate [1/s]\",\"size [mm] | energy [J]\",low,high\n"
@@ -145,7 +140,6 @@ static void write_file(const fracas_chart *chart, FILE *out)
 
 static void drawings_have_marks_bands_and_keys(void **state)
 {
-    (void)state;
     char *page = written(write_page), *linear = written(write_linear), *file = written(write_file);
     assert_int_equal(count_of(page, "class=\"mark\""), 2);
     assert_int_equal(count_of(page, "class=\"bar\""), 1);
@@ -180,7 +174,6 @@ static double place_of(const char *drawing, const char *name)
 
 static void an_axis_may_have_names(void **state)
 {
-    (void)state;
     char *page = written_of(make_names, write_page),
          *table = written_of(make_names, fracas_chart_csv);
     assert_string_equal(table, "panel,series,kind,\"refined\",\"change [%]\",low,high\n"
@@ -218,14 +211,12 @@ static char folder[256];
 
 static int make_folder(void **state)
 {
-    (void)state;
     snprintf(folder, sizeof folder, "%s/chart-XXXXXX", FRACAS_BINARY_DIR);
     return mkdtemp(folder) ? 0 : -1;
 }
 
 static int remove_folder(void **state)
 {
-    (void)state;
     char command[sizeof folder + 16];
     snprintf(command, sizeof command, "rm -rf '%s'", folder);
     return system(command);
@@ -249,7 +240,6 @@ static void fails_with(char (*name)[FRACAS_DRAWING], const char *message)
 
 static void drawings_become_pdf(void **state)
 {
-    (void)state;
     if (!fracas_pdf_made) {
         print_message("skipped: built without librsvg\n");
         skip();
@@ -281,7 +271,7 @@ static void drawings_become_pdf(void **state)
     assert_int_equal(fracas_pdf_write(folder, NULL, 0), FRACAS_OK);
 }
 
-int main(void)
+int fracas_test(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_csv_has_what_is_drawn),

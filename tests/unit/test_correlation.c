@@ -10,17 +10,13 @@
 #include "sampler/field/order.h"
 #include "sampler/field/sparse_factor.h"
 #include "tests/support/sites.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_sf_bessel.h>
 #include <gsl/gsl_sf_gamma.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 /* What a product of some hundred roundings may be wrong by. */
 #define ROUNDED 1e-12
@@ -53,7 +49,6 @@ static double exact(const fracas_strength *strength, double d)
 /* GSL's logarithms, of size up to some 100, round to 1e-14 times that. */
 static void covariances_are_those_of_gsl(void **state)
 {
-    (void)state;
     static const double smoothness[] = {0.1, 0.3, 0.5, 0.50001, 0.8, 1,   1.5, 1.9, 2,
                                         2.5, 3.3, 4.5, 6,       7.7, 9.5, 10,  NAN};
     double worst = 0;
@@ -88,7 +83,6 @@ static void covariances_are_those_of_gsl(void **state)
 /* Strengths that are given, or all the same, are not drawn from any field. */
 static void only_strengths_that_are_drawn_are_correlated(void **state)
 {
-    (void)state;
     static const struct {
         const char *distribution, *message;
     } table[] = {
@@ -159,7 +153,6 @@ static double error_of(const fracas_strength *strength, size_t n, double period,
 
 static void few_sites_have_the_covariance(void **state)
 {
-    (void)state;
     static const size_t counts[] = {0, 1, 2, 3, 4, 5, 7, 12, 61, 100};
     static const double lengths[] = {1e-9, 0.01, 0.3, 2};
     const fracas_kind *const kinds[] = {&fracas_covariance_exponential, &fracas_covariance_matern};
@@ -192,7 +185,6 @@ static size_t normals_of(size_t n, const fracas_kind *kind, double length)
 
 static void lines_are_told_from_others(void **state)
 {
-    (void)state;
     sites_on_line(100, 1.0, sites);
     assert_int_equal(normals_of(100, &fracas_covariance_exponential, 0.3), 256);
     assert_true(normals_of(100, &fracas_covariance_matern, 0.3) >=
@@ -209,7 +201,6 @@ static void lines_are_told_from_others(void **state)
  * right. */
 static void broken_circles_are_scattered(void **state)
 {
-    (void)state;
     const fracas_strength strength = correlated(&fracas_covariance_exponential, 0.3, NAN);
     for (int way = 0; way < 6; way++) {
         sites_on_circle(30, 0.7, sites);
@@ -233,7 +224,6 @@ static void broken_circles_are_scattered(void **state)
  * places, or a field is so smooth that few of its eigenvalues are no rounding. */
 static void singular_covariances_are_factorised(void **state)
 {
-    (void)state;
     enum { N = 120, PLACES = 7 };
     for (int way = 0; way < 2; way++) {
         const fracas_strength strength = correlated(
@@ -261,7 +251,6 @@ static void singular_covariances_are_factorised(void **state)
  * correlation by more. */
 static void no_circle_is_long_enough(void **state)
 {
-    (void)state;
     enum { N = 1200, WAVES = 60 };
     const fracas_strength strength = correlated(&fracas_covariance_gaussian, 1.6e4, NAN);
     fracas_covariance *covariance = covariance_of(&strength);
@@ -322,7 +311,6 @@ static double error_of_pairs(const fracas_strength *strength, const fracas_spars
 /* The error is a maximum that is searched for: it may miss the largest, but not by half of it. */
 static void errors_are_stated(void **state)
 {
-    (void)state;
     enum { N = 1300 };
     static const struct {
         const fracas_kind *kind;
@@ -357,7 +345,6 @@ static void errors_are_stated(void **state)
 /* A row of A A^T as the factor finds it, and from the columns of A. */
 static void correlations_are_those_of_the_factor(void **state)
 {
-    (void)state;
     enum { N = FRACAS_DENSE_SITES + 200, ROWS = 6 };
     const fracas_strength strength = correlated(&fracas_covariance_matern, 0.1, NAN);
     static double w[N], z[N], rho[ROWS][N], product[ROWS][N];
@@ -381,7 +368,6 @@ static void correlations_are_those_of_the_factor(void **state)
  * on no other: the factor is exact but for rounding. So it is for sites that are there twice. */
 static void markov_fields_are_exact(void **state)
 {
-    (void)state;
     const fracas_strength strength = correlated(&fracas_covariance_exponential, 0.02, NAN);
     enum { LINE = 1400 };
     for (size_t copies = 1; copies <= 2; copies++) {
@@ -401,7 +387,6 @@ static void markov_fields_are_exact(void **state)
 /* As many sites at one place as a site is drawn from and more: all but one of them are left out. */
 static void sites_may_be_at_one_place(void **state)
 {
-    (void)state;
     enum { N = 2 * FRACAS_DENSE_SITES + 500, COPIES = 4 * FRACAS_NEAR_SITES };
     const fracas_strength strength = correlated(&fracas_covariance_matern, 0.1, NAN);
     double of_variance;
@@ -420,7 +405,6 @@ static void sites_may_be_at_one_place(void **state)
 
 static void orders_go_from_coarse_to_fine(void **state)
 {
-    (void)state;
     enum { N = 3000, FIRST = 100, M = 20 };
     static uint32_t order[N], near[(N - FIRST) * M];
     static bool seen[N];
@@ -452,21 +436,8 @@ static void orders_go_from_coarse_to_fine(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(covariances_are_those_of_gsl),
-        cmocka_unit_test(only_strengths_that_are_drawn_are_correlated),
-        cmocka_unit_test(few_sites_have_the_covariance),
-        cmocka_unit_test(lines_are_told_from_others),
-        cmocka_unit_test(broken_circles_are_scattered),
-        cmocka_unit_test(singular_covariances_are_factorised),
-        cmocka_unit_test(no_circle_is_long_enough),
-        cmocka_unit_test(errors_are_stated),
-        cmocka_unit_test(correlations_are_those_of_the_factor),
-        cmocka_unit_test(markov_fields_are_exact),
-        cmocka_unit_test(sites_may_be_at_one_place),
-        cmocka_unit_test(orders_go_from_coarse_to_fine),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(covariances_are_those_of_gsl, only_strengths_that_are_drawn_are_correlated,
+      few_sites_have_the_covariance, lines_are_told_from_others, broken_circles_are_scattered,
+      singular_covariances_are_factorised, no_circle_is_long_enough, errors_are_stated,
+      correlations_are_those_of_the_factor, markov_fields_are_exact, sites_may_be_at_one_place,
+      orders_go_from_coarse_to_fine)

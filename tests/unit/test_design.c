@@ -8,17 +8,14 @@
 #include "sampler/stream.h"
 
 #include "base/hash.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_qrng.h>
 #include <inttypes.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { LATIN_HYPERCUBE, SOBOL, RANDOM, TYPES };
 
@@ -52,7 +49,6 @@ static const double three_tied[9] = {1.0, 0.6, -0.3, 0.6, 1.0, 0.2, -0.3, 0.2, 1
 
 static void test_names(void **state)
 {
-    (void)state;
     assert_string_equal(fracas_design_types[LATIN_HYPERCUBE]->name, "latin-hypercube");
     assert_string_equal(fracas_design_types[SOBOL]->name, "sobol");
     assert_string_equal(fracas_design_types[RANDOM]->name, "random");
@@ -64,7 +60,6 @@ static void test_names(void **state)
 /* Philox's u with purpose 3, use 0, the parameter's name as replica and the point as site. */
 static void test_random_is_the_stream(void **state)
 {
-    (void)state;
     fracas_probability *p = fill(RANDOM, 50, 4, NULL);
     for (size_t i = 0; i < 50; i++)
         for (size_t j = 0; j < 4; j++) {
@@ -79,7 +74,6 @@ static void test_random_is_the_stream(void **state)
  */
 static void test_sobol_is_gsl_shifted(void **state)
 {
-    (void)state;
     enum { N = 1000, D = 40 };
     uint64_t many[D];
     for (size_t j = 0; j < D; j++) many[j] = 100 + j;
@@ -107,7 +101,6 @@ static void test_sobol_is_gsl_shifted(void **state)
 /* Bits that gcc and clang gave on CPUs with and without FMA. */
 static void test_golden_bits(void **state)
 {
-    (void)state;
     static const uint64_t golden[TYPES][2] = {{0xc82047bbd9dbd2f1, 0xd804efcea83840c3},
                                               {0x3c63ccbee4cfc541, 0xdef7fd98d374afe5},
                                               {0x475c24d0617679c7, 0x457fc82db5f4f573}};
@@ -125,7 +118,6 @@ static void test_golden_bits(void **state)
 
 static void test_prefix(void **state)
 {
-    (void)state;
     for (int type = 0; type < TYPES; type++)
         for (int tied = 0; tied < 2; tied++) {
             fracas_probability *few = fill(type, 16, 3, tied ? three_tied : NULL),
@@ -140,7 +132,6 @@ static void test_prefix(void **state)
  * place either. */
 static void test_other_parameters(void **state)
 {
-    (void)state;
     const double two_tied[4] = {1.0, 0.6, 0.6, 1.0};
     const uint64_t turned[3] = {names[2], names[0], names[1]};
     for (int type = 0; type < TYPES; type++) {
@@ -174,7 +165,6 @@ static void test_other_parameters(void **state)
  * ties, to the bit. */
 static void test_untied_stays(void **state)
 {
-    (void)state;
     const double tied[9] = {1.0, 0.6, 0.0, 0.6, 1.0, 0.0, 0.0, 0.0, 1.0};
     for (int type = 0; type < TYPES; type++) {
         fracas_probability *p = fill(type, 30, 3, tied), *q = fill(type, 30, 3, NULL);
@@ -201,7 +191,6 @@ static int by_below(const void *a, const void *b)
  * itself. Its place inside is v. */
 static void test_strata(void **state)
 {
-    (void)state;
     static const size_t counts[] = {1, 2, 37, 1000};
     for (size_t c = 0; c < FRACAS_COUNT(counts); c++)
         for (int tied = 0; tied < 2; tied++) {
@@ -232,7 +221,6 @@ static void test_strata(void **state)
  * number of its own. */
 static void test_order_of_latin_hypercube(void **state)
 {
-    (void)state;
     fracas_probability *p = fill(LATIN_HYPERCUBE, 64, 3, three_tied),
                        *q = fill(RANDOM, 64, 3, three_tied);
     for (size_t a = 0; a < 64; a++)
@@ -257,7 +245,6 @@ static void test_order_of_latin_hypercube(void **state)
  * by pivots above 0.5. */
 static void test_factor(void **state)
 {
-    (void)state;
     double factor[9], rest;
     size_t at;
     assert_true(fracas_correlation_factor(3, three_tied, factor, &at, &rest));
@@ -273,7 +260,6 @@ static void test_factor(void **state)
 /* 0.9, 0.9 and -0.9 among three: of the third is left 1 - (0.81 + (-0.9 - 0.81)^2/0.19) = -15.2. */
 static void test_contradiction(void **state)
 {
-    (void)state;
     const double wrong[9] = {1.0, 0.9, 0.9, 0.9, 1.0, -0.9, 0.9, -0.9, 1.0},
                  equal[4] = {1.0, 1.0, 1.0, 1.0};
     double factor[9], rest = 0.0;
@@ -311,7 +297,6 @@ static double score_correlation(const fracas_probability *p, size_t n, size_t a,
  * deviations at alpha 1e-6, and rho/(2n) of bias. Sobol is no worse. */
 static void test_correlation(void **state)
 {
-    (void)state;
     enum { N = 16384 };
     for (int type = 0; type < TYPES; type++)
         for (int tied = 0; tied < 2; tied++) {
@@ -332,7 +317,6 @@ static void test_correlation(void **state)
  * exp(-2 2.70^2) = 1e-6. */
 static void test_margins(void **state)
 {
-    (void)state;
     enum { N = 16384 };
     fracas_probability *p = fill(RANDOM, N, 3, three_tied), *column = room_for(N, sizeof *column);
     for (size_t j = 0; j < 3; j++) {
@@ -374,7 +358,6 @@ static void assert_quantile(const fracas_uncertain *uncertain, fracas_probabilit
  * (docs/decisions/own-inverse-transforms.md). */
 static void test_laws(void **state)
 {
-    (void)state;
     static const double probes[] = {1e-9, 1e-4, 0.03, 0.3, 0.5, 0.77, 0.99, 0.99999};
     const fracas_uncertain uniform = {.law = law("uniform"), .minimum = -3.0, .maximum = 5.0};
     const fracas_uncertain log_uniform = {
@@ -404,7 +387,6 @@ static void test_laws(void **state)
  * of z about 10, and of kept. */
 static void test_cut_normal(void **state)
 {
-    (void)state;
     static const double bounds[][2] = {{-1.0, 2.0}, {NAN, -0.5},  {1.5, NAN},
                                        {3.0, 4.0},  {-5.0, -4.0}, {-0.1, 0.1}};
     const double mean = 10.0, deviation = 4.0;
@@ -437,7 +419,6 @@ static void test_cut_normal(void **state)
 
 static void test_law_checks(void **state)
 {
-    (void)state;
     const fracas_uncertain turned = {.law = law("uniform"), .minimum = 5.0, .maximum = 3.0};
     const fracas_uncertain equal = {.law = law("log-uniform"), .minimum = 5.0, .maximum = 5.0};
     const fracas_uncertain crossed = {
@@ -457,25 +438,7 @@ static void test_law_checks(void **state)
     assert_int_equal(fracas_uncertain_check(&open), FRACAS_OK);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_names),
-        cmocka_unit_test(test_random_is_the_stream),
-        cmocka_unit_test(test_sobol_is_gsl_shifted),
-        cmocka_unit_test(test_golden_bits),
-        cmocka_unit_test(test_prefix),
-        cmocka_unit_test(test_other_parameters),
-        cmocka_unit_test(test_untied_stays),
-        cmocka_unit_test(test_strata),
-        cmocka_unit_test(test_order_of_latin_hypercube),
-        cmocka_unit_test(test_factor),
-        cmocka_unit_test(test_contradiction),
-        cmocka_unit_test(test_correlation),
-        cmocka_unit_test(test_margins),
-        cmocka_unit_test(test_laws),
-        cmocka_unit_test(test_cut_normal),
-        cmocka_unit_test(test_law_checks),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_names, test_random_is_the_stream, test_sobol_is_gsl_shifted, test_golden_bits,
+      test_prefix, test_other_parameters, test_untied_stays, test_strata,
+      test_order_of_latin_hypercube, test_factor, test_contradiction, test_correlation,
+      test_margins, test_laws, test_cut_normal, test_law_checks)

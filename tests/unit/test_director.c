@@ -6,6 +6,7 @@
 
 #include "campaigns/scheduler/director/director.h"
 #include "campaigns/scheduler/session/failures.h"
+#include "tests/support/test.h"
 
 enum { WORKERS = 2 };
 
@@ -170,7 +171,6 @@ static void say_ended(size_t from)
  * be complete with it. */
 static void nobody_waits_for_records_of_one_that_computes(void **state)
 {
-    (void)state;
     prepare("replicas: {minimum: 16, maximum: 64, until: {quantity: dissipated, "
             "relative-half-width: 0.1}}",
             "sweep:\n  - loading.rate: [1e3, 1e4]\n");
@@ -195,7 +195,6 @@ static void nobody_waits_for_records_of_one_that_computes(void **state)
 /* A point whose replicas a rule decides goes before a longer one with a number of them. */
 static void what_rounds_wait_for_goes_first(void **state)
 {
-    (void)state;
     prepare("replicas: 40", "sweep:\n  - cases:\n      - {name: long, time: {end: 900 ns}}\n      "
                             "- {name: ruled, replicas: {minimum: 16, maximum: 64, until: "
                             "{quantity: dissipated, relative-half-width: 0.1}}}\n");
@@ -223,7 +222,6 @@ static void half_done(double deadline)
 /* Nobody sends anything any more: only the clock goes on. */
 static void an_overdue_lease_is_offered_when_time_passes(void **state)
 {
-    (void)state;
     half_done(0);
     pass(9);
     assert_int_equal(worker[1].nleases, 1);
@@ -237,7 +235,6 @@ static void an_overdue_lease_is_offered_when_time_passes(void **state)
 
 static void a_look_at_the_time_is_rare(void **state)
 {
-    (void)state;
     half_done(0);
     pass(0);
     time_ += 11;
@@ -256,7 +253,6 @@ static void a_look_at_the_time_is_rare(void **state)
 /* Everything is there, but worker 0 hangs in a lease that was computed by the other. */
 static void a_worker_that_is_not_needed_is_given_up(void **state)
 {
-    (void)state;
     half_done(0);
     pass(11);
     computed(1, 1, 1);
@@ -282,7 +278,6 @@ static void a_worker_that_is_not_needed_is_given_up(void **state)
  * computes it. */
 static void what_stays_in_memory_is_computed_again(void **state)
 {
-    (void)state;
     half_done(0);
     computed(0, 0, 1);
     assert_int_equal(worker[0].flushes, 1);
@@ -299,7 +294,6 @@ static void what_stays_in_memory_is_computed_again(void **state)
 /* A worker that never came up. */
 static void a_worker_that_does_not_start_is_given_up(void **state)
 {
-    (void)state;
     prepare("replicas: 8", "");
     begin(0);
     hear(1, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
@@ -317,7 +311,6 @@ static void a_worker_that_does_not_start_is_given_up(void **state)
  * the run drains in order. */
 static void no_lease_is_given_that_does_not_end_in_time(void **state)
 {
-    (void)state;
     prepare("replicas: 160", "");
     begin(1000 + 6.5);
     ready();
@@ -345,7 +338,6 @@ static void no_lease_is_given_that_does_not_end_in_time(void **state)
  * deadline. */
 static void commits_take_time_as_well(void **state)
 {
-    (void)state;
     prepare("replicas: 160", "");
     begin(1000 + 6.5);
     step = 0.5; /* by which the clock goes on whenever it is looked at */
@@ -364,7 +356,6 @@ static void commits_take_time_as_well(void **state)
  * behind. */
 static void what_runs_at_the_deadline_is_killed(void **state)
 {
-    (void)state;
     half_done(1000 + 60);
     options.lease_seconds = 1;
     pass(9);
@@ -384,7 +375,6 @@ static void what_runs_at_the_deadline_is_killed(void **state)
 
 static void what_drains_at_the_deadline_is_killed(void **state)
 {
-    (void)state;
     half_done(1000 + 60);
     fracas_director_drain(director);
     assert_int_equal(worker[0].stops, 1);
@@ -414,7 +404,6 @@ static void everything(double deadline)
 
 static void a_merge_that_would_not_end_is_not_begun(void **state)
 {
-    (void)state;
     everything(1000 + 19);
     assert_result(FRACAS_INTERRUPTED,
                   "all 16 realizations are done and kept, only study.h5 is missing");
@@ -428,7 +417,6 @@ static void a_merge_that_would_not_end_is_not_begun(void **state)
 
 static void a_part_is_every_so_many_th(void **state)
 {
-    (void)state;
     prepare("replicas: 3", "sweep:\n  - loading.rate: [1e3, 1e4, 2e4]\n");
     options.part = 2;
     options.parts = 4; /* of 9: the second and the sixth */
@@ -452,7 +440,6 @@ static void a_part_is_every_so_many_th(void **state)
 /* A part that has everything is the study. */
 static void the_only_part_is_merged(void **state)
 {
-    (void)state;
     prepare("replicas: 1", "");
     options.part = 1;
     options.parts = 2;
@@ -478,7 +465,6 @@ static void failed(size_t from, size_t i)
 /* The result names the points, the first few of them. */
 static void points_with_failures_are_named(void **state)
 {
-    (void)state;
     prepare("replicas: 1", "sweep:\n  - loading.rate: [1e3, 1e4, 2e4, 3e4, 4e4, 5e4, 6e4]\n");
     options.width = 1;
     begin(0);
@@ -498,24 +484,10 @@ static void points_with_failures_are_named(void **state)
     end();
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nobody_waits_for_records_of_one_that_computes),
-        cmocka_unit_test(what_rounds_wait_for_goes_first),
-        cmocka_unit_test(an_overdue_lease_is_offered_when_time_passes),
-        cmocka_unit_test(a_look_at_the_time_is_rare),
-        cmocka_unit_test(a_worker_that_is_not_needed_is_given_up),
-        cmocka_unit_test(what_stays_in_memory_is_computed_again),
-        cmocka_unit_test(a_worker_that_does_not_start_is_given_up),
-        cmocka_unit_test(no_lease_is_given_that_does_not_end_in_time),
-        cmocka_unit_test(commits_take_time_as_well),
-        cmocka_unit_test(what_runs_at_the_deadline_is_killed),
-        cmocka_unit_test(what_drains_at_the_deadline_is_killed),
-        cmocka_unit_test(a_merge_that_would_not_end_is_not_begun),
-        cmocka_unit_test(a_part_is_every_so_many_th),
-        cmocka_unit_test(the_only_part_is_merged),
-        cmocka_unit_test(points_with_failures_are_named),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(nobody_waits_for_records_of_one_that_computes, what_rounds_wait_for_goes_first,
+      an_overdue_lease_is_offered_when_time_passes, a_look_at_the_time_is_rare,
+      a_worker_that_is_not_needed_is_given_up, what_stays_in_memory_is_computed_again,
+      a_worker_that_does_not_start_is_given_up, no_lease_is_given_that_does_not_end_in_time,
+      commits_take_time_as_well, what_runs_at_the_deadline_is_killed,
+      what_drains_at_the_deadline_is_killed, a_merge_that_would_not_end_is_not_begun,
+      a_part_is_every_so_many_th, the_only_part_is_merged, points_with_failures_are_named)

@@ -4,18 +4,9 @@
 #include "base/elementary.h"
 #include "base/isa.h"
 #include "tests/support/elementary_lanes.h"
+#include "tests/support/test.h"
 
 #include <float.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 enum { N = 1 << 20 };
 static double x[N] __attribute__((aligned(64))), y[N] __attribute__((aligned(64)));
@@ -104,7 +95,6 @@ static void fill_special(double usual)
 
 static void log_has_the_same_bits(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < N; i++)
         x[i] = double_of(1 + word(i) %
                                  0x7fefffffffffffff); /* all exponents, subnormal ones among them */
@@ -126,7 +116,6 @@ static void log_has_the_same_bits(void **state)
 
 static void exp_has_the_same_bits(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < N; i++) x[i] = between(-750.0, 712.0, i);
     assert_same_bits(fracas_exp, false);
     for (size_t i = 0; i < N; i++) x[i] = between(-708.0, 708.0, i); /* usual ones */
@@ -143,11 +132,4 @@ static void exp_has_the_same_bits(void **state)
     assert_same_bits(fracas_exp, false);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(log_has_the_same_bits),
-        cmocka_unit_test(exp_has_the_same_bits),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(log_has_the_same_bits, exp_has_the_same_bits)

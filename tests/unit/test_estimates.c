@@ -6,16 +6,12 @@
 #include "analysis/data/bands.h"
 #include "analysis/summary/study.h"
 #include "base/param.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 /* A few roundings of sums of some ten numbers, relative. */
 static const double rounding = 1e-14;
@@ -53,7 +49,6 @@ static void make_four(double lattice, fracas_ensemble *ensemble)
 /* 7 of sum 19 and squares 71; 1 1 2 2 3 4 6 in order, whose sums are 2 6 9 13 19. */
 static void sizes_by_number_and_by_mass(void **state)
 {
-    (void)state;
     fracas_ensemble ensemble;
     fracas_pooled pooled;
     make_four(0, &ensemble);
@@ -78,7 +73,6 @@ static void sizes_by_number_and_by_mass(void **state)
  * numbers count from there. */
 static void sizes_on_a_lattice_and_above_the_cut(void **state)
 {
-    (void)state;
     fracas_ensemble ensemble;
     fracas_pooled pooled;
     make_four(1, &ensemble);
@@ -107,7 +101,6 @@ static void sizes_on_a_lattice_and_above_the_cut(void **state)
  * 108/7 over 3. m0 = (7 - 15/7)/3 = 34/21. */
 static void variance_of_unequal_groups(void **state)
 {
-    (void)state;
     fracas_ensemble ensemble;
     fracas_pooled pooled;
     make_four(0, &ensemble);
@@ -125,7 +118,6 @@ static void variance_of_unequal_groups(void **state)
  * one there is little to say, and nothing fails. */
 static void estimates_at_their_ends(void **state)
 {
-    (void)state;
     const fracas_replica_values value = {0};
     fracas_ensemble ensemble;
     fracas_pooled pooled;
@@ -155,7 +147,6 @@ static void estimates_at_their_ends(void **state)
  * all replicas have alike is converged. */
 static void numbers_that_settle_and_others(void **state)
 {
-    (void)state;
     fracas_ensemble ensemble;
     fracas_replica_convergence of;
     fracas_ensemble_init(&ensemble, 0);
@@ -265,7 +256,6 @@ static void read_bands(int64_t replicas, fracas_bands *bands)
 /* 0 to 29: mean 14.5, quantiles at 1.45 and 27.55 of the order. */
 static void band_of_many(void **state)
 {
-    (void)state;
     fracas_bands bands;
     read_bands(MOST, &bands);
     assert_int_equal(bands.count, 4); /* all have ended before 4 */
@@ -292,7 +282,6 @@ static void band_of_many(void **state)
 /* Kinetic 0, 7, 14. */
 static void band_of_few(void **state)
 {
-    (void)state;
     fracas_bands bands;
     read_bands(3, &bands);
     assert_true(bands.extremes && bands.count == 4 && bands.running[3] == 2);
@@ -302,16 +291,5 @@ static void band_of_few(void **state)
     fracas_bands_clear(&bands);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sizes_by_number_and_by_mass),
-        cmocka_unit_test(sizes_on_a_lattice_and_above_the_cut),
-        cmocka_unit_test(variance_of_unequal_groups),
-        cmocka_unit_test(estimates_at_their_ends),
-        cmocka_unit_test(numbers_that_settle_and_others),
-        cmocka_unit_test(band_of_many),
-        cmocka_unit_test(band_of_few),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(sizes_by_number_and_by_mass, sizes_on_a_lattice_and_above_the_cut, variance_of_unequal_groups,
+      estimates_at_their_ends, numbers_that_settle_and_others, band_of_many, band_of_few)

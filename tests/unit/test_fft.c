@@ -2,16 +2,13 @@
 /* Fourier transforms against sums in long double, and K_nu against GSL. */
 #include "sampler/special/bessel.h"
 #include "sampler/special/fft.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <float.h>
 #include <gsl/gsl_sf_bessel.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdint.h>
-#include <stdlib.h>
-
-#include <cmocka.h>
 
 enum { LONGEST = 1000 };
 
@@ -28,7 +25,6 @@ static double scattered(size_t i)
  * plenty. */
 static void transforms_are_the_sums(void **state)
 {
-    (void)state;
     static const size_t lengths[] = {1,  2,  3,  4,   5,   6,   7,   8,      12,
                                      17, 64, 97, 128, 360, 512, 641, LONGEST};
     static double x[LONGEST][2];
@@ -66,7 +62,6 @@ static void transforms_are_the_sums(void **state)
  * confirms). */
 static void bessel_is_that_of_gsl(void **state)
 {
-    (void)state;
     static const double orders[] = {0, 0.1, 0.3, 0.5, 1, 1.3, 1.5, 2, 2.5, 3.7, 5, 7.9, 10};
     double worst = 0.0;
     for (size_t o = 0; o < sizeof orders / sizeof *orders; o++)
@@ -82,11 +77,4 @@ static void bessel_is_that_of_gsl(void **state)
         assert_true(fabs(fracas_bessel_k_scaled(0.5, x) / sqrt(M_PI / (2 * x)) - 1.0) < 1e-13);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(transforms_are_the_sums),
-        cmocka_unit_test(bessel_is_that_of_gsl),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(transforms_are_the_sums, bessel_is_that_of_gsl)

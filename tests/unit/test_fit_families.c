@@ -3,17 +3,15 @@
  * drawn from it is fitted again, and what cannot be fitted is said. */
 #include "analysis/fit/goodness.h"
 #include "tests/support/fit_sample.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_sort.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #define OK(call) assert_int_equal(call, FRACAS_OK)
 
@@ -62,7 +60,6 @@ static double integral(const synthetic *what, double low, double high)
 /* The integral is good to 1e-9; beyond the quantile of 1e-10 there is 1e-10. */
 static void density_integrates_to_the_distribution(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < LAWS; i++) {
         const synthetic *what = &law[i];
         const fracas_family *family = what->family;
@@ -88,7 +85,6 @@ static void density_integrates_to_the_distribution(void **state)
  * its slope times rounding. */
 static void quantiles_are_the_inverse(void **state)
 {
-    (void)state;
     static const double p[] = {1 - 1e-6, 0.99, 0.5, 0.1, 1e-3, 1e-6, 1e-12};
     for (size_t i = 0; i < LAWS; i++)
         for (size_t k = 0; k < sizeof p / sizeof *p; k++) {
@@ -102,7 +98,6 @@ static void quantiles_are_the_inverse(void **state)
 /* Kolmogorov's distance of 20000 numbers: above 2.69/sqrt(n) once in 1e6. */
 static void samples_have_the_distribution(void **state)
 {
-    (void)state;
     enum { N = 20000 };
     static double x[N];
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
@@ -125,7 +120,6 @@ static void samples_have_the_distribution(void **state)
  * million. On a lattice and without. */
 static void fits_recover_the_truth(void **state)
 {
-    (void)state;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     for (size_t i = 0; i < 2 * LAWS; i++) {
         synthetic what = law[i / 2];
@@ -173,7 +167,6 @@ static fracas_fit fit_of(const synthetic *what, const fracas_family *family, uns
 
 static void what_is_no_fit_says_why(void **state)
 {
-    (void)state;
     synthetic what = law[0];
     what.lattice = 1;
     what.realizations = 100;
@@ -208,7 +201,6 @@ static void what_is_no_fit_says_why(void **state)
  * each realization once is the sample. */
 static void cells_of_a_lattice(void **state)
 {
-    (void)state;
     synthetic what = law[0];
     what.lattice = 0.001;
     what.parameter[0] = 0.02;
@@ -262,7 +254,6 @@ static void add(fracas_ensemble *ensemble, const double *size, size_t count)
  * nothing else is, there is nothing to fit. */
 static void whole_bodies_are_left_out(void **state)
 {
-    (void)state;
     enum { BROKEN = 20, PIECES = 50 };
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     fracas_ensemble with, without, alone;
@@ -312,7 +303,6 @@ static void whole_bodies_are_left_out(void **state)
  * fourth digit at best. A resample of the first realization alone, twice: the same. */
 static void sizes_that_are_nearly_alike(void **state)
 {
-    (void)state;
     enum { REALIZATIONS = 40, PIECES = 50 };
     fracas_ensemble ensemble;
     fracas_fit_sample sample;
@@ -333,7 +323,6 @@ static void sizes_that_are_nearly_alike(void **state)
  * to one fragment. Order is kept. */
 static void carried_samples_have_the_law(void **state)
 {
-    (void)state;
     synthetic what = law[3];
     what.lattice = 1;
     what.realizations = 30;
@@ -373,7 +362,6 @@ static void carried_samples_have_the_law(void **state)
  * 3/4. D = 1/4; A2/N = 1/4 (1/16/(3/16) + 1/16/(1/4) + 0) = 7/48. */
 static void distances(void **state)
 {
-    (void)state;
     const double count[4] = {2, 1, 0, 1}, probability[4] = {0.25, 0.25, 0.25, 0.25};
     const fracas_fit_distance found = fracas_fit_distance_of(4, count, probability);
     assert_true(fabs(found.ks - 0.25) < 1e-15 && fabs(found.ad - 7.0 / 48) < 1e-15);
@@ -381,7 +369,6 @@ static void distances(void **state)
 
 static void special_cases(void **state)
 {
-    (void)state;
     assert_true(fracas_family_within(&fracas_family_rayleigh, &fracas_family_shifted_rayleigh));
     assert_true(fracas_family_within(&fracas_family_gamma, &fracas_family_generalised_gamma));
     assert_false(fracas_family_within(&fracas_family_generalised_gamma, &fracas_family_gamma));
@@ -391,7 +378,7 @@ static void special_cases(void **state)
     assert_null(fracas_family_find("weibull-4"));
 }
 
-int main(void)
+int fracas_test(void)
 {
     gsl_set_error_handler_off();
     const struct CMUnitTest tests[] = {

@@ -6,6 +6,10 @@
 #include "analysis/fit/fits.h"
 #include "analysis/summary/study.h"
 #include "tests/support/fit_sample.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_errno.h>
 
@@ -128,7 +132,6 @@ static void same_rows(const fracas_fits *a, const fracas_fits *b)
  * fragments. */
 static void fits_of_a_study(void **state)
 {
-    (void)state;
     char folder[320], *text = NULL;
     size_t size;
     snprintf(folder, sizeof folder, "%s/one", report_root);
@@ -185,7 +188,6 @@ static size_t keep(const char *folder, const char *other, size_t *stale, fracas_
  * the new number. */
 static void fits_of_the_same_realizations(void **state)
 {
-    (void)state;
     char folder[320], other[320];
     size_t stale;
     fracas_fits *kept;
@@ -227,7 +229,6 @@ static void fits_of_the_same_realizations(void **state)
 /* A point fitted alone has the same rows as with the others, which are taken over. */
 static void one_point(void **state)
 {
-    (void)state;
     char folder[320];
     snprintf(folder, sizeof folder, "%s/two", report_root);
     write_study(folder, 12);
@@ -246,7 +247,6 @@ static void one_point(void **state)
 
 static void damaged_files(void **state)
 {
-    (void)state;
     static const char *const line[] = {
         "point,hash\n",
         "point,hash,family,quantity,unit,value,low,high,resamples,note\n0,aa,gamma,k,1,1.5,,,\n",
@@ -271,10 +271,5 @@ static void damaged_files(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fits_of_a_study), cmocka_unit_test(fits_of_the_same_realizations),
-        cmocka_unit_test(one_point), cmocka_unit_test(damaged_files)};
-    return cmocka_run_group_tests(tests, report_make_root, report_remove_root);
-}
+TESTS_ALL(report_make_root, report_remove_root, fits_of_a_study, fits_of_the_same_realizations,
+          one_point, damaged_files)

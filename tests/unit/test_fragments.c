@@ -1,17 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fragments in space: sums over nodes become centre, momenta and the spin of a rigid body. */
 #include "engine/fragments/fragments.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <float.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 typedef struct {
     double at[3];
@@ -83,7 +78,6 @@ static fracas_fragment only(const fracas_fragment_sums *sums)
  * distance X. */
 static void a_plate_that_turns(void **unused)
 {
-    (void)unused;
     const double a = 2e-3, mass = 3e-6, distances[] = {0, 1e-3, 1.0};
     const int n = 5;
     const vector omega = {{3e3, -5e3, 7e3}}, speed = {{40, 20, -70}};
@@ -117,7 +111,6 @@ static void a_plate_that_turns(void **unused)
  * largest moment over the smallest, 4, of those: 1e-14. */
 static void a_box_that_turns(void **unused)
 {
-    (void)unused;
     const double sides[2][3] = {{1, 0.5, 0.01}, {0.3, 0.3, 0.3}};
     const vector omega = {{0.3, 2, -1}}, still = {{0, 0, 0}};
     for (int b = 0; b < 2; b++) {
@@ -145,7 +138,6 @@ static void a_box_that_turns(void **unused)
  * more nodes on a line; a single node has no spin, wherever it is. */
 static void what_lies_on_a_line_does_not_turn_about_it(void **unused)
 {
-    (void)unused;
     const vector still = {{0, 0, 0}}, omega = {{3e3, -5e3, 7e3}}, speed = {{40, 20, -70}};
     const vector seen = plus(omega, -inner(omega, along),
                              along); /* without the part about the line */
@@ -181,7 +173,6 @@ static void what_lies_on_a_line_does_not_turn_about_it(void **unused)
  * be 1 m/s over 1e-16 m. */
 static void a_rounding_is_no_body(void **unused)
 {
-    (void)unused;
     fracas_fragment_sums sums = {0};
     const double x[2][3] = {{1, -0.7, 0.3}, {nextafter(1, 2), -0.7, 0.3}},
                  v[2][3] = {{0, 1, 2}, {0.5, -1, 1}};
@@ -194,7 +185,6 @@ static void a_rounding_is_no_body(void **unused)
  */
 static void in_the_plane_the_spin_is_upright(void **unused)
 {
-    (void)unused;
     uint64_t state = 3;
     for (int trial = 0; trial < 100; trial++) {
         fracas_fragment_sums sums = {0};
@@ -222,7 +212,6 @@ static void in_the_plane_the_spin_is_upright(void **unused)
  * spin of either is omega. */
 static void consistent_masses_turn_as_the_triangle_does(void **unused)
 {
-    (void)unused;
     const vector still = {{0, 0, 0}}, omega = {{0.3, 2, -1}}, centre = {{2, -1, 0.5}},
                  speed = {{1, 0.2, 3}};
     vector y[3] = {along, across, still};
@@ -258,7 +247,6 @@ static void consistent_masses_turn_as_the_triangle_does(void **unused)
  * roundings of terms below 1: 1e-14. */
 static void momenta_are_those_of_the_nodes(void **unused)
 {
-    (void)unused;
     enum { COUNT = 5, NODES = 60 };
     uint64_t state = 17;
     fracas_fragment_sums sums[COUNT];
@@ -299,7 +287,6 @@ static void momenta_are_those_of_the_nodes(void **unused)
 /* What is no number stays none. */
 static void no_number_has_no_spin(void **unused)
 {
-    (void)unused;
     fracas_fragment_sums sums = {0};
     for (int k = 0; k < 4; k++) {
         const double x[3] = {k == 2 ? NAN : k % 2, k / 2, 1}, v[3] = {1, 2, 3};
@@ -309,17 +296,7 @@ static void no_number_has_no_spin(void **unused)
     for (int i = 0; i < 3; i++) assert_true(isnan(f.spin[i]));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_plate_that_turns),
-        cmocka_unit_test(a_box_that_turns),
-        cmocka_unit_test(what_lies_on_a_line_does_not_turn_about_it),
-        cmocka_unit_test(a_rounding_is_no_body),
-        cmocka_unit_test(in_the_plane_the_spin_is_upright),
-        cmocka_unit_test(consistent_masses_turn_as_the_triangle_does),
-        cmocka_unit_test(momenta_are_those_of_the_nodes),
-        cmocka_unit_test(no_number_has_no_spin),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_plate_that_turns, a_box_that_turns, what_lies_on_a_line_does_not_turn_about_it,
+      a_rounding_is_no_body, in_the_plane_the_spin_is_upright,
+      consistent_masses_turn_as_the_triangle_does, momenta_are_those_of_the_nodes,
+      no_number_has_no_spin)

@@ -11,8 +11,10 @@
 #include "sampler/field/grading.h"
 #include "tests/support/campaign_text.h"
 #include "tests/support/strengths.h"
-
-#include <math.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* ---- the factor ---- */
 
@@ -41,7 +43,6 @@ static double factor_of(const char *text, const fracas_kind *along, const double
 /* Coordinates and factors are such that nothing is rounded. */
 static void factors_are_linear_between_lines(void **state)
 {
-    (void)state;
     static const char *const texts[] = {"0,1\n1,2\n1,4\n3,8\n",
                                         "x, factor\r\n# remark\n\n 0 1 first\r\n1\t2\n1 , 4\n3,8",
                                         "\357\273\2770,1\n0.5,1.5\n1,2\n1,4\n2,6\n3,8\n"};
@@ -69,7 +70,6 @@ static void factors_are_linear_between_lines(void **state)
 
 static void what_is_wrong_is_said(void **state)
 {
-    (void)state;
     static const struct {
         const char *text, *words;
     } table[] = {
@@ -103,7 +103,6 @@ static void what_is_wrong_is_said(void **state)
  * change what is drawn. */
 static void a_field_is_the_law_times_the_factor(void **state)
 {
-    (void)state;
     enum { N = 50 };
     static const char given[] = "3e8\n", ones[] = "0,1\n1,1\n1,1\n4,1\n",
                       halves[] = "0,1\n10,1\n10,0.5\n20,0.5\n20,3\n30,3\n30,0.7\n";
@@ -183,7 +182,6 @@ static void bad(const char *text, const char *words)
 
 static void keys_go_together(void **state)
 {
-    (void)state;
     put("f.csv", "0,1\n1,2\n");
     put("s.csv", "3e8\n");
     put("wrong.csv", "0,1\n-1,2\n");
@@ -219,7 +217,6 @@ static void keys_go_together(void **state)
  * rate t is its strength. The stress is known to round-off until then; 1e-12 of the time. */
 static void a_bar_opens_where_its_factor_is_least(void **state)
 {
-    (void)state;
     enum { WEAK = 59 };
     put("f.csv", "x [m], factor\n0, 1.3\n0.03, 0.9\n0.05, 1.2\n");
     fracas_campaign *campaign = good(BAR(CONSTANT ", factor: f.csv, factor_along: x"));
@@ -264,7 +261,6 @@ static fracas_forecast forecast_of(const char *text)
  * 900 MPa is not let pass. */
 static void a_forecast_knows_the_factor(void **state)
 {
-    (void)state;
     put("f.csv", "0.0297,1\n0.0297,2\n0.0303,2\n0.0303,1\n");
     put("large.csv", "0.0297,1\n0.0297,3\n0.0303,3\n0.0303,1\n");
     put("two.csv", "0,2\n");
@@ -322,7 +318,6 @@ static void check_points(const char *text, size_t points)
 
 static void each_gauss_point_has_its_own(void **state)
 {
-    (void)state;
     check_points(SURFACE("membrane", "width: 2 mm, height: 1 mm", "divisions: 3", FLAWS), 2);
     check_points(SURFACE("membrane", "shape: annulus, inner: 1 mm, outer: 2 mm",
                          "divisions: 2, order: 2", FLAWS),
@@ -347,7 +342,6 @@ static void each_gauss_point_has_its_own(void **state)
 /* All strengths of a point count where the strongest is looked for. */
 static void a_forecast_counts_gauss_points(void **state)
 {
-    (void)state;
     static const char *const text[] = {
         SURFACE("membrane", "width: 2 mm, height: 2 mm", "divisions: 2",
                 "distribution: lognormal, median: 300 MPa, sigma: 1.5"),
@@ -365,15 +359,7 @@ static void a_forecast_counts_gauss_points(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(factors_are_linear_between_lines),
-                                       cmocka_unit_test(what_is_wrong_is_said),
-                                       cmocka_unit_test(a_field_is_the_law_times_the_factor),
-                                       cmocka_unit_test(keys_go_together),
-                                       cmocka_unit_test(a_bar_opens_where_its_factor_is_least),
-                                       cmocka_unit_test(a_forecast_knows_the_factor),
-                                       cmocka_unit_test(each_gauss_point_has_its_own),
-                                       cmocka_unit_test(a_forecast_counts_gauss_points)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+TESTS_ALL(make_folder, remove_folder, factors_are_linear_between_lines, what_is_wrong_is_said,
+          a_field_is_the_law_times_the_factor, keys_go_together,
+          a_bar_opens_where_its_factor_is_least, a_forecast_knows_the_factor,
+          each_gauss_point_has_its_own, a_forecast_counts_gauss_points)

@@ -4,8 +4,10 @@
 #include "tests/support/bar.h"
 
 #include "engine/mesh/make.h"
-
-#include <math.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 static double mean_of(const fracas_spec *spec)
 {
@@ -23,7 +25,6 @@ static void assert_near(double got, double expected)
 
 static void mean_volume_of_each_shape(void **unused)
 {
-    (void)unused;
     fracas_spec spec = bar_reference(250, 1e4, 1e-6); /* 50 mm, 1 mm2 */
     assert_near(mean_of(&spec), 2e-10);
     spec.geometry.radius = 1.0; /* means nothing for a bar */
@@ -35,7 +36,6 @@ static void mean_volume_of_each_shape(void **unused)
 /* A periodic bar has as many interfaces as elements; each sum rounds by 2^-53. */
 static void interfaces_share_the_body(void **unused)
 {
-    (void)unused;
     for (int64_t elements = 2; elements < 2000; elements *= 3) {
         fracas_spec spec = bar_reference(elements, 1e4, 1e-6);
         fracas_model *model;
@@ -53,7 +53,6 @@ static void interfaces_share_the_body(void **unused)
  * bar has none at its ends, and lacks half of its first and of its last element. */
 static void interfaces_share_the_body_on_any_mesh(void **unused)
 {
-    (void)unused;
     double noise[301];
     for (int i = 0; i < 4; i++) {
         fracas_spec spec = bar_reference(300, 1e4, 1e-6);
@@ -81,7 +80,6 @@ static void interfaces_share_the_body_on_any_mesh(void **unused)
 /* Squares cut in two: every interface has a third of a square. */
 static void plates_by_closed_form(void **unused)
 {
-    (void)unused;
     fracas_spec spec = {.geometry = {.shape = &fracas_shape_plate,
                                      .width = 3e-3,
                                      .height = 2e-3,
@@ -96,7 +94,6 @@ static void plates_by_closed_form(void **unused)
  * body but for a third of each element at a boundary edge. */
 static void surfaces_lack_what_is_at_edges(void **unused)
 {
-    (void)unused;
     fracas_spec spec = {.geometry = {.shape = &fracas_shape_annulus,
                                      .inner = 1e-3,
                                      .outer = 3e-3,
@@ -117,14 +114,5 @@ static void surfaces_lack_what_is_at_edges(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(mean_volume_of_each_shape),
-        cmocka_unit_test(interfaces_share_the_body),
-        cmocka_unit_test(interfaces_share_the_body_on_any_mesh),
-        cmocka_unit_test(plates_by_closed_form),
-        cmocka_unit_test(surfaces_lack_what_is_at_edges),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(mean_volume_of_each_shape, interfaces_share_the_body, interfaces_share_the_body_on_any_mesh,
+      plates_by_closed_form, surfaces_lack_what_is_at_edges)

@@ -1,23 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lanczos' iteration against GSL's eigenvalues of symmetric pencils K x = lambda M x. */
 #include "engine/integrator/lanczos.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_linalg.h>
 #include <gsl/gsl_matrix.h>
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { MOST = 60 };
 
@@ -122,7 +114,6 @@ static double solve(pencil *p, uint64_t *seed)
  * eigenvalue: 2e-3. */
 static void random_pencils(void **unused)
 {
-    (void)unused;
     static pencil p;
     uint64_t seed = 1;
     for (int i = 0; i < 600; i++) {
@@ -153,7 +144,6 @@ static void random_pencils(void **unused)
  * before. */
 static void multiple_eigenvalues(void **unused)
 {
-    (void)unused;
     static pencil p;
     uint64_t seed = 2;
     for (int i = 0; i < 240; i++) {
@@ -172,7 +162,6 @@ static void multiple_eigenvalues(void **unused)
  * of the others. */
 static void small_ones(void **unused)
 {
-    (void)unused;
     static pencil p;
     double largest;
     p = (pencil){.n = 1, .stiffness = {{6}}, .mass = {{2}}, .inverse = {{0.5}}};
@@ -203,7 +192,6 @@ static void small_ones(void **unused)
  * densest top a mesh has. It stops by its bound, or has found every mode. */
 static void the_top_of_a_chain(void **unused)
 {
-    (void)unused;
     static pencil p;
     for (size_t n = 2; n <= MOST; n++) {
         p = (pencil){.n = n};
@@ -226,13 +214,4 @@ static void the_top_of_a_chain(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(random_pencils),
-        cmocka_unit_test(multiple_eigenvalues),
-        cmocka_unit_test(small_ones),
-        cmocka_unit_test(the_top_of_a_chain),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(random_pencils, multiple_eigenvalues, small_ones, the_top_of_a_chain)

@@ -9,6 +9,10 @@
 #include "tests/support/report.h"
 
 #include "tests/support/large_study.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -77,7 +81,6 @@ static void same_file(const char *a, const char *b, const char *name)
 
 static void bounds(void **state)
 {
-    (void)state;
     char whole[512], parts[512], path[640];
     large_study_init(&study, POINTS, REPLICAS, FRAGMENTS);
     make_folder(whole, "whole");
@@ -91,8 +94,4 @@ static void bounds(void **state)
     same_file(whole, parts, "points.csv");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bounds)};
-    return cmocka_run_group_tests(tests, report_make_root, report_remove_root);
-}
+TESTS_ALL(report_make_root, report_remove_root, bounds)

@@ -4,15 +4,13 @@
 #include "sampler/special/weibull_shape.h"
 #include "tests/support/laws.h"
 #include "tests/support/strengths.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <inttypes.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-
-#include <cmocka.h>
 
 static void assert_close(double got, double expected, double relative)
 {
@@ -32,7 +30,6 @@ static long double exact_variation(long double x)
 
 static void weibull_variation_is_exact(void **state)
 {
-    (void)state;
     double largest = 0.0, inverse = 0.0;
     for (double x = 0.001; x <= 10.0; x *= 1.003) {
         const double exact = (double)exact_variation(x);
@@ -49,7 +46,6 @@ static void weibull_variation_is_exact(void **state)
  * digits are published. */
 static void published_moments_are_the_published_shapes(void **state)
 {
-    (void)state;
     static const struct {
         double minimum, mean, deviation, scale, shape;
     } published[] = {
@@ -74,7 +70,6 @@ static void published_moments_are_the_published_shapes(void **state)
  * deviation follows it several times over. */
 static void moments_come_back(void **state)
 {
-    (void)state;
     static const struct {
         const char *law;
         double minimum, mean, ratio;
@@ -111,7 +106,6 @@ static void moments_come_back(void **state)
  * multiplications. */
 static void deviations_are_exact(void **state)
 {
-    (void)state;
     for (double shape = 0.1; shape <= 1000.0; shape *= 1.31) {
         fracas_strength law = {
             .distribution = law_named("weibull"), .minimum = 100e6, .scale = 50e6, .shape = shape};
@@ -158,7 +152,6 @@ static void deviations_are_exact(void **state)
 /* The bits of the shapes hang on every term. */
 static void bits_are_golden(void **state)
 {
-    (void)state;
     static double value[3000];
     for (int i = 0; i < 1000; i++) {
         const double x = 0.001 * (i < 500 ? 1.0 + 0.5 * i : 0.5 * i * i / 25.0);
@@ -182,7 +175,6 @@ static void refused(const fracas_strength *law, const char *words)
 
 static void one_pair_is_given_whole(void **state)
 {
-    (void)state;
     static const char *const keys[] = {"scale", "shape", "mean", "deviation"};
     static const double values[] = {300e6, 5.0, 280e6, 60e6};
     static const char *const words[16] = {
@@ -214,7 +206,6 @@ static void one_pair_is_given_whole(void **state)
 
 static void moments_beyond_a_law_are_refused(void **state)
 {
-    (void)state;
     fracas_strength law = law_by_moments("weibull", 0.0, 300e6, 300e3);
     refused(&law,
             "deviation/(mean - minimum) is 0.001; a weibull distribution has it from 0.00128");
@@ -248,7 +239,6 @@ static double at(const fracas_strength *law, double below, double above)
 
 static void empirical_is_what_the_file_says(void **state)
 {
-    (void)state;
     fracas_strength law = law_of_file(&measured, false), ready;
     assert_int_equal(fracas_strength_init(&law, &ready), FRACAS_OK);
     assert_close(at(&ready, 0.5, 0.5), 3.5e8, 1e-15); /* 2, 3, 4, 5 at 0, 1/3, 2/3, 1 */
@@ -284,7 +274,6 @@ static void empirical_is_what_the_file_says(void **state)
 
 static void wrong_files_are_refused(void **state)
 {
-    (void)state;
     static const struct {
         const char *text, *words;
         bool steps;
@@ -324,18 +313,6 @@ static void wrong_files_are_refused(void **state)
     assert_true(at(&law, 0.1, 0.9) == 3e8 && at(&law, 0.11, 0.89) == 4e8);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weibull_variation_is_exact),
-        cmocka_unit_test(published_moments_are_the_published_shapes),
-        cmocka_unit_test(moments_come_back),
-        cmocka_unit_test(deviations_are_exact),
-        cmocka_unit_test(bits_are_golden),
-        cmocka_unit_test(one_pair_is_given_whole),
-        cmocka_unit_test(moments_beyond_a_law_are_refused),
-        cmocka_unit_test(empirical_is_what_the_file_says),
-        cmocka_unit_test(wrong_files_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(weibull_variation_is_exact, published_moments_are_the_published_shapes, moments_come_back,
+      deviations_are_exact, bits_are_golden, one_pair_is_given_whole,
+      moments_beyond_a_law_are_refused, empirical_is_what_the_file_says, wrong_files_are_refused)

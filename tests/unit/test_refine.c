@@ -8,10 +8,12 @@
 #include "engine/mesh/make.h"
 #define FOLDER "fracas-refine"
 #include "tests/support/folder.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <glob.h>
-#include <math.h>
-#include <stdio.h>
 
 static bool is_named(const char *path, const char *const *names)
 {
@@ -207,7 +209,6 @@ static void refine_replaced(const char *find, const char *put, int64_t replicas,
  * file, their case and their replicas. */
 static void some_left_out(void **state)
 {
-    (void)state;
     fracas_refined refined;
     const char *sweep = "sweep:\n  - cases:\n      - {name: a, cohesive.law: rigid-link}\n      - "
                         "{name: b}\n      - {name: c, cohesive.beta: 6000}\n"
@@ -237,7 +238,6 @@ static void some_left_out(void **state)
  * the file count. */
 static void names_and_numbers(void **state)
 {
-    (void)state;
     fracas_refined refined;
     for (fracas_refinement what = FRACAS_REFINE_NOTHING; what < FRACAS_NREFINEMENTS; what++) {
         char name[20];
@@ -258,10 +258,4 @@ static void names_and_numbers(void **state)
     fracas_refined_clear(&refined);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(every_example),
-                                       cmocka_unit_test(some_left_out),
-                                       cmocka_unit_test(names_and_numbers)};
-    return cmocka_run_group_tests(tests, make_folder, remove_folder);
-}
+TESTS_ALL(make_folder, remove_folder, every_example, some_left_out, names_and_numbers)

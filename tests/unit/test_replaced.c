@@ -5,6 +5,7 @@
 
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/director/director.h"
+#include "tests/support/test.h"
 
 static struct {
     size_t nleases, stops, fresh;
@@ -60,7 +61,6 @@ static void replaced(size_t from)
 /* Three realizations, two for the first worker and one for the second. */
 static int begin(void **state)
 {
-    (void)state;
     memset(worker, 0, sizeof worker);
     campaign = read_text(plain_campaign);
     fracas_run_options_init(&options);
@@ -85,7 +85,6 @@ static int begin(void **state)
 
 static int end(void **state)
 {
-    (void)state;
     fracas_director_destroy(director);
     fracas_campaign_destroy(campaign);
     sample_remove(study);
@@ -94,7 +93,6 @@ static int end(void **state)
 
 static void what_it_held_waits_and_is_isolated(void **state)
 {
-    (void)state;
     replaced(1);
     assert_int_equal(worker[1].fresh, 1);
     assert_int_equal(worker[1].nleases, 1); /* nothing before it is ready */
@@ -112,7 +110,6 @@ static void what_it_held_waits_and_is_isolated(void **state)
  * one, which was not told to stop yet, computes that again. */
 static void one_that_dies_at_the_end_costs_what_it_had(void **state)
 {
-    (void)state;
     computed(0, 0);
     computed(1, 0);
     replaced(0);
@@ -126,7 +123,6 @@ static void one_that_dies_at_the_end_costs_what_it_had(void **state)
 
 static void one_that_dies_while_a_run_drains_is_stopped(void **state)
 {
-    (void)state;
     fracas_director_drain(director);
     assert_int_equal(worker[0].stops, 1);
     replaced(0);
@@ -139,7 +135,6 @@ static void one_that_dies_while_a_run_drains_is_stopped(void **state)
  * to be told of trouble. */
 static void one_that_is_lost_while_a_run_drains_is_no_trouble(void **state)
 {
-    (void)state;
     const fracas_trouble trouble = {.code = FRACAS_ENVIRONMENT, .text = "a supervisor died"};
     fracas_director_drain(director);
     hear(0, FRACAS_PACKET_ENDED, NULL, 0);
@@ -152,7 +147,6 @@ static void one_that_is_lost_while_a_run_drains_is_no_trouble(void **state)
  * for another, and all are told to stop. */
 static void a_server_without_a_segment_answers_too(void **state)
 {
-    (void)state;
     computed(0, 0);
     computed(1, 0);
     assert_int_equal(worker[0].stops + worker[1].stops, 0);
@@ -163,15 +157,7 @@ static void a_server_without_a_segment_answers_too(void **state)
     assert_int_equal(worker[1].stops, 1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(what_it_held_waits_and_is_isolated, begin, end),
-        cmocka_unit_test_setup_teardown(one_that_dies_at_the_end_costs_what_it_had, begin, end),
-        cmocka_unit_test_setup_teardown(one_that_dies_while_a_run_drains_is_stopped, begin, end),
-        cmocka_unit_test_setup_teardown(one_that_is_lost_while_a_run_drains_is_no_trouble, begin,
-                                        end),
-        cmocka_unit_test_setup_teardown(a_server_without_a_segment_answers_too, begin, end),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS_EACH(begin, end, what_it_held_waits_and_is_isolated,
+           one_that_dies_at_the_end_costs_what_it_had, one_that_dies_while_a_run_drains_is_stopped,
+           one_that_is_lost_while_a_run_drains_is_no_trouble,
+           a_server_without_a_segment_answers_too)

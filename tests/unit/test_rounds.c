@@ -6,9 +6,7 @@
 
 #include "campaigns/scheduler/session/rounds.h"
 #include "campaigns/scheduler/worker/segment.h"
-
-#include <math.h>
-#include <stdio.h>
+#include "tests/support/test.h"
 
 static const char rule[] = "sweep:\n  - loading.rate: [1e3, 1e4]\n";
 static fracas_campaign *campaign;
@@ -27,7 +25,6 @@ static fracas_campaign *make(const char *replicas)
 
 static int begin(void **state)
 {
-    (void)state;
     study = sample_folder();
     assert_int_equal(mkdir(sample_path(study, "segments"), 0777), 0);
     campaign = make(
@@ -85,7 +82,6 @@ static int64_t rows_of(size_t p)
  * of 0.5 0.447; at 24 0.216. */
 static void rounds_go_on_until_they_are_narrow(void **state)
 {
-    (void)state;
     fracas_decision *decision;
     assert_int_equal(rounds.open, 2);
     commit(0, 0, 6, 0.05, FRACAS_FRAGMENTED);
@@ -130,7 +126,6 @@ static void rounds_go_on_until_they_are_narrow(void **state)
 /* Three that ended badly and one without a record are in the round, but not in the mean. */
 static void what_failed_does_not_count(void **state)
 {
-    (void)state;
     fracas_decision *decision;
     commit(0, 0, 3, 0.05, FRACAS_FRAGMENTED);
     commit(0, 4, 4, 7, FRACAS_NONFINITE);
@@ -151,7 +146,6 @@ static void what_failed_does_not_count(void **state)
  * turn, and what is too much goes. */
 static void rounds_that_are_there_already_are_decided_at_once(void **state)
 {
-    (void)state;
     fracas_decision *decision;
     fracas_point_row all = campaign->table.point[1];
     all.replicas = 24;
@@ -181,7 +175,6 @@ static void tampered(const char *sql)
 
 static void a_decision_that_does_not_follow_is_damage(void **state)
 {
-    (void)state;
     fracas_rounds again;
     fracas_decision *decision;
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
@@ -212,7 +205,6 @@ static void a_decision_that_does_not_follow_is_damage(void **state)
 /* Another rule takes up the realizations, not the decisions. */
 static void a_stronger_rule_decides_again(void **state)
 {
-    (void)state;
     fracas_decision *decision;
     fracas_rounds again;
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
@@ -232,7 +224,6 @@ static void a_stronger_rule_decides_again(void **state)
 
 static void mean_size_by_hand(void **state)
 {
-    (void)state;
     fracas_fragment fragment[4] = {{.size = 1}, {.size = 2}, {.size = 3}, {.size = 6}};
     const fracas_record record = {.fragment = fragment, .nfragment = 4}, none = {.fragment = NULL};
     assert_true(fracas_record_mean_size(&record) == 3);
@@ -242,7 +233,6 @@ static void mean_size_by_hand(void **state)
 /* A larger maximum alone goes on where the smaller one ended. */
 static void a_larger_maximum_goes_on(void **state)
 {
-    (void)state;
     fracas_rounds again;
     commit(0, 0, 7, 0.5, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
@@ -265,7 +255,6 @@ static void a_larger_maximum_goes_on(void **state)
 /* Each quantity is its own column: fragments 5, size 0.01, dissipated 1 in the mean. */
 static void a_rule_looks_at_its_quantity(void **state)
 {
-    (void)state;
     static const char *const quantity[] = {"mean-count", "mean-size", "dissipated"};
     static const double mean[] = {5, 0.01, 1};
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
@@ -291,7 +280,6 @@ static void a_rule_looks_at_its_quantity(void **state)
  * is known. */
 static void a_mean_of_nothing_is_known(void **state)
 {
-    (void)state;
     fracas_decision *decision;
     commit(0, 0, 7, 0.05, FRACAS_INTACT);
     tampered("UPDATE realization SET dissipated = 0 WHERE point = 1");
@@ -316,7 +304,6 @@ static void a_mean_of_nothing_is_known(void **state)
  * it. */
 static void points_of_a_segment_are_decided_together(void **state)
 {
-    (void)state;
     fracas_decision *decision;
     const fracas_segment_row heard[] = {{.point = campaign->point[0].hash},
                                         {.point = campaign->point[0].hash, .replica = 1},
@@ -346,7 +333,7 @@ static void points_of_a_segment_are_decided_together(void **state)
 
 #define ROUND(name) cmocka_unit_test_setup_teardown(name, begin, end)
 
-int main(void)
+int fracas_test(void)
 {
     const struct CMUnitTest tests[] = {
         ROUND(rounds_go_on_until_they_are_narrow),

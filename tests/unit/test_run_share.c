@@ -3,6 +3,7 @@
 #include "tests/support/campaign_text.h"
 
 #include "campaigns/scheduler/session/part.h"
+#include "tests/support/test.h"
 
 static const char rule[] =
     "replicas: {minimum: 16, maximum: 64, until: {quantity: dissipated, relative-half-width: 0.1}}";
@@ -31,7 +32,6 @@ static fracas_err read_run(const char *find, const char *put, int64_t replicas, 
  * included. */
 static void replicas_are_as_if_the_file_said_so(void **state)
 {
-    (void)state;
     static const char sweep[] = "sweep:\n  - cases:\n      - {name: a, loading.rate: 1e3}\n      - "
                                 "{name: b, replicas: 5}\noutput:\n";
     static const char same[] = "sweep:\n  - cases:\n      - {name: a, loading.rate: 1e3, replicas: "
@@ -73,7 +73,6 @@ static void assert_refused(const char *replicas, int64_t given, int part, int pa
 
 static void a_rule_goes_with_neither(void **state)
 {
-    (void)state;
     fracas_campaign *campaign;
     assert_refused(rule, 8, 0, 0, "--replicas 8: a rule", "replicas: {minimum: 16, maximum: 64");
     assert_refused(rule, 0, 1, 2, "--part 1/2:", "a rule decides the replicas of point 0");
@@ -86,7 +85,6 @@ static void a_rule_goes_with_neither(void **state)
 /* The parts are all of the rows, each row once. */
 static void parts_share_the_plan(void **state)
 {
-    (void)state;
     enum { ROWS = 23 };
     for (int parts = 0; parts <= ROWS + 2; parts++) {
         int found[ROWS] = {0};
@@ -105,12 +103,4 @@ static void parts_share_the_plan(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(replicas_are_as_if_the_file_said_so),
-        cmocka_unit_test(a_rule_goes_with_neither),
-        cmocka_unit_test(parts_share_the_plan),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(replicas_are_as_if_the_file_said_so, a_rule_goes_with_neither, parts_share_the_plan)

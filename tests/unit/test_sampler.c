@@ -5,20 +5,18 @@
 #include "sampler/special/incomplete_gamma.h"
 #include "sampler/special/normal.h"
 #include "tests/support/strengths.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_sf_gamma.h>
 #include <inttypes.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
 
 #include <Random123/philox.h>
-#include <cmocka.h>
 
 static const fracas_kind *kind(const char *name)
 {
@@ -55,7 +53,6 @@ static const struct {
 
 static void philox_gives_the_published_words(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < FRACAS_COUNT(published); i++) {
         philox4x64_ctr_t counter;
         philox4x64_key_t key;
@@ -70,7 +67,6 @@ static void philox_gives_the_published_words(void **state)
  * 2^-52. */
 static void stream_is_the_published_first_word(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < FRACAS_COUNT(published); i++) {
         const uint64_t *counter = published[i].counter, *key = published[i].key;
         fracas_stream stream = {.seed = key[0],
@@ -100,7 +96,6 @@ static double probe(int i, double *rest)
  * 1e-12. */
 static void weibull_is_gsl_in_both_tails(void **state)
 {
-    (void)state;
     static const double shapes[] = {0.1, 0.5, 1.0, 2.0, 5.0, 40.0, 1000.0};
     for (size_t k = 0; k < FRACAS_COUNT(shapes); k++) {
         fracas_strength two = {.distribution = kind("weibull"), .scale = 50e6, .shape = shapes[k]};
@@ -125,7 +120,6 @@ static void weibull_is_gsl_in_both_tails(void **state)
  * an error of 1e-15 in z is one of z^2 1e-15 in u, |z| < 8.3. */
 static void normal_quantile_is_gsl_and_inverts_erfc(void **state)
 {
-    (void)state;
     for (int i = 0; i < PROBES; i++) {
         double rest, u = probe(i, &rest);
         double z = fracas_normal_quantile(fracas_probability_of(u));
@@ -141,7 +135,6 @@ static void normal_quantile_is_gsl_and_inverts_erfc(void **state)
 
 static void lognormal_is_gsl_in_both_tails(void **state)
 {
-    (void)state;
     static const double sigmas[] = {0.01, 0.2, 1.0, 10.0};
     for (size_t k = 0; k < FRACAS_COUNT(sigmas); k++) {
         fracas_strength strength = {
@@ -157,7 +150,6 @@ static void lognormal_is_gsl_in_both_tails(void **state)
 
 static void uniform_and_constant(void **state)
 {
-    (void)state;
     fracas_strength uniform = {.distribution = kind("uniform"), .minimum = 100e6, .maximum = 350e6};
     fracas_strength constant = {.distribution = kind("constant"), .value = 123e6};
     for (int i = 0; i < PROBES; i++) {
@@ -172,7 +164,6 @@ static void uniform_and_constant(void **state)
 /* GSL's gamma function is good to 1e-14 relative up to x = 11. */
 static void means_are_exact(void **state)
 {
-    (void)state;
     for (double shape = 0.1; shape < 1000.0; shape *= 1.07) {
         fracas_strength weibull = {
             .distribution = kind("weibull"), .minimum = 1e6, .scale = 50e6, .shape = shape};
@@ -211,7 +202,6 @@ static const fracas_stream name = {.seed = 42,
 
 static void a_value_depends_on_its_name_alone(void **state)
 {
-    (void)state;
     enum { N = 1000, STRIDE = 8, LANE = 3 };
     static double lanes[N * STRIDE], plain[N], volume[N];
     for (size_t i = 0; i < N; i++) volume[i] = VOLUME * (1.0 + 0.001 * (double)i);
@@ -239,7 +229,6 @@ static void a_value_depends_on_its_name_alone(void **state)
 /* As in test_elementary.c: the bits of every study hang on these. */
 static void bits_are_golden(void **state)
 {
-    (void)state;
     static const struct {
         uint64_t checksum;
         double mean;
@@ -265,7 +254,6 @@ static void bits_are_golden(void **state)
  * the first two are the law's own. */
 static void corners_are_positive_and_finite(void **state)
 {
-    (void)state;
     size_t checked = 0;
     for (size_t k = 0; k < fracas_strength_section.nkinds; k++) {
         const fracas_kind *distribution = fracas_strength_section.kinds[k];
@@ -296,7 +284,6 @@ static void corners_are_positive_and_finite(void **state)
 
 static void check_names_both_bounds(void **state)
 {
-    (void)state;
     for (size_t k = 0; k < EXAMPLES; k++)
         assert_int_equal(fracas_strength_check(example(k)), FRACAS_OK);
     fracas_strength swapped = {.distribution = kind("uniform"), .minimum = 350e6, .maximum = 100e6};
@@ -313,7 +300,6 @@ static void check_names_both_bounds(void **state)
  * quotient. */
 static void normal_tail_is_erfc(void **state)
 {
-    (void)state;
     double largest = 0.0;
     for (int i = -38000; i <= 37500; i++) {
         double z = i / 1000.0 + 1e-5;
@@ -330,7 +316,6 @@ static void normal_tail_is_erfc(void **state)
  * z, 1e-15 relative, counts at most |z|/(k + z) < 0.4 times. */
 static void normal_far_from_zero_is_gsl(void **state)
 {
-    (void)state;
     fracas_strength normal = {.distribution = kind("normal"), .mean = 300e6, .deviation = 10e6};
     for (int i = 0; i < PROBES; i++) {
         double rest, u = probe(i, &rest);
@@ -365,7 +350,6 @@ static long double normal_share(long double k, long double y, bool upper)
  * allowed for, and e is asserted below 2e-14; at u = 2^-54 and k = 0 s is 1e-16 deviations. */
 static void normal_inverts_its_law_in_both_tails(void **state)
 {
-    (void)state;
     static const double ks[] = {1e-6, 0.01, 0.3, 1.0, 2.5, 4.0, 8.0, 8.3, 9.0, 20.0};
     double largest = 0.0;
     for (size_t j = 0; j < FRACAS_COUNT(ks); j++) {
@@ -399,7 +383,6 @@ static void normal_inverts_its_law_in_both_tails(void **state)
  * all terms positive. */
 static void incomplete_gamma_is_a_poisson_sum(void **state)
 {
-    (void)state;
     static const int shapes[] = {1, 2, 5, 9, 10, 11, 40, 200, 999, 1000, 1001, 3000, 20000};
     double largest = 0.0;
     for (size_t j = 0; j < FRACAS_COUNT(shapes); j++) {
@@ -449,7 +432,6 @@ static long double gamma_tail(long double a, long double x, bool upper)
 /* The error of x is that of its tail over d(ln tail)/d(ln x). */
 static void gamma_inverts_its_law_in_both_tails(void **state)
 {
-    (void)state;
     static const double shapes[] = {0.1,   0.25, 0.5,  0.99,  1.0,   1.5,    2.0,    4.0, 9.0,
                                     9.999, 10.0, 37.3, 200.0, 999.0, 1001.0, 5000.0, 1e6};
     for (size_t k = 0; k < FRACAS_COUNT(shapes); k++) {
@@ -474,7 +456,6 @@ static void gamma_inverts_its_law_in_both_tails(void **state)
 /* GSL stops its own iteration at a step of 1e-10, and far out in the tails sometimes gives up. */
 static void gamma_is_gsl_in_both_tails(void **state)
 {
-    (void)state;
     static const double shapes[] = {0.1, 0.5, 1.0, 2.5, 9.0, 100.0, 1e4};
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     int compared = 0, asked = 0;
@@ -519,7 +500,6 @@ static double share_weaker(const fracas_strength *flaws, double sigma_c)
  * exponent: 1e-12 covers both. */
 static void flaws_invert_their_law(void **state)
 {
-    (void)state;
     static const double exponents[] = {0.5, 1.0, 3.0, 20.0, 1000.0},
                         numbers[] = {1e-3, 0.7, 2.0, 30.0, 1e6};
     for (size_t e = 0; e < FRACAS_COUNT(exponents); e++)
@@ -543,7 +523,6 @@ static void flaws_invert_their_law(void **state)
  * ln(1 - w), over the exponent. */
 static void flaws_do_not_see_the_mesh(void **state)
 {
-    (void)state;
     const fracas_strength *flaws = example(6);
     for (double n = 1.0; n < 2000.0; n *= 3.0)
         for (int i = 1; i < 1000; i++) {
@@ -568,7 +547,6 @@ static double survival(double x, void *context)
 
 static void flaws_mean_is_the_integral(void **state)
 {
-    (void)state;
     gsl_integration_cquad_workspace *space = gsl_integration_cquad_workspace_alloc(1000);
     static const double exponents[] = {0.5, 1.0, 3.0, 20.0, 1000.0};
     static const double numbers[] = {1e-6, 0.1, 0.999, 1.0, 1.33, 1.34, 2.9, 3.1, 30.0, 1e4};
@@ -595,7 +573,6 @@ static void flaws_mean_is_the_integral(void **state)
 
 static void flaws_check_names_both_bounds(void **state)
 {
-    (void)state;
     fracas_strength swapped = *example(6);
     swapped.minimum = 500e6;
     assert_int_equal(fracas_strength_check(&swapped), FRACAS_USAGE);
@@ -604,30 +581,11 @@ static void flaws_check_names_both_bounds(void **state)
     assert_non_null(strstr(fracas_message(), "the strength without a flaw, must be the larger"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(philox_gives_the_published_words),
-        cmocka_unit_test(stream_is_the_published_first_word),
-        cmocka_unit_test(weibull_is_gsl_in_both_tails),
-        cmocka_unit_test(normal_quantile_is_gsl_and_inverts_erfc),
-        cmocka_unit_test(lognormal_is_gsl_in_both_tails),
-        cmocka_unit_test(uniform_and_constant),
-        cmocka_unit_test(means_are_exact),
-        cmocka_unit_test(a_value_depends_on_its_name_alone),
-        cmocka_unit_test(bits_are_golden),
-        cmocka_unit_test(corners_are_positive_and_finite),
-        cmocka_unit_test(check_names_both_bounds),
-        cmocka_unit_test(normal_tail_is_erfc),
-        cmocka_unit_test(normal_far_from_zero_is_gsl),
-        cmocka_unit_test(normal_inverts_its_law_in_both_tails),
-        cmocka_unit_test(incomplete_gamma_is_a_poisson_sum),
-        cmocka_unit_test(gamma_inverts_its_law_in_both_tails),
-        cmocka_unit_test(gamma_is_gsl_in_both_tails),
-        cmocka_unit_test(flaws_invert_their_law),
-        cmocka_unit_test(flaws_do_not_see_the_mesh),
-        cmocka_unit_test(flaws_mean_is_the_integral),
-        cmocka_unit_test(flaws_check_names_both_bounds),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(philox_gives_the_published_words, stream_is_the_published_first_word,
+      weibull_is_gsl_in_both_tails, normal_quantile_is_gsl_and_inverts_erfc,
+      lognormal_is_gsl_in_both_tails, uniform_and_constant, means_are_exact,
+      a_value_depends_on_its_name_alone, bits_are_golden, corners_are_positive_and_finite,
+      check_names_both_bounds, normal_tail_is_erfc, normal_far_from_zero_is_gsl,
+      normal_inverts_its_law_in_both_tails, incomplete_gamma_is_a_poisson_sum,
+      gamma_inverts_its_law_in_both_tails, gamma_is_gsl_in_both_tails, flaws_invert_their_law,
+      flaws_do_not_see_the_mesh, flaws_mean_is_the_integral, flaws_check_names_both_bounds)

@@ -2,12 +2,15 @@
 /* The lease logic: sizes, order, the plan. What fails: test_scheduler_failures.c; what random
  * events do to it: test_scheduler_events.c. */
 #include "tests/support/leases.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* ---- sizes and order ---- */
 
 static void one_batch_while_nothing_is_measured(void **state)
 {
-    (void)state;
     fracas_scheduler *scheduler = create(POINTS, MANY, 3);
     fracas_lease lease;
     for (size_t i = 0; i < 6; i++) {
@@ -20,7 +23,6 @@ static void one_batch_while_nothing_is_measured(void **state)
 /* Time per realization: of the point where it was measured, else in proportion to its cost. */
 static void sizes_are_by_measured_cost(void **state)
 {
-    (void)state;
     fracas_scheduler *scheduler = create(POINTS, MANY, 1);
     fracas_lease lease;
     assert_true(next(scheduler, 0, 0, &lease));
@@ -53,7 +55,6 @@ static void sizes_are_by_measured_cost(void **state)
  * ones, which are shared out. */
 static void sizes_shrink_with_what_is_left(void **state)
 {
-    (void)state;
     enum { WORKERS = 5 };
     fracas_scheduler *scheduler = create(1, 4000, WORKERS);
     fracas_lease lease;
@@ -75,7 +76,6 @@ static void sizes_shrink_with_what_is_left(void **state)
  * that are lost. */
 static void the_last_ones_are_shared_with_who_is_free_soon(void **state)
 {
-    (void)state;
     for (int late = 0; late < 2; late++) {
         fracas_scheduler *scheduler = create(1, 56, 4);
         fracas_lease lease[4], last;
@@ -100,7 +100,6 @@ static void the_last_ones_are_shared_with_who_is_free_soon(void **state)
 
 static void a_lease_has_a_largest_size(void **state)
 {
-    (void)state;
     fracas_scheduler *scheduler = create(1, 100000, 1);
     fracas_lease lease;
     assert_true(next(scheduler, 0, 0, &lease));
@@ -115,7 +114,6 @@ static void a_lease_has_a_largest_size(void **state)
 
 static void no_lease_time_means_one_batch(void **state)
 {
-    (void)state;
     fracas_index_row *row = rows(1, 100);
     fracas_scheduler_options options = options_for(1);
     options.seconds = 0;
@@ -134,7 +132,6 @@ static void no_lease_time_means_one_batch(void **state)
 
 static void the_longest_go_first(void **state)
 {
-    (void)state;
     fracas_index_row *row = rows(POINTS, 11);
     fracas_scheduler_options options = options_for(1);
     options.seconds = 0;
@@ -165,7 +162,6 @@ static void the_longest_go_first(void **state)
  */
 static void some_points_go_first(void **state)
 {
-    (void)state;
     static const bool first[POINTS] = {true, false, true};
     static const size_t point[] = {2, 2, 0, 0, 1, 1};
     fracas_index_row *row = rows(POINTS, 11);
@@ -185,7 +181,6 @@ static void some_points_go_first(void **state)
 
 static void one_lease_ahead_until_the_last_ones(void **state)
 {
-    (void)state;
     fracas_scheduler *scheduler = create(POINTS, 11, 2);
     fracas_lease lease, other;
     assert_true(next(scheduler, 0, 0, &lease));
@@ -202,7 +197,6 @@ static void one_lease_ahead_until_the_last_ones(void **state)
 
 static void what_comes_next_is_predicted(void **state)
 {
-    (void)state;
     fracas_scheduler *scheduler = create(1, 1000, 1);
     fracas_lease lease, ahead;
     assert_true(isnan(fracas_scheduler_predicted(scheduler, 0, 5)));
@@ -225,7 +219,6 @@ static void what_comes_next_is_predicted(void **state)
 /* The last ones of a plan: what waits again counts too, and when nothing waits, what is held. */
 static void what_waits_again_is_predicted(void **state)
 {
-    (void)state;
     fracas_scheduler *scheduler = create(1, 30, 2);
     fracas_lease first, second;
     assert_true(next(scheduler, 0, 0, &first));
@@ -249,7 +242,6 @@ static void what_waits_again_is_predicted(void **state)
 /* s that a lease may take: as the options say, or 600 s and 50 times its prediction. */
 static void a_lease_has_a_time_limit(void **state)
 {
-    (void)state;
     fracas_index_row *row = rows(POINTS, 100);
     fracas_scheduler_options options = options_for(1);
     fracas_scheduler *scheduler = create_with(row, POINTS * 100, &options);
@@ -271,7 +263,6 @@ static void a_lease_has_a_time_limit(void **state)
 
 static void a_shuffle_changes_order_and_sizes(void **state)
 {
-    (void)state;
     fracas_index_row *row = rows(POINTS, 11);
     fracas_scheduler_options options = options_for(1);
     fracas_scheduler *plain = create_with(row, POINTS * 11, &options);
@@ -308,7 +299,6 @@ static void a_shuffle_changes_order_and_sizes(void **state)
 /* A plan that grows: what is added waits like all else, longest first, and counts. */
 static void rows_are_added(void **state)
 {
-    (void)state;
     fracas_index_row more[6];
     fracas_scheduler *scheduler = create(1, 11, 1);
     for (size_t i = 0; i < 6; i++)
@@ -345,7 +335,6 @@ static void rows_are_added(void **state)
 
 static void rows_may_need_nothing(void **state)
 {
-    (void)state;
     fracas_index_row *row = rows(POINTS, 11);
     for (size_t i = 0; i < POINTS * 11; i++) row[i].status = FRACAS_DONE;
     row[3].status = FRACAS_FAILED_ROW;
@@ -372,24 +361,9 @@ static void rows_may_need_nothing(void **state)
     free(row);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_batch_while_nothing_is_measured),
-        cmocka_unit_test(sizes_are_by_measured_cost),
-        cmocka_unit_test(sizes_shrink_with_what_is_left),
-        cmocka_unit_test(the_last_ones_are_shared_with_who_is_free_soon),
-        cmocka_unit_test(a_lease_has_a_largest_size),
-        cmocka_unit_test(no_lease_time_means_one_batch),
-        cmocka_unit_test(the_longest_go_first),
-        cmocka_unit_test(some_points_go_first),
-        cmocka_unit_test(one_lease_ahead_until_the_last_ones),
-        cmocka_unit_test(what_comes_next_is_predicted),
-        cmocka_unit_test(what_waits_again_is_predicted),
-        cmocka_unit_test(a_lease_has_a_time_limit),
-        cmocka_unit_test(a_shuffle_changes_order_and_sizes),
-        cmocka_unit_test(rows_are_added),
-        cmocka_unit_test(rows_may_need_nothing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(one_batch_while_nothing_is_measured, sizes_are_by_measured_cost,
+      sizes_shrink_with_what_is_left, the_last_ones_are_shared_with_who_is_free_soon,
+      a_lease_has_a_largest_size, no_lease_time_means_one_batch, the_longest_go_first,
+      some_points_go_first, one_lease_ahead_until_the_last_ones, what_comes_next_is_predicted,
+      what_waits_again_is_predicted, a_lease_has_a_time_limit, a_shuffle_changes_order_and_sizes,
+      rows_are_added, rows_may_need_nothing)

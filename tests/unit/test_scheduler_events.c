@@ -2,16 +2,13 @@
 /* The lease logic under everything that can happen to it: copies of overdue leases, losses, and
  * random courses of events. */
 #include "campaigns/scheduler/lease/scheduler.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <malloc.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
-
-#include <cmocka.h>
 
 #define OK(call) assert_int_equal(call, FRACAS_OK)
 
@@ -88,7 +85,6 @@ static void assert_counts(const fracas_scheduler *scheduler, int64_t done, int64
 
 static void an_overdue_lease_goes_to_an_idle_worker(void **state)
 {
-    (void)state;
     fracas_lease first, second, copy;
     fracas_scheduler *scheduler = create_late(&first, &second);
     assert_counts(scheduler, 8, 0, 0);
@@ -122,7 +118,6 @@ static void an_overdue_lease_goes_to_an_idle_worker(void **state)
  * before it was computed. */
 static void short_leases_are_overdue_after_10_s(void **state)
 {
-    (void)state;
     enum { ROWS = 72 };
     fracas_index_row row[ROWS];
     for (size_t i = 0; i < ROWS; i++) row[i] = (fracas_index_row){.replica = (int64_t)i};
@@ -153,7 +148,6 @@ static void short_leases_are_overdue_after_10_s(void **state)
  * lease would be overdue. */
 static void a_lease_that_stays_in_memory_is_overdue(void **state)
 {
-    (void)state;
     fracas_lease first, second, copy;
     fracas_scheduler *scheduler = create_late(&first, &second);
     OK(fracas_scheduler_computed(scheduler, 1, second.id, 8, 8));
@@ -190,7 +184,6 @@ enum {
  * lost, nothing counts twice. */
 static void a_loss_at_any_stage_loses_nothing(void **state)
 {
-    (void)state;
     for (int course = 0; course < NEVENTS * NEVENTS * NEVENTS * NEVENTS; course++) {
         fracas_lease first, second, copy;
         fracas_scheduler *scheduler = create_late(&first, &second);
@@ -232,7 +225,6 @@ static void a_loss_at_any_stage_loses_nothing(void **state)
 /* A lease that fails while another worker has it: what the other says counts. */
 static void a_copy_that_fails_is_forgotten(void **state)
 {
-    (void)state;
     for (int stage = 0; stage < 3;
          stage++) { /* the other one holds it, has it in memory, has it on disk */
         fracas_lease first, second, copy, fault;
@@ -429,7 +421,6 @@ static void check(const world *w)
 
 static void any_course_of_events(void **state)
 {
-    (void)state;
     static const double cost[POINTS] = {1, 3, 2, 5, 4};
     int64_t failed = 0, duplicates = 0;
     for (unsigned seed = 1; seed <= SEEDS; seed++) {
@@ -513,7 +504,6 @@ static double run_million(size_t npoints, size_t *bytes)
 
 static void a_million_is_not_too_many(void **state)
 {
-    (void)state;
     static const size_t npoints[] = {1, 1000, 1000000};
     for (size_t i = 0; i < 3; i++) {
         size_t bytes;
@@ -526,16 +516,6 @@ static void a_million_is_not_too_many(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_overdue_lease_goes_to_an_idle_worker),
-        cmocka_unit_test(short_leases_are_overdue_after_10_s),
-        cmocka_unit_test(a_lease_that_stays_in_memory_is_overdue),
-        cmocka_unit_test(a_loss_at_any_stage_loses_nothing),
-        cmocka_unit_test(a_copy_that_fails_is_forgotten),
-        cmocka_unit_test(any_course_of_events),
-        cmocka_unit_test(a_million_is_not_too_many),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(an_overdue_lease_goes_to_an_idle_worker, short_leases_are_overdue_after_10_s,
+      a_lease_that_stays_in_memory_is_overdue, a_loss_at_any_stage_loses_nothing,
+      a_copy_that_fails_is_forgotten, any_course_of_events, a_million_is_not_too_many)

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The lease logic where leases fail: bisecting, attempts, lost workers. */
 #include "tests/support/leases.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* A lease of `count` of one point for one worker, measured so that it is one lease. */
 static fracas_scheduler *create_large(size_t count, fracas_lease *lease)
@@ -23,7 +27,6 @@ static fracas_scheduler *create_large(size_t count, fracas_lease *lease)
  * everything else is computed. */
 static void a_failed_batch_is_bisected(void **state)
 {
-    (void)state;
     enum { COUNT = 24, KEPT = 8, BAD = 13 };
     fracas_lease lease;
     bool final;
@@ -58,7 +61,6 @@ static void a_failed_batch_is_bisected(void **state)
 /* The last realization of a lease alone at fault: one attempt, as its server computed it alone. */
 static void one_at_fault_has_had_an_attempt(void **state)
 {
-    (void)state;
     fracas_lease lease;
     bool final;
     fracas_scheduler *scheduler = create_large(24, &lease);
@@ -83,7 +85,6 @@ static void one_at_fault_has_had_an_attempt(void **state)
 /* Odd numbers: the first half is the larger one. */
 static void a_part_of_a_batch_is_bisected_too(void **state)
 {
-    (void)state;
     fracas_lease lease;
     bool final;
     fracas_scheduler *scheduler = create(1, 5, 1);
@@ -102,7 +103,6 @@ static void a_part_of_a_batch_is_bisected_too(void **state)
 
 static void nonsense_is_refused(void **state)
 {
-    (void)state;
     fracas_lease lease, other;
     bool final;
     fracas_scheduler *scheduler = create(1, 40, 2);
@@ -127,7 +127,6 @@ static void nonsense_is_refused(void **state)
 
 static void a_lost_worker_costs_what_was_not_durable(void **state)
 {
-    (void)state;
     fracas_scheduler *scheduler = create(1, 400, 2);
     fracas_lease first, second, third, fourth, again;
     assert_true(next(scheduler, 0, 0, &first));
@@ -159,7 +158,6 @@ static void a_lost_worker_costs_what_was_not_durable(void **state)
 /* Of a lease in isolation only what was at fault stays isolated. */
 static void halves_stay_isolated(void **state)
 {
-    (void)state;
     fracas_lease lease;
     bool final;
     fracas_scheduler *scheduler = create_large(24, &lease);
@@ -176,15 +174,6 @@ static void halves_stay_isolated(void **state)
     fracas_scheduler_destroy(scheduler);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_failed_batch_is_bisected),
-        cmocka_unit_test(one_at_fault_has_had_an_attempt),
-        cmocka_unit_test(a_part_of_a_batch_is_bisected_too),
-        cmocka_unit_test(nonsense_is_refused),
-        cmocka_unit_test(a_lost_worker_costs_what_was_not_durable),
-        cmocka_unit_test(halves_stay_isolated),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_failed_batch_is_bisected, one_at_fault_has_had_an_attempt,
+      a_part_of_a_batch_is_bisected_too, nonsense_is_refused,
+      a_lost_worker_costs_what_was_not_durable, halves_stay_isolated)

@@ -2,16 +2,12 @@
 /* Student's t, the rounds, and the decision of a round. */
 #include "sampler/sequential/sequential.h"
 #include "sampler/special/student.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 /* GSL solves for its own distribution function to some 1e-14 where that is flat. Ours halves until
  * no double lies between: what is left is the rounding of the sum, nu terms of 1e-16, over the
@@ -19,7 +15,6 @@
  * 1e-3. Both stay below 5e-13. */
 static void quantiles_are_those_of_gsl(void **state)
 {
-    (void)state;
     static const double confidence[] = {0.5, 0.8, 0.9, 0.95, 0.99, 0.999};
     for (size_t c = 0; c < sizeof confidence / sizeof *confidence; c++)
         for (int64_t nu = 1; nu < 40000;
@@ -36,7 +31,6 @@ static void quantiles_are_those_of_gsl(void **state)
 
 static void quantiles_in_closed_form(void **state)
 {
-    (void)state;
     /* nu = 1: tan(pi c/2); nu = 2: c sqrt(2/(1 - c^2)). At c = 0.5 all is a few roundings. */
     assert_true(fabs(fracas_student_quantile(0.5, 1) - 1) < 1e-15);
     assert_true(fabs(fracas_student_quantile(0.5, 2) - 0.5 * sqrt(2 / 0.75)) < 1e-15);
@@ -55,7 +49,6 @@ static void quantiles_in_closed_form(void **state)
 
 static void rounds_grow_by_half_in_batches(void **state)
 {
-    (void)state;
     static const int64_t wanted[][12] = {{16, 24, 40, 64, 96, 144, 216, 256},
                                          {8, 16, 24, 40, 64, 96, 100},
                                          {9, 17, 33, 57, 60},
@@ -90,7 +83,6 @@ static const fracas_sequential_rule rule = {.minimum = 8,
  * tables have it. */
 static void a_decision_by_hand(void **state)
 {
-    (void)state;
     const double value[8] = {101, 102, 103, 104, 105, 106, 107, 108};
     fracas_sequential_rule narrow = rule;
     fracas_sequential_decision made = fracas_sequential_decide(&rule, value, 8);
@@ -117,7 +109,6 @@ static void a_decision_by_hand(void **state)
 
 static void what_does_not_count_is_left_out(void **state)
 {
-    (void)state;
     const double value[10] = {NAN, 101, 102, 103, 104, NAN, 105, 106, 107, 108},
                  none[8] = {NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
     const double plain[8] = {101, 102, 103, 104, 105, 106, 107, 108};
@@ -140,14 +131,5 @@ static void what_does_not_count_is_left_out(void **state)
     assert_int_equal(fracas_sequential_decide(&rule, equal, 8).stop, FRACAS_PRECISE);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(quantiles_are_those_of_gsl),
-        cmocka_unit_test(quantiles_in_closed_form),
-        cmocka_unit_test(rounds_grow_by_half_in_batches),
-        cmocka_unit_test(a_decision_by_hand),
-        cmocka_unit_test(what_does_not_count_is_left_out),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(quantiles_are_those_of_gsl, quantiles_in_closed_form, rounds_grow_by_half_in_batches,
+      a_decision_by_hand, what_does_not_count_is_left_out)

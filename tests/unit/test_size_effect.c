@@ -7,16 +7,14 @@
 #include "sampler/special/normal.h"
 #include "tests/support/laws.h"
 #include "tests/support/strengths.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_integration.h>
 #include <inttypes.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
-
-#include <cmocka.h>
 
 static const fracas_extent one = {1.0, 1.0};
 static const double VOLUME = 2e-9, AREA = 3e-6; /* of a specimen, m3 and m2 */
@@ -63,7 +61,6 @@ static fracas_probability after(long double t)
 /* z moves ln P by z times as much: an error of 1e-15 of z is one of 2e-15 of t. */
 static void normal_far_is_erfc(void **state)
 {
-    (void)state;
     for (double t = 600.0; t < 11000.0; t *= 1.01) {
         const double z = fracas_normal_far(t);
         assert_close((double)-logl(0.5L * erfcl((long double)z / sqrtl(2.0L))), t, 2e-15);
@@ -78,7 +75,6 @@ static void normal_far_is_erfc(void **state)
  * the slope, is what ln Q is. */
 static void gamma_far_inverts_its_law(void **state)
 {
-    (void)state;
     static const double shapes[] = {0.1, 0.5, 1.0, 3.0, 9.9, 10.1, 120.0, 1e4, 1e6};
     for (size_t k = 0; k < FRACAS_COUNT(shapes); k++)
         for (double t = 40.0; t < 1e9; t *= 3.0) {
@@ -97,7 +93,6 @@ static void gamma_far_inverts_its_law(void **state)
  * GSL's inverse of gamma gives up there. */
 static void tails_are_exact_to_1e300(void **state)
 {
-    (void)state;
     for (double tail = 1e-300; tail < 0.1; tail *= 1e7) {
         const fracas_probability low = {tail, 1.0 - tail}, high = {1.0 - tail, tail};
         assert_close(fracas_exponential_quantile(high), -log(tail), 1e-15);
@@ -145,7 +140,6 @@ static void tails_are_exact_to_1e300(void **state)
  * is 1e-14. */
 static void weibull_is_one_of_another_scale(void **state)
 {
-    (void)state;
     for (double m = 0.5; m < 200.0; m *= 2.3)
         for (double size = 1e-8; size < 1e9; size *= 7.0) {
             const fracas_strength plain = {.distribution = law_named("weibull"),
@@ -176,7 +170,6 @@ static void weibull_is_one_of_another_scale(void **state)
  * of a specimen has the law that is given. */
 static void no_law_sees_the_mesh(void **state)
 {
-    (void)state;
     for (int k = 0; k < LAWS; k++) {
         const fracas_strength law = example(k, VOLUME);
         fracas_strength plain = law, ready;
@@ -201,7 +194,6 @@ static void no_law_sees_the_mesh(void **state)
  * jumps where e^-t leaves the doubles. */
 static void small_interfaces_are_strong(void **state)
 {
-    (void)state;
     for (int k = 0; k < LAWS; k++) {
         const fracas_strength law = example(k, VOLUME);
         double before = 0.0;
@@ -267,7 +259,6 @@ static double moment(const fracas_strength *law, double size, int power)
  * its sums, a tenth to a hundredth. */
 static void moments_are_the_integrals(void **state)
 {
-    (void)state;
     for (int k = 1; k < 6; k++) /* lognormal, normal, gamma, uniform */
         for (double size = 0.1; size < 200.0;
              size *= 4.0) { /* below, P^size counts where GSL's P is 0 */
@@ -284,7 +275,6 @@ static void moments_are_the_integrals(void **state)
  * of shape 1) at any. */
 static void quadrature_is_within_1e12(void **state)
 {
-    (void)state;
     for (int k = 1; k < 5; k++) {
         const fracas_strength law = example(k, VOLUME);
         fracas_strength plain = law;
@@ -318,7 +308,6 @@ static void quadrature_is_within_1e12(void **state)
  * double adds 3e-14. */
 static void moments_beyond_doubles_are_infinite(void **state)
 {
-    (void)state;
     fracas_strength law = {.distribution = law_named("lognormal"),
                            .median = 1.0,
                            .sigma = 1.0,
@@ -335,7 +324,6 @@ static void moments_beyond_doubles_are_infinite(void **state)
  * long double, right to 1/n^2. */
 static void empirical_moments_are_exact(void **state)
 {
-    (void)state;
     static const fracas_attachment pair = FILE_OF("p.csv", "264e6\n364e6\n");
     enum { STEPS = 200000 };
     for (double size = 1e-3; size < 1e4; size *= 6.0) {
@@ -392,7 +380,6 @@ static void empirical_moments_are_exact(void **state)
 /* Whoever compiles it, and for whatever CPU; as in test_sampler.c. */
 static void bits_are_golden(void **state)
 {
-    (void)state;
     static double value[LAWS * 3][1000];
     for (int k = 0; k < LAWS; k++)
         for (int step = 0; step < 3; step++) {
@@ -418,7 +405,6 @@ static void refused(fracas_strength law, const char *words)
 
 static void references_that_say_nothing_are_refused(void **state)
 {
-    (void)state;
     fracas_strength both = example(0, VOLUME);
     both.reference_area = AREA;
     refused(both, "`reference_volume` and `reference_area` are both given: take out one");
@@ -440,21 +426,7 @@ static void references_that_say_nothing_are_refused(void **state)
             "the distribution file");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(normal_far_is_erfc),
-        cmocka_unit_test(gamma_far_inverts_its_law),
-        cmocka_unit_test(tails_are_exact_to_1e300),
-        cmocka_unit_test(weibull_is_one_of_another_scale),
-        cmocka_unit_test(no_law_sees_the_mesh),
-        cmocka_unit_test(small_interfaces_are_strong),
-        cmocka_unit_test(moments_are_the_integrals),
-        cmocka_unit_test(quadrature_is_within_1e12),
-        cmocka_unit_test(moments_beyond_doubles_are_infinite),
-        cmocka_unit_test(empirical_moments_are_exact),
-        cmocka_unit_test(bits_are_golden),
-        cmocka_unit_test(references_that_say_nothing_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(normal_far_is_erfc, gamma_far_inverts_its_law, tails_are_exact_to_1e300,
+      weibull_is_one_of_another_scale, no_law_sees_the_mesh, small_interfaces_are_strong,
+      moments_are_the_integrals, quadrature_is_within_1e12, moments_beyond_doubles_are_infinite,
+      empirical_moments_are_exact, bits_are_golden, references_that_say_nothing_are_refused)

@@ -3,9 +3,7 @@
 #include "tests/support/bar.h"
 
 #include "engine/fragments/fragments.h"
-
-#include <math.h>
-#include <string.h>
+#include "tests/support/test.h"
 
 #define LANES 1
 #include "base/lanes.h"
@@ -20,7 +18,6 @@ static int64_t count_broken(const fracas_model *model, int64_t broken)
 
 static void stop_at_a_set_time(void **unused)
 {
-    (void)unused;
     const fracas_time rule = {.stop = &fracas_stop_time, .end = 1.0};
     fracas_stop stop = {0};
     fracas_outcome outcome;
@@ -39,7 +36,6 @@ static void stop_at_a_set_time(void **unused)
 
 static void settled_waits_for_quiet_after_the_first_onset(void **unused)
 {
-    (void)unused;
     const fracas_time rule = {
         .stop = &fracas_stop_settled, .end = 10, .quiet = 1, .quiet_fraction = 0.01};
     fracas_outcome outcome;
@@ -87,7 +83,6 @@ static void settled_waits_for_quiet_after_the_first_onset(void **unused)
  * peak at step 7. */
 static void history_keeps_intervals_onset_peak_and_end(void **unused)
 {
-    (void)unused;
     fracas_history history;
     fracas_record record;
     fracas_record_init(&record);
@@ -109,7 +104,6 @@ static void history_keeps_intervals_onset_peak_and_end(void **unused)
  */
 static void the_ledger_adds_every_term(void **unused)
 {
-    (void)unused;
     fracas_ledger ledger = {0};
     fracas_step step = {.width = 1,
                         .kinetic = {1},
@@ -146,7 +140,6 @@ static void the_ledger_adds_every_term(void **unused)
 
 static void fragments_are_connected_elements(void **unused)
 {
-    (void)unused;
     fracas_partition p;
     assert_ok(fracas_partition_init(&p, 8));
     fracas_partition_join(&p, 7, 2);
@@ -163,7 +156,6 @@ static void fragments_are_connected_elements(void **unused)
  * piece across the end. */
 static void a_fragment_across_the_end_is_in_one_piece(void **unused)
 {
-    (void)unused;
     fracas_spec spec = bar_reference(10, 1e4, 1);
     spec.geometry.length = 10 * 1e-4;
     fracas_model *model;
@@ -232,7 +224,6 @@ static fracas_fragment walk(const fracas_batch *batch, size_t first, bool period
  * 1e-3 m and 1e2 m/s: 1e-12 relative. */
 static void fragments_are_sums_over_their_elements(void **unused)
 {
-    (void)unused;
     uint64_t seed = 5;
     for (int trial = 0; trial < 60; trial++) {
         const bool periodic = trial % 2 == 0;
@@ -298,7 +289,6 @@ static void fragments_are_sums_over_their_elements(void **unused)
  * - D of 1e-2 at least. */
 static void nitsche_is_the_secant_law(void **unused)
 {
-    (void)unused;
     uint64_t seed = 3;
     int loading = 0, unloading = 0, contact = 0, open = 0;
     for (int i = 0; i < 20000; i++) {
@@ -348,7 +338,6 @@ static void nitsche_is_the_secant_law(void **unused)
 /* At the critical step itself the energy runs away: the realization says so. */
 static void a_run_that_gains_energy_ends_as_drift(void **unused)
 {
-    (void)unused;
     for (int unstable = 0; unstable < 2; unstable++) {
         fracas_spec spec = bar_reference(800, 1e5, 2e-7);
         spec.geometry.length = 5e-3;
@@ -381,7 +370,6 @@ static void a_run_that_gains_energy_ends_as_drift(void **unused)
  * step's end would be a clamped one, and of hundreds hardly any falls there by chance. */
 static void events_are_counted_and_timed_inside_their_steps(void **unused)
 {
-    (void)unused;
     const fracas_kind *laws[] = {&fracas_law_nitsche.kind, &fracas_law_rigid_link.kind};
     for (int law = 0; law < 2; law++) {
         fracas_spec spec = bar_reference(1000, 1e5, 1.5e-7);
@@ -433,7 +421,6 @@ static void advance_as_if_bent(const fracas_model *model, fracas_step *step)
  * its lane, and is part of no balance; a bar on its own has none. */
 static void the_part_of_bending_is_kept(void **unused)
 {
-    (void)unused;
     fracas_formulation bent = fracas_formulation_bar;
     bent.advance = advance_as_if_bent;
     for (int with = 0; with < 2; with++) {
@@ -468,7 +455,6 @@ static void the_part_of_bending_is_kept(void **unused)
 
 static void a_batch_refuses_what_it_cannot_run(void **unused)
 {
-    (void)unused;
     fracas_spec spec = bar_reference(50, 1e4, 1e-6); /* h = 1 mm: too long for 300 MPa at G_c 100 */
     fracas_model *model;
     fracas_batch *batch;
@@ -499,21 +485,9 @@ static void a_batch_refuses_what_it_cannot_run(void **unused)
     assert_non_null(strstr(fracas_message(), "time steps"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(stop_at_a_set_time),
-        cmocka_unit_test(settled_waits_for_quiet_after_the_first_onset),
-        cmocka_unit_test(history_keeps_intervals_onset_peak_and_end),
-        cmocka_unit_test(the_ledger_adds_every_term),
-        cmocka_unit_test(fragments_are_connected_elements),
-        cmocka_unit_test(a_fragment_across_the_end_is_in_one_piece),
-        cmocka_unit_test(fragments_are_sums_over_their_elements),
-        cmocka_unit_test(nitsche_is_the_secant_law),
-        cmocka_unit_test(a_run_that_gains_energy_ends_as_drift),
-        cmocka_unit_test(events_are_counted_and_timed_inside_their_steps),
-        cmocka_unit_test(the_part_of_bending_is_kept),
-        cmocka_unit_test(a_batch_refuses_what_it_cannot_run),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(stop_at_a_set_time, settled_waits_for_quiet_after_the_first_onset,
+      history_keeps_intervals_onset_peak_and_end, the_ledger_adds_every_term,
+      fragments_are_connected_elements, a_fragment_across_the_end_is_in_one_piece,
+      fragments_are_sums_over_their_elements, nitsche_is_the_secant_law,
+      a_run_that_gains_energy_ends_as_drift, events_are_counted_and_timed_inside_their_steps,
+      the_part_of_bending_is_kept, a_batch_refuses_what_it_cannot_run)

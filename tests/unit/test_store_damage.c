@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flipped bytes of a study, and what the next run makes of them. */
 #include "tests/support/study_fixture.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* What the next run does with a study: recovers, computes what is planned, merges. *rows: what it
  * computed. */
@@ -26,7 +30,6 @@ static fracas_err run_again(int64_t *rows)
  * realizations. */
 static void a_flipped_byte_of_a_segment_is_computed_again(void **state)
 {
-    (void)state;
     commit_everything(11);
     merge();
     assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
@@ -62,7 +65,6 @@ static void a_flipped_byte_of_a_segment_is_computed_again(void **state)
 
 static void a_flipped_byte_of_the_merged_file_is_merged_again(void **state)
 {
-    (void)state;
     commit_everything(0);
     merge();
     size_t size;
@@ -88,7 +90,6 @@ static void execute(const char *sql)
  * verification names it. */
 static void a_flipped_number_of_the_index_is_not_merged(void **state)
 {
-    (void)state;
     static const char *const flip[] = {"outcome = outcome + 1",
                                        "fragments = fragments + 1",
                                        "fragments_dust = fragments_dust + 1",
@@ -128,7 +129,6 @@ static void a_flipped_number_of_the_index_is_not_merged(void **state)
 /* What the rows of the index say of each other is looked at by quick verification. */
 static void an_index_that_contradicts_itself_is_found(void **state)
 {
-    (void)state;
     static const struct {
         const char *flip, *said;
     } wrong[] = {
@@ -167,7 +167,6 @@ static void an_index_that_contradicts_itself_is_found(void **state)
 /* ... and before anything is computed by it, too. */
 static void a_run_does_not_begin_with_a_damaged_index(void **state)
 {
-    (void)state;
     fracas_file_header header = sample_header();
     char *report;
     commit_everything(0);
@@ -189,7 +188,6 @@ static void a_run_does_not_begin_with_a_damaged_index(void **state)
  * damaged; never another one. */
 static void flipped_bytes_of_the_index_make_no_wrong_study(void **state)
 {
-    (void)state;
     commit_everything(15);
     merge();
     assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
@@ -227,17 +225,8 @@ static void flipped_bytes_of_the_index_make_no_wrong_study(void **state)
     OK(fracas_index_open(study, false, &index_));
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(a_flipped_byte_of_a_segment_is_computed_again),
-        TEST(a_flipped_byte_of_the_merged_file_is_merged_again),
-        TEST(a_flipped_number_of_the_index_is_not_merged),
-        TEST(an_index_that_contradicts_itself_is_found),
-        TEST(a_run_does_not_begin_with_a_damaged_index),
-        TEST(flipped_bytes_of_the_index_make_no_wrong_study),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS_EACH(set_up, tear_down, a_flipped_byte_of_a_segment_is_computed_again,
+           a_flipped_byte_of_the_merged_file_is_merged_again,
+           a_flipped_number_of_the_index_is_not_merged, an_index_that_contradicts_itself_is_found,
+           a_run_does_not_begin_with_a_damaged_index,
+           flipped_bytes_of_the_index_make_no_wrong_study)

@@ -5,9 +5,9 @@
 
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/file/schema.h"
+#include "tests/support/test.h"
 
 #include <malloc.h>
-#include <math.h>
 
 enum {
     REPLICAS = 300,
@@ -18,14 +18,12 @@ static char *folder;
 
 static int set_up(void **state)
 {
-    (void)state;
     folder = sample_folder();
     return 0;
 }
 
 static int tear_down(void **state)
 {
-    (void)state;
     sample_remove(folder);
     return 0;
 }
@@ -85,7 +83,6 @@ static const fracas_decision decisions[DECISIONS] = {
  * range is damage. */
 static void decisions_come_back(void **state)
 {
-    (void)state;
     const char *path = sample_path(folder, "a.h5");
     fracas_point_row row[SAMPLE_POINTS];
     fracas_point_table table = sample_table(row, 0);
@@ -237,7 +234,6 @@ static void check_row(fracas_reader *reader, size_t row, int64_t replicas, size_
 
 static void records_come_back_bit_by_bit(void **state)
 {
-    (void)state;
     const char *path = sample_path(folder, "a.h5");
     fracas_file_seal seal;
     fracas_reader *reader;
@@ -262,7 +258,6 @@ static void records_come_back_bit_by_bit(void **state)
 
 static void header_and_points_come_back(void **state)
 {
-    (void)state;
     const char *path = sample_path(folder, "a.h5");
     fracas_file_seal seal;
     fracas_reader *reader;
@@ -303,7 +298,6 @@ static void header_and_points_come_back(void **state)
 /* The second file is written with another heap and beside another open file. */
 static void same_calls_give_same_bytes(void **state)
 {
-    (void)state;
     fracas_file_seal first, second, third;
     char *a = sample_path(folder, "a.h5"), *b = sample_path(folder, "b.h5"),
          *c = sample_path(folder, "c.h5");
@@ -325,7 +319,6 @@ static void same_calls_give_same_bytes(void **state)
 
 static void seal_is_that_of_the_bytes(void **state)
 {
-    (void)state;
     const char *path = sample_path(folder, "a.h5");
     fracas_file_seal seal, again;
     size_t size;
@@ -340,7 +333,6 @@ static void seal_is_that_of_the_bytes(void **state)
 /* No record at all, and none with rows. */
 static void empty_files_are_files(void **state)
 {
-    (void)state;
     const char *path = sample_path(folder, "a.h5");
     fracas_point_table none = {0, NULL, 0, NULL};
     fracas_file_header header = sample_header();
@@ -363,7 +355,6 @@ static void empty_files_are_files(void **state)
 /* One realization larger than several blocks of the reader and chunks of the writer. */
 static void large_records_are_cut_and_joined(void **state)
 {
-    (void)state;
     const char *path = sample_path(folder, "a.h5");
     fracas_file_seal seal;
     fracas_reader *reader;
@@ -378,7 +369,6 @@ static void large_records_are_cut_and_joined(void **state)
  * kilobytes that malloc keeps for itself. */
 static void nothing_is_left_open(void **state)
 {
-    (void)state;
     const char *path = sample_path(folder, "a.h5");
     size_t used = 0;
     for (int round = 0; round < 30; round++) {
@@ -395,7 +385,6 @@ static void nothing_is_left_open(void **state)
 
 static void nothing_unfinished_has_the_final_name(void **state)
 {
-    (void)state;
     const char *path = sample_path(folder, "a.h5");
     fracas_point_row row[SAMPLE_POINTS];
     fracas_point_table table = sample_table(row, 1);
@@ -411,7 +400,6 @@ static void nothing_unfinished_has_the_final_name(void **state)
 
 static void contradicting_records_are_refused(void **state)
 {
-    (void)state;
     const char *path = sample_path(folder, "a.h5");
     fracas_point_row row[SAMPLE_POINTS];
     fracas_point_table table = sample_table(row, 1);
@@ -438,7 +426,6 @@ static void contradicting_records_are_refused(void **state)
 
 static void other_files_are_refused(void **state)
 {
-    (void)state;
     const char *path = sample_path(folder, "a.h5");
     fracas_reader *reader;
     sample_fails(fracas_reader_open(path, &reader), FRACAS_DAMAGED, "a.h5 is not there");
@@ -452,7 +439,6 @@ static void other_files_are_refused(void **state)
 
 static void records_survive_packing(void **state)
 {
-    (void)state;
     for (int64_t replica = 0; replica < 50; replica++) {
         fracas_record record, back;
         sample_record(1, replica, 9, &record);
@@ -476,10 +462,10 @@ static void records_survive_packing(void **state)
 
 #define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
 
-int main(int argc, char **argv)
+int fracas_test(void)
 {
-    if (argc == 2) {
-        write_and_tell(argv[1]);
+    if (test_argument) {
+        write_and_tell(test_argument);
         return 0;
     }
     const struct CMUnitTest tests[] = {

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The index: plan, lease, commit, its modes and its file. */
 #include "tests/support/study_fixture.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* ---- planning and rows ---- */
 
 static void plan_is_in_order_and_grows(void **state)
 {
-    (void)state;
     fracas_index_row *row;
     size_t count;
     OK(fracas_index_rows(index_, &table, &row, &count));
@@ -52,7 +55,6 @@ static void note_failure(void *said, const fracas_index_row *row, const char *re
 
 static void leases_end_with_the_next_plan(void **state)
 {
-    (void)state;
     OK(fracas_index_lease(index_, &point_row[2].hash, 5, 10));
     assert_int_equal(count_all().leased, 10);
     OK(fracas_index_fail(index_, &point_row[2].hash, 6, "signal 11", false));
@@ -79,7 +81,6 @@ static void leases_end_with_the_next_plan(void **state)
 
 static void first_commit_stays(void **state)
 {
-    (void)state;
     sample_realization what[] = {{0, 3}, {1, 1}, {0, 4}};
     fracas_segment_row row[3];
     fracas_file_seal seal;
@@ -112,7 +113,6 @@ static void first_commit_stays(void **state)
 /* A commit of something unplanned leaves nothing behind. */
 static void commits_are_whole(void **state)
 {
-    (void)state;
     sample_realization what[] = {{0, 3}, {1, 1}};
     fracas_segment_row row[2];
     fracas_file_seal seal;
@@ -141,7 +141,6 @@ static const char *first_value(fracas_index *index, const char *query)
 
 static void index_modes_and_versions(void **state)
 {
-    (void)state;
     fracas_index *other, *third;
     bool local;
     OK(fracas_disk_is_local("/proc", &local)); /* one we do not know: taken for a network */
@@ -176,7 +175,6 @@ static void index_modes_and_versions(void **state)
 
 static void an_index_without_tables_is_none(void **state)
 {
-    (void)state;
     fracas_index *other;
     sqlite3 *db;
     assert_true(fracas_index_exists(study));
@@ -249,7 +247,6 @@ static void look_as_another(void)
 
 static void a_study_that_cannot_be_written_can_be_read(void **state)
 {
-    (void)state;
     char *plain = study, *odd = NULL;
     commit_everything(2);
     merge();
@@ -271,18 +268,6 @@ static void a_study_that_cannot_be_written_can_be_read(void **state)
     assert_int_equal(WEXITSTATUS(status), 0);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(plan_is_in_order_and_grows),
-        TEST(leases_end_with_the_next_plan),
-        TEST(first_commit_stays),
-        TEST(commits_are_whole),
-        TEST(index_modes_and_versions),
-        TEST(an_index_without_tables_is_none),
-        TEST(a_study_that_cannot_be_written_can_be_read),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS_EACH(set_up, tear_down, plan_is_in_order_and_grows, leases_end_with_the_next_plan,
+           first_commit_stays, commits_are_whole, index_modes_and_versions,
+           an_index_without_tables_is_none, a_study_that_cannot_be_written_can_be_read)

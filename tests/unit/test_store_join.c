@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Two studies of one campaign made one. */
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 #include "tests/support/upkeep.h"
 
 static char *other_study;
@@ -50,7 +54,6 @@ static fracas_err compare(int64_t *both)
 
 static void two_halves_are_one_study(void **state)
 {
-    (void)state;
     fracas_joined joined;
     int64_t both;
     commit_everything(0); /* what it must come to */
@@ -104,7 +107,6 @@ static void commit_different(void)
 
 static void a_difference_is_named(void **state)
 {
-    (void)state;
     int64_t both;
     commit_all_but(left_out, 3);
     in_other(commit_different);
@@ -126,7 +128,6 @@ static void commit_and_fail(void)
 
 static void done_wins_over_failed(void **state)
 {
-    (void)state;
     fracas_joined joined;
     commit_all_but(left_out, 3);
     OK(fracas_index_fail(index_, &point_row[0].hash, 5, "ours", true));
@@ -148,14 +149,5 @@ static void done_wins_over_failed(void **state)
     leave_other();
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(two_halves_are_one_study),
-        TEST(a_difference_is_named),
-        TEST(done_wins_over_failed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS_EACH(set_up, tear_down, two_halves_are_one_study, a_difference_is_named,
+           done_wins_over_failed)

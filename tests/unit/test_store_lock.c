@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STUDY/lock: who is refused, who takes over, and what the file says. */
 #include "tests/support/store_sample.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -11,7 +15,6 @@ static char *study;
 
 static int set_up(void **state)
 {
-    (void)state;
     study = sample_folder();
     unsetenv("FRACAS_TEST_HOST");
     unsetenv("SLURM_JOB_ID");
@@ -21,7 +24,6 @@ static int set_up(void **state)
 
 static int tear_down(void **state)
 {
-    (void)state;
     sample_remove(study);
     return 0;
 }
@@ -30,7 +32,6 @@ static int tear_down(void **state)
  */
 static void one_who_looks_is_waited_for(void **state)
 {
-    (void)state;
     int ready[2], lock;
     assert_int_equal(pipe(ready), 0);
     pid_t child = fork();
@@ -103,7 +104,6 @@ static void take(bool force, char over[FRACAS_HOLDER_TEXT])
 
 static void a_clean_release_empties_the_file(void **state)
 {
-    (void)state;
     int lock;
     char over[FRACAS_HOLDER_TEXT], pid[32], host[257] = "";
     OK(fracas_study_lock(study, false, &lock));
@@ -123,7 +123,6 @@ static void a_clean_release_empties_the_file(void **state)
 
 static void second_run_is_refused(void **state)
 {
-    (void)state;
     int lock = -1, ready[2], stop[2];
     char byte, pid[32];
     assert_int_equal(pipe(ready) + pipe(stop), 0);
@@ -173,7 +172,6 @@ static void second_run_is_refused(void **state)
 
 static void to_look_takes_nothing_over(void **state)
 {
-    (void)state;
     int lock;
     die_with_it(NULL, NULL, NULL);
     OK(fracas_study_lock_to_look(study, false, &lock));
@@ -184,7 +182,6 @@ static void to_look_takes_nothing_over(void **state)
 /* The same kernel under another name, as a container that is started again. */
 static void a_renamed_host_takes_over_its_own(void **state)
 {
-    (void)state;
     die_with_it(NULL, NULL, NULL);
     char text[1024], host[257] = "", *renamed, over[FRACAS_HOLDER_TEXT] = "?";
     gethostname(host, sizeof host - 1);
@@ -199,7 +196,6 @@ static void a_renamed_host_takes_over_its_own(void **state)
 /* The holder lives, but this filesystem has lost its lock. */
 static void a_holder_that_lives_is_not_taken_for_dead(void **state)
 {
-    (void)state;
     int lock, ready[2];
     char byte;
     assert_int_equal(pipe(ready), 0);
@@ -226,7 +222,6 @@ static void a_holder_that_lives_is_not_taken_for_dead(void **state)
 /* A dead process stays in /proc until its parent asks. */
 static void a_zombie_is_dead(void **state)
 {
-    (void)state;
     char over[FRACAS_HOLDER_TEXT] = "?";
     pid_t child = fork();
     if (child == 0) {
@@ -245,7 +240,6 @@ static void a_zombie_is_dead(void **state)
 /* A pid that another process has by now is no sign of life. */
 static void a_pid_used_again_is_no_holder(void **state)
 {
-    (void)state;
     die_with_it(NULL, NULL, NULL);
     char text[1024], over[FRACAS_HOLDER_TEXT] = "?", *pid, *rest, *other;
     snprintf(text, sizeof text, "%s", lock_text());
@@ -262,7 +256,6 @@ static void a_pid_used_again_is_no_holder(void **state)
 
 static void another_hosts_lock_needs_force(void **state)
 {
-    (void)state;
     int lock;
     char pid[32], over[FRACAS_HOLDER_TEXT] = "?";
     pid_t dead = die_with_it("node7", NULL, NULL);
@@ -283,7 +276,6 @@ static void another_hosts_lock_needs_force(void **state)
 
 static void a_requeued_job_takes_over_its_own(void **state)
 {
-    (void)state;
     int lock;
     char over[FRACAS_HOLDER_TEXT] = "?";
     die_with_it("node7", "1234", NULL);
@@ -303,7 +295,6 @@ static void a_requeued_job_takes_over_its_own(void **state)
 
 static void older_and_torn_files_are_read(void **state)
 {
-    (void)state;
     int lock;
     char host[257] = "", text[300], over[FRACAS_HOLDER_TEXT] = "?";
     gethostname(host, sizeof host - 1);
@@ -322,22 +313,8 @@ static void older_and_torn_files_are_read(void **state)
     assert_non_null(strstr(over, "host unknown"));
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(a_clean_release_empties_the_file),
-        TEST(second_run_is_refused),
-        TEST(one_who_looks_is_waited_for),
-        TEST(to_look_takes_nothing_over),
-        TEST(a_renamed_host_takes_over_its_own),
-        TEST(a_holder_that_lives_is_not_taken_for_dead),
-        TEST(a_zombie_is_dead),
-        TEST(a_pid_used_again_is_no_holder),
-        TEST(another_hosts_lock_needs_force),
-        TEST(a_requeued_job_takes_over_its_own),
-        TEST(older_and_torn_files_are_read),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS_EACH(set_up, tear_down, a_clean_release_empties_the_file, second_run_is_refused,
+           one_who_looks_is_waited_for, to_look_takes_nothing_over,
+           a_renamed_host_takes_over_its_own, a_holder_that_lives_is_not_taken_for_dead,
+           a_zombie_is_dead, a_pid_used_again_is_no_holder, another_hosts_lock_needs_force,
+           a_requeued_job_takes_over_its_own, older_and_torn_files_are_read)

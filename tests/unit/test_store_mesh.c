@@ -6,6 +6,10 @@
 
 #include "analysis/analysis.h"
 #include "analysis/draw/surface_picture.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 enum {
     SURFACE = 1,
@@ -80,7 +84,6 @@ static void merge_with(const fracas_mesh_source *meshes)
 /* As set_up, with fewer replicas. */
 static int set_up_surface(void **state)
 {
-    (void)state;
     study = sample_folder();
     table = sample_table(point_row, EACH);
     assert_int_equal(mkdir(sample_path(study, "segments"), 0777), 0);
@@ -100,7 +103,6 @@ static size_t interfaces_of(const grid_shape *of)
 
 static void meshes_come_back_bit_by_bit(void **state)
 {
-    (void)state;
     fracas_reader *reader;
     fracas_stored_mesh wanted, found;
     size_t interfaces;
@@ -131,7 +133,6 @@ static void meshes_come_back_bit_by_bit(void **state)
 
 static void order_of_segments_changes_no_mesh(void **state)
 {
-    (void)state;
     commit(4, interfaces_of(&shape));
     merge_with(&source);
     assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
@@ -155,7 +156,6 @@ static fracas_err no_mesh(const void *context, size_t point, fracas_stored_mesh 
 /* Bars and rings: the bytes of a study that has never heard of meshes. */
 static void without_surfaces_nothing_is_added(void **state)
 {
-    (void)state;
     static const fracas_mesh_source none = {no_mesh, NULL};
     commit(4, 9);
     merge_with(NULL);
@@ -181,7 +181,6 @@ static fracas_err faulty(const void *context, size_t point, fracas_stored_mesh *
 /* What fails leaves no study.h5 and no temporary file; what does not fit is found. */
 static void faulty_meshes_are_refused(void **state)
 {
-    (void)state;
     const fracas_mesh_source refusing = {refuse, NULL}, broken = {faulty, &shape};
     fracas_file_header header = sample_header();
     commit(4, interfaces_of(&shape) - 1);
@@ -198,7 +197,6 @@ static void faulty_meshes_are_refused(void **state)
 /* Every kind of number that does not belong there. */
 static void faults_of_meshes(void **state)
 {
-    (void)state;
     static const char *const wanted[] = {
         "no position",          "node that does not exist", "node that does not exist",
         "interface is no edge", "interface is no edge",     "border is no edge",
@@ -236,7 +234,6 @@ static void refused(const char *folder, fracas_picture_request request, const ch
 
 static void pictures_of_what_is_not_there(void **state)
 {
-    (void)state;
     static const double late = 2e-4, early = -1e-9;
     commit(4, interfaces_of(&shape));
     merge_with(&source);
@@ -270,7 +267,6 @@ static void pictures_of_what_is_not_there(void **state)
  */
 static void pictures_and_first_times(void **state)
 {
-    (void)state;
     static const double time[] = {2e-6, 9e-5};
     char *said;
     char *folder = strdup(sample_path(study, "drawn"));
@@ -343,7 +339,6 @@ static void make_octant_study(void)
 /* What is asked for arrives at the drawing: time, view, gaps, and the thickness of the point. */
 static void bodies_are_drawn_as_asked_for(void **state)
 {
-    (void)state;
     static const fracas_view view = {225, -30};
     static const double time = 9e-6;
     char *said, *wanted, *folder = strdup(sample_path(study, "drawn"));
@@ -404,7 +399,6 @@ static void report(void)
 
 static void the_report_shows_bodies_with_gaps(void **state)
 {
-    (void)state;
     make_octant_study();
     report();
     page_has("Seen from the direction (1, 1, 1), each fragment moved by 0.1 of the way", true);
@@ -415,7 +409,6 @@ static void the_report_shows_bodies_with_gaps(void **state)
 
 static void the_report_shows_flat_surfaces_as_they_lie(void **state)
 {
-    (void)state;
     commit(4, interfaces_of(&shape));
     merge_with(&source);
     report();
@@ -425,21 +418,8 @@ static void the_report_shows_flat_surfaces_as_they_lie(void **state)
     page_has("fragments apart", false);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up_surface, tear_down)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(meshes_come_back_bit_by_bit),
-        TEST(order_of_segments_changes_no_mesh),
-        TEST(without_surfaces_nothing_is_added),
-        TEST(faulty_meshes_are_refused),
-        TEST(faults_of_meshes),
-        TEST(pictures_of_what_is_not_there),
-        TEST(pictures_and_first_times),
-        TEST(bodies_are_drawn_as_asked_for),
-        TEST(the_report_shows_bodies_with_gaps),
-        TEST(the_report_shows_flat_surfaces_as_they_lie),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS_EACH(set_up_surface, tear_down, meshes_come_back_bit_by_bit,
+           order_of_segments_changes_no_mesh, without_surfaces_nothing_is_added,
+           faulty_meshes_are_refused, faults_of_meshes, pictures_of_what_is_not_there,
+           pictures_and_first_times, bodies_are_drawn_as_asked_for,
+           the_report_shows_bodies_with_gaps, the_report_shows_flat_surfaces_as_they_lie)

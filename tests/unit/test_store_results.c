@@ -5,6 +5,10 @@
 
 #include "campaigns/store/results.h"
 #include "campaigns/store/upkeep.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 static fracas_results *open_results(const fracas_point_table *of)
 {
@@ -75,7 +79,6 @@ static int64_t missing_of(const fracas_results *results)
 
 static void every_order_of_segments_gives_the_records_of_the_study(void **state)
 {
-    (void)state;
     commit_everything(3);
     fracas_file_header header = sample_header();
     OK(fracas_index_claim(index_, &header));
@@ -110,7 +113,6 @@ static void every_order_of_segments_gives_the_records_of_the_study(void **state)
 
 static void a_merged_study_counts_while_it_is_of_everything(void **state)
 {
-    (void)state;
     fracas_results *results;
     fracas_file_header header = sample_header();
     OK(fracas_index_claim(index_, &header));
@@ -145,7 +147,6 @@ static void a_merged_study_counts_while_it_is_of_everything(void **state)
 
 static void points_are_those_of_the_campaign(void **state)
 {
-    (void)state;
     fracas_point_row more[SAMPLE_POINTS + 1];
     fracas_file_header header = sample_header();
     OK(fracas_index_claim(index_, &header));
@@ -168,7 +169,6 @@ static void points_are_those_of_the_campaign(void **state)
 
 static void lost_segments_are_named_once_and_left_out(void **state)
 {
-    (void)state;
     fracas_file_header header = sample_header();
     OK(fracas_index_claim(index_, &header));
     commit_everything(7);
@@ -204,7 +204,6 @@ static void lost_segments_are_named_once_and_left_out(void **state)
 
 static void without_an_index_study_h5_must_be_of_the_campaign(void **state)
 {
-    (void)state;
     fracas_results *results;
     fracas_hash other = fracas_hash_of("other", 5);
     fracas_file_header header = sample_header();
@@ -231,7 +230,6 @@ static void without_an_index_study_h5_must_be_of_the_campaign(void **state)
 
 static void nothing_done_is_said(void **state)
 {
-    (void)state;
     fracas_results *results;
     fracas_file_header header = sample_header();
     OK(fracas_index_claim(index_, &header));
@@ -253,7 +251,6 @@ static void nothing_done_is_said(void **state)
 
 static void an_index_that_is_held_is_named(void **state)
 {
-    (void)state;
     fracas_results *results;
     fracas_index *holder;
     fracas_file_header header = sample_header();
@@ -267,18 +264,8 @@ static void an_index_that_is_held_is_named(void **state)
     fracas_index_close(holder);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(every_order_of_segments_gives_the_records_of_the_study),
-        TEST(a_merged_study_counts_while_it_is_of_everything),
-        TEST(points_are_those_of_the_campaign),
-        TEST(lost_segments_are_named_once_and_left_out),
-        TEST(without_an_index_study_h5_must_be_of_the_campaign),
-        TEST(nothing_done_is_said),
-        TEST(an_index_that_is_held_is_named),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS_EACH(set_up, tear_down, every_order_of_segments_gives_the_records_of_the_study,
+           a_merged_study_counts_while_it_is_of_everything, points_are_those_of_the_campaign,
+           lost_segments_are_named_once_and_left_out,
+           without_an_index_study_h5_must_be_of_the_campaign, nothing_done_is_said,
+           an_index_that_is_held_is_named)

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A study as a whole: identity, merge, recover, verify, lock. */
 #include "tests/support/study_fixture.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* ---- what the study is of ---- */
 
@@ -22,7 +26,6 @@ static const char *const difference[OTHERS] = {
 
 static void a_study_is_of_one_program_and_campaign(void **state)
 {
-    (void)state;
     fracas_file_header header = sample_header();
     OK(fracas_index_claim(index_, &header));
     OK(fracas_index_claim(index_, &header));
@@ -35,7 +38,6 @@ static void a_study_is_of_one_program_and_campaign(void **state)
 
 static void segments_of_another_are_left_and_not_merged(void **state)
 {
-    (void)state;
     commit_everything(5);
     fracas_index_close(index_);
     unlink(sample_path(study, "index.sqlite"));
@@ -68,7 +70,6 @@ static void segments_of_another_are_left_and_not_merged(void **state)
 
 static void order_of_segments_changes_nothing(void **state)
 {
-    (void)state;
     commit_everything(0);
     merge();
     assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
@@ -90,7 +91,6 @@ static void order_of_segments_changes_nothing(void **state)
  * incomplete. */
 static void merged_is_as_if_written_in_order(void **state)
 {
-    (void)state;
     commit_everything(9);
     merge();
     fracas_file_header header = sample_header();
@@ -110,7 +110,6 @@ static void merged_is_as_if_written_in_order(void **state)
 
 static void merge_refuses_what_is_not_whole(void **state)
 {
-    (void)state;
     fracas_file_header header = sample_header();
     sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_INTERRUPTED,
                  "run again");
@@ -147,7 +146,6 @@ static int64_t number(const char *sql)
 
 static void orphans_are_adopted(void **state)
 {
-    (void)state;
     commit_everything(4);
     merge();
     assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
@@ -175,7 +173,6 @@ static void orphans_are_adopted(void **state)
 /* A segment of before it told its provenance, and one that tells none that JSON is. */
 static void segments_without_provenance_are_adopted(void **state)
 {
-    (void)state;
     static const char *const tells[] = {NULL, "{\"host\": "};
     for (int i = 0; i < 2; i++) {
         fracas_file_header header = sample_header();
@@ -198,7 +195,6 @@ static void segments_without_provenance_are_adopted(void **state)
 
 static void half_written_files_go_and_foreign_ones_stay(void **state)
 {
-    (void)state;
     sample_realization what[] = {{0, 0}, {0, 1}};
     fracas_segment_row row[2];
     fracas_file_seal seal;
@@ -235,7 +231,6 @@ static void half_written_files_go_and_foreign_ones_stay(void **state)
 
 static void lost_segments_are_planned_again(void **state)
 {
-    (void)state;
     commit_everything(6);
     merge();
     assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
@@ -260,7 +255,6 @@ static void lost_segments_are_planned_again(void **state)
 
 static void verify_names_what_is_wrong(void **state)
 {
-    (void)state;
     verify_finds(0, "");
     commit_everything(7);
     verify_finds(1, "every realization is computed");
@@ -281,7 +275,6 @@ static void verify_names_what_is_wrong(void **state)
 
 static void every_byte_of_the_merged_file_is_sealed(void **state)
 {
-    (void)state;
     commit_everything(8);
     assert_false(is_sealed());
     merge();
@@ -314,7 +307,6 @@ static void every_byte_of_the_merged_file_is_sealed(void **state)
 /* A study.h5 whose every byte is sound, but of another run. */
 static void verify_compares_every_record(void **state)
 {
-    (void)state;
     commit_everything(0);
     merge();
     fracas_file_header header = sample_header();
@@ -338,7 +330,6 @@ static void verify_compares_every_record(void **state)
  * What lies in free space or in a text for people cannot be found. */
 static void verify_bears_a_damaged_index(void **state)
 {
-    (void)state;
     commit_everything(0);
     merge();
     fracas_index_close(index_);
@@ -373,7 +364,6 @@ static void verify_bears_a_damaged_index(void **state)
 /* What a killed run leaves is noted, and no problem. */
 static void leftovers_are_noted(void **state)
 {
-    (void)state;
     char text[8192];
     commit_everything(0);
     merge();
@@ -391,25 +381,10 @@ static void leftovers_are_noted(void **state)
         if (!strstr(text, said[i])) fail_msg("no \"%s\" in:\n%s", said[i], text);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(a_study_is_of_one_program_and_campaign),
-        TEST(segments_of_another_are_left_and_not_merged),
-        TEST(order_of_segments_changes_nothing),
-        TEST(merged_is_as_if_written_in_order),
-        TEST(merge_refuses_what_is_not_whole),
-        TEST(orphans_are_adopted),
-        TEST(segments_without_provenance_are_adopted),
-        TEST(half_written_files_go_and_foreign_ones_stay),
-        TEST(lost_segments_are_planned_again),
-        TEST(verify_names_what_is_wrong),
-        TEST(every_byte_of_the_merged_file_is_sealed),
-        TEST(verify_compares_every_record),
-        TEST(verify_bears_a_damaged_index),
-        TEST(leftovers_are_noted),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS_EACH(set_up, tear_down, a_study_is_of_one_program_and_campaign,
+           segments_of_another_are_left_and_not_merged, order_of_segments_changes_nothing,
+           merged_is_as_if_written_in_order, merge_refuses_what_is_not_whole, orphans_are_adopted,
+           segments_without_provenance_are_adopted, half_written_files_go_and_foreign_ones_stay,
+           lost_segments_are_planned_again, verify_names_what_is_wrong,
+           every_byte_of_the_merged_file_is_sealed, verify_compares_every_record,
+           verify_bears_a_damaged_index, leftovers_are_noted)

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Looking after a study: the index anew, garbage, failures again, older formats. Two studies made
  * one: test_store_join.c. */
+#include "tests/support/test.h"
 #include "tests/support/upkeep.h"
 
 /* ---- reindex ---- */
 
 static void the_index_is_made_anew(void **state)
 {
-    (void)state;
     commit_all_but(left_out, 3);
     fail_some();
     const fracas_index_counts before = count_all();
@@ -32,7 +32,6 @@ static void the_index_is_made_anew(void **state)
 /* A lost one, and one that is no index: with its log, which must not come back. */
 static void a_lost_or_damaged_index_is_made_anew(void **state)
 {
-    (void)state;
     commit_all_but(left_out, 3);
     fail_some();
     fracas_index_counts before = count_all();
@@ -63,7 +62,6 @@ static void a_lost_or_damaged_index_is_made_anew(void **state)
 /* The process that wrote it was killed: what it committed is in the log. */
 static void a_log_that_was_left_is_read(void **state)
 {
-    (void)state;
     fracas_index_close(index_);
     index_ = NULL;
     pid_t child = fork();
@@ -85,7 +83,6 @@ static void a_log_that_was_left_is_read(void **state)
 /* A done realization wins over the failure that the old index has of it. */
 static void a_segment_wins_over_a_failure(void **state)
 {
-    (void)state;
     sample_realization what[] = {{0, 5}, {1, 7}};
     fracas_file_seal seal;
     fracas_segment_row row[2];
@@ -105,7 +102,6 @@ static void a_segment_wins_over_a_failure(void **state)
 
 static void segments_of_another_study_are_named(void **state)
 {
-    (void)state;
     commit_all_but(left_out, 3);
     fracas_file_header other = sample_header();
     other.seed++;
@@ -140,7 +136,6 @@ static const char refusal[] = "has format version 1; this program reads 2: use t
 
 static void version_1_is_refused_by_name(void **state)
 {
-    (void)state;
     commit_all_but(NULL, 0);
     merge();
     make_old(sample_path(study, "segments/a.h5"));
@@ -178,7 +173,6 @@ static void version_1_is_refused_by_name(void **state)
 
 static void an_index_without_a_column_is_made_anew(void **state)
 {
-    (void)state;
     commit_all_but(left_out, 3);
     const fracas_index_counts before = count_all();
     sql("ALTER TABLE realization DROP COLUMN size");
@@ -195,7 +189,6 @@ static void an_index_without_a_column_is_made_anew(void **state)
 
 static void failures_are_forgotten(void **state)
 {
-    (void)state;
     int64_t rows;
     fail_some();
     OK(fracas_index_fail(index_, &point_row[1].hash, 20, "signal 7", true));
@@ -275,7 +268,6 @@ static void choose_done(sample_realization *what, size_t count)
 
 static void what_nobody_needs_goes(void **state)
 {
-    (void)state;
     sample_realization twice[3];
     choose_done(twice, 3);
     commit_all_but(left_out, 3);
@@ -340,7 +332,6 @@ static void what_nobody_needs_goes(void **state)
  * others, and goes the next time. */
 static void a_forgotten_segment_is_known_again(void **state)
 {
-    (void)state;
     sample_realization twice[1];
     choose_done(twice, 1);
     commit_all_but(left_out, 3);
@@ -358,7 +349,6 @@ static void a_forgotten_segment_is_known_again(void **state)
 /* Pages that nobody uses any more. */
 static void the_index_gives_pages_back(void **state)
 {
-    (void)state;
     struct stat large, small;
     sql("WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < 20000) INSERT "
         "INTO event(time, kind, text) SELECT 'now', 'kind', 'a text of some length, again and "
@@ -373,22 +363,8 @@ static void the_index_gives_pages_back(void **state)
     assert_true(freed >= (uint64_t)(large.st_size - small.st_size) && promised > freed / 2);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
-
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        TEST(the_index_is_made_anew),
-        TEST(a_lost_or_damaged_index_is_made_anew),
-        TEST(a_log_that_was_left_is_read),
-        TEST(a_segment_wins_over_a_failure),
-        TEST(segments_of_another_study_are_named),
-        TEST(version_1_is_refused_by_name),
-        TEST(an_index_without_a_column_is_made_anew),
-        TEST(failures_are_forgotten),
-        TEST(what_nobody_needs_goes),
-        TEST(a_forgotten_segment_is_known_again),
-        TEST(the_index_gives_pages_back),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS_EACH(set_up, tear_down, the_index_is_made_anew, a_lost_or_damaged_index_is_made_anew,
+           a_log_that_was_left_is_read, a_segment_wins_over_a_failure,
+           segments_of_another_study_are_named, version_1_is_refused_by_name,
+           an_index_without_a_column_is_made_anew, failures_are_forgotten, what_nobody_needs_goes,
+           a_forgotten_segment_is_known_again, the_index_gives_pages_back)

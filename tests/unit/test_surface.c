@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* engine/mesh/surface: surfaces from arrays, every refusal, the order of elements. */
 #include "tests/support/surface.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* A square of two triangles and a third on its right side:
  *     3 - 2
@@ -59,7 +63,6 @@ static size_t place_of(const fracas_surface *surface, int64_t given)
 
 static void test_assembled(void **state)
 {
-    (void)state;
     sample s;
     for (int order = 1; order <= 2; order++) {
         if (order == 1) make_sample(&s);
@@ -108,7 +111,6 @@ static void test_assembled(void **state)
 
 static void test_refused_elements(void **state)
 {
-    (void)state;
     sample s;
     make_sample(&s);
     s.element[7] = 5;
@@ -146,7 +148,6 @@ static void test_refused_elements(void **state)
 
 static void test_refused_neighbours(void **state)
 {
-    (void)state;
     sample s;
     make_sample(&s);
     memcpy(s.element, (uint32_t[]){0, 1, 2, 0, 2, 3, 1, 4, 2, 4, 2, 1}, 12 * sizeof *s.element);
@@ -192,7 +193,6 @@ static void test_refused_neighbours(void **state)
 
 static void test_refused_middles(void **state)
 {
-    (void)state;
     sample s;
     make_quadratic(&s);
     memcpy(s.node[12], s.node[6], sizeof s.node[12]); /* another node in the same place */
@@ -232,7 +232,6 @@ static void test_refused_middles(void **state)
  * least value is near zero. */
 static void test_jacobian(void **state)
 {
-    (void)state;
     enum { TRIES = 3000, GRID = 60 };
     uint64_t x = 5;
     int accepted = 0, refused = 0;
@@ -279,7 +278,6 @@ static void test_jacobian(void **state)
  * look well. */
 static void test_squared(void **state)
 {
-    (void)state;
     uint64_t x = 11;
     int accepted = 0, refused = 0, inside_only = 0;
     for (int t = 0; t < 20000; t++) {
@@ -322,7 +320,6 @@ static void test_squared(void **state)
 
 static void test_refused_tags(void **state)
 {
-    (void)state;
     sample s;
     make_sample(&s);
     s.tag[0].node[1] = 3;
@@ -343,7 +340,6 @@ static void test_refused_tags(void **state)
 
 static void test_names(void **state)
 {
-    (void)state;
     static const int64_t nodes[] = {100, 101, 102, 103, 104, 105}, elements[] = {40, 50, 60};
     sample s;
     make_sample(&s);
@@ -365,7 +361,6 @@ static void test_names(void **state)
  * strips at most and less near the corners. */
 static void test_locality(void **state)
 {
-    (void)state;
     const fracas_surface_fineness fineness = {.divisions = 60, .order = 1};
     const fracas_surface *plain, *surface;
     assert_int_equal(fracas_surface_rectangle(1.0, 1.0, &fineness, &plain), FRACAS_OK);
@@ -417,7 +412,6 @@ static void test_locality(void **state)
 /* Two squares that do not touch are one surface in two parts. */
 static void test_parts(void **state)
 {
-    (void)state;
     const double node[6][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {5, 0, 0}, {6, 0, 0}, {5, 1, 0}};
     const uint32_t element[6] = {0, 1, 2, 3, 4, 5};
     const fracas_surface_arrays arrays = {
@@ -431,13 +425,5 @@ static void test_parts(void **state)
     fracas_surface_destroy(NULL);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_assembled),          cmocka_unit_test(test_refused_elements),
-        cmocka_unit_test(test_refused_neighbours), cmocka_unit_test(test_refused_middles),
-        cmocka_unit_test(test_jacobian),           cmocka_unit_test(test_squared),
-        cmocka_unit_test(test_refused_tags),       cmocka_unit_test(test_names),
-        cmocka_unit_test(test_locality),           cmocka_unit_test(test_parts)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_assembled, test_refused_elements, test_refused_neighbours, test_refused_middles,
+      test_jacobian, test_squared, test_refused_tags, test_names, test_locality, test_parts)

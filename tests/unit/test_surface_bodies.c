@@ -2,6 +2,10 @@
 /* engine/mesh/surface: rectangles, annuli, spheres and octants: topology, areas, perturbation,
  * bits. */
 #include "tests/support/surface.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #define PI 3.14159265358979323846
 
@@ -158,7 +162,6 @@ static void check_body(const body *b, const fracas_surface *s)
 
 static void test_bodies(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < FRACAS_COUNT(bodies); i++)
         for (int order = 1; order <= 2; order++)
             for (size_t n = 1; n <= 16; n += n < 6 ? 1 : 5) {
@@ -176,7 +179,6 @@ static void test_bodies(void **state)
  * near. */
 static void test_planes(void **state)
 {
-    (void)state;
     const size_t n = 12;
     const fracas_surface *s = perturbed(&bodies[3], n, 2, 3, false);
     size_t on_plane = 0;
@@ -196,7 +198,6 @@ static void test_planes(void **state)
  * an annulus cut off pi h^2/6, the same outside and inside: h^4 is left. */
 static void test_areas(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < FRACAS_COUNT(bodies); i++)
         for (int order = 1; order <= 2; order++) {
             const body *b = &bodies[i];
@@ -229,7 +230,6 @@ static void test_areas(void **state)
  * between. */
 static void test_annulus_area(void **state)
 {
-    (void)state;
     const fracas_surface *plain = perturbed(&bodies[1], 5, 1, 9, false);
     fracas_surface_measures all;
     fracas_surface_measure(plain, &all);
@@ -243,7 +243,6 @@ static void test_annulus_area(void **state)
 
 static void test_uniformity(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < FRACAS_COUNT(bodies); i++) {
         const fracas_surface *s = made(&bodies[i], 16, 1);
         fracas_surface_measures all;
@@ -266,7 +265,6 @@ static void test_uniformity(void **state)
  * whose circles round too); the mean edge follows. */
 static void test_size(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < FRACAS_COUNT(bodies); i++) {
         const fracas_surface_fineness fineness = {.size = 0.1, .order = 1};
         const fracas_surface *s;
@@ -288,7 +286,6 @@ static void test_size(void **state)
  * cases positive, no numbers invert it. */
 static void test_never_inverts(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < FRACAS_COUNT(bodies); i++)
         for (size_t n = 1; n <= 9; n += 2) {
             const body *b = &bodies[i];
@@ -338,7 +335,6 @@ static void test_never_inverts(void **state)
 
 static void test_perturbed(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < FRACAS_COUNT(bodies); i++)
         for (int order = 1; order <= 2; order++)
             for (uint64_t seed = 1; seed <= 12; seed++) {
@@ -369,7 +365,6 @@ static void test_perturbed(void **state)
 /* Coarse, thick, thin: circles never cross, curved ones included. */
 static void test_annuli(void **state)
 {
-    (void)state;
     for (double inner = 0.01; inner < 0.995; inner += 0.0701)
         for (size_t divisions = 1; divisions <= 4; divisions++)
             for (int order = 1; order <= 2; order++) {
@@ -411,7 +406,6 @@ static void expect(fracas_err err, const char *message)
 
 static void test_refused(void **state)
 {
-    (void)state;
     const fracas_surface *s = NULL;
     const double shift[4][2] = {{0.0, 0.5}, {0.0, -1.5}, {0.0, 0.0}, {0.0, 0.0}};
     fracas_surface_fineness f = {.divisions = 1, .order = 1};
@@ -457,7 +451,6 @@ static void test_refused(void **state)
 /* The same bits from every compiler and on every CPU: a change of these is one of every mesh. */
 static void test_bits(void **state)
 {
-    (void)state;
     bool same = true;
     for (size_t i = 0; i < FRACAS_COUNT(bodies); i++)
         for (int order = 1; order <= 2; order++) {
@@ -472,14 +465,5 @@ static void test_bits(void **state)
     assert_true(same);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_bodies),        cmocka_unit_test(test_planes),
-        cmocka_unit_test(test_areas),         cmocka_unit_test(test_annulus_area),
-        cmocka_unit_test(test_uniformity),    cmocka_unit_test(test_size),
-        cmocka_unit_test(test_never_inverts), cmocka_unit_test(test_perturbed),
-        cmocka_unit_test(test_annuli),        cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_bits)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_bodies, test_planes, test_areas, test_annulus_area, test_uniformity, test_size,
+      test_never_inverts, test_perturbed, test_annuli, test_refused, test_bits)

@@ -2,6 +2,10 @@
 /* engine/mesh/surface/gmsh: files of our own writer and of Gmsh 4.8 itself, refusals, damaged
  * files. */
 #include "tests/support/gmsh.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <time.h>
 
@@ -38,7 +42,6 @@ static int32_t tag_of(const fracas_surface *s, size_t element, size_t edge)
 
 static void test_round_trip(void **state)
 {
-    (void)state;
     for (int which = 0; which < VARIANTS; which++)
         for (int order = 1; order <= 2; order++) {
             const fracas_surface *s = rectangle(3, order), *back = NULL;
@@ -86,7 +89,6 @@ static char *read_plate(size_t which, size_t *size)
 
 static void test_plates(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < FRACAS_COUNT(plates); i++) {
         size_t size;
         char *bytes = read_plate(i, &size);
@@ -123,7 +125,6 @@ static void test_plates(void **state)
 /* All eight variants are one mesh. */
 static void test_plates_agree(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < 8; i++) {
         size_t size;
         char *bytes = read_plate(i, &size);
@@ -226,7 +227,6 @@ static const struct {
 
 static void test_refused(void **state)
 {
-    (void)state;
     for (size_t i = 0; i < FRACAS_COUNT(refused); i++) {
         const fracas_surface *s = NULL;
         assert_int_equal(fracas_surface_read_gmsh(refused[i].text, strlen(refused[i].text), &s),
@@ -240,7 +240,6 @@ static void test_refused(void **state)
 /* Binary blocks that announce more than there is. */
 static void test_refused_binary(void **state)
 {
-    (void)state;
     const fracas_surface *s = rectangle(1, 1), *back = NULL;
     gmsh_file f = variant(s, 2);
     char *at = memmem(f.bytes, f.size, "$Elements\n", 10);
@@ -274,7 +273,6 @@ static bool survives(const char *bytes, size_t size)
 /* Cut short at every byte: refused until the last section is complete. */
 static void test_cut(void **state)
 {
-    (void)state;
     const fracas_surface *s = rectangle(1, 2);
     for (int which = 0; which < VARIANTS; which++) {
         gmsh_file f = variant(s, which);
@@ -334,7 +332,6 @@ static size_t mutate(char *bytes, size_t size, uint64_t *x)
 
 static void test_mutations(void **state)
 {
-    (void)state;
     const fracas_surface *s[2] = {rectangle(2, 1), rectangle(1, 2)};
     size_t tried = 0, accepted = 0;
     uint64_t x = 20261121;
@@ -356,12 +353,5 @@ static void test_mutations(void **state)
     fracas_surface_destroy(s[1]);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip),     cmocka_unit_test(test_plates),
-        cmocka_unit_test(test_plates_agree),   cmocka_unit_test(test_refused),
-        cmocka_unit_test(test_refused_binary), cmocka_unit_test(test_cut),
-        cmocka_unit_test(test_mutations)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_round_trip, test_plates, test_plates_agree, test_refused, test_refused_binary, test_cut,
+      test_mutations)

@@ -2,6 +2,10 @@
 /* The pictures of docs/theory/meshes.md are those of the meshes as they are now. To write them
  * anew: FRACAS_WRITE_MESHES=docs/theory build/werror/tests/test_unit_surface_pictures */
 #include "tests/support/surface.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 typedef fracas_err maker(const fracas_surface_fineness *fineness, const fracas_surface **surface);
 
@@ -118,7 +122,6 @@ static char *paint(size_t picture)
 
 static void test_pictures(void **state)
 {
-    (void)state;
     const char *folder = getenv("FRACAS_WRITE_MESHES");
     for (size_t i = 0; i < FRACAS_COUNT(pictures); i++) {
         char path[400];
@@ -138,8 +141,4 @@ static void test_pictures(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_pictures)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(test_pictures)

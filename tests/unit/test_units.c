@@ -1,19 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* base/units: strict numbers, units to SI, 15 digits. */
 #include "base/units.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <locale.h>
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #define COUNT(array) (sizeof(array) / sizeof *(array))
 
@@ -193,7 +186,6 @@ static void test_refused(void **state)
 
 static void test_numbers(void **state)
 {
-    (void)state;
     double value;
     assert_int_equal(fracas_number_read("-12.5e2", &value), FRACAS_OK);
     assert_true(value == -1250.0);
@@ -211,7 +203,6 @@ static void test_numbers(void **state)
  * linear congruence walks over mantissas and exponents. */
 static void test_round_trip(void **state)
 {
-    (void)state;
     uint64_t x = 20261121;
     for (int i = 0; i < 5000; i++) {
         x = x * 6364136223846793005u + 1442695040888963407u;
@@ -224,12 +215,4 @@ static void test_round_trip(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_values),     cmocka_unit_test(test_locale),
-        cmocka_unit_test(test_refused),    cmocka_unit_test(test_numbers),
-        cmocka_unit_test(test_round_trip),
-    };
-    return cmocka_run_group_tests(tests, load, unload);
-}
+TESTS_ALL(load, unload, test_values, test_locale, test_refused, test_numbers, test_round_trip)

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bar against closed forms: onset, isolated crack, waves, critical step. */
 #include "tests/support/bar.h"
-
-#include <math.h>
-#include <stdlib.h>
+#include "tests/support/test.h"
 
 enum {
     W_LEFT,
@@ -41,7 +39,6 @@ static fracas_record run_alone(fracas_batch *batch)
  * onset, so that the interpolated time is exact up to round-off; 1e-6 is the figure promised. */
 static void onset_time_is_strength_over_stress_rate(void **unused)
 {
-    (void)unused;
     const fracas_kind *laws[] = {&fracas_law_nitsche.kind, &fracas_law_rigid_link.kind};
     const double rates[] = {1e3, 1e4, 1e5, 1e6};
     for (int law = 0; law < 2; law++)
@@ -117,7 +114,6 @@ static crack_errors isolated_crack(double rate, double x_b, int elements_per_s0)
 
 static void isolated_crack_opens_as_the_closed_form(void **unused)
 {
-    (void)unused;
     /* x_b of theory: roots of e^x - 1 - x = rate0/rate for rate0 = 35 702.5 /s */
     static const struct {
         double rate, x_b, break_bound, opening_bound;
@@ -187,7 +183,6 @@ static double wave_error(const fracas_kind *ends, double beta, int64_t elements)
 
 static void waves_converge_with_order_two(void **unused)
 {
-    (void)unused;
     const fracas_kind *ends[] = {&fracas_ends_periodic, &fracas_ends_held};
     const double betas[] = {2, 4, 30};
     for (int i = 0; i < 2; i++)
@@ -258,7 +253,6 @@ static critical_steps critical(const fracas_kind *law, double beta)
 
 static void critical_step_is_that_of_the_spectrum(void **unused)
 {
-    (void)unused;
     /* theory: 0.500 h/c closed, 0.447 cracked, at beta 4. Cracked and in contact every wave number
      * has omega^2 <= (c/h)^2 4 (1 + beta): the two springs of a node both stretch.  */
     assert_true(fabs(2 / bloch_top(4) - 0.5) < 1e-6);
@@ -282,7 +276,6 @@ static void critical_step_is_that_of_the_spectrum(void **unused)
  * bound. */
 static void steps_blow_up_above_the_critical_one_only(void **unused)
 {
-    (void)unused;
     for (int above = 0; above < 2; above++) {
         fracas_spec spec = bar_reference(64, 1e-9, 1);
         fracas_model *model;
@@ -310,14 +303,6 @@ static void steps_blow_up_above_the_critical_one_only(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(onset_time_is_strength_over_stress_rate),
-        cmocka_unit_test(isolated_crack_opens_as_the_closed_form),
-        cmocka_unit_test(waves_converge_with_order_two),
-        cmocka_unit_test(critical_step_is_that_of_the_spectrum),
-        cmocka_unit_test(steps_blow_up_above_the_critical_one_only),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(onset_time_is_strength_over_stress_rate, isolated_crack_opens_as_the_closed_form,
+      waves_converge_with_order_two, critical_step_is_that_of_the_spectrum,
+      steps_blow_up_above_the_critical_one_only)

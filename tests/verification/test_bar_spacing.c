@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bar on elements of different lengths: lengths, waves, events, fragments. */
 #include "tests/support/bar_spacing.h"
-
-#include <math.h>
-#include <stdlib.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* ---- lengths ---- */
 
@@ -11,7 +12,6 @@
  * ratio/(n-1), 7 at most) and of exp, and one of each addition: (16 + n) 2^-53. */
 static void lengths_of_a_graded_mesh_are_a_progression(void **unused)
 {
-    (void)unused;
     const double ratios[] = {1e-3, 0.5, 1, 100, 1e3};
     const size_t counts[] = {2, 17, MOST};
     for (int r = 0; r < 5; r++)
@@ -41,7 +41,6 @@ static void lengths_of_a_graded_mesh_are_a_progression(void **unused)
  * three numbers of the size of L/n, 4 roundings each. Without numbers there is no mesh. */
 static void nodes_of_a_perturbed_mesh_are_moved_by_their_numbers(void **unused)
 {
-    (void)unused;
     enum { N = 500 };
     const double h = 0.05 / N, amplitudes[] = {1e-3, 0.2, 0.45};
     for (int a = 0; a < 3; a++) {
@@ -74,7 +73,6 @@ static void nodes_of_a_perturbed_mesh_are_moved_by_their_numbers(void **unused)
  * formulas are exact to 1e-12. */
 static void the_longest_element_bounds_the_strength(void **unused)
 {
-    (void)unused;
     for (int i = 0; i < 2 * MESHES; i++) {
         fracas_spec spec = bar_reference(200, 1e4, 1);
         spec.geometry.length = 0.01;
@@ -119,7 +117,6 @@ static fracas_record run_to_fragments(fracas_spec *spec, double time_step)
  * to 1e-10 as well. */
 static void nearly_equal_lengths_give_the_uniform_run(void **unused)
 {
-    (void)unused;
     double noise[501];
     for (int i = 0; i < 4; i++) {
         fracas_spec spec = bar_reference(500, 1e5, 2e-7);
@@ -159,7 +156,6 @@ static void nearly_equal_lengths_give_the_uniform_run(void **unused)
  * nothing moves before onset, and the first onset is when the background reaches the strength. */
 static void a_uniform_stretch_moves_nothing(void **unused)
 {
-    (void)unused;
     const double onset = 300e6 / (275e9 * 1e4);
     for (int i = 0; i < 4 * MESHES; i++) {
         fracas_spec spec = bar_reference(400, 1e4, 2 * onset);
@@ -190,7 +186,6 @@ static void a_uniform_stretch_moves_nothing(void **unused)
  */
 static void a_stretch_of_the_nodes_moves_no_inner_node(void **unused)
 {
-    (void)unused;
     const double strain = 5e-4, stress = 275e9 * strain;
     for (int i = 0; i < 2 * MESHES; i++) {
         fracas_spec spec = bar_reference(400, 1e4, 1);
@@ -268,7 +263,6 @@ static double wave_error(int law, int mesh, int64_t elements)
  * on each, and move its error by some 10 %: 0.3. */
 static void waves_converge_with_order_two(void **unused)
 {
-    (void)unused;
     static const double bound[MESHES] = {0.1, 0.1, 0.3};
     for (int i = 0; i < 2 * MESHES; i++) {
         double coarse = wave_error(i % 2, i / 2, 64), middle = wave_error(i % 2, i / 2, 128),
@@ -287,7 +281,6 @@ static void waves_converge_with_order_two(void **unused)
  * it cracks. */
 static void tied_nodes_stay_together(void **unused)
 {
-    (void)unused;
     for (int i = 0; i < 2 * MESHES; i++) {
         fracas_spec spec = bar_reference(300, 1e5, 1);
         spec.geometry.length = 6e-3;
@@ -352,7 +345,6 @@ static double crossing_of(fracas_batch *batch, size_t e, bool onset)
  * 1e5 Pa and more. */
 static void events_are_timed_inside_their_steps(void **unused)
 {
-    (void)unused;
     enum { N = 300 };
     for (int i = 0; i < 2 * MESHES; i++) {
         fracas_spec spec = bar_reference(N, 1e5, 1);
@@ -443,7 +435,6 @@ static size_t walk(fracas_batch *batch, piece *pieces)
  * and fastest end. */
 static void fragments_are_sums_over_their_elements(void **unused)
 {
-    (void)unused;
     for (int i = 0; i < 4 * MESHES; i++) {
         fracas_spec spec = bar_reference(400, 1e5, 2e-7);
         spec.geometry.length = 8e-3;
@@ -486,19 +477,9 @@ static void fragments_are_sums_over_their_elements(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(lengths_of_a_graded_mesh_are_a_progression),
-        cmocka_unit_test(nodes_of_a_perturbed_mesh_are_moved_by_their_numbers),
-        cmocka_unit_test(the_longest_element_bounds_the_strength),
-        cmocka_unit_test(nearly_equal_lengths_give_the_uniform_run),
-        cmocka_unit_test(a_uniform_stretch_moves_nothing),
-        cmocka_unit_test(a_stretch_of_the_nodes_moves_no_inner_node),
-        cmocka_unit_test(waves_converge_with_order_two),
-        cmocka_unit_test(tied_nodes_stay_together),
-        cmocka_unit_test(events_are_timed_inside_their_steps),
-        cmocka_unit_test(fragments_are_sums_over_their_elements),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(lengths_of_a_graded_mesh_are_a_progression,
+      nodes_of_a_perturbed_mesh_are_moved_by_their_numbers, the_longest_element_bounds_the_strength,
+      nearly_equal_lengths_give_the_uniform_run, a_uniform_stretch_moves_nothing,
+      a_stretch_of_the_nodes_moves_no_inner_node, waves_converge_with_order_two,
+      tied_nodes_stay_together, events_are_timed_inside_their_steps,
+      fragments_are_sums_over_their_elements)

@@ -2,9 +2,12 @@
 /* The critical time step of bars on elements of different lengths, against a dense eigenvalue
  * solver and by running. */
 #include "tests/support/bar_spacing.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_eigen.h>
-#include <math.h>
 
 static double random_number(uint64_t *state) /* in [-1/2, 1/2) */
 {
@@ -112,7 +115,6 @@ static double dense_step(const fracas_model *model, bool broken)
  * (the last meshes). */
 static void critical_step_is_that_of_the_dense_operator(void **unused)
 {
-    (void)unused;
     static const double ratios[] = {1.001, 3, 100, 1e3, 1e-3},
                         amplitudes[] = {0.45, 0.3, 0.1, 0.01, 0.001};
     static const double betas[] = {1.05, 4, 30};
@@ -202,7 +204,6 @@ static double march(const fracas_model *model, bool broken, double factor)
  * it, omega dt = 2.02, by e^(2 arcosh 1.01) = 1.33 a step, until interfaces open. */
 static void steps_blow_up_above_the_critical_one_only(void **unused)
 {
-    (void)unused;
     for (int i = 0; i < 8 * MESHES; i++) {
         fracas_spec spec = bar_reference(60, 1e4, 1);
         spec.geometry.length = 60 * 2e-5;
@@ -218,11 +219,4 @@ static void steps_blow_up_above_the_critical_one_only(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(critical_step_is_that_of_the_dense_operator),
-        cmocka_unit_test(steps_blow_up_above_the_critical_one_only),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(critical_step_is_that_of_the_dense_operator, steps_blow_up_above_the_critical_one_only)

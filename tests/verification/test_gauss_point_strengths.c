@@ -6,10 +6,10 @@
 #include "tests/support/same_record.h"
 
 #include "engine/integrator/integrator.h"
-
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* A body that breaks: E 320 GPa, nu 0.3, rho 3300, G_c 200 J/m2; a plate of 6 mm x 5 mm, an annulus
  * of 2 to 4 mm, a sphere of 1.5 mm. */
@@ -68,7 +68,6 @@ static void run(const fracas_model *model, int width, fracas_isa isa, fracas_rec
 
 static void equal_strengths_are_as_one(void **unused)
 {
-    (void)unused;
     const fracas_spec body[] = {body_of(&fracas_formulation_membrane, &fracas_shape_plate, 1, 6),
                                 body_of(&fracas_formulation_membrane, &fracas_shape_annulus, 2, 4),
                                 body_of(&fracas_formulation_shell, &fracas_shape_sphere, 2, 1)};
@@ -95,7 +94,6 @@ static void equal_strengths_are_as_one(void **unused)
 
 static void every_one_is_checked(void **unused)
 {
-    (void)unused;
     fracas_spec spec = body_of(&fracas_formulation_membrane, &fracas_shape_plate, 1, 2);
     spec.strength_per_point = true;
     fracas_model *model = distorted_model(spec, 0, 0);
@@ -115,7 +113,6 @@ static void every_one_is_checked(void **unused)
 
 static void chains_have_one(void **unused)
 {
-    (void)unused;
     fracas_spec spec = bar_reference(10, 1e4, 1e-6);
     fracas_model *model;
     spec.strength_per_point = true;
@@ -142,7 +139,6 @@ static void on_edge(const fracas_surface *surface, const fracas_surface_interfac
  * 1e-17 m is ten times their rounding. */
 static void positions_are_those_of_gauss(void **unused)
 {
-    (void)unused;
     const fracas_spec body[] = {body_of(&fracas_formulation_membrane, &fracas_shape_plate, 1, 4),
                                 body_of(&fracas_formulation_membrane, &fracas_shape_annulus, 2, 4),
                                 body_of(&fracas_formulation_shell, &fracas_shape_sphere, 2, 1)};
@@ -169,10 +165,5 @@ static void positions_are_those_of_gauss(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(equal_strengths_are_as_one), cmocka_unit_test(every_one_is_checked),
-        cmocka_unit_test(chains_have_one), cmocka_unit_test(positions_are_those_of_gauss)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(equal_strengths_are_as_one, every_one_is_checked, chains_have_one,
+      positions_are_those_of_gauss)

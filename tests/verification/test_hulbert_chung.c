@@ -5,14 +5,14 @@
 #include "tests/support/membrane.h"
 
 #include "engine/integrator/hulbert_chung.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_matrix.h>
 #include <gsl/gsl_vector.h>
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* u, v dt, a dt^2 of u'' = -omega^2 u; `square` = (omega dt)^2. */
 typedef struct {
@@ -71,7 +71,6 @@ static double spectral_radius(const fracas_hulbert_chung *h, double square)
 /* The numbers of the theory page to the digits given there. */
 static void parameters_are_those_of_the_table(void **unused)
 {
-    (void)unused;
     static const double table[][6] = {/* r, am, b, g, Omega_b, Omega_c */
                                       {1.00, 0.500000, 0.500000, 1.000000, 2.000000, 2.00000},
                                       {0.95, 0.461538, 0.538493, 1.038462, 1.998155, 1.99837},
@@ -91,7 +90,6 @@ static void parameters_are_those_of_the_table(void **unused)
  * below, one is above: P(-1) changes its sign there. */
 static void roots_are_those_of_the_scheme(void **unused)
 {
-    (void)unused;
     for (int i = 0; i <= 100; i++) {
         const double r = i / 100.0, bifurcation = (1 + r) * sqrt(2 - r);
         const fracas_hulbert_chung h = fracas_hulbert_chung_of(r);
@@ -116,7 +114,6 @@ static void roots_are_those_of_the_scheme(void **unused)
  * next order leaves, which is of the step itself: 2 dt omega = 2 % here. */
 static void second_order(void **unused)
 {
-    (void)unused;
     const double radii[] = {1, 0.9, 0.5, 0.2};
     for (size_t i = 0; i < 4; i++) {
         const fracas_hulbert_chung h = fracas_hulbert_chung_of(radii[i]);
@@ -277,7 +274,6 @@ static void follow(body *b, size_t which, double omega_dt)
 
 static void the_sweep_is_the_scheme(void **unused)
 {
-    (void)unused;
     const double radii[] = {1, 0.95, 0.5, 0.1};
     for (int i = 0; i < 2 * 2 * 5; i++) {
         fracas_spec spec = membrane_reference(1, 1 + i % 2, 1e-3);
@@ -308,7 +304,6 @@ static void the_sweep_is_the_scheme(void **unused)
  * Growth by 1e4 or by a few times: above it the root is -(1 + some 1e-3), 20000 steps. */
 static void the_batch_blows_up_above_the_limit_only(void **unused)
 {
-    (void)unused;
     const double radii[] = {0.9, 0.5};
     for (int i = 0; i < 4; i++) {
         fracas_spec spec = membrane_reference(1, 1, 1);
@@ -334,14 +329,5 @@ static void the_batch_blows_up_above_the_limit_only(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parameters_are_those_of_the_table),
-        cmocka_unit_test(roots_are_those_of_the_scheme),
-        cmocka_unit_test(second_order),
-        cmocka_unit_test(the_sweep_is_the_scheme),
-        cmocka_unit_test(the_batch_blows_up_above_the_limit_only),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(parameters_are_those_of_the_table, roots_are_those_of_the_scheme, second_order,
+      the_sweep_is_the_scheme, the_batch_blows_up_above_the_limit_only)

@@ -5,6 +5,10 @@
 #include "tests/support/membrane_elastic.h"
 
 #include "engine/element/triangle.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_fit.h>
 
@@ -154,7 +158,6 @@ static double slope_of(const double *size, const double *error, size_t count)
 /* The theory's k + 1, less a tenth for meshes that are no multiples of each other. */
 static void static_displacements_converge(void **unused)
 {
-    (void)unused;
     const struct {
         const fracas_kind *shape;
         int order;
@@ -234,7 +237,6 @@ static double frequency_error(int64_t order, int64_t divisions, const fracas_kin
  * term but for the next one. */
 static void frequencies_converge(void **unused)
 {
-    (void)unused;
     const struct {
         int order;
         const fracas_kind *mass;
@@ -258,11 +260,4 @@ static void frequencies_converge(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(static_displacements_converge),
-        cmocka_unit_test(frequencies_converge),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(static_displacements_converge, frequencies_converge)

@@ -2,6 +2,10 @@
 /* Cracks of a membrane through the batch: when interfaces crack and break, what that dissipates,
  * and what is said of fragments. */
 #include "tests/support/membrane_cracks.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 enum { MOST = 8 };
 static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
@@ -106,7 +110,6 @@ static void check_onsets(const fracas_spec *spec)
 
 static void onsets_under_uniform_stress(void **unused)
 {
-    (void)unused;
     static const struct {
         double ratio, coupling, friction;
     } cases[] = {{1, 1, 0}, {0.4, 1, 0}, {0.4, 2, 0}, {-0.6, 0.6, 0.3}, {-1.5, 1, 0.2}};
@@ -273,7 +276,6 @@ static void check_fate(fracas_model *model, double velocity[2][6], const double 
 
 static void two_triangles_crack_and_break_in_time(void **unused)
 {
-    (void)unused;
     for (int which = 0; which < 48; which++) { /* the second half with a strength for each Gauss
                                                   point, the weaker first or last */
         fracas_spec spec = brittle_plate(1, 1, 0, 1);
@@ -438,7 +440,6 @@ static void check_row(const fracas_model *model, int mode, int64_t in_the_row)
 
 static void a_row_of_weak_interfaces(void **unused)
 {
-    (void)unused;
     for (int which = 0; which < 16; which++) {
         fracas_spec spec = brittle_plate(which % 2 + 1, which % 2 ? 2 : 4, 0, 2e-6);
         spec.geometry.height = 1.5e-3; /* flat: the halves of a higher one roll on each other */
@@ -531,7 +532,6 @@ static void check_history(const fracas_model *model, const fracas_record *record
 
 static void fragments_and_histories_of_a_plate(void **unused)
 {
-    (void)unused;
     for (int which = 0; which < 8; which++) {
         fracas_spec spec = brittle_plate(which % 2 + 1, which % 2 ? 5 : 8, 2e4, 6e-7);
         if (which / 2 % 2) spec.time.mass = &fracas_mass_consistent;
@@ -563,7 +563,6 @@ static void fragments_and_histories_of_a_plate(void **unused)
  * holds. At rest nothing changes. */
 static void an_interface_holds_by_its_last_point(void **unused)
 {
-    (void)unused;
     fracas_spec spec = brittle_plate(2, 1, 0, 1e-7);
     fracas_model *model = distorted_model(spec, 0, 0);
     fracas_batch *batch = lane_of(model, 0, 0, 0);
@@ -614,7 +613,6 @@ static void check_stop(const fracas_model *model, uint64_t replica)
 
 static void it_stops_at_the_multiple_of_the_peak(void **unused)
 {
-    (void)unused;
     for (int which = 0; which < 2; which++) {
         fracas_spec spec = brittle_plate(1, 8, 2e4, 2e-6);
         spec.time.safety = 0.1;
@@ -627,13 +625,6 @@ static void it_stops_at_the_multiple_of_the_peak(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(onsets_under_uniform_stress),
-                                       cmocka_unit_test(two_triangles_crack_and_break_in_time),
-                                       cmocka_unit_test(a_row_of_weak_interfaces),
-                                       cmocka_unit_test(fragments_and_histories_of_a_plate),
-                                       cmocka_unit_test(an_interface_holds_by_its_last_point),
-                                       cmocka_unit_test(it_stops_at_the_multiple_of_the_peak)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(onsets_under_uniform_stress, two_triangles_crack_and_break_in_time, a_row_of_weak_interfaces,
+      fragments_and_histories_of_a_plate, an_interface_holds_by_its_last_point,
+      it_stops_at_the_multiple_of_the_peak)

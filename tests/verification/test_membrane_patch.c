@@ -3,6 +3,10 @@
  * the bilinear form written down anew, its eigenvalues, masses and critical step. */
 #include "tests/support/gmsh.h"
 #include "tests/support/membrane_elastic.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_integration.h>
 
@@ -86,7 +90,6 @@ static void tractions(const fracas_model *model, const double stress[3], double 
  * the bulk's rule integrates, and edges' integrands are of degree 3. */
 static void uniform_strain_is_exact(void **unused)
 {
-    (void)unused;
     const linear_field fields[] = {{{{1e-3, 0}, {0, 0}}, {0}},
                                    {{{0, 0}, {0, 1e-3}}, {0}},
                                    {{{0, 1e-3}, {1e-3, 0}}, {0}},
@@ -119,7 +122,6 @@ static void uniform_strain_is_exact(void **unused)
  * exceeds max|K| max|u|: 4e-15 of that. */
 static void rigid_motions_give_no_force(void **unused)
 {
-    (void)unused;
     const linear_field fields[] = {{{{0, 0}, {0, 0}}, {1e-3, 0}},
                                    {{{0, 0}, {0, 0}}, {0, 1e-3}},
                                    {{{0, -1e-2}, {1e-2, 0}}, {0}}};
@@ -283,7 +285,6 @@ static void add_interfaces(const fracas_model *model, size_t n, double *matrix)
 /* Entries sum some 20 terms as large as the largest: 1e-14 of that, 1e-12 as the theory asks. */
 static void the_matrix_is_the_bilinear_form(void **unused)
 {
-    (void)unused;
     for (int which = 0; which < ALL_BODIES; which++) {
         fracas_model *model = distorted(which, which < 2 || which == BENT ? 3 : 1, 3);
         const size_t n = unknowns_of(model);
@@ -311,7 +312,6 @@ static void the_matrix_is_the_bilinear_form(void **unused)
  * 1e-13; the first elastic one is far above. */
 static void only_rigid_motions_cost_no_energy(void **unused)
 {
-    (void)unused;
     for (int which = 0; which < BODIES; which++) {
         fracas_model *model = distorted_model(body_of(which, which < 2 ? 2 : 1), DISTORTION, 7);
         const size_t n = unknowns_of(model);
@@ -334,7 +334,6 @@ static void only_rigid_motions_cost_no_energy(void **unused)
  * M, is 1: its condition is below 100. */
 static void masses_are_those_of_the_textbook(void **unused)
 {
-    (void)unused;
     static const double linear[3][3] = {{2, 1, 1}, {1, 2, 1}, {1, 1, 2}};
     static const double quadratic[6][6] = {{6, -1, -1, 0, -4, 0},  {-1, 6, -1, 0, 0, -4},
                                            {-1, -1, 6, -4, 0, 0},  {0, 0, -4, 32, 16, 16},
@@ -372,7 +371,6 @@ static void masses_are_those_of_the_textbook(void **unused)
  * large: 1e-3 of the step, and round-off. */
 static void the_critical_step_is_that_of_the_matrix(void **unused)
 {
-    (void)unused;
     for (int which = 0; which < ALL_BODIES; which++) {
         fracas_model *model = distorted(which, which < 2 || which == BENT ? 2 : 1, 3);
         const fracas_surface_tables *t = tables_of(model);
@@ -481,7 +479,6 @@ static gmsh_file equilateral(size_t n, int order)
  * Poisson's ratios. The mean of both elements does for distorted ones too. */
 static void beta_has_room(void **unused)
 {
-    (void)unused;
     const double poisson[] = {0, 0.22, 0.3, 0.45};
     for (int order = 1; order <= 2; order++) {
         gmsh_file file = equilateral(4, order);
@@ -508,16 +505,6 @@ static void beta_has_room(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(uniform_strain_is_exact),
-        cmocka_unit_test(rigid_motions_give_no_force),
-        cmocka_unit_test(the_matrix_is_the_bilinear_form),
-        cmocka_unit_test(only_rigid_motions_cost_no_energy),
-        cmocka_unit_test(masses_are_those_of_the_textbook),
-        cmocka_unit_test(the_critical_step_is_that_of_the_matrix),
-        cmocka_unit_test(beta_has_room),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(uniform_strain_is_exact, rigid_motions_give_no_force, the_matrix_is_the_bilinear_form,
+      only_rigid_motions_cost_no_energy, masses_are_those_of_the_textbook,
+      the_critical_step_is_that_of_the_matrix, beta_has_room)

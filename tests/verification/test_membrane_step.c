@@ -3,6 +3,7 @@
  * hold. */
 #include "tests/support/membrane_elastic.h"
 #include "tests/support/surface.h"
+#include "tests/support/test.h"
 
 typedef struct {
     fracas_model *model;
@@ -89,7 +90,6 @@ static void check_first_step(fracas_spec spec, int width)
 
 static void a_step_is_the_operator(void **unused)
 {
-    (void)unused;
     const fracas_kind *const laws[] = {&fracas_law_nitsche.kind,
                                        &fracas_law_camacho_ortiz_standard.kind,
                                        &fracas_law_camacho_ortiz.kind};
@@ -181,7 +181,6 @@ static void check_edges_hold(int64_t order, bool consistent, bool rest)
 
 static void edges_hold_what_they_should(void **unused)
 {
-    (void)unused;
     for (int order = 1; order <= 2; order++)
         for (int which = 0; which < 4; which++) check_edges_hold(order, which % 2, which / 2);
 }
@@ -191,7 +190,6 @@ static void edges_hold_what_they_should(void **unused)
  */
 static void held_edges_change_nothing_else(void **unused)
 {
-    (void)unused;
     for (int order = 1; order <= 2; order++)
         for (int consistent = 0; consistent < 2; consistent++) {
             const fracas_spec spec = held_plate(order, consistent, false);
@@ -226,7 +224,6 @@ static void held_edges_change_nothing_else(void **unused)
 /* Only straight edges along an axis can slide. */
 static void a_circle_does_not_slide(void **unused)
 {
-    (void)unused;
     fracas_spec spec = membrane_spec(&fracas_shape_annulus, 1, 1);
     fracas_model *model;
     spec.geometry.edge[2] = &fracas_edge_sliding;
@@ -234,13 +231,5 @@ static void a_circle_does_not_slide(void **unused)
     assert_non_null(strstr(fracas_message(), "slides"));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_step_is_the_operator),
-        cmocka_unit_test(edges_hold_what_they_should),
-        cmocka_unit_test(held_edges_change_nothing_else),
-        cmocka_unit_test(a_circle_does_not_slide),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_step_is_the_operator, edges_hold_what_they_should, held_edges_change_nothing_else,
+      a_circle_does_not_slide)

@@ -3,9 +3,7 @@
  * the ledger of energies on any path, traction against separation, onset, contact, friction,
  * cycles, extremes, lanes. Theory: docs/theory/cohesive.md. */
 #include "tests/support/plane.h"
-
-#include <stdio.h>
-#include <stdlib.h>
+#include "tests/support/test.h"
 
 static const double PI = 3.14159265358979323846;
 static const double MICRON = 1e-6; /* delta_c of plane_kind at its strength */
@@ -116,7 +114,6 @@ static void pressed_and_sheared(plane_walk *w, double angle)
  * (1.5: barely above the least; the cut of the peak acts), friction, both onsets. */
 static void the_ledger_closes_on_every_path(void **unused)
 {
-    (void)unused;
     path *const paths[] = {straight, straight_with_mean, open_then_slide,    slide_then_open,
                            spiral,   with_unloading,     pressed_and_sheared};
     const double couplings[] = {0.5, 1, 2}, ratios[] = {1.5, 4, 25}, frictions[] = {0, 0.3, 1.2};
@@ -146,7 +143,6 @@ static void the_ledger_closes_on_every_path(void **unused)
 /* The same where delta_c is given: G_c is then that of the peak, p delta_c/2. */
 static void the_ledger_closes_with_a_critical_opening(void **unused)
 {
-    (void)unused;
     path *const paths[] = {straight, straight_with_mean, with_unloading, pressed_and_sheared};
     for (int i = 0; i < 3 * 2 * 2 * 2 * 4; i++) {
         plane_case kind = plane_kind((plane_test_law)(i % 3), 0.8, i / 3 % 2 ? 1 : 8,
@@ -169,7 +165,6 @@ static void the_ledger_closes_with_a_critical_opening(void **unused)
  * paper's: G_c (c^3 + s^3) of the angle. */
 static void a_full_break_takes_the_fracture_energy(void **unused)
 {
-    (void)unused;
     path *const paths[] = {straight, open_then_slide, slide_then_open};
     const double couplings[] = {0.5, 1, 2}, ratios[] = {4, 25};
     for (int i = 0; i < 3 * 3 * 2 * 3 * 9; i++) {
@@ -200,7 +195,6 @@ static void a_full_break_takes_the_fracture_energy(void **unused)
  * ratio of openings of 1e-3 delta_c at least. */
 static void traction_follows_separation(void **unused)
 {
-    (void)unused;
     uint64_t seed = 7;
     int loading = 0, unloading = 0;
     for (int i = 0; i < 3000; i++) {
@@ -260,7 +254,6 @@ static void traction_follows_separation(void **unused)
  * back and at the break, |dT| <= |dT'|: m = 0, so that a break leaves nothing behind. */
 static void traction_is_continuous(void **unused)
 {
-    (void)unused;
     uint64_t seed = 11;
     long onsets = 0, breaks = 0;
     for (int i = 0; i < 400; i++) {
@@ -295,7 +288,6 @@ static void traction_is_continuous(void **unused)
  * |dT| <= (k + softening) |dq|. */
 static void extrinsic_onset_is_continuous(void **unused)
 {
-    (void)unused;
     uint64_t seed = 13;
     for (int i = 0; i < 3000; i++) {
         const plane_case kind = plane_kind(i % 2 ? PLANE_STANDARD : PLANE_PAPER,
@@ -337,7 +329,6 @@ static void extrinsic_onset_is_continuous(void **unused)
  * or of the mean. `nitsche` softens at once by what the flux is above its peak. */
 static void onset_is_at_the_strength(void **unused)
 {
-    (void)unused;
     uint64_t seed = 17;
     for (int i = 0; i < 20000; i++) {
         const plane_case kind = plane_kind((plane_test_law)(i % 3), 0.3 + 3 * next_random(&seed),
@@ -398,7 +389,6 @@ static void onset_is_at_the_strength(void **unused)
  * Booking nothing as created, the ledger closes. */
 static void steps_do_not_decide_the_peak(void **unused)
 {
-    (void)unused;
     uint64_t seed = 37;
     int opened = 0;
     for (int i = 0; i < 400; i++) {
@@ -429,7 +419,6 @@ static void steps_do_not_decide_the_peak(void **unused)
  * Exact, but for the rounding of m + k q. */
 static void pressed_faces_stick_at_the_onset(void **unused)
 {
-    (void)unused;
     for (int i = 0; i < 20; i++) {
         const plane_case kind = plane_kind(PLANE_NITSCHE, 1, 10, 1.2, 1);
         const double m_n = 1.5 * kind.sigma_c, t_n = -5 * kind.sigma_c,
@@ -448,7 +437,6 @@ static void pressed_faces_stick_at_the_onset(void **unused)
  * (q_t - slip), then slides. */
 static void broken_faces_touch_and_rub(void **unused)
 {
-    (void)unused;
     for (int i = 0; i < 3 * 2; i++) {
         const double mu = i / 3 ? 0.4 : 0;
         const plane_case kind = plane_kind((plane_test_law)(i % 3), 0.8, 10, mu, 0);
@@ -484,7 +472,6 @@ static void broken_faces_touch_and_rub(void **unused)
  * that step on, though until then the mean pressed it too. */
 static void friction_obeys_the_pressure_at_the_break(void **unused)
 {
-    (void)unused;
     uint64_t seed = 19;
     int breaks = 0;
     for (int i = 0; i < 300; i++) {
@@ -517,7 +504,6 @@ static void friction_obeys_the_pressure_at_the_break(void **unused)
  * nothing. */
 static void no_cycle_gains_energy(void **unused)
 {
-    (void)unused;
     uint64_t seed = 23;
     long gains = 0, breaks = 0;
     for (int i = 0; i < 10000; i++) {
@@ -559,7 +545,6 @@ static void no_cycle_gains_energy(void **unused)
  * ledger would lack up to (S' - p)^2/(2 k). */
 static void cut_peaks_are_booked(void **unused)
 {
-    (void)unused;
     uint64_t seed = 29;
     long cut = 0;
     for (int i = 0; i < 2000; i++) {
@@ -587,7 +572,6 @@ static void cut_peaks_are_booked(void **unused)
 /* Nothing, next to nothing and far too much: everything finite, D in [0, 1]. */
 static void extremes_stay_finite(void **unused)
 {
-    (void)unused;
     const double strengths[] = {1e-6, 1, 1e8, 1e15, 1e30},
                  values[] = {0, -0.0, 1e-30, -1e-30, 1, -1, 1e4, -1e4};
     for (int i = 0; i < 3 * 5 * 2 * 2 * 3; i++) {
@@ -627,7 +611,6 @@ static void call_eight(fracas_isa isa, int lanes, const plane_case *const *kind,
 /* Bit for bit, each lane of a strength, a path and a state of its own. */
 static void lanes_do_what_one_does(void **unused)
 {
-    (void)unused;
     uint64_t seed = 31;
     long cracked = 0, broken = 0;
     for (int i = 0; i < 3 * 2 * 2 * 20; i++) {
@@ -668,24 +651,9 @@ static void lanes_do_what_one_does(void **unused)
     assert_true(cracked > 1000 && broken > 200);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_ledger_closes_on_every_path),
-        cmocka_unit_test(the_ledger_closes_with_a_critical_opening),
-        cmocka_unit_test(a_full_break_takes_the_fracture_energy),
-        cmocka_unit_test(traction_follows_separation),
-        cmocka_unit_test(traction_is_continuous),
-        cmocka_unit_test(extrinsic_onset_is_continuous),
-        cmocka_unit_test(onset_is_at_the_strength),
-        cmocka_unit_test(steps_do_not_decide_the_peak),
-        cmocka_unit_test(pressed_faces_stick_at_the_onset),
-        cmocka_unit_test(broken_faces_touch_and_rub),
-        cmocka_unit_test(friction_obeys_the_pressure_at_the_break),
-        cmocka_unit_test(no_cycle_gains_energy),
-        cmocka_unit_test(cut_peaks_are_booked),
-        cmocka_unit_test(extremes_stay_finite),
-        cmocka_unit_test(lanes_do_what_one_does),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(the_ledger_closes_on_every_path, the_ledger_closes_with_a_critical_opening,
+      a_full_break_takes_the_fracture_energy, traction_follows_separation, traction_is_continuous,
+      extrinsic_onset_is_continuous, onset_is_at_the_strength, steps_do_not_decide_the_peak,
+      pressed_faces_stick_at_the_onset, broken_faces_touch_and_rub,
+      friction_obeys_the_pressure_at_the_break, no_cycle_gains_energy, cut_peaks_are_booked,
+      extremes_stay_finite, lanes_do_what_one_does)

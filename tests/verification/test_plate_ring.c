@@ -5,6 +5,10 @@
  */
 #include "tests/support/axisymmetric.h"
 #include "tests/support/membrane_elastic.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 static const disk plate_ring = {.young = 320e9,
                                 .poisson = 0.3,
@@ -37,7 +41,6 @@ static double hole_at(const disk *body, size_t n, double time)
  * of 1. */
 static void the_radius_alone_has_converged(void **unused)
 {
-    (void)unused;
     for (int i = 0; i < TIMES; i++) {
         const double coarse = hole_at(&plate_ring, 400, times[i]),
                      fine = hole_at(&plate_ring, 800, times[i]);
@@ -50,7 +53,6 @@ static void the_radius_alone_has_converged(void **unused)
 /* 30 modes: what the series leaves out falls with c_n/w_n^2, faster than n^-4: 1e-6. */
 static void its_motion_is_the_series_of_vibrations(void **unused)
 {
-    (void)unused;
     disk_mode mode[30];
     disk_modes(&plate_ring, mode, 30);
     for (int i = 0; i < TIMES; i++) {
@@ -63,7 +65,6 @@ static void its_motion_is_the_series_of_vibrations(void **unused)
  * (h/a)^2 = 1e-4 by factors of the order of 1, so 1e-3 at most. */
 static void turned_slowly_it_has_the_stress_of_the_textbook(void **unused)
 {
-    (void)unused;
     disk slow = plate_ring;
     slow.ramp = 2e-3;
     const double hoop = slow.young * hole_at(&slow, 100, slow.ramp) / slow.inner;
@@ -182,7 +183,6 @@ static membrane_errors turn(int64_t order, double size, const fracas_kind *mass)
  * 1e4 steps, each rounded to 1.1e-16: 1e-12 by the largest. */
 static void a_disk_of_quadratic_triangles(void **unused)
 {
-    (void)unused;
     const membrane_errors coarse = turn(2, 0.6e-3, &fracas_mass_lumped),
                           fine = turn(2, 0.3e-3, &fracas_mass_lumped);
     const double size = 0.3e-3 / plate_ring.inner;
@@ -198,7 +198,6 @@ static void a_disk_of_quadratic_triangles(void **unused)
  * dt)^2/24 and the circle's: below a thirtieth of those with lumping. */
 static void consistent_masses_are_better(void **unused)
 {
-    (void)unused;
     const membrane_errors errors = turn(2, 0.8e-3, &fracas_mass_consistent);
     const double size = 0.8e-3 / plate_ring.inner;
     assert_true(errors.stress < 0.5 * size * size && errors.moved < 0.003 * size * size);
@@ -210,7 +209,6 @@ static void consistent_masses_are_better(void **unused)
  * of chords, size^2/8 by a curvature of 2/a^2 at most: (size/a)^2/4, and as much for the circle. */
 static void a_disk_of_linear_triangles(void **unused)
 {
-    (void)unused;
     const membrane_errors coarse = turn(1, 0.8e-3, &fracas_mass_lumped),
                           fine = turn(1, 0.4e-3, &fracas_mass_lumped);
     const double size = 0.4e-3 / plate_ring.inner;
@@ -227,7 +225,6 @@ static void a_disk_of_linear_triangles(void **unused)
  * 1e-5. */
 static void a_damped_disk_turns_alike(void **unused)
 {
-    (void)unused;
     const membrane_errors lumped = turn_by(2, 0.8e-3, &fracas_mass_lumped,
                                            &fracas_integrator_hulbert_chung);
     const membrane_errors consistent = turn_by(2, 0.8e-3, &fracas_mass_consistent,
@@ -238,16 +235,6 @@ static void a_damped_disk_turns_alike(void **unused)
     assert_true(lumped.residual < 1e-5 && consistent.residual < 1e-5);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_radius_alone_has_converged),
-        cmocka_unit_test(its_motion_is_the_series_of_vibrations),
-        cmocka_unit_test(turned_slowly_it_has_the_stress_of_the_textbook),
-        cmocka_unit_test(a_disk_of_quadratic_triangles),
-        cmocka_unit_test(consistent_masses_are_better),
-        cmocka_unit_test(a_disk_of_linear_triangles),
-        cmocka_unit_test(a_damped_disk_turns_alike),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(the_radius_alone_has_converged, its_motion_is_the_series_of_vibrations,
+      turned_slowly_it_has_the_stress_of_the_textbook, a_disk_of_quadratic_triangles,
+      consistent_masses_are_better, a_disk_of_linear_triangles, a_damped_disk_turns_alike)

@@ -2,6 +2,9 @@
 /* Replay of another code: DynFrag1D's rigid links on its own strengths (tests/data/dynfrag1d), step
  * by step. */
 #include "tests/support/dynfrag1d.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 enum { POTENTIAL, DISSIPATED, STORED, WORK, KINETIC, COLUMNS, DISTURBED = 8 };
 static const char *const column_name[COLUMNS] = {"potential", "dissipated", "stored", "work",
@@ -39,7 +42,6 @@ static void replay(const dynfrag1d_run *run, const dynfrag1d_row *reference, int
 
 static void dynfrag1d_is_replayed_to_1e_8_with_every_count(void **unused)
 {
-    (void)unused;
     static dynfrag1d_row reference[DYNFRAG1D_MOST_ROWS], now[DYNFRAG1D_MOST_ROWS];
     const dynfrag1d_run *run = &dynfrag1d_runs[2];
     const int rows = dynfrag1d_history(run, reference);
@@ -138,15 +140,8 @@ static void compare_as_far_as_round_off_lets(const dynfrag1d_run *run)
 
 static void dynfrag1d_is_replayed_at_1e4_as_far_as_round_off_lets(void **unused)
 {
-    (void)unused;
     for (int r = 0; r < 2; r++) compare_as_far_as_round_off_lets(&dynfrag1d_runs[r]);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(dynfrag1d_is_replayed_to_1e_8_with_every_count),
-        cmocka_unit_test(dynfrag1d_is_replayed_at_1e4_as_far_as_round_off_lets),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(dynfrag1d_is_replayed_to_1e_8_with_every_count,
+      dynfrag1d_is_replayed_at_1e4_as_far_as_round_off_lets)

@@ -6,6 +6,10 @@
  * figures there. */
 #include "analysis/draw/chart.h"
 #include "tests/support/dynfrag1d.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 enum { MOST_INTERFACES = 2500 };
 
@@ -145,7 +149,6 @@ static void write_figure(const dynfrag1d_run *run, const curve *const *curves, i
  */
 static void nitsche_breaks_the_same_bars_as_dynfrag1d(void **unused)
 {
-    (void)unused;
     static const int shown[] = {20, 22, 24, 30, 40, 60, 80};
     static curve curves[CURVES];
     const curve *const drawn[] = {&curves[THEIRS], &curves[RIGID], &curves[NITSCHE]};
@@ -188,7 +191,6 @@ static void print_pair(const char *what, const dynfrag1d_row *rigid, const dynfr
  * quarter, and what single breaks do). */
 static void nitsche_and_rigid_link_converge_to_each_other(void **unused)
 {
-    (void)unused;
     static const int shown[] = {100, 150, 175, 200, 250, 350};
     enum { COARSE, BRIEF, TWICE, FINE, LEVELS };
     static const struct {
@@ -225,11 +227,4 @@ static void nitsche_and_rigid_link_converge_to_each_other(void **unused)
     assert_true(energy[BRIEF] < 0.5 * energy[COARSE]); /* the time step alone */
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(nitsche_breaks_the_same_bars_as_dynfrag1d),
-        cmocka_unit_test(nitsche_and_rigid_link_converge_to_each_other),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(nitsche_breaks_the_same_bars_as_dynfrag1d, nitsche_and_rigid_link_converge_to_each_other)

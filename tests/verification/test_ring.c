@@ -3,9 +3,10 @@
 #include "tests/support/ring.h"
 
 #include "engine/formulation/chain/ring_sweep.h"
-
-#include <stdlib.h>
-#include <string.h>
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #define YOUNG 275e9
 
@@ -33,7 +34,6 @@ static fracas_spec either(int stershic, int64_t elements, double rate, double en
  * = 6.6e-6 at most. */
 static void a_free_ring_cracks_at_the_exact_time(void **unused)
 {
-    (void)unused;
     for (int stershic = 0; stershic < 2; stershic++) {
         const fracas_spec spec = either(stershic, 1000, 1e4, 1.2e-7);
         ring_run run = start(&spec, 300e6);
@@ -51,7 +51,6 @@ static void a_free_ring_cracks_at_the_exact_time(void **unused)
  * (pi/n)^2/6 times the ring's. */
 static void a_ring_below_the_critical_rate_stays_whole(void **unused)
 {
-    (void)unused;
     const double critical = 300e6 * BAR_WAVE_SPEED / (YOUNG * RING_RADIUS),
                  quarter = 0.5 * 3.14159265358979 * RING_RADIUS / BAR_WAVE_SPEED;
     assert_true(fabs(critical - 1371) < 0.5);
@@ -76,7 +75,6 @@ static void a_ring_below_the_critical_rate_stays_whole(void **unused)
  * 1e-10. */
 static void an_uncracked_ring_breathes_as_a_sine(void **unused)
 {
-    (void)unused;
     fracas_spec spec = ring_reference(1000, 1e3, 3e-6);
     ring_run run = start(&spec, 1e9);
     const double radius = run.model->element_size / (2 * sin(3.14159265358979323846 / 1000)),
@@ -102,7 +100,6 @@ static void an_uncracked_ring_breathes_as_a_sine(void **unused)
  * t_bar)^2/6 + 3 (w t_bar)^4/40. */
 static void a_ring_tends_to_the_bar(void **unused)
 {
-    (void)unused;
     const double exact = 300e6 / (YOUNG * 1e4);
     double before = 0;
     for (int k = 0; k < 4; k++) {
@@ -129,7 +126,6 @@ static void a_ring_tends_to_the_bar(void **unused)
  * interfaces crack at the same times to 2e-3, counts within 3. */
 static void a_driven_ring_is_the_bar(void **unused)
 {
-    (void)unused;
     const int64_t n = 1250;
     fracas_spec ring = ring_reference(n, 1e5, 1e-7), bar = bar_reference(n, 1e5, 1e-7);
     ring.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 1e5};
@@ -154,7 +150,6 @@ static void a_driven_ring_is_the_bar(void **unused)
  * closes with. The expansion itself turns R into R (1 + strain): 3e-5 here. */
 static void forces_do_what_they_say(void **unused)
 {
-    (void)unused;
     const double f = 1e3, end = 2e-6, rho_a = 2750 * 1e-6;
     for (int i = 0; i < 8; i++) {
         const bool linear = i & 1, around = i & 2;
@@ -202,7 +197,6 @@ static void forces_do_what_they_say(void **unused)
  * follows, and the work is what the kinetic and elastic energies gained. */
 static void held_velocities_are_held(void **unused)
 {
-    (void)unused;
     const double v = 5, a = 2e6, end = 1e-6;
     for (int i = 0; i < 4; i++) {
         const bool around = i & 1;
@@ -235,14 +229,6 @@ static void held_velocities_are_held(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_free_ring_cracks_at_the_exact_time),
-                                       cmocka_unit_test(a_ring_below_the_critical_rate_stays_whole),
-                                       cmocka_unit_test(an_uncracked_ring_breathes_as_a_sine),
-                                       cmocka_unit_test(a_ring_tends_to_the_bar),
-                                       cmocka_unit_test(a_driven_ring_is_the_bar),
-                                       cmocka_unit_test(forces_do_what_they_say),
-                                       cmocka_unit_test(held_velocities_are_held)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_free_ring_cracks_at_the_exact_time, a_ring_below_the_critical_rate_stays_whole,
+      an_uncracked_ring_breathes_as_a_sine, a_ring_tends_to_the_bar, a_driven_ring_is_the_bar,
+      forces_do_what_they_say, held_velocities_are_held)

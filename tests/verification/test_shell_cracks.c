@@ -4,6 +4,10 @@
  * the nodes (docs/theory/shell.md, docs/theory/cohesive.md). */
 #include "tests/support/plane.h"
 #include "tests/support/shell_cracks.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* ---- a layer ---- */
 
@@ -417,7 +421,6 @@ static void walk(const fracas_spec *spec, double scale, double distortion, long 
 
 static void interfaces_do_what_their_layers_do(void **unused)
 {
-    (void)unused;
     static const fracas_kind *const shapes[] = {&fracas_shape_plate, &fracas_shape_annulus,
                                                 &fracas_shape_sphere};
     static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
@@ -588,7 +591,6 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
 
 static void onsets_and_breaks_come_when_they_must(void **unused)
 {
-    (void)unused;
     static const fracas_kind *const shapes[] = {&fracas_shape_plate, &fracas_shape_annulus,
                                                 &fracas_shape_sphere};
     static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
@@ -622,7 +624,6 @@ static void onsets_and_breaks_come_when_they_must(void **unused)
  * weights sum. */
 static void an_interface_breaks_with_its_last_layer(void **unused)
 {
-    (void)unused;
     fracas_model *model = distorted_model(brittle_shell(&fracas_shape_plate, 1), 0, 0);
     fracas_batch *batch = lane_of(model, 0, 0);
     assert_ok(fracas_batch_begin(batch));
@@ -642,10 +643,5 @@ static void an_interface_breaks_with_its_last_layer(void **unused)
     fracas_model_destroy(model);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(interfaces_do_what_their_layers_do),
-                                       cmocka_unit_test(onsets_and_breaks_come_when_they_must),
-                                       cmocka_unit_test(an_interface_breaks_with_its_last_layer)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(interfaces_do_what_their_layers_do, onsets_and_breaks_come_when_they_must,
+      an_interface_breaks_with_its_last_layer)

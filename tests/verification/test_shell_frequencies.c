@@ -3,6 +3,10 @@
 /* Frequencies of thin plates and strips by the shell's operator, masses lumped.
  */
 #include "tests/support/shell_statics.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 static double wave(const fracas_spec *spec) /* sqrt(D/(rho h)) */
 {
@@ -66,7 +70,6 @@ static void check(const vibration *v)
 /* pi^2 (m^2/a^2 + n^2/b^2): modes 1 1, 2 1 and 1 2 of a rectangle, which has no two alike. */
 static void a_supported_plate(void **unused)
 {
-    (void)unused;
     const double a = 1, b = 0.8, p = PI * PI;
     check(&(vibration){.name = "supported plate",
                        .size = {a, b},
@@ -84,7 +87,6 @@ static void a_supported_plate(void **unused)
 /* cos(k L) cosh(k L) = 1: k L = 4.73004, 7.85320. nu = 0 makes the strip a beam. */
 static void a_clamped_beam(void **unused)
 {
-    (void)unused;
     check(&(vibration){.name = "clamped beam",
                        .size = {10, 1},
                        .thickness = 1e-2,
@@ -97,9 +99,4 @@ static void a_clamped_beam(void **unused)
                        .within = 0.005});
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_supported_plate),
-                                       cmocka_unit_test(a_clamped_beam)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_supported_plate, a_clamped_beam)

@@ -2,6 +2,10 @@
 /* The shell's operator against its bilinear form, written down anew: strains of bending as changes
  * of curvature by differences. */
 #include "tests/support/shell_bodies.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_integration.h>
 
@@ -333,7 +337,6 @@ static void add_rims(const fracas_model *model, const element_state *state, size
  * symmetric to the round-off of its sums of some 50 terms, 1e-14 of the largest; 1e-13. */
 static void the_matrix_is_the_bilinear_form(void **unused)
 {
-    (void)unused;
     gsl_integration_glfixed_table *rule = gsl_integration_glfixed_table_alloc(3);
     for (int which = 0; which < BODIES; which++)
         for (int edges = 0; edges < (which == SPHERE ? 1 : 2); edges++) {
@@ -371,8 +374,4 @@ static void the_matrix_is_the_bilinear_form(void **unused)
     gsl_integration_glfixed_table_free(rule);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_matrix_is_the_bilinear_form)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(the_matrix_is_the_bilinear_form)

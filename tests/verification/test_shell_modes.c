@@ -2,6 +2,10 @@
 /* Eigenvalues of the shell's operator: rigid motions alone have none, beta that keeps it positive,
  * critical step. */
 #include "tests/support/shell_bodies.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* Of M^-1/2 K M^-1/2, ascending: omega^2; the matrix becomes that. */
 static double *squares_of_frequencies(const fracas_model *model, double *matrix, size_t n)
@@ -18,7 +22,6 @@ static double *squares_of_frequencies(const fracas_model *model, double *matrix,
  * which Lanczos' iteration knows to 1e-6 or better. */
 static void free_bodies_have_six_rigid_motions(void **unused)
 {
-    (void)unused;
     const double beta[] = {2.3, 5, 10}, shear[] = {1e-4, 1, 10};
     for (int which = 0; which < BODIES; which++)
         for (int k = 0; k < 5; k++) {
@@ -110,7 +113,6 @@ static double least_beta(double poisson, double distortion, double slant, int di
  * half of that. */
 static void the_least_beta_of_bending_is_half_of_stretching(void **unused)
 {
-    (void)unused;
     for (int k = 0; k < 6; k++) {
         const double nu = k % 3 == 0 ? 0 : k % 3 == 1 ? 0.3 : 0.49, distortion = k < 3 ? 0 : 0.3;
         const double stretch = least_beta(nu, distortion, 0, 0, false),
@@ -158,7 +160,6 @@ static double step_of(bool even, double thickness_by_size, double beta, double b
  */
 static void the_critical_step_is_that_of_others(void **unused)
 {
-    (void)unused;
     const double beta[3] = {5, 10, 30};
     double first[2] = {0};
     for (int even = 0; even < 2; even++)
@@ -181,7 +182,6 @@ static void the_critical_step_is_that_of_others(void **unused)
  * elements or thick ones. */
 static void shearing_off_does_not_limit_the_step(void **unused)
 {
-    (void)unused;
     const double thickness[3] = {0.1, 2, 14}, shear[3] = {1, 10, 100};
     for (int t = 0; t < 3; t++) {
         const double without = step_of(false, thickness[t], 5, 1e-4);
@@ -195,12 +195,5 @@ static void shearing_off_does_not_limit_the_step(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(free_bodies_have_six_rigid_motions),
-        cmocka_unit_test(the_least_beta_of_bending_is_half_of_stretching),
-        cmocka_unit_test(the_critical_step_is_that_of_others),
-        cmocka_unit_test(shearing_off_does_not_limit_the_step)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(free_bodies_have_six_rigid_motions, the_least_beta_of_bending_is_half_of_stretching,
+      the_critical_step_is_that_of_others, shearing_off_does_not_limit_the_step)

@@ -2,6 +2,10 @@
 /* The shell's operator on distorted and curved meshes: rigid motions give no force, uniform states
  * are exact. */
 #include "tests/support/shell_bodies.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #include <gsl/gsl_integration.h>
 
@@ -19,7 +23,6 @@ static void rigid(const void *how, const double x[3], double u[3])
  * max|u|, 6e-15 of that. */
 static void rigid_motions_give_no_force(void **unused)
 {
-    (void)unused;
     for (int which = 0; which < BODIES; which++) {
         fracas_model *model = body_of(which, shell_spec(&fracas_shape_sphere), 5, 7);
         fracas_surface_operator *op = open_operator(model);
@@ -115,7 +118,6 @@ static void edge_forces(const fracas_model *model, const double n[3], const doub
  * state is a twist, whose forces are the smaller by 1 - nu: 2e-11 at the most; 1e-10. */
 static void uniform_states_are_exact(void **unused)
 {
-    (void)unused;
     const uniform_state states[] = {{{{1, 0}, {0, 0}}, {0}},
                                     {{{0, 0}, {0, 1}}, {0}},
                                     {{{0, 2}, {-1, 0}}, {0}},
@@ -151,9 +153,4 @@ static void uniform_states_are_exact(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(rigid_motions_give_no_force),
-                                       cmocka_unit_test(uniform_states_are_exact)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(rigid_motions_give_no_force, uniform_states_are_exact)

@@ -5,6 +5,10 @@
  */
 #include "tests/support/shell.h"
 #include "tests/support/shell_run.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* The alumina sphere of docs/theory/shell.md: mid radius 9.95 mm, 0.1 mm thick; it grows at 1e4 /s
  * at the start. */
@@ -43,7 +47,6 @@ static void radial(const void *unused, const double x[3], double u[3])
  * the mode remain. */
 static void breathing_frequency(void **unused)
 {
-    (void)unused;
     for (int whole = 0; whole < 2; whole++) {
         double before = INFINITY;
         for (int64_t n = 2; n < 33; n *= 2) {
@@ -119,7 +122,6 @@ static double mean_stress(const shell_run *run, double *spread)
  */
 static void a_growing_sphere(void **unused)
 {
-    (void)unused;
     for (int whole = 0; whole < 2; whole++) {
         const fracas_spec spec = alumina(whole ? &fracas_part_whole : &fracas_part_octant,
                                          whole ? 16 : 32);
@@ -243,7 +245,6 @@ static void match(const fracas_model *octant, const fracas_model *whole, size_t 
  * of sums of some 50 terms: 1e-14 of the largest, 1e-13. */
 static void symmetry_is_a_mirror(void **unused)
 {
-    (void)unused;
     fracas_spec spec = alumina(&fracas_part_octant, 4);
     spec.geometry.thickness = 1e-3; /* bending as large as stretching */
     fracas_model *octant = distorted_model(spec, DISTORTION, 5), *whole = mirrored(octant);
@@ -318,7 +319,6 @@ static double ellipsoids_differ(int64_t divisions)
  * elements; by less than a quarter for half the size. */
 static void ellipsoids_agree_as_the_mesh_gets_finer(void **unused)
 {
-    (void)unused;
     double before = INFINITY;
     for (int64_t n = 2; n < 9; n *= 2) {
         const double differ = ellipsoids_differ(n);
@@ -331,11 +331,5 @@ static void ellipsoids_agree_as_the_mesh_gets_finer(void **unused)
     assert_true(before < 1e-3);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(breathing_frequency),
-                                       cmocka_unit_test(a_growing_sphere),
-                                       cmocka_unit_test(symmetry_is_a_mirror),
-                                       cmocka_unit_test(ellipsoids_agree_as_the_mesh_gets_finer)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(breathing_frequency, a_growing_sphere, symmetry_is_a_mirror,
+      ellipsoids_agree_as_the_mesh_gets_finer)

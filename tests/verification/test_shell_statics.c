@@ -4,6 +4,10 @@
  * solutions. Tables of docs/results/shell.md.
  */
 #include "tests/support/shell_statics.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* ---- loads ---- */
 
@@ -186,14 +190,12 @@ static void check_benchmark(const char *name, benchmark *body, const size_t n[4]
 /* 0.0936: 48 cells along each edge of the quarter for less than 1 %. */
 static void the_pinched_hemisphere(void **unused)
 {
-    (void)unused;
     check_benchmark("hemisphere", hemisphere, (const size_t[]){8, 16, 32, 48}, 0.0936);
 }
 
 /* 0.3006 with this bending strain (other theories of thin shells: 0.3024). */
 static void the_scordelis_lo_roof(void **unused)
 {
-    (void)unused;
     check_benchmark("roof", roof, (const size_t[]){4, 8, 16, 32}, 0.3006);
 }
 
@@ -290,7 +292,6 @@ static fracas_model *supported_plate(size_t n, double thickness, double beta_she
  * meshes, which are not nested, 0.3. */
 static void bending_converges_with_order_2(void **unused)
 {
-    (void)unused;
     for (int distorted = 0; distorted < 2; distorted++) {
         plate_errors errors[4];
         for (size_t k = 0; k < 4; k++) {
@@ -321,7 +322,6 @@ static void bending_converges_with_order_2(void **unused)
  * within 5 %, the error of the thin plate's part. */
 static void a_soft_shear_is_a_soft_plate(void **unused)
 {
-    (void)unused;
     const double middle[3] = {0.5, 0.5, 0};
     const struct {
         size_t n;
@@ -355,11 +355,5 @@ static void a_soft_shear_is_a_soft_plate(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(bending_converges_with_order_2),
-                                       cmocka_unit_test(a_soft_shear_is_a_soft_plate),
-                                       cmocka_unit_test(the_scordelis_lo_roof),
-                                       cmocka_unit_test(the_pinched_hemisphere)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(bending_converges_with_order_2, a_soft_shear_is_a_soft_plate, the_scordelis_lo_roof,
+      the_pinched_hemisphere)

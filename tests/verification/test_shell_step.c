@@ -3,6 +3,10 @@
  * hold. */
 #include "tests/support/shell_bodies.h"
 #include "tests/support/shell_run.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 static double *value_of(const shell_run *run, size_t unknown, int field)
 {
@@ -15,7 +19,6 @@ static double *value_of(const shell_run *run, size_t unknown, int field)
  * terms: 1e-12 by the largest. */
 static void a_step_is_the_operator(void **unused)
 {
-    (void)unused;
     const int widths[] = {1, 4, 8};
     for (int which = 0; which < BODIES; which++)
         for (int w = 0; w < 3; w++) {
@@ -79,7 +82,6 @@ static char held_of(const fracas_kind *kind, int axis, int i)
  * of the order of (omega dt)^2/10 of what they do. */
 static void edges_hold_what_they_should(void **unused)
 {
-    (void)unused;
     const fracas_kind *const kinds[] = {&fracas_edge_free,     &fracas_edge_held,
                                         &fracas_edge_fixed,    &fracas_edge_clamped,
                                         &fracas_edge_symmetry, &fracas_edge_diaphragm};
@@ -140,7 +142,6 @@ static void tilted_map(const void *how, double s, double t, double x[3])
  * coarse meshes may. */
 static void oblique_edges_are_refused(void **unused)
 {
-    (void)unused;
     const double degrees[] = {0, 30, 45, 60, 90};
     for (int k = 0; k < 5; k++)
         for (int which = 0; which < 2; which++) {
@@ -171,10 +172,4 @@ static void oblique_edges_are_refused(void **unused)
     fracas_model_destroy(distorted_model(spec, 0, 0));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_step_is_the_operator),
-                                       cmocka_unit_test(edges_hold_what_they_should),
-                                       cmocka_unit_test(oblique_edges_are_refused)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_step_is_the_operator, edges_hold_what_they_should, oblique_edges_are_refused)

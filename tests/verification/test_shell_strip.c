@@ -3,6 +3,10 @@
  * broken, in equilibrium all the way (docs/theory/shell.md): what it costs, what of it is bending,
  * and where the crack is closed. */
 #include "tests/support/shell_cracks.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* Fields of the strip, in amplitudes: strain e and curvature k of both elements, then a jump a of
  * both halves and a turn b of one to the other, each along one direction: across the interface
@@ -353,7 +357,6 @@ static void tell(const strip *s, const char *what, double eta, int unbalanced, d
  * place with it: created, below 2.5e-3 of the cost. */
 static void a_full_break_costs_h_times_the_fracture_energy(void **unused)
 {
-    (void)unused;
     static const double etas[] = {0, 0.5, 1, 1.07};
     static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
     for (int which = 0; which < 8; which++) {
@@ -397,7 +400,6 @@ static void a_full_break_costs_h_times_the_fracture_energy(void **unused)
  * sigma/6. */
 static void the_neutral_axis_moves_to_the_inner_skin(void **unused)
 {
-    (void)unused;
     for (int which = 0; which < 2; which++) {
         const fracas_spec spec = strip_spec(which ? &fracas_onset_flux : &fracas_onset_mean);
         strip s = strip_of(&spec, false, SIGMA);
@@ -438,7 +440,6 @@ static void the_neutral_axis_moves_to_the_inner_skin(void **unused)
  * with them. */
 static void sheared_and_twisted(void **unused)
 {
-    (void)unused;
     static const double coupling[] = {1, 0.6, 0.8};
     for (int which = 0; which < 12; which++) {
         fracas_spec spec = strip_spec(which % 2 ? &fracas_onset_flux : &fracas_onset_mean);
@@ -469,11 +470,5 @@ static void sheared_and_twisted(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_full_break_costs_h_times_the_fracture_energy),
-        cmocka_unit_test(the_neutral_axis_moves_to_the_inner_skin),
-        cmocka_unit_test(sheared_and_twisted)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(a_full_break_costs_h_times_the_fracture_energy, the_neutral_axis_moves_to_the_inner_skin,
+      sheared_and_twisted)

@@ -4,15 +4,7 @@
 #include "analysis/estimate/scales.h"
 
 #include "analysis/summary/modulus.h"
-
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-
-#include <cmocka.h>
+#include "tests/support/test.h"
 
 static fracas_scales reference_scales(void)
 {
@@ -28,7 +20,6 @@ static void assert_prints(const char *format, double value, const char *expected
 
 static void scales_of_the_reference_material(void **state)
 {
-    (void)state;
     fracas_scales scales = reference_scales();
     assert_prints("%.3f", scales.time * 1e9, "30.556");
     assert_prints("%.5f", scales.size * 1e3, "0.30556");
@@ -38,7 +29,6 @@ static void scales_of_the_reference_material(void **state)
 
 static void laws_as_printed(void **state)
 {
-    (void)state;
     static const struct {
         double rate;
         const char *e, *e_format, *grady, *grady_format, *gc, *gc_format, *zmr, *zmr_format, *zmr2,
@@ -77,7 +67,6 @@ static void laws_as_printed(void **state)
  * sinh(asinh) amplify to below 1e-14. */
 static void dimensional_forms(void **state)
 {
-    (void)state;
     double young = 70e9, density = 2700, strength = 264e6, fracture_energy = 50;
     fracas_scales scales = fracas_scales_of(young, density, strength, fracture_energy);
     for (double rate = 1e2; rate < 2e6; rate *= 10) {
@@ -99,7 +88,6 @@ static void dimensional_forms(void **state)
  * -> 4.5 and (4.5/5.4) e^(-3/4). */
 static void limits(void **state)
 {
-    (void)state;
     double (*gc)(double, double) = fracas_scaling_laws[FRACAS_LAW_GLENN_CHUDNOVSKY].normalised;
     double (*grady)(double, double) = fracas_scaling_laws[FRACAS_LAW_GRADY].normalised;
     double (*zmr)(double, double) = fracas_scaling_laws[FRACAS_LAW_ZMR].normalised;
@@ -118,7 +106,6 @@ static void limits(void **state)
  * = M E/sigma_c. Five roundings and two roots: 1e-14. */
 static void mott(void **state)
 {
-    (void)state;
     fracas_scales scales = reference_scales();
     assert_true(isnan(scales.modulus) &&
                 isnan(fracas_scaling_law_at(FRACAS_LAW_MOTT, &scales, 1e4)));
@@ -181,7 +168,6 @@ static fracas_modulus modulus_of(const char *law, const double real[NCOLUMNS])
 
 static void modulus(void **state)
 {
-    (void)state;
     double real[NCOLUMNS] = {
         [MEAN] = 300e6,        [AREA] = 1e-6, [DEVIATION] = NAN, [EXPONENT] = NAN, [FLAWS] = NAN,
         [STRENGTH_MEAN] = NAN, [MINIMUM] = 0, [SHAPE] = 10,      [ELEMENTS] = 500};
@@ -212,15 +198,4 @@ static void modulus(void **state)
                     modulus_of(without[i], real).reason);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(scales_of_the_reference_material),
-        cmocka_unit_test(laws_as_printed),
-        cmocka_unit_test(dimensional_forms),
-        cmocka_unit_test(limits),
-        cmocka_unit_test(mott),
-        cmocka_unit_test(modulus),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(scales_of_the_reference_material, laws_as_printed, dimensional_forms, limits, mott, modulus)

@@ -2,6 +2,10 @@
 /* Stershic's algorithm (docs/theory/ring.md) in states that are set: law, time step, order of
  * opening, zone, bulk damage. */
 #include "tests/support/stershic.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 /* Traction of link e [Pa] as both of its nodes felt it: in the first step a velocity is forces by
  * half the next time step by dt/2, and unstrained elements exert none. The element's own sum is
@@ -27,7 +31,6 @@ typedef struct {
  * directions are good to 1e-16: 1e-13 leaves room. */
 static void the_law_at_prescribed_openings(void **unused)
 {
-    (void)unused;
     const double sigma_c = 300e6, delta_c = 2 * 100 / sigma_c;
     enum { N = 40, LINK = 7 };
     for (int k = 0; k < 4; k++) {
@@ -81,7 +84,6 @@ static void the_law_at_prescribed_openings(void **unused)
  * nodes by (3 S t_b - S t_a)/2, to round-off of the strain, 1e-16/1e-3 at the elements' length. */
 static void closed_links_share_their_elements_forces(void **unused)
 {
-    (void)unused;
     const double stress = 50e6;
     enum { N = 40, LINK = 39 }; /* between the last element and the first */
     for (int state = RING_LINK_CLOSED; state <= RING_LINK_BARRED; state++) {
@@ -172,7 +174,6 @@ static const step_case step_cases[] = {
 
 static void critical_zones_refine_the_time_step(void **unused)
 {
-    (void)unused;
     enum { N = 40, LINK = 17 };
     const double xi = 0.3, delta_c = 200 / 300e6;
     for (int around = 0; around < 2; around++)
@@ -225,7 +226,6 @@ static ring_run stressed(double stress, double strength)
  * bit. */
 static void the_edges_of_the_first_zone_and_of_opening(void **unused)
 {
-    (void)unused;
     ring_run run = stressed(200e6, 1e9);
     const double pull = pull_of(&run, 5);
     assert_true(fabs(pull / (200e6 * cos(3.14159265358979323846 / 40)) - 1) < 1e-11);
@@ -257,7 +257,6 @@ static void the_edges_of_the_first_zone_and_of_opening(void **unused)
  * be torn open by that. */
 static void a_link_opens_by_the_pull_along_its_normal(void **unused)
 {
-    (void)unused;
     const double part = cos(3.14159265358979323846 / 40);
     for (int opens = 0; opens < 2; opens++) {
         ring_run run = stressed(200e6, 200e6 * (opens ? part * (1 - 1e-6) : 0.5 * (1 + part)));
@@ -279,7 +278,6 @@ static void a_link_opens_by_the_pull_along_its_normal(void **unused)
  * Rings of more than 1024 elements take the step of 1024. */
 static void the_base_step_is_the_papers(void **unused)
 {
-    (void)unused;
     const int64_t sizes[] = {40, 41, 401, 1000, 1250, 5000};
     for (size_t i = 0; i < FRACAS_COUNT(sizes); i++) {
         const fracas_spec spec = at_rest(sizes[i]);
@@ -346,7 +344,6 @@ static void assert_links(const ring_run *run, size_t reach, const size_t *open, 
 
 static void links_open_by_stress_over_strength(void **unused)
 {
-    (void)unused;
     enum { N = 60, K = 4 };
     const double zone = K * RING_CIRCUMFERENCE / N;
     const struct {
@@ -386,7 +383,6 @@ static void links_open_by_stress_over_strength(void **unused)
  * hair less than k elements bars k - 1. */
 static void a_zone_is_as_long_as_it_says(void **unused)
 {
-    (void)unused;
     int below = 0;
     for (int64_t n = 3; n <= 120; n += n < 12 ? 1 : 27)
         for (size_t k = 1; k < (size_t)n + 2; k += k < 8 ? 1 : 5) {
@@ -422,7 +418,6 @@ static void a_zone_is_as_long_as_it_says(void **unused)
 /* A link that is barred does not open later either. */
 static void barred_links_stay_barred(void **unused)
 {
-    (void)unused;
     fracas_spec spec = at_rest(40);
     ring_run run = begin(&spec, 100e6);
     for (size_t e = 0; e < run.n; e++) {
@@ -442,7 +437,6 @@ static void barred_links_stay_barred(void **unused)
  * one: zones that meet from either side, around the end of the ring, and of one opening alone. */
 static void elements_between_barred_links_are_watched(void **unused)
 {
-    (void)unused;
     enum { N = 60, K = 4 };
     const double zone = K * RING_CIRCUMFERENCE / N;
     /* opened in this order, by their ratios; -1: none */
@@ -478,7 +472,6 @@ typedef struct {
  * (eps_d - eps_y)/2 = A h sigma_y^2/(2 E) D/(1 - D). */
 static void the_bulk_law_at_prescribed_strains(void **unused)
 {
-    (void)unused;
     enum { N = 40, AT = 12 };
     const double yield = 300e6, eps_y = yield / YOUNG;
     const damage_point points[] = {{0.5, 0, 0.5, 0.5},   {1, 0.5, 1, 1},
@@ -527,7 +520,6 @@ static void the_bulk_law_at_prescribed_strains(void **unused)
  * zone. Its links are closed as long as their other elements pull them less. */
 static void what_is_barred_beyond_its_yield_is_booked(void **unused)
 {
-    (void)unused;
     enum { N = 40, WEAK = 10, AT = 13 };
     const double stress = 300e6, yield = 250e6;
     double held[2], created[2];
@@ -564,7 +556,6 @@ static void what_is_barred_beyond_its_yield_is_booked(void **unused)
  * the stress, which is off by 190 (w dt)^2/8 MPa at most: 1.9e-4 dt. */
 static void the_onset_is_within_the_step(void **unused)
 {
-    (void)unused;
     enum { N = 400 };
     const double pi = 3.14159265358979323846, h = RING_CIRCUMFERENCE / N,
                  radius = h / (2 * sin(pi / N)), w = BAR_WAVE_SPEED / radius;
@@ -596,20 +587,9 @@ static void the_onset_is_within_the_step(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_law_at_prescribed_openings),
-                                       cmocka_unit_test(closed_links_share_their_elements_forces),
-                                       cmocka_unit_test(critical_zones_refine_the_time_step),
-                                       cmocka_unit_test(the_edges_of_the_first_zone_and_of_opening),
-                                       cmocka_unit_test(a_link_opens_by_the_pull_along_its_normal),
-                                       cmocka_unit_test(the_base_step_is_the_papers),
-                                       cmocka_unit_test(links_open_by_stress_over_strength),
-                                       cmocka_unit_test(a_zone_is_as_long_as_it_says),
-                                       cmocka_unit_test(barred_links_stay_barred),
-                                       cmocka_unit_test(elements_between_barred_links_are_watched),
-                                       cmocka_unit_test(the_bulk_law_at_prescribed_strains),
-                                       cmocka_unit_test(what_is_barred_beyond_its_yield_is_booked),
-                                       cmocka_unit_test(the_onset_is_within_the_step)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(the_law_at_prescribed_openings, closed_links_share_their_elements_forces,
+      critical_zones_refine_the_time_step, the_edges_of_the_first_zone_and_of_opening,
+      a_link_opens_by_the_pull_along_its_normal, the_base_step_is_the_papers,
+      links_open_by_stress_over_strength, a_zone_is_as_long_as_it_says, barred_links_stay_barred,
+      elements_between_barred_links_are_watched, the_bulk_law_at_prescribed_strains,
+      what_is_barred_beyond_its_yield_is_booked, the_onset_is_within_the_step)

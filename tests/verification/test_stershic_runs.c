@@ -2,6 +2,10 @@
 /* Stershic's algorithm (docs/theory/ring.md) in whole runs: isolated link, clock, bulk damage,
  * ledger, energy guard, momentum. */
 #include "tests/support/stershic.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
+#include "tests/support/test.h"
 
 #define PI 3.14159265358979323846
 
@@ -58,7 +62,6 @@ static crack_errors isolated_link(double rate, double x_b, int elements_per_s0, 
  * large) the errors at h = s0/160 are the same to 6e-6. */
 static void one_weak_link_opens_as_the_closed_form(void **unused)
 {
-    (void)unused;
     const struct {
         double rate, x_b, broke,
             opening; /* bounds at h = s0/160, about half as much again as measured */
@@ -92,7 +95,6 @@ static void assert_same(const fracas_record *a, const fracas_record *b)
  * same to the last bit. With several strengths they are not. */
 static void one_strength_needs_no_choice_of_parameters(void **unused)
 {
-    (void)unused;
     for (int several = 0; several < 2; several++)
         for (int zone = 0; zone < 2; zone++) {
             ring_run run[2];
@@ -121,7 +123,6 @@ static void one_strength_needs_no_choice_of_parameters(void **unused)
  * long double to 1e-19. */
 static void the_clock_adds_up(void **unused)
 {
-    (void)unused;
     fracas_spec spec = ring_stershic(1250, 1e4, 6e-7);
     spec.cohesive.refinement = 0.3;
     ring_run run = make(&spec, 300e6);
@@ -236,7 +237,6 @@ static ring_run barred_ring(void)
  * the test, is what it stores and dissipates (ring.17). */
 static void a_barred_ring_yields(void **unused)
 {
-    (void)unused;
     ring_run run = barred_ring();
     static watched element[N];
     for (size_t e = 0; e < N; e++) {
@@ -326,7 +326,6 @@ static ring_run scattered(const fracas_spec *spec, double scatter, uint64_t repl
  * dissipated energy, measured 2e-5. */
 static void the_ledger_closes_as_the_time_step_falls(void **unused)
 {
-    (void)unused;
     for (int driven = 0; driven < 2; driven++) {
         double last = INFINITY;
         for (double safety = 0.8; safety > 0.15; safety *= 0.5) {
@@ -356,7 +355,6 @@ static void the_ledger_closes_as_the_time_step_falls(void **unused)
  * beyond their strengths, exceeds the paper's 1 % and stays below its 5 %: a warning, no end. */
 static void the_energy_guard_ends_what_has_drifted(void **unused)
 {
-    (void)unused;
     double least = INFINITY, lowest = INFINITY, highest = 0;
     for (uint64_t replica = 0; replica < 8; replica++) {
         fracas_spec spec = ring_stershic(400, 1e4, 1.2e-6);
@@ -390,7 +388,6 @@ static void the_energy_guard_ends_what_has_drifted(void **unused)
  * the first zone, where residuals stay below 1 % of the dissipated energy. */
 static void the_papers_time_step_is_too_long_for_some(void **unused)
 {
-    (void)unused;
     const fracas_kind *zones[] = {&fracas_zone_softening, &fracas_zone_softening,
                                   &fracas_zone_steep};
     int drifted[3] = {0};
@@ -424,7 +421,6 @@ static void the_papers_time_step_is_too_long_for_some(void **unused)
  * contact then pushes at that angle. */
 static void momentum_is_kept(void **unused)
 {
-    (void)unused;
     for (int k = 0; k < 8; k++) {
         fracas_spec spec = ring_stershic(1250, 1e4, 5e-7);
         if (k & 1) spec.geometry.direction = &fracas_direction_initial;
@@ -457,15 +453,7 @@ static void momentum_is_kept(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {cmocka_unit_test(one_weak_link_opens_as_the_closed_form),
-                                       cmocka_unit_test(one_strength_needs_no_choice_of_parameters),
-                                       cmocka_unit_test(the_clock_adds_up),
-                                       cmocka_unit_test(a_barred_ring_yields),
-                                       cmocka_unit_test(the_ledger_closes_as_the_time_step_falls),
-                                       cmocka_unit_test(the_energy_guard_ends_what_has_drifted),
-                                       cmocka_unit_test(the_papers_time_step_is_too_long_for_some),
-                                       cmocka_unit_test(momentum_is_kept)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS(one_weak_link_opens_as_the_closed_form, one_strength_needs_no_choice_of_parameters,
+      the_clock_adds_up, a_barred_ring_yields, the_ledger_closes_as_the_time_step_falls,
+      the_energy_guard_ends_what_has_drifted, the_papers_time_step_is_too_long_for_some,
+      momentum_is_kept)

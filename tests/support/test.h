@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One file of tests. Several are linked into one program, which runs one of them: PROGRAM NAME. */
+#ifndef FRACAS_TESTS_SUPPORT_TEST_H
+#define FRACAS_TESTS_SUPPORT_TEST_H
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* The file's function `fracas_test` is its main; CMake gives each file's a name of its own. */
+#define TESTS(...) TESTS_RUN(NULL, NULL, NULL, NULL, __VA_ARGS__)
+/* The same with a fixture around each test, or around all together. */
+#define TESTS_EACH(set_up, tear_down, ...) TESTS_RUN(NULL, NULL, set_up, tear_down, __VA_ARGS__)
+#define TESTS_ALL(set_up, tear_down, ...) TESTS_RUN(set_up, tear_down, NULL, NULL, __VA_ARGS__)
+
+#define TESTS_RUN(begin, end, set_up, tear_down, ...)                                       \
+    int fracas_test(void)                                                                   \
+    {                                                                                       \
+        static const CMUnitTestFunction test[] = {__VA_ARGS__};                             \
+        return test_run(#__VA_ARGS__, sizeof test / sizeof *test, test, begin, end, set_up, \
+                        tear_down);                                                         \
+    }
+
+int fracas_test(void);
+
+/* Runs `count` tests under their `names`, separated by ", ". Returns how many failed. */
+int test_run(const char *names, size_t count, const CMUnitTestFunction *test,
+             CMFixtureFunction begin, CMFixtureFunction end, CMFixtureFunction set_up,
+             CMFixtureFunction tear_down);
+
+/* The program's second argument, or NULL. */
+extern const char *test_argument;
+
+#endif

@@ -1,6 +1,0 @@
-#!/bin/sh
-# ctest-labels: storm
-# ctest-timeout: 3600
-# Every term of the kernels, laws and ledger in tools/mutations/bar.list, broken on purpose, must make a test fail.
-set -eu
-exec tools/mutate-kernels bar "$1/mutate-bar"
