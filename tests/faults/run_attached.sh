@@ -64,7 +64,7 @@ same study fresh
 cmp moved/uno.csv "fresh/attachments/$digest" || fail "another file was taken for the copy"
 mkdir -p piped/attachments # pipes: whoever opens one waits
 mkfifo "piped/attachments/$digest" "piped/attachments/$digest.tmp" piped/campaign.yaml.tmp
-expect 0 timeout 30 "$fracas" run both.yaml --study piped
+expect 0 timeout 300 "$fracas" run both.yaml --study piped
 same study piped
 cmp moved/uno.csv "piped/attachments/$digest" || fail "a pipe was left in the place of the copy"
 

@@ -1,5 +1,5 @@
 # ctest-serial
-# A walltime holds, whatever hangs: status 3 before it is over, resumable.
+# A walltime holds, whatever hangs: status 3 before it is over, resumable. A busy machine may be late by its pace.
 . tests/support/campaigns.sh
 
 # within SECONDS STATUS COMMAND...
@@ -9,7 +9,8 @@ within()
     shift
     began=$(date +%s)
     expect "$@"
-    [ $(($(date +%s) - began)) -le "$limit" ] || fail "$(($(date +%s) - began)) s instead of $limit: $*"
+    took=$(($(date +%s) - began))
+    [ $took -le "$limit" ] || [ $took -le $((limit + $(busy 2))) ] || fail "$took s instead of $limit: $*"
 }
 
 campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
@@ -36,7 +37,7 @@ status=0
 wait "$session" || status=$?
 took=$(($(date +%s) - began))
 [ $status -eq 3 ] || { cat background >&2; fail "status $status of a run that stood still"; }
-[ $took -le 8 ] || fail "$took s with a walltime of 8 s"
+[ $took -le 8 ] || [ $took -le $((8 + $(busy 2))) ] || fail "$took s with a walltime of 8 s"
 [ -z "$(processes)" ] || fail "processes outlive the run: $(processes)"
 session=
 expect 0 "$fracas" status still

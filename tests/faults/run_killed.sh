@@ -36,7 +36,7 @@ kill -9 "$session" 2>/dev/null || true # it may have ended by itself on a busy m
 tries=0
 while [ -n "$(processes)" ]; do
     tries=$((tries + 1))
-    [ $tries -lt 200 ] || fail "processes outlive the parent: $(processes)"
+    [ $tries -lt 6000 ] || fail "processes outlive the parent: $(processes)"
     sleep 0.01
 done
 expect 0 "$fracas" run small.yaml --study orphaned

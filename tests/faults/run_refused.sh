@@ -83,13 +83,19 @@ said 'format version 1; this program reads 2: use the program version that wrote
 
 # MPI that never comes up: one signal is enough.
 mkdir bin
-printf '#!/bin/sh\nexec sleep 100\n' > bin/mpirun
+printf '#!/bin/sh\n: > "%s/begun"\nexec sleep 1000\n' "$PWD" > bin/mpirun
 chmod +x bin/mpirun
 PATH=$PWD/bin:$PATH "$fracas" run small.yaml --study silent > said 2>&1 &
-sleep 0.5
-kill -TERM $!
+run=$!
+tries=0
+until [ -e begun ]; do
+    tries=$((tries + 1))
+    [ $tries -lt 10000 ] || { cat said >&2; fail "mpirun is not started"; }
+    sleep 0.01
+done
+kill -TERM $run
 status=0
-wait $! || status=$?
+wait $run || status=$?
 [ $status -eq 3 ] || { cat said >&2; fail "status $status of a run that was stopped before MPI came up"; }
 
 # The study's own campaign file: of another campaign, damaged.

@@ -88,7 +88,7 @@ session=$!
 tries=0
 until grep -q 'started again' background; do
     tries=$((tries + 1))
-    [ $tries -lt 1000 ] || fail "it was not started again"
+    [ $tries -lt 10000 ] || fail "it was not started again"
     sleep 0.01
 done
 kill -USR1 "$session"

@@ -7,7 +7,10 @@ campaign long.yaml 200 '3e4 1/s, 1e5 1/s'
 sed -i 's/elements: 500/elements: 2000/' long.yaml # 10 s of one core
 began=$(date +%s)
 expect 3 "$fracas" run long.yaml --study timed --jobs 2 --walltime 5s
-[ $(($(date +%s) - began)) -le 5 ] || fail "a walltime of 5 s was not kept"
+took=$(($(date +%s) - began))
+cp said words
+[ $took -le 5 ] || [ $took -le $((5 + $(busy 2))) ] || fail "a walltime of 5 s was not kept"
+mv words said
 said '[a-z ]*: [0-9]* of 400 realizations are done and kept; the same command goes on from there'
 kept=$(sed -n 's/.*\(nearly over\|interrupted\): \([0-9]*\) of.*/\2/p' said)
 expect 0 "$fracas" status timed

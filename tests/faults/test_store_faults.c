@@ -537,10 +537,12 @@ static void commits_survive_the_death_of_the_process(void **state)
         pid_t child = fork();
         if (child == 0) commit_until_killed(ends[1]);
         close(ends[1]);
-        usleep(20000 + 7000 * (unsigned)kills);
+        int64_t r, said = -1;
+        for (int commits = 0; commits <= 3 * kills; commits++)
+            if (read(ends[0], &r, sizeof r) == sizeof r) said = r;
+        usleep(700 * (unsigned)kills); /* somewhere in a later commit */
         kill(child, SIGKILL);
         waitpid(child, NULL, 0);
-        int64_t r, said = -1;
         while (read(ends[0], &r, sizeof r) == sizeof r) said = r;
         close(ends[0]);
         OK(fracas_index_open(study, false, &index));
@@ -561,41 +563,28 @@ static void commits_survive_the_death_of_the_process(void **state)
     fracas_index_close(index);
 }
 
-/* Writes segments in a process, which is killed after so many microseconds. */
-static void kill_writer(const char *folder, int number, unsigned microseconds)
-{
-    const pid_t child = fork();
-    if (child == 0) {
-        char path[512];
-        for (int n = 0;; n++) {
-            snprintf(path, sizeof path, "%s/k%d-%d.h5", folder, number, n);
-            if (write_some(path, 30)) _exit(1);
-        }
-    }
-    usleep(microseconds);
-    kill(child, SIGKILL);
-    waitpid(child, NULL, 0);
-}
-
-static int whole_segments(const char *folder)
-{
-    int whole = 0;
-    DIR *list = opendir(folder);
-    for (struct dirent *entry; (entry = readdir(list));) whole += entry->d_name[0] != '.';
-    closedir(list);
-    return whole;
-}
-
-/* A writer killed at any moment leaves no segment under its final name but whole ones. On a busy
- * machine the first kills may all come too early. */
+/* A writer killed at any moment leaves no segment under its final name but whole ones. */
 static void segments_are_whole_or_not_there(void **state)
 {
-    char folder[256];
+    char folder[256], byte;
     snprintf(folder, sizeof folder, "%s/segments", study);
-    int whole = 0, kills = 0;
-    for (; kills < 12; kills++) kill_writer(folder, kills, 15000 + 5000 * (unsigned)kills);
-    for (unsigned wait = 100000; !whole_segments(folder) && wait < 20000000; wait *= 2)
-        kill_writer(folder, kills++, wait);
+    int whole = 0;
+    for (int kills = 0; kills < 12; kills++) {
+        int ends[2];
+        assert_int_equal(pipe(ends), 0);
+        const pid_t child = fork();
+        for (int n = 0; child == 0; n++) {
+            char path[512];
+            snprintf(path, sizeof path, "%s/k%d-%d.h5", folder, kills, n);
+            if (write_some(path, 30) || write(ends[1], "", 1) != 1) _exit(1);
+        }
+        close(ends[1]);
+        for (int n = 0; n <= kills % 4; n++) assert_int_equal(read(ends[0], &byte, 1), 1);
+        usleep(900 * (unsigned)kills); /* somewhere in a later segment */
+        kill(child, SIGKILL);
+        waitpid(child, NULL, 0);
+        close(ends[0]);
+    }
     DIR *list = opendir(folder);
     for (struct dirent *entry; (entry = readdir(list));) {
         fracas_reader *reader;

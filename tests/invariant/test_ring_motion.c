@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
+/* ctest-labels: ci slow-sanitize */
 /* The motion of the ring and of its fragments: momenta, symmetries, and lanes that do not see each
  * other.
  */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
+/* ctest-labels: ci slow-sanitize */
 /* Published and independently computed fragment counts of the periodic bar, reference set, strength
  * +- 0.33 %.
  */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
+/* ctest-labels: ci slow-sanitize */
 /* Correlated strengths: covariances and laws over realizations, and that a strength depends on its
  * name alone. Seeds are fixed; every bound is one that a right sampler exceeds with probability
  * ALPHA or less. */

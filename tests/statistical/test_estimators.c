@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
+/* ctest-labels: ci slow-sanitize */
 /* How often the intervals of a point's estimates hold the truth, where fragments of one realization
  * are alike. docs/theory/estimators.md states it from 1000 repetitions, which
  * tests/statistical/coverage.sh repeats (FRACAS_REPETITIONS=1000, minutes); the ordinary run has

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
+/* ctest-labels: ci slow-sanitize */
 /* Slopes and crossovers from few replicas: intervals hold the truth, and lines are taken for lines,
  * as often as the pages of theory state. Crossovers of a few hundred repetitions;
  * test_few_replicas_storm.c has thousands.

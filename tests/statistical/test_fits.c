@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
+/* ctest-labels: ci slow-sanitize */
 /* Intervals of fitted parameters hold the truth as often as they say, and p-values are uniform,
  * whether the fragments of a realization depend on each other or not; a few repetitions of what
  * test_fits_storm.c has a thousand of.

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: ci */
 /* Slopes between rates and the crossover of mean size: known exponents are found, 95 % intervals
  * hold them as often as they should, and what cannot be fitted says why. */
 #include "analysis/scaling/crossover.h"

@@ -71,6 +71,16 @@ start()
     session=$!
 }
 
+# busy TIME: how many seconds later than TIME, that of a free machine, a small run ends: the pace of this machine, now.
+busy()
+{
+    campaign pace.yaml 8 '1e5 1/s'
+    rm -rf pace
+    before=$(date +%s)
+    expect 0 "$fracas" run pace.yaml --study pace --jobs 2
+    echo $(($(date +%s) - before)) | awk -v free="$1" '{print $1 > free ? $1 - free : 0}'
+}
+
 # wait_segments STUDY COUNT
 wait_segments()
 {
@@ -105,7 +115,7 @@ kill_session()
     while pids=$(processes) && [ -n "$pids" ]; do
         kill -9 $pids 2>/dev/null || true
         tries=$((tries + 1))
-        [ $tries -lt 1000 ] || { echo "processes do not die: $pids" >&2; exit 1; }
+        [ $tries -lt 10000 ] || { echo "processes do not die: $pids" >&2; exit 1; }
     done
     wait "$session" 2>/dev/null || true
     session=

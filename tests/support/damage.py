@@ -8,7 +8,7 @@ what the messages say. Prints how many went which way; status 1 if one went wron
 """
 import collections, filecmp, os, random, re, shutil, signal, sqlite3, subprocess, sys
 
-LIMIT = 60  # s for a command
+LIMIT = 600  # s for a command
 COPIED = {"index.sqlite", "index.sqlite-wal", "lock", "campaign.yaml"}  # what is written in place; the rest is linked
 fracas, seed, flips, truncations = sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])
 studies = [dict(zip(("name", "campaign", "folder", "result"), word.split("="))) for word in sys.argv[5:]]

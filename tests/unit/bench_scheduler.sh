@@ -42,4 +42,4 @@ expect 2 "$bench" --tasks 3 --points 2
 expect 2 "$bench" --long-share 2
 
 # Long leases to a rank that is sending a long segment: neither side may wait for the other.
-expect 0 timeout -k 5 150 "$bench" --tasks 80000 --segment-age 0.001 --jobs 3
+expect 0 timeout -k 5 1000 "$bench" --tasks 80000 --segment-age 0.001 --jobs 3

@@ -147,7 +147,7 @@ for signals in USR1 TERM 'USR1 USR1 TERM'; do
     tries=0
     until [ -s called ]; do
         tries=$((tries + 1))
-        [ $tries -lt 1000 ] || fail "it does not start"
+        [ $tries -lt 10000 ] || fail "it does not start"
         /bin/sleep 0.01
     done
     /bin/sleep 0.2

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: ci */
 /* Files that a campaign names: strengths given line by line, what is said of wrong ones, and what
  * stands for a file in a point. And what is drawn once a point: the moves of a mesh's nodes. */
 #define FOLDER "fracas-test"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
+/* ctest-labels: ci slow-sanitize */
 /* Covariances against GSL, and the covariances of normal fields, found from the factors and not by
  * sampling, against them.
  */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
+/* ctest-labels: ci slow-sanitize */
 /* Refined campaigns: of every shipped example, and where a refinement cannot be. */
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/refine.h"

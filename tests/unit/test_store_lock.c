@@ -40,13 +40,14 @@ static void one_who_looks_is_waited_for(void **state)
         if (fracas_study_lock_to_look(study, false, &lock)) _exit(1);
         if (write(ready[1], "", 1) != 1) _exit(1);
         usleep(300000);
-        _exit(0);
+        _exit(write(ready[1], "", 1) != 1);
     }
     char byte;
     assert_int_equal(read(ready[0], &byte, 1), 1);
     OK(fracas_study_lock(study, false, &lock));
-    int status;
-    assert_int_equal(waitpid(child, &status, WNOHANG), child); /* it has gone before */
+    fcntl(ready[0], F_SETFL, O_NONBLOCK);
+    assert_int_equal(read(ready[0], &byte, 1), 1); /* it was done before */
+    assert_int_equal(waitpid(child, NULL, 0), child);
     fracas_study_unlock(lock);
     close(ready[0]);
     close(ready[1]);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
+/* ctest-labels: ci slow-sanitize */
 /* Manufactured solutions: how fast the membrane's errors fall with the size of its elements.
  */
 #include "tests/support/membrane_elastic.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
+/* ctest-labels: ci slow-sanitize */
 /* A disk with a hole that is turned faster and faster, until it would crack: the membrane against
  * the motion along the radius alone, found without the engine (tests/support/axisymmetric.h).
  */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
+/* ctest-labels: ci slow-sanitize */
 /* A spherical shell that expands, and does not crack: breathing frequency, stress, energies; the
  * octant and the whole.
  */

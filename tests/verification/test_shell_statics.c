@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
+/* ctest-labels: ci slow-sanitize */
 /* Shells at rest under loads: the pinched hemisphere, the Scordelis-Lo roof, plates with exact
  * solutions. Tables of docs/results/shell.md.
  */
