@@ -83,12 +83,12 @@ said 'format version 1; this program reads 2: use the program version that wrote
 
 # MPI that never comes up: one signal is enough.
 mkdir bin
-printf '#!/bin/sh\n: > "%s/begun"\nexec sleep 1000\n' "$PWD" > bin/mpirun
+printf '#!/bin/sh\n: > "%s/mpirun-began"\nexec sleep 1000\n' "$PWD" > bin/mpirun
 chmod +x bin/mpirun
 PATH=$PWD/bin:$PATH "$fracas" run small.yaml --study silent > said 2>&1 &
 run=$!
 tries=0
-until [ -e begun ]; do
+until [ -e mpirun-began ]; do
     tries=$((tries + 1))
     [ $tries -lt 10000 ] || { cat said >&2; fail "mpirun is not started"; }
     sleep 0.01

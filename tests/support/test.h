@@ -36,6 +36,14 @@ int test_run(const char *names, size_t count, const CMUnitTestFunction *test,
              CMFixtureFunction begin, CMFixtureFunction end, CMFixtureFunction set_up,
              CMFixtureFunction tear_down);
 
+/* The files of a program, in a table that CMake writes; its end has no name. */
+typedef struct {
+    const char *name;
+    int (*run)(void);
+} file_of_tests;
+
+extern const file_of_tests test_files[];
+
 /* The program's second argument, or NULL. */
 extern const char *test_argument;
 
