@@ -71,11 +71,11 @@ static void test_read(void **state)
 {
     source from;
     make_path(from.path);
-    assert_int_equal(fracas_units_create(&from.units), FRACAS_OK);
+    OK(fracas_units_create(&from.units));
     fracas_campaign *campaign = read_replaced("", sweep);
     FILE *out = fopen(from.path, "w");
     assert_non_null(out);
-    assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK); /* in SI */
+    OK(fracas_campaign_write(campaign, out)); /* in SI */
     assert_int_equal(fclose(out), 0);
     fail_each(read_source, &from, LONG_MAX);
     unlink(from.path);
@@ -91,7 +91,7 @@ static void test_read_file(void **state)
     make_path(from.path);
     make_path(strengths);
     write_bytes(strengths, "3e8\n4e8\n", 8);
-    assert_int_equal(fracas_units_create(&from.units), FRACAS_OK);
+    OK(fracas_units_create(&from.units));
     snprintf(named, sizeof named, "sweep:\n  - strength: [{distribution: file, file: %s}]\n",
              strengths);
     fracas_campaign *campaign = read_replaced("", named);
@@ -99,7 +99,7 @@ static void test_read_file(void **state)
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
-    assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK); /* in SI */
+    OK(fracas_campaign_write(campaign, out)); /* in SI */
     assert_int_equal(fclose(out), 0);
     snprintf(copy, sizeof copy, FRACAS_ATTACHMENTS "/%s", campaign->point[0].strength.file->digest);
     char *there = replace(text, copy, strengths);
@@ -164,7 +164,7 @@ static void test_surface(void **state)
     source from;
     make_path(from.path);
     write_bytes(from.path, text, strlen(text));
-    assert_int_equal(fracas_units_create(&from.units), FRACAS_OK);
+    OK(fracas_units_create(&from.units));
     fail_each(read_source, &from, LONG_MAX);
     fracas_campaign *campaign = read_text(text);
     fail_each(count_cost, campaign, LONG_MAX);

@@ -55,7 +55,7 @@ static void test_read(void **state)
     for (int order = 1; order <= 2; order++) {
         const fracas_surface_fineness fineness = {.divisions = 2, .order = order};
         const fracas_surface *s = NULL;
-        assert_int_equal(fracas_surface_rectangle(1.0, 1.0, &fineness, &s), FRACAS_OK);
+        OK(fracas_surface_rectangle(1.0, 1.0, &fineness, &s));
         for (int which = 0; which < 4; which++) {
             gmsh_file f = gmsh_write(s, which % 2, which / 2, false);
             fail_each_of(read_mesh, &f, LONG_MAX);

@@ -152,7 +152,7 @@ static void check_round_trip(const fracas_units *units, const fracas_campaign *c
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
-    assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK);
+    OK(fracas_campaign_write(campaign, out));
     assert_int_equal(fclose(out), 0);
     write_bytes(path, text, size);
     for (const fracas_attached *a = campaign->attached; a; a = a->next) {
@@ -218,7 +218,7 @@ static void try_mutation(const fracas_units *units, const unsigned char *example
 static void test_mutations_of(const unsigned char *example, size_t size, bool of_strengths)
 {
     fracas_units *units;
-    assert_int_equal(fracas_units_create(&units), FRACAS_OK);
+    OK(fracas_units_create(&units));
     const char *longer = getenv("FRACAS_FUZZ_SECONDS");
     const double start = seconds(), most = longer ? strtod(longer, NULL) : 2.0;
     uint64_t x = longer ? (uint64_t)time(NULL) : 20261121;

@@ -15,7 +15,7 @@ static fracas_model *model_of(const fracas_kind *law, const fracas_kind *stop, d
     spec.time.quiet = 1e-8;
     spec.time.quiet_fraction = 0.05;
     fracas_model *model;
-    assert_ok(fracas_model_create(&spec, &model));
+    OK(fracas_model_create(&spec, &model));
     return model;
 }
 
@@ -27,21 +27,20 @@ static void run(const fracas_model *model, uint64_t first, size_t count, int wid
     const fracas_batch_options options = {
         .history = 20, .interfaces = true, .width = width, .isa = isa};
     fracas_batch *batch;
-    assert_ok(fracas_batch_create(model, count, &options, &batch));
+    OK(fracas_batch_create(model, count, &options, &batch));
     for (size_t l = 0; l < count; l++) bar_draw(batch, l, 0.05, first + l);
     for (size_t l = 0; l < count; l++) fracas_record_init(&record[l]);
     if (poisoned < count) {
-        assert_ok(fracas_batch_begin(batch));
+        OK(fracas_batch_begin(batch));
         size_t stride;
         double *strength = fracas_batch_strength(batch, poisoned, &stride);
         strength[17 * stride] = NAN; /* trial > NaN is false: poison a velocity too (field 3 of the
                                         record, before strength) */
         strength[17 * stride - (size_t)(2 * batch->step.lanes)] = NAN;
-        for (size_t running = count; running > 0;)
-            assert_ok(fracas_batch_step(batch, record, &running));
+        for (size_t running = count; running > 0;) OK(fracas_batch_step(batch, record, &running));
         assert_int_equal(record[poisoned].outcome, FRACAS_NONFINITE);
     } else {
-        assert_ok(fracas_batch_run(batch, record));
+        OK(fracas_batch_run(batch, record));
     }
     fracas_batch_destroy(batch);
 }

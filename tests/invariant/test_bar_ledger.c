@@ -10,7 +10,7 @@ static fracas_batch *batch_of(const fracas_model *model, size_t count, int width
 {
     fracas_batch *batch;
     const fracas_batch_options options = {.width = width, .isa = FRACAS_ISA_BEST};
-    assert_ok(fracas_batch_create(model, count, &options, &batch));
+    OK(fracas_batch_create(model, count, &options, &batch));
     return batch;
 }
 
@@ -35,7 +35,7 @@ static fracas_model *model_on(int mesh, fracas_spec *spec)
     fracas_model *model;
     if (mesh == 1) bar_grade(spec, 100);
     if (mesh == 2) bar_perturb(spec, 0.45, 1, shift);
-    assert_ok(fracas_model_create(spec, &model));
+    OK(fracas_model_create(spec, &model));
     return model;
 }
 
@@ -60,7 +60,7 @@ static void linear_ledger_is_constant_to_round_off(void **unused)
         fracas_model *model = model_on(i / 4, &spec);
         fracas_batch *batch = batch_of(model, 1, 1);
         for (size_t k = 0; k < model->interfaces; k++) bar_set_strength(batch, 0, k, 450e6);
-        assert_ok(fracas_batch_begin(batch));
+        OK(fracas_batch_begin(batch));
         uint64_t seed = 7;
         for (size_t e = 0; e < 200;
              e++) { /* equal on both sides of an interface: rigid links move as one */
@@ -76,7 +76,7 @@ static void linear_ledger_is_constant_to_round_off(void **unused)
         size_t running;
         double worst = 0, kinetic_first = 0, kinetic_last = 0;
         for (int s = 0; s < 2000; s++) {
-            assert_ok(fracas_batch_step(batch, &record, &running));
+            OK(fracas_batch_step(batch, &record, &running));
             const fracas_ledger *l = &batch->lane[0].ledger;
             worst = fmax(worst, fabs(l->residual) / fmax(l->kinetic, l->elastic));
             if (s == 0) kinetic_first = l->kinetic;
@@ -112,12 +112,12 @@ static void residual_stays_small_and_is_second_order(void **unused)
             spec.time.safety = half ? 0.125 : 0.25;
             if (half && p == 3) continue; /* 4 s for nothing new */
             fracas_model *model;
-            assert_ok(fracas_model_create(&spec, &model));
+            OK(fracas_model_create(&spec, &model));
             fracas_batch *batch = batch_of(model, 8, 8);
             for (size_t l = 0; l < 8; l++) bar_draw(batch, l, 1.0 / 300, l);
             fracas_record record[8];
             for (int l = 0; l < 8; l++) fracas_record_init(&record[l]);
-            assert_ok(fracas_batch_run(batch, record));
+            OK(fracas_batch_run(batch, record));
             double created = 0;
             for (int l = 0; l < 8; l++) {
                 const fracas_record *r = &record[l];
@@ -171,7 +171,7 @@ static void check_forces(int mesh)
     fracas_model *model = model_on(mesh, &spec);
     fracas_batch *batch = batch_of(model, 1, 1);
     bar_draw(batch, 0, 0.1, 3);
-    assert_ok(fracas_batch_begin(batch));
+    OK(fracas_batch_begin(batch));
     batch->step.time[0] = 1.05e-7;
     uint64_t seed = 11;
     const double mass_per_length = 2750 * 1e-6;
@@ -235,13 +235,13 @@ static void a_break_creates_what_the_flux_drops(void **unused)
     fracas_spec spec = bar_reference(N, 1e4, 1);
     spec.geometry.length = N * 2e-5;
     fracas_model *model;
-    assert_ok(fracas_model_create(&spec, &model));
+    OK(fracas_model_create(&spec, &model));
     const double delta_c = 2 * 100 / 300e6, spring = 4 * 275e9 / 2e-5;
     double potential[2], created[2], mean = 275e9 * 1e4 * 1e-7;
     for (int after = 0; after < 2; after++) {
         fracas_batch *batch = batch_of(model, 1, 1);
         for (size_t i = 0; i < N; i++) bar_set_strength(batch, 0, i, 300e6);
-        assert_ok(fracas_batch_begin(batch));
+        OK(fracas_batch_begin(batch));
         batch->step.time[0] = 1e-7; /* background stress 275 MPa */
         for (size_t e = 2; e < N;
              e++) /* jump of interface 1 at which S = K delta_c, then of interface 3 back */

@@ -393,14 +393,14 @@ static ledger_figures broken_up_ledger(const fracas_spec *spec)
     fracas_batch *batch;
     fracas_record record[8];
     ledger_figures f = {0, 0, 0, 0};
-    assert_ok(fracas_model_create(spec, &model));
-    assert_ok(fracas_batch_create(
-        model, 8, &(fracas_batch_options){.width = 8, .isa = FRACAS_ISA_BEST}, &batch));
+    OK(fracas_model_create(spec, &model));
+    OK(fracas_batch_create(model, 8, &(fracas_batch_options){.width = 8, .isa = FRACAS_ISA_BEST},
+                           &batch));
     for (size_t l = 0; l < 8; l++) {
         bar_draw(batch, l, 1.0 / 300, l);
         fracas_record_init(&record[l]);
     }
-    assert_ok(fracas_batch_run(batch, record));
+    OK(fracas_batch_run(batch, record));
     for (int l = 0; l < 8; l++) {
         assert_int_equal(record[l].outcome, FRACAS_FRAGMENTED);
         f.residual = fmax(f.residual, record[l].residual / record[l].dissipated);

@@ -326,7 +326,7 @@ static fracas_model *lane_model(int kind)
         spec.time.quiet_fraction = 0.05;
     }
     fracas_model *model;
-    assert_ok(fracas_model_create(&spec, &model));
+    OK(fracas_model_create(&spec, &model));
     return model;
 }
 
@@ -336,19 +336,18 @@ static void run_lanes(const fracas_model *model, uint64_t first, size_t count,
                       const fracas_batch_options *options, size_t poisoned, fracas_record *record)
 {
     fracas_batch *batch;
-    assert_ok(fracas_batch_create(model, count, options, &batch));
+    OK(fracas_batch_create(model, count, options, &batch));
     for (size_t l = 0; l < count; l++) {
         bar_draw(batch, l, 0.05, first + l);
         fracas_record_init(&record[l]);
     }
-    assert_ok(fracas_batch_begin(batch));
+    OK(fracas_batch_begin(batch));
     if (poisoned < count) {
         size_t stride;
         double *strength = fracas_batch_strength(batch, poisoned, &stride);
         strength[17 * stride - (size_t)((RING_STRENGTH - RING_V_LEFT) * batch->step.lanes)] = NAN;
     }
-    for (size_t running = count; running > 0;)
-        assert_ok(fracas_batch_step(batch, record, &running));
+    for (size_t running = count; running > 0;) OK(fracas_batch_step(batch, record, &running));
     if (poisoned < count) assert_int_equal(record[poisoned].outcome, FRACAS_NONFINITE);
     fracas_batch_destroy(batch);
 }

@@ -36,7 +36,7 @@ static fracas_model *model_of(const ring_case *it)
     spec.time.quiet = 4e-8;
     spec.time.quiet_fraction = 0.02;
     fracas_model *model;
-    assert_ok(fracas_model_create(&spec, &model));
+    OK(fracas_model_create(&spec, &model));
     return model;
 }
 
@@ -61,18 +61,18 @@ static int64_t run(const fracas_model *model, const batch_plan *plan, fracas_rec
     const fracas_batch_options options = {
         .history = 20, .interfaces = true, .width = plan->width, .isa = plan->isa};
     fracas_batch *batch;
-    assert_ok(fracas_batch_create(model, plan->count, &options, &batch));
+    OK(fracas_batch_create(model, plan->count, &options, &batch));
     for (size_t l = 0; l < plan->count; l++) {
         bar_draw(batch, l, 0.1, plan->first + l);
         fracas_record_init(&record[l]);
     }
-    assert_ok(fracas_batch_begin(batch));
+    OK(fracas_batch_begin(batch));
     int64_t different = 0;
     for (size_t running = plan->count; running > 0;) {
         if (batch->steps == 40 && plan->poisoned < plan->count)
             *value(batch, plan->poisoned, POISONED_LINK,
                    RING_V_LEFT) = *value(batch, plan->poisoned, POISONED_LINK, RING_STRENGTH) = NAN;
-        assert_ok(fracas_batch_step(batch, record, &running));
+        OK(fracas_batch_step(batch, record, &running));
         for (size_t l = 1; l < plan->count; l++)
             different += batch->step.next[l] != batch->step.next[0];
     }

@@ -16,18 +16,18 @@ typedef struct {
 static counts count_fragments(const fracas_spec *spec, double scatter, size_t replicas)
 {
     fracas_model *model;
-    assert_ok(fracas_model_create(spec, &model));
+    OK(fracas_model_create(spec, &model));
     double sum = 0, squares = 0;
     for (size_t first = 0; first < replicas; first += 8) {
         const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
         fracas_batch *batch;
-        assert_ok(fracas_batch_create(model, 8, &options, &batch));
+        OK(fracas_batch_create(model, 8, &options, &batch));
         fracas_record record[8];
         for (size_t l = 0; l < 8; l++) {
             bar_draw(batch, l, scatter, first + l);
             fracas_record_init(&record[l]);
         }
-        assert_ok(fracas_batch_run(batch, record));
+        OK(fracas_batch_run(batch, record));
         for (size_t l = 0; l < 8; l++) {
             assert_int_equal(record[l].outcome, FRACAS_FRAGMENTED);
             assert_int_equal(record[l].fragments, record[l].broken); /* closed bar */

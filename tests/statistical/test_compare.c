@@ -16,8 +16,6 @@
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_sort.h>
 
-#define OK(call) assert_int_equal(call, FRACAS_OK)
-
 /* ---- differences ---- */
 
 /* Two samples of six and four. The numbers are those of a script in Python with scipy: means 5

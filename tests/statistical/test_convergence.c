@@ -42,7 +42,7 @@ static void verdicts(void **state)
         FRACAS_NUMBER_UNCLEAR, FRACAS_NUMBER_UNCLEAR, FRACAS_NUMBER_UNKNOWN};
     enum { ROWS = sizeof row / sizeof *row };
     fracas_convergence convergence = {.tolerance = 0.02, .nrows = ROWS, .row = row};
-    assert_int_equal(fracas_convergence_judge(&convergence), FRACAS_OK);
+    OK(fracas_convergence_judge(&convergence));
     for (int i = 0; i < ROWS; i++)
         if (row[i].verdict != expected[i])
             fail_msg("row %d: %s, not %s", i, fracas_number_verdict_name[row[i].verdict],
@@ -61,7 +61,7 @@ static void realizations_that_are_alike(void **state)
     const fracas_number_verdict expected[] = {FRACAS_NUMBER_UNCLEAR, FRACAS_NUMBER_HOLDS,
                                               FRACAS_NUMBER_UNCLEAR};
     fracas_convergence convergence = {.tolerance = 0.02, .nrows = 3, .row = row};
-    assert_int_equal(fracas_convergence_judge(&convergence), FRACAS_OK);
+    OK(fracas_convergence_judge(&convergence));
     for (int i = 0; i < 3; i++) assert_int_equal(row[i].verdict, expected[i]);
     assert_true(fracas_convergence_replicas(&convergence, &row[2]) == 8);
     row[2].value.relative_high =
@@ -95,7 +95,7 @@ static void pairs_by_replica(void **state)
     fracas_analysis study = {.point = &point};
     fracas_convergence convergence = {.study = &study, .tolerance = 0.02};
     const fracas_refinement_map map = {.name = "step", .paired = true};
-    assert_int_equal(fracas_convergence_compare(&convergence, 0, &refined, &map), FRACAS_OK);
+    OK(fracas_convergence_compare(&convergence, 0, &refined, &map));
     assert_int_equal(convergence.nrows, 2);
     const fracas_compared_value *of = &convergence.row[0].value;
     const double x = 2.5 / (0.5 * sqrt(5.0 / 3)) / sqrt(3),
@@ -125,26 +125,26 @@ static void replicas_of_what_is_known(void **state)
     row[3].value.relative_low = row[3].value.relative_high = NAN;
     said heard = {""};
     fracas_convergence convergence = {.tolerance = 0.02, .nrows = 2, .row = row};
-    assert_int_equal(fracas_convergence_judge(&convergence), FRACAS_OK);
+    OK(fracas_convergence_judge(&convergence));
     fracas_convergence_conclude(&convergence, hear, &heard);
     assert_string_equal(heard.last,
                         "About 18000 replicas of each point would tell of all that are unclear.");
     convergence.nrows = 4;
-    assert_int_equal(fracas_convergence_judge(&convergence), FRACAS_OK);
+    OK(fracas_convergence_judge(&convergence));
     fracas_convergence_conclude(&convergence, hear, &heard);
     assert_string_equal(heard.last,
                         "About 18000 replicas of each point would tell of 2 that are unclear; 2 of "
                         "the 4 unclear changes are known no better than to 50 % of the number.");
     convergence.row = row + 2;
     convergence.nrows = 1;
-    assert_int_equal(fracas_convergence_judge(&convergence), FRACAS_OK);
+    OK(fracas_convergence_judge(&convergence));
     fracas_convergence_conclude(&convergence, hear, &heard);
     assert_string_equal(heard.last, "No change that is unclear is known better than to 50 % of the "
                                     "number: how many replicas would tell cannot be said.");
     convergence.row = row;
     row[0] = row_of(-0.01, 0.01, 0.9);
     heard.last[0] = '\0';
-    assert_int_equal(fracas_convergence_judge(&convergence), FRACAS_OK);
+    OK(fracas_convergence_judge(&convergence));
     fracas_convergence_conclude(&convergence, hear, &heard);
     assert_null(strstr(heard.last, "replicas"));
 }
@@ -170,8 +170,8 @@ static void scale(size_t n, double factor, bool paired, fracas_convergence *conv
     fracas_analysis study = {.point = &point};
     *convergence = (fracas_convergence){.study = &study, .tolerance = 0.02};
     const fracas_refinement_map map = {.name = "step", .paired = paired};
-    assert_int_equal(fracas_convergence_compare(convergence, 0, &refined, &map), FRACAS_OK);
-    assert_int_equal(fracas_convergence_judge(convergence), FRACAS_OK);
+    OK(fracas_convergence_compare(convergence, 0, &refined, &map));
+    OK(fracas_convergence_judge(convergence));
     convergence->study = NULL;
 }
 
@@ -248,9 +248,9 @@ static size_t count_verdicts(gsl_rng *random, size_t points, size_t n, double sh
                 before.value[i].count * (1 + shift) + gsl_ran_gaussian(random, 0.5);
             after.value[i].size = 1 / after.value[i].count;
         }
-        assert_int_equal(fracas_convergence_compare(&convergence, p, &refined, &map), FRACAS_OK);
+        OK(fracas_convergence_compare(&convergence, p, &refined, &map));
     }
-    assert_int_equal(fracas_convergence_judge(&convergence), FRACAS_OK);
+    OK(fracas_convergence_judge(&convergence));
     for (size_t i = 0; i < convergence.nrows; i++) count += convergence.row[i].verdict <= verdict;
     *rows = convergence.nrows;
     free(convergence.row);
@@ -280,8 +280,8 @@ static void intervals_agree_with_verdicts(void **state)
             before.value[i].dissipated = gsl_ran_lognormal(random, 0, 2);
             after.value[i].dissipated = gsl_ran_lognormal(random, 0, 2) * (t % 4 < 2 ? 1 : 8);
         }
-        assert_int_equal(fracas_convergence_compare(&convergence, 0, &refined, &map), FRACAS_OK);
-        assert_int_equal(fracas_convergence_judge(&convergence), FRACAS_OK);
+        OK(fracas_convergence_compare(&convergence, 0, &refined, &map));
+        OK(fracas_convergence_judge(&convergence));
         for (size_t i = 0; i < convergence.nrows; i++) {
             const fracas_convergence_row *row = &convergence.row[i];
             const fracas_compared_value *value = &row->value;

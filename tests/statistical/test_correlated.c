@@ -47,7 +47,7 @@ static double of_covariance(const fracas_strength *strength, size_t i, size_t j,
     double d2 = 0;
     for (int a = 0; a < 3; a++)
         d2 += (position[i][a] - position[j][a]) * (position[i][a] - position[j][a]);
-    assert_int_equal(fracas_covariance_create(strength, &covariance), FRACAS_OK);
+    OK(fracas_covariance_create(strength, &covariance));
     const double rho = fracas_covariance_at(
         covariance, period > 0 ? period / M_PI * fabs(sin(M_PI * sqrt(d2) / period)) : sqrt(d2));
     fracas_covariance_destroy(covariance);
@@ -77,7 +77,7 @@ static void check_covariances(const fracas_strength *strength, size_t n, double 
         site[a] = n - 1 - a * a * (n / 70); /* near to each other, and far */
     for (uint64_t r = 0; r < REALIZATIONS; r++) {
         const fracas_stream named = stream(r);
-        assert_int_equal(fracas_field_sample(field, &named, 1, sigma_c), FRACAS_OK);
+        OK(fracas_field_sample(field, &named, 1, sigma_c));
         for (size_t a = 0; a < WATCHED; a++)
             for (size_t b = 0; b <= a; b++)
                 product[a][b] += log(sigma_c[site[a]]) * log(sigma_c[site[b]]) / REALIZATIONS;
@@ -143,7 +143,7 @@ static void each_strength_follows_its_law(void **state)
         fracas_field *field = field_over(&laws[law], N, 1, 0);
         for (uint64_t r = 0; r < REALIZATIONS; r++) {
             const fracas_stream named = stream(r);
-            assert_int_equal(fracas_field_sample(field, &named, 1, sigma_c), FRACAS_OK);
+            OK(fracas_field_sample(field, &named, 1, sigma_c));
             for (size_t a = 0; a < WATCHED; a++) {
                 const size_t i = a * (N - 1) / (WATCHED - 1);
                 const double s = sigma_c[i];
@@ -188,13 +188,13 @@ static void a_strength_depends_on_its_name_alone(void **state)
         uint64_t of[3];
         for (uint64_t r = 0; r < 3; r++) {
             const fracas_stream named = stream(r);
-            assert_int_equal(fracas_field_sample(first, &named, 1, sigma_c), FRACAS_OK);
+            OK(fracas_field_sample(first, &named, 1, sigma_c));
             of[r] = digest(sigma_c, n, 1);
         }
         for (uint64_t r = 3; r-- > 0;) {
             const fracas_stream named = stream(r);
             memset(lanes, 0, sizeof lanes);
-            assert_int_equal(fracas_field_sample(second, &named, 8, lanes + r), FRACAS_OK);
+            OK(fracas_field_sample(second, &named, 8, lanes + r));
             assert_true(digest(lanes + r, n, 8) == of[r] && lanes[r + 1] == 0);
         }
         assert_true(of[0] != of[1] && of[1] != of[2]);
@@ -214,14 +214,14 @@ static void gauss_points_are_sites(void **state)
     const fracas_stream named = stream(0);
     sites_scattered(60, position);
     fracas_field *field = field_over(&strength, 20, 3, 0);
-    assert_int_equal(fracas_field_sample(field, &named, 1, sigma_c), FRACAS_OK);
+    OK(fracas_field_sample(field, &named, 1, sigma_c));
     /* Increments have a variance 2 d/l < 3e-9 of which 10 standard deviations are 5e-4. */
     for (size_t k = 1; k < 60; k++) assert_true(fabs(log(sigma_c[k] / sigma_c[0])) < 1e-3);
     fracas_field_destroy(field);
     const fracas_strength apart = correlated(&fracas_covariance_exponential, 1e-12,
                                              NAN); /* all are independent: w itself */
     field = field_over(&apart, 20, 3, 0);
-    assert_int_equal(fracas_field_sample(field, &named, 1, sigma_c), FRACAS_OK);
+    OK(fracas_field_sample(field, &named, 1, sigma_c));
     for (size_t k = 0; k < 60;
          k++) { /* the logarithm of strengths of 1e-3 to 1e3 to 1e-14 of its size */
         const double u = fracas_stream_uniform(&named, fracas_stream_site(k / 3, k % 3));

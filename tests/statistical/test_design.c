@@ -37,7 +37,7 @@ static double mean_square(int type, size_t n, function *f)
     if (!p) abort();
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
         const fracas_design design = {fracas_design_types[type], seed, n, PARAMETERS, names, NULL};
-        assert_int_equal(fracas_design_fill(&design, p), FRACAS_OK);
+        OK(fracas_design_fill(&design, p));
         double mean = 0.0;
         for (size_t i = 0; i < n; i++) mean += f(p + i * PARAMETERS) / (double)n;
         total += mean * mean / SEEDS;

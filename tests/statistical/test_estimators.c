@@ -115,8 +115,7 @@ static void draw(gsl_rng *random, size_t n, bool apart, fracas_ensemble *ensembl
         for (size_t f = 0; f < count; f += record.nfragment) {
             record.fragment = fragment + f;
             record.nfragment = apart ? 1 : count;
-            assert_int_equal(fracas_ensemble_add(ensemble, i, (int64_t)i, &value, &record),
-                             FRACAS_OK);
+            OK(fracas_ensemble_add(ensemble, i, (int64_t)i, &value, &record));
         }
     }
 }
@@ -146,7 +145,7 @@ static void repeat(size_t n, bool apart, int repetitions, const double truth[NNU
         draw(random, n, apart, &ensemble);
         const fracas_estimate count = fracas_estimate_of(
             &ensemble.value->count, FRACAS_REPLICA_STRIDE, ensemble.nrealizations);
-        assert_int_equal(fracas_pooled_of(&ensemble, (uint64_t)r, &pooled), FRACAS_OK);
+        OK(fracas_pooled_of(&ensemble, (uint64_t)r, &pooled));
         const fracas_interval *interval[NNUMBERS] = {
             [MEAN] = &pooled.all.mean,
             [MASS_MEAN] = &pooled.all.mass_mean,

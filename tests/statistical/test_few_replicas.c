@@ -121,7 +121,7 @@ static double width_of(int64_t replicas, int64_t of_last, double zigzag)
     }
     const fracas_size_series series = {.name = "", .n = FEW_RATES, .point = point};
     fracas_size_crossover fit;
-    assert_int_equal(fracas_crossover_fit(&series, 19999, 1, &fit), FRACAS_OK);
+    OK(fracas_crossover_fit(&series, 19999, 1, &fit));
     print_message("%lld replicas, the last mean %lld: pooled %g, inflation %.3f, width %.5f\n",
                   (long long)replicas, (long long)of_last, fit.pooled, fit.inflation,
                   log(fit.rate.high / fit.rate.low));
@@ -171,7 +171,7 @@ static void draws_know_who_scatters(void **state)
         }
         const fracas_size_series series = {.name = "", .n = FEW_RATES, .point = point};
         fracas_size_crossover fit;
-        assert_int_equal(fracas_crossover_fit(&series, 999, 1, &fit), FRACAS_OK);
+        OK(fracas_crossover_fit(&series, 999, 1, &fit));
         assert_true(fit.pooled == 18);
         width[one] = fit.size.high - fit.size.low;
     }

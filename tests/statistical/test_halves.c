@@ -168,12 +168,11 @@ static void halves_of_ratios(void **state)
                 const double size = scale * gsl_ran_exponential(random, 1);
                 fragment[f] = (fracas_fragment){.size = size, .mass = size, .elements = 100};
             }
-            assert_int_equal(fracas_ensemble_add(&ensemble, i, (int64_t)i, &value, &record),
-                             FRACAS_OK);
+            OK(fracas_ensemble_add(&ensemble, i, (int64_t)i, &value, &record));
         }
         fracas_part first[FRACAS_NPOOLED], second[FRACAS_NPOOLED];
-        assert_int_equal(fracas_pooled_part(&ensemble, 0, N / 2, first), FRACAS_OK);
-        assert_int_equal(fracas_pooled_part(&ensemble, N / 2, N, second), FRACAS_OK);
+        OK(fracas_pooled_part(&ensemble, 0, N / 2, first));
+        OK(fracas_pooled_part(&ensemble, N / 2, N, second));
         for (int v = 0; v < FRACAS_NPOOLED && !shifted; v++)
             alarms[v] += fracas_parts_alike(&first[v], &second[v]) < FRACAS_CONVERGED_ALARM;
         found += shifted &&

@@ -98,7 +98,7 @@ static void exact_crossover(void **state)
     make(point, 0.01, NULL);
     const fracas_size_series series = {.name = "all points", .n = RATES, .point = point};
     fracas_size_crossover found;
-    assert_int_equal(fracas_crossover_fit(&series, 0, 1, &found), FRACAS_OK);
+    OK(fracas_crossover_fit(&series, 0, 1, &found));
     assert_string_equal(found.reason, "");
     assert_true(fabs(found.size.value / TRUE_SIZE - 1) < 1e-6);
     assert_true(fabs(found.rate.value / TRUE_RATE - 1) < 1e-6);
@@ -124,8 +124,7 @@ static shares covers(double factor, int repetitions, unsigned long seed)
         for (size_t i = 0; i < RATES; i++) point[i].error /= factor;
         const fracas_size_series series = {.name = "", .n = RATES, .point = point};
         fracas_size_crossover found;
-        assert_int_equal(fracas_crossover_fit(&series, 399, (uint64_t)round + 1, &found),
-                         FRACAS_OK);
+        OK(fracas_crossover_fit(&series, 399, (uint64_t)round + 1, &found));
         assert_string_equal(found.reason, "");
         of.held[0] += (found.size.low <= TRUE_SIZE && TRUE_SIZE <= found.size.high) /
                       (double)repetitions;
@@ -174,7 +173,7 @@ static void draws_that_run_away(void **state)
     make(point, 0.6, NULL);
     const fracas_size_series series = {.name = "", .n = RATES, .point = point};
     fracas_size_crossover found;
-    assert_int_equal(fracas_crossover_fit(&series, 999, 1, &found), FRACAS_OK);
+    OK(fracas_crossover_fit(&series, 999, 1, &found));
     print_message("s_q %g m, %g to %g, +- %g, bias %g\n", found.size.value, found.size.low,
                   found.size.high, found.size.standard_error, found.size.bias);
     assert_true(found.size.standard_error > 0 &&
@@ -205,7 +204,7 @@ static void without_a_fit(void **state)
                 point[i].size = pow(point[i].rate, -0.7) * (i % 2 ? 1.002 : 0.998);
             if (!strcmp(row[k].what, "level")) point[i].size = 1e-3 / (1 + point[i].rate / 1e8);
         }
-        assert_int_equal(fracas_crossover_fit(&series, 99, 1, &found), FRACAS_OK);
+        OK(fracas_crossover_fit(&series, 99, 1, &found));
         print_message("%s: %s\n", row[k].what, found.reason);
         assert_non_null(strstr(found.reason, row[k].reason));
         assert_true(isnan(found.rate.value) && isnan(found.size.value) &&

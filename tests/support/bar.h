@@ -86,10 +86,4 @@ static inline void bar_set_strength(fracas_batch *batch, size_t lane, size_t k, 
     strength[k * stride] = sigma_c;
 }
 
-#define assert_ok(call)                                                \
-    do {                                                               \
-        fracas_err assert_code_ = (call);                              \
-        if (assert_code_) fail_msg("%s: %s", #call, fracas_message()); \
-    } while (0)
-
 #endif

@@ -34,7 +34,7 @@ static inline fracas_model *model_on(fracas_spec *spec, int mesh)
     double noise[MOST + 1];
     fracas_model *model;
     lay_mesh(spec, mesh, noise);
-    assert_ok(fracas_model_create(spec, &model));
+    OK(fracas_model_create(spec, &model));
     return model;
 }
 
@@ -42,10 +42,10 @@ static inline fracas_batch *batch_of(const fracas_model *model, double sigma_c)
 {
     fracas_batch *batch;
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    assert_ok(fracas_batch_create(model, 1, &options, &batch));
+    OK(fracas_batch_create(model, 1, &options, &batch));
     for (size_t i = 0; i < fracas_model_interfaces(model); i++)
         bar_set_strength(batch, 0, i, sigma_c);
-    assert_ok(fracas_batch_begin(batch));
+    OK(fracas_batch_begin(batch));
     return batch;
 }
 
@@ -57,7 +57,7 @@ static inline double *field(fracas_batch *batch, size_t element, int which)
 static inline void step(fracas_batch *batch, fracas_record *record)
 {
     size_t running;
-    assert_ok(fracas_batch_step(batch, record, &running));
+    OK(fracas_batch_step(batch, record, &running));
 }
 
 #endif

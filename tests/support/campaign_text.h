@@ -59,7 +59,7 @@ static inline char *write_text(const fracas_campaign *campaign)
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
-    assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK);
+    OK(fracas_campaign_write(campaign, out));
     assert_int_equal(fclose(out), 0);
     return text;
 }

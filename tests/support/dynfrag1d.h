@@ -134,16 +134,16 @@ static inline void dynfrag1d_begin(dynfrag1d_replay *replay, const dynfrag1d_run
     spec.geometry.area = 1.0;
     spec.cohesive.law = law;
     *replay = (dynfrag1d_replay){.run = run};
-    assert_ok(fracas_model_create(&spec, &replay->model));
+    OK(fracas_model_create(&spec, &replay->model));
     replay->model->time_step = courant > 0 ? courant * replay->model->element_size / BAR_WAVE_SPEED
                                            : run->time_step;
     assert_true(replay->model->time_step < replay->model->critical_step);
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    assert_ok(fracas_batch_create(replay->model, 1, &options, &replay->batch));
+    OK(fracas_batch_create(replay->model, 1, &options, &replay->batch));
     for (size_t i = 1, m = (size_t)refine; i < replay->model->elements; i++)
         bar_set_strength(replay->batch, 0, i - 1,
                          i % m ? DYNFRAG1D_UNBREAKABLE : strength[i / m - 1]);
-    assert_ok(fracas_batch_begin(replay->batch));
+    OK(fracas_batch_begin(replay->batch));
     fracas_record_init(&replay->record);
     replay->before = calloc(2 * replay->model->elements, sizeof *replay->before);
     assert_non_null(replay->before);
@@ -214,7 +214,7 @@ static inline void dynfrag1d_step(dynfrag1d_replay *replay, dynfrag1d_row *now)
     for (size_t e = 0; now && e < replay->model->elements; e++)
         for (size_t side = 0; side < 2; side++)
             replay->before[2 * e + side] = dynfrag1d_field(replay, e, DYNFRAG1D_V_LEFT + (int)side);
-    assert_ok(fracas_batch_step(replay->batch, &replay->record, &running));
+    OK(fracas_batch_step(replay->batch, &replay->record, &running));
     assert_int_equal(running, 1);
     double power = 0.5 * replay->run->rate * DYNFRAG1D_LENGTH *
                    (dynfrag1d_stress(replay, 0) +

@@ -102,8 +102,7 @@ static inline few_bends few_bends_of(int replicas, bool falling, int rounds, uns
         }
         const fracas_size_series series = {.name = "", .n = FEW_RATES, .point = point};
         fracas_size_crossover fit;
-        assert_int_equal(fracas_crossover_fit(&series, FEW_DRAWS, (uint64_t)round + 1, &fit),
-                         FRACAS_OK);
+        OK(fracas_crossover_fit(&series, FEW_DRAWS, (uint64_t)round + 1, &fit));
         assert_string_equal(fit.reason, "");
         found.held[0] += (fit.size.low <= size && size <= fit.size.high) / (double)rounds;
         found.held[1] += (fit.rate.low <= rate && rate <= fit.rate.high) / (double)rounds;

@@ -11,8 +11,6 @@
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sort.h>
 
-#define OK(call) assert_int_equal(call, FRACAS_OK)
-
 /* Kolmogorov's distance of n uniform numbers is above 2.69/sqrt(n) once in 1e6:
  * sqrt(-log(0.5e-6)/2). */
 #define FIT_KOLMOGOROV 2.69

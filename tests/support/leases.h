@@ -6,8 +6,6 @@
 #include "campaigns/scheduler/lease/scheduler.h"
 #include "tests/support/test.h"
 
-#define OK(call) assert_int_equal(call, FRACAS_OK)
-
 enum { POINTS = 3, MANY = 10000 };
 static const double cost[POINTS] = {1, 100, 10};
 

@@ -22,8 +22,8 @@ static inline void report_write_index(const char *folder, const fracas_point_tab
                                       const void *context)
 {
     fracas_index *index;
-    assert_int_equal(fracas_index_open(folder, true, &index), FRACAS_OK);
-    assert_int_equal(fracas_index_plan(index, table), FRACAS_OK);
+    OK(fracas_index_open(folder, true, &index));
+    OK(fracas_index_plan(index, table));
     size_t count = 0, all = 0;
     for (size_t p = 0; p < table->npoints; p++) all += (size_t)table->point[p].replicas;
     fracas_segment_row *row = calloc(all, sizeof *row);
@@ -40,7 +40,7 @@ static inline void report_write_index(const char *folder, const fracas_point_tab
             fracas_record_clear(&record);
         }
     }
-    assert_int_equal(fracas_index_commit(index, "one.h5", seal, row, count, "{}"), FRACAS_OK);
+    OK(fracas_index_commit(index, "one.h5", seal, row, count, "{}"));
     fracas_index_close(index);
     free(row);
 }
@@ -55,17 +55,17 @@ static inline void report_write_study(const char *folder, const fracas_file_head
     snprintf(path, sizeof path, "%s/study.h5", folder);
     assert_true(mkdir(folder, 0777) == 0);
     fracas_writer *writer;
-    assert_int_equal(fracas_writer_create(path, header, table, &writer), FRACAS_OK);
+    OK(fracas_writer_create(path, header, table, &writer));
     for (size_t p = 0; p < table->npoints; p++) {
         for (int64_t replica = 0; replica < table->point[p].replicas; replica++) {
             fracas_record record;
             make(context, p, replica, &record);
-            assert_int_equal(fracas_writer_append(writer, p, replica, &record), FRACAS_OK);
+            OK(fracas_writer_append(writer, p, replica, &record));
             fracas_record_clear(&record);
         }
     }
     fracas_file_seal seal;
-    assert_int_equal(fracas_writer_finish(writer, header->complete, &seal), FRACAS_OK);
+    OK(fracas_writer_finish(writer, header->complete, &seal));
     report_write_index(folder, table, &seal, make, context);
 }
 
@@ -73,7 +73,7 @@ static inline void report_write_study(const char *folder, const fracas_file_head
 static inline void report_analyse(const char *folder)
 {
     fracas_analysis *analysis;
-    assert_int_equal(fracas_analysis_create(folder, NULL, NULL, &analysis), FRACAS_OK);
+    OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
     char path[640];
     snprintf(path, sizeof path, "%s/table.txt", folder);
     FILE *out = fopen(path, "w");
@@ -83,11 +83,11 @@ static inline void report_analyse(const char *folder)
     snprintf(path, sizeof path, "%s/summary.json", folder);
     out = fopen(path, "w");
     assert_non_null(out);
-    assert_int_equal(fracas_analysis_write_json(analysis, folder, out), FRACAS_OK);
+    OK(fracas_analysis_write_json(analysis, folder, out));
     assert_int_equal(fclose(out), 0);
-    assert_int_equal(fracas_report_write(analysis, folder), FRACAS_OK);
+    OK(fracas_report_write(analysis, folder));
     snprintf(path, sizeof path, "%s/export", folder);
-    assert_int_equal(fracas_export_write(analysis, path, true), FRACAS_OK);
+    OK(fracas_export_write(analysis, path, true));
     fracas_analysis_destroy(analysis);
 }
 

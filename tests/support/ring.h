@@ -49,8 +49,8 @@ static inline ring_run make(const fracas_spec *spec, double strength)
 {
     ring_run run = {.running = 1};
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST, .interfaces = true};
-    assert_ok(fracas_model_create(spec, &run.model));
-    assert_ok(fracas_batch_create(run.model, 1, &options, &run.batch));
+    OK(fracas_model_create(spec, &run.model));
+    OK(fracas_batch_create(run.model, 1, &options, &run.batch));
     run.n = run.model->elements;
     run.h = run.model->element_size;
     for (size_t i = 0; i < run.n; i++) bar_set_strength(run.batch, 0, i, strength);
@@ -61,13 +61,13 @@ static inline ring_run make(const fracas_spec *spec, double strength)
 static inline ring_run begin(const fracas_spec *spec, double strength)
 {
     ring_run run = make(spec, strength);
-    assert_ok(fracas_batch_begin(run.batch));
+    OK(fracas_batch_begin(run.batch));
     return run;
 }
 
 static inline void step(ring_run *run)
 {
-    assert_ok(fracas_batch_step(run->batch, &run->record, &run->running));
+    OK(fracas_batch_step(run->batch, &run->record, &run->running));
 }
 
 static inline void finish(ring_run *run)

@@ -70,7 +70,7 @@ static inline fracas_batch *batch_with(const fracas_model *model, size_t count,
                                        fracas_batch_options options)
 {
     fracas_batch *batch = NULL;
-    assert_ok(fracas_batch_create(model, count, &options, &batch));
+    OK(fracas_batch_create(model, count, &options, &batch));
     return batch;
 }
 
@@ -86,7 +86,7 @@ static inline fracas_batch *lane_of(const fracas_model *model, double scatter, u
 static inline void run_to_end(fracas_batch *batch, fracas_record *record)
 {
     size_t running = batch->count;
-    while (running > 0) assert_ok(fracas_batch_step(batch, record, &running));
+    while (running > 0) OK(fracas_batch_step(batch, record, &running));
 }
 
 static inline double *shell_state(const fracas_batch *batch, size_t e, int field, size_t i)

@@ -19,17 +19,17 @@ static inline shell_run shell_begin(fracas_model *model, int width, double stren
     shell_run run = {.model = model, .running = 1};
     const fracas_batch_options options = {.width = width, .isa = FRACAS_ISA_BEST};
     size_t stride;
-    assert_ok(fracas_batch_create(model, 1, &options, &run.batch));
+    OK(fracas_batch_create(model, 1, &options, &run.batch));
     double *strength = fracas_batch_strength(run.batch, 0, &stride);
     for (size_t i = 0; i < model->interfaces; i++) strength[i * stride] = strength_value;
-    assert_ok(fracas_batch_begin(run.batch));
+    OK(fracas_batch_begin(run.batch));
     fracas_record_init(&run.record);
     return run;
 }
 
 static inline void shell_step(shell_run *run)
 {
-    assert_ok(fracas_batch_step(run->batch, &run->record, &run->running));
+    OK(fracas_batch_step(run->batch, &run->record, &run->running));
 }
 
 static inline void shell_clear(shell_run *run)

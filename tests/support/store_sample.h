@@ -10,14 +10,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define OK(call) sample_ok((call), __FILE__, __LINE__)
-
-static inline void sample_ok(fracas_err err, const char *file, int line)
-{
-    if (err) print_error("%s:%d: code %d: %s\n", file, line, err, fracas_message());
-    assert_int_equal(err, FRACAS_OK);
-}
-
 /* A call that must fail with this code and with `text` in its message. */
 static inline void sample_fails(fracas_err err, fracas_err wanted, const char *text)
 {

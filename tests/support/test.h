@@ -15,6 +15,14 @@
 
 #include <cmocka.h>
 
+#include "base/err.h"
+
+/* The call succeeds; else its message is shown. */
+#define OK(call)                                               \
+    do {                                                       \
+        if (call) fail_msg("%s: %s", #call, fracas_message()); \
+    } while (0)
+
 /* The file's function `fracas_test` is its main; CMake gives each file's a name of its own. */
 #define TESTS(...) TESTS_RUN(NULL, NULL, NULL, NULL, __VA_ARGS__)
 /* The same with a fixture around each test, or around all together. */

@@ -25,16 +25,15 @@ static void jobs_of_an_allocation(void **state)
     unsetenv("SLURM_NTASKS");
     setenv("SLURM_JOB_ID", "7", 1);
     setenv("SLURM_JOB_CPUS_PER_NODE", "128(x3)", 1);
-    assert_int_equal(fracas_allocation_jobs(0, &jobs), FRACAS_OK);
+    OK(fracas_allocation_jobs(0, &jobs));
     assert_int_equal(jobs, 384); /* whole nodes: a process a core */
     setenv("SLURM_NTASKS", "96", 1);
-    assert_int_equal(fracas_allocation_jobs(0, &jobs), FRACAS_OK);
+    OK(fracas_allocation_jobs(0, &jobs));
     assert_int_equal(jobs, 96);
-    assert_int_equal(fracas_allocation_jobs(100000, &jobs),
-                     FRACAS_OK); /* the bound is that of one machine */
+    OK(fracas_allocation_jobs(100000, &jobs)); /* the bound is that of one machine */
     assert_int_equal(jobs, 100000);
     unsetenv("SLURM_JOB_ID"); /* left over from a job: no allocation */
-    assert_int_equal(fracas_allocation_jobs(0, &jobs), FRACAS_OK);
+    OK(fracas_allocation_jobs(0, &jobs));
     assert_true(jobs >= 1 && jobs != 96);
     assert_int_equal(fracas_allocation_jobs(1000000, &jobs), FRACAS_USAGE);
     unsetenv("SLURM_NTASKS");
@@ -45,12 +44,12 @@ static void a_task_of_srun_without_mpi(void **state)
 {
     setenv("SLURM_STEP_ID", "0", 1);
     setenv("SLURM_STEP_NUM_TASKS", "1", 1);
-    assert_int_equal(fracas_allocation_check(), FRACAS_OK);
+    OK(fracas_allocation_check());
     setenv("SLURM_STEP_NUM_TASKS", "4", 1);
     assert_int_equal(fracas_allocation_check(), FRACAS_USAGE);
     assert_non_null(strstr(fracas_message(), "--mpi=pmix"));
     unsetenv("SLURM_STEP_ID"); /* the batch script itself */
-    assert_int_equal(fracas_allocation_check(), FRACAS_OK);
+    OK(fracas_allocation_check());
     unsetenv("SLURM_STEP_NUM_TASKS");
 }
 

@@ -168,7 +168,7 @@ static void columns_that_tell_points_apart(void **state)
     }
     fracas_point_table table = {.ncolumns = N, .column = column, .npoints = P, .point = point};
     fracas_columns columns, others;
-    assert_int_equal(fracas_columns_create(&table, &columns), FRACAS_OK);
+    OK(fracas_columns_create(&table, &columns));
     assert_int_equal(columns.count, 2);
     assert_int_equal(columns.column[0], 1);
     assert_int_equal(columns.column[1], 3);
@@ -180,14 +180,14 @@ static void columns_that_tell_points_apart(void **state)
     assert_string_equal(beside, "material.young");        /* not the mesh */
     fracas_columns_label(&table, &columns, 3, label, 12); /* cut, not overrun */
     assert_string_equal(label, "rate 1e4 1/");
-    assert_int_equal(fracas_columns_without_rate(&table, &columns, &others), FRACAS_OK);
+    OK(fracas_columns_without_rate(&table, &columns, &others));
     assert_int_equal(others.count, 1);
     assert_true(fracas_columns_same(&table, &others, 0, 1));
     assert_false(fracas_columns_same(&table, &others, 1, 2));
     fracas_columns_clear(&others);
     fracas_columns_clear(&columns);
     table.npoints = 1; /* nothing differs: the rate */
-    assert_int_equal(fracas_columns_create(&table, &columns), FRACAS_OK);
+    OK(fracas_columns_create(&table, &columns));
     assert_int_equal(columns.count, 1);
     assert_int_equal(columns.column[0], 1);
     fracas_columns_clear(&columns);
@@ -207,7 +207,7 @@ static void names_come_before_their_numbers(void **state)
     fracas_point_table table = {.ncolumns = 2, .column = column, .npoints = 2, .point = point};
     fracas_columns columns;
     char label[64];
-    assert_int_equal(fracas_columns_create(&table, &columns), FRACAS_OK);
+    OK(fracas_columns_create(&table, &columns));
     assert_int_equal(columns.count, 1);
     fracas_columns_label(&table, &columns, 1, label, sizeof label);
     assert_string_equal(label, "law rigid-link");
@@ -304,10 +304,9 @@ static void statistics_of_records(void **state)
         record.onset_time = outcome[i] == FRACAS_INTACT ? NAN : 1e-7;
         record.fragment = fragment + first[i];
         record.nfragment = count[i];
-        assert_int_equal(fracas_point_statistics_add(&statistics, 10 + i, (int64_t)i, &record),
-                         FRACAS_OK);
+        OK(fracas_point_statistics_add(&statistics, 10 + i, (int64_t)i, &record));
     }
-    assert_int_equal(fracas_point_statistics_finish(&statistics), FRACAS_OK);
+    OK(fracas_point_statistics_finish(&statistics));
     assert_int_equal(statistics.realizations, 4);
     assert_int_equal(statistics.usable, 3);
     assert_int_equal(statistics.outcome[FRACAS_NONFINITE], 1);
@@ -359,7 +358,7 @@ static void warnings_at_their_limits(void **state)
     fracas_analysis analysis = {.table = &table, .point = point, .header.complete = true};
     fracas_warning *warning;
     size_t count;
-    assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &count), FRACAS_OK);
+    OK(fracas_analysis_warnings(&analysis, &warning, &count));
     const char *const expected[] = {
         "2 of 9 realizations ended NONFINITE",
         "1 of 9 realizations ended ENERGY_DRIFT",
@@ -379,7 +378,7 @@ static void warnings_at_their_limits(void **state)
     }
     free(warning);
     analysis.header.complete = false;
-    assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &count), FRACAS_OK);
+    OK(fracas_analysis_warnings(&analysis, &warning, &count));
     assert_int_equal(count, FRACAS_COUNT(expected) + 1);
     assert_true(warning[0].point == SIZE_MAX);
     free(warning);
@@ -395,7 +394,7 @@ static void figure_of_sizes(void **state)
     fracas_analysis analysis = {.table = &table, .point = &point};
     fracas_chart chart;
     fracas_chart_init(&chart);
-    assert_int_equal(fracas_figure_sizes(&analysis, 0, &chart), FRACAS_OK);
+    OK(fracas_figure_sizes(&analysis, 0, &chart));
     assert_int_equal(chart.panel[0].nseries, 1);
     const fracas_series *series = chart.panel[0].series;
     assert_int_equal(series->n, 3);
@@ -405,7 +404,7 @@ static void figure_of_sizes(void **state)
         assert_true(series->y[i] == y[i]);
     }
     fracas_chart_clear(&chart);
-    assert_int_equal(fracas_figure_sizes_together(&analysis, &chart), FRACAS_OK);
+    OK(fracas_figure_sizes_together(&analysis, &chart));
     assert_true(fabs(chart.panel[0].series->x[2] - 2) < 1e-14); /* over the mean, 2 mm */
     fracas_chart_clear(&chart);
 }

@@ -100,7 +100,7 @@ static void pattern_of_uniform_expansion(void **state)
     fragment[3].dust = 1;
     fracas_record record = {.nfragment = N, .fragment = fragment, .end_time = 2e-6};
     fracas_ring_pattern pattern;
-    assert_int_equal(fracas_ring_pattern_create(&record, radius, &pattern), FRACAS_OK);
+    OK(fracas_ring_pattern_create(&record, radius, &pattern));
     assert_int_equal(pattern.n, N);
     assert_true(pattern.time == 2e-6 && fabs(pattern.expansion - 120) < 1e-11);
     for (size_t i = 0; i < N; i++) {
@@ -334,8 +334,8 @@ static void assert_columns(const double real[][3], size_t npoints, const char *e
     fracas_point_table table = {.ncolumns = 3, .column = columns, .npoints = npoints, .point = row};
     fracas_columns shown, others;
     char text[128] = "";
-    assert_int_equal(fracas_columns_create(&table, &shown), FRACAS_OK);
-    assert_int_equal(fracas_columns_without_rate(&table, &shown, &others), FRACAS_OK);
+    OK(fracas_columns_create(&table, &shown));
+    OK(fracas_columns_without_rate(&table, &shown, &others));
     for (size_t i = 0; i < shown.count; i++)
         strcat(strcat(text, fracas_columns_name(&table, &shown, i)), ",");
     strcat(text, "|");
@@ -373,10 +373,10 @@ static void figure_of_rings(void **state)
             .n = 4, .mean = 1e-3, .deviation = 1e-4, .half_width = 1e-4};
     }
     fracas_analysis analysis = {.table = &made.table, .point = point};
-    assert_int_equal(fracas_columns_create(&made.table, &analysis.shown), FRACAS_OK);
+    OK(fracas_columns_create(&made.table, &analysis.shown));
     fracas_chart chart;
     fracas_chart_init(&chart);
-    assert_int_equal(fracas_figure_rate(&analysis, false, &chart), FRACAS_OK);
+    OK(fracas_figure_rate(&analysis, false, &chart));
     assert_string_equal(chart.panel[0].x.label, "strain rate [1/s]");
     const char *const expected[] = {"radius 8 mm", "radius 16 mm"};
     size_t marks = 0;
@@ -395,7 +395,7 @@ static void figure_of_rings(void **state)
     for (size_t p = 0; p < NPOINTS; p++)
         point[p].rate = p == 1 ? 1e4 : 0; /* a ring that only spins is none for a log axis */
     fracas_chart_init(&chart);
-    assert_int_equal(fracas_figure_rate(&analysis, false, &chart), FRACAS_OK);
+    OK(fracas_figure_rate(&analysis, false, &chart));
     for (size_t s = 0; s < chart.panel[0].nseries; s++)
         for (size_t i = 0; i < chart.panel[0].series[s].n; i++)
             assert_true(chart.panel[0].series[s].x[i] > 0);
@@ -422,7 +422,7 @@ static void laws_of_mixed_series(void **state)
     };
     make_table(&made);
     fracas_analysis analysis = {.table = &made.table, .point = point};
-    assert_int_equal(fracas_columns_create(&made.table, &analysis.shown), FRACAS_OK);
+    OK(fracas_columns_create(&made.table, &analysis.shown));
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
         for (size_t p = 0; p < NPOINTS; p++) {
             fracas_point_statistics_init(&made.table, p, &point[p]);
@@ -434,7 +434,7 @@ static void laws_of_mixed_series(void **state)
         }
         fracas_chart chart;
         fracas_chart_init(&chart);
-        assert_int_equal(fracas_figure_rate(&analysis, false, &chart), FRACAS_OK);
+        OK(fracas_figure_rate(&analysis, false, &chart));
         size_t curves = 0;
         for (size_t s = 0; s < chart.panel[0].nseries; s++)
             curves += chart.panel[0].series[s].kind == FRACAS_CURVE;

@@ -265,10 +265,10 @@ static void slopes_of_series(void **state)
     fracas_point_table table = {
         .ncolumns = NCOLUMNS, .column = column, .npoints = NPOINTS, .point = row};
     fracas_analysis analysis = {.table = &table, .point = point};
-    assert_int_equal(fracas_columns_create(&table, &analysis.shown), FRACAS_OK);
+    OK(fracas_columns_create(&table, &analysis.shown));
     fracas_size_slope *list;
     size_t count;
-    assert_int_equal(fracas_size_slopes(&analysis, &list, &count), FRACAS_OK);
+    OK(fracas_size_slopes(&analysis, &list, &count));
     assert_int_equal(count, 3);
     assert_string_equal(list[0].name, "all points");
     assert_int_equal(list[0].slope.n, NPOINTS);
@@ -287,7 +287,7 @@ static void slopes_of_series(void **state)
     /* A mean of two replicas, of one degree of freedom, and as the others scatter: they weigh as
      * their replicas, 16, 16, 16, 2. */
     point[6].size.n = 2;
-    assert_int_equal(fracas_size_slopes(&analysis, &list, &count), FRACAS_OK);
+    OK(fracas_size_slopes(&analysis, &list, &count));
     assert_true(list[1].slope.pooled == 1 && isnan(list[2].slope.pooled) &&
                 list[0].slope.pooled == 1);
     error = 0.04 / (log(2) * sqrt(16 * (0 + 1 + 4) + 2 * 9 - pow(16 * 3 + 2 * 3, 2) / 50));
@@ -297,22 +297,22 @@ static void slopes_of_series(void **state)
     /* One replica counts as soon as another mean has two; where no body came apart, nothing. */
     point[6].size = (fracas_estimate){.n = 1, .mean = point[6].size.mean, .deviation = NAN};
     point[0].count.mean = 1;
-    assert_int_equal(fracas_size_slopes(&analysis, &list, &count), FRACAS_OK);
+    OK(fracas_size_slopes(&analysis, &list, &count));
     assert_true(list[1].slope.pooled == 30 && list[1].slope.n == 3 && list[0].slope.n == 7);
     free(list);
     point[0].count.mean = 0;
     point[6].size = (fracas_estimate){
         .n = 0, .mean = NAN, .deviation = NAN}; /* three points of 8 mm, then two */
-    assert_int_equal(fracas_size_slopes(&analysis, &list, &count), FRACAS_OK);
+    OK(fracas_size_slopes(&analysis, &list, &count));
     assert_int_equal(count, 3);
     free(list);
     point[4].rate = NAN;
-    assert_int_equal(fracas_size_slopes(&analysis, &list, &count), FRACAS_OK);
+    OK(fracas_size_slopes(&analysis, &list, &count));
     assert_int_equal(count, 2);
     assert_string_equal(list[1].name, "radius 16 mm");
     free(list);
     table.npoints = 2;
-    assert_int_equal(fracas_size_slopes(&analysis, &list, &count), FRACAS_OK);
+    OK(fracas_size_slopes(&analysis, &list, &count));
     assert_int_equal(count, 0);
     free(list);
     fracas_columns_clear(&analysis.shown);

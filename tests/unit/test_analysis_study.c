@@ -258,7 +258,7 @@ static void report_that_cannot_be_written(void **state)
     assert_non_null(file);
     fclose(file);
     fracas_analysis *analysis;
-    assert_int_equal(fracas_analysis_create(folder, NULL, NULL, &analysis), FRACAS_OK);
+    OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
     assert_int_equal(fracas_report_write(analysis, folder), FRACAS_ENVIRONMENT);
     assert_non_null(strstr(fracas_message(), "blocked/report"));
     fracas_analysis_destroy(analysis);

@@ -378,7 +378,7 @@ static void test_identity(void **state)
     assert_true(fracas_hash_equal(&one->point[0].hash, &other->point[2].hash));
     assert_ptr_equal(other->point[0].strength.file, other->point[1].strength.file); /* read once */
     assert_string_equal(one->point[0].strength.file->path, "s.csv");
-    assert_int_equal(fracas_campaign_extends(other, one), FRACAS_OK);
+    OK(fracas_campaign_extends(other, one));
     assert_int_equal(fracas_campaign_extends(one, other), FRACAS_DAMAGED);
     fracas_campaign_destroy(one);
     fracas_campaign_destroy(same);
@@ -389,7 +389,7 @@ static void write_campaign(const fracas_campaign *campaign, const char *path)
 {
     FILE *out = fopen(path, "w");
     assert_non_null(out);
-    assert_int_equal(fracas_campaign_write(campaign, out), FRACAS_OK);
+    OK(fracas_campaign_write(campaign, out));
     assert_int_equal(fclose(out), 0);
 }
 
@@ -448,9 +448,9 @@ static void test_forecast(void **state)
         FROM_FILE "s.csv\n",
         "sweep:\n  - cases:\n      - {name: a}\n      - {replicas: 1, strength.file: equal.csv}\n"
         "      - strength.file: short.csv\n");
-    assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_OK);
+    OK(fracas_forecast_make(campaign, 0, &forecast));
     assert_true(forecast.repeated && !forecast.uniform);
-    assert_int_equal(fracas_forecast_make(campaign, 1, &forecast), FRACAS_OK);
+    OK(fracas_forecast_make(campaign, 1, &forecast));
     assert_true(!forecast.repeated && forecast.uniform);
     assert_int_equal(fracas_forecast_make(campaign, 2, &forecast), FRACAS_USAGE);
     assert_string_equal(fracas_message(), "point 2: short.csv has 99 strengths, but the mesh has "
@@ -551,7 +551,7 @@ static void test_positions_of_a_surface(void **state)
     fracas_campaign_destroy(campaign);
     put("p.csv", text);
     if (fracas_campaign_read(in_folder("c.yaml"), &campaign)) fail_msg("%s", fracas_message());
-    assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_OK);
+    OK(fracas_forecast_make(campaign, 0, &forecast));
     assert_int_equal(sample_strengths(&campaign->point[0].strength, &(fracas_stream){0}, 8, NULL,
                                       (const double(*)[3])x, 1, got),
                      FRACAS_OK);
@@ -593,8 +593,7 @@ static void test_noise(void **state)
     fracas_point_mesh_noise(campaign, 1, 10, begin);
     assert_true(begin[0] != noise[0]); /* of the point */
     fracas_forecast forecast[2];
-    assert_int_equal(fracas_forecast_all(campaign, 1, forecast),
-                     FRACAS_OK); /* which times a shorter mesh of the second */
+    OK(fracas_forecast_all(campaign, 1, forecast)); /* which times a shorter mesh of the second */
     assert_int_equal(forecast[1].elements, 200000);
     assert_null(campaign->point[0].spec.mesh.noise);
     fracas_campaign_destroy(campaign);

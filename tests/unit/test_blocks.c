@@ -118,10 +118,10 @@ static void fields_are_drawn_over_lanes(void **state)
                                         .extent = extent,
                                         .position = (const double(*)[3])position};
             fracas_field *field;
-            assert_int_equal(fracas_field_create(law, &sites, &field), FRACAS_OK);
-            assert_int_equal(fracas_field_use(field, isa), FRACAS_OK);
+            OK(fracas_field_create(law, &sites, &field));
+            OK(fracas_field_use(field, isa));
             for (size_t i = 0; i < MOST; i++) sigma_c[i] = -1.0;
-            assert_int_equal(fracas_field_sample(field, &stream, stride, sigma_c), FRACAS_OK);
+            OK(fracas_field_sample(field, &stream, stride, sigma_c));
             for (size_t i = 0; i < MOST; i++) {
                 const size_t s = i / stride;
                 double expected = -1.0;

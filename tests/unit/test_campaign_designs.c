@@ -69,7 +69,7 @@ static void test_points(void **state)
         fracas_campaign *campaign = read_design(types[t], YOUNG ENERGY RATE ELEMENTS TIED);
         const fracas_design design = {fracas_design_types[t], 7, 9, 4, name, tied};
         fracas_probability p[36];
-        assert_int_equal(fracas_design_fill(&design, p), FRACAS_OK);
+        OK(fracas_design_fill(&design, p));
         assert_int_equal(campaign->npoints, 9);
         for (size_t i = 0; i < 9; i++) {
             const fracas_spec *spec = &campaign->point[i].spec;
@@ -90,9 +90,7 @@ static void test_points(void **state)
 static void test_shipped(void **state)
 {
     fracas_campaign *campaign;
-    assert_int_equal(
-        fracas_campaign_read(FRACAS_SOURCE_DIR "/campaigns/examples/bar-uncertain.yaml", &campaign),
-        FRACAS_OK);
+    OK(fracas_campaign_read(FRACAS_SOURCE_DIR "/campaigns/examples/bar-uncertain.yaml", &campaign));
     assert_int_equal(campaign->npoints, 64);
     assert_true(campaign->common_random_numbers);
     size_t varied = 0;

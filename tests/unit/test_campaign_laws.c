@@ -85,11 +85,10 @@ static void test_field_has_the_size_effect(void **state)
         fracas_model *model;
         fracas_field *field;
         const fracas_stream stream = {.seed = 5, .purpose = FRACAS_PURPOSE_STRENGTH};
-        assert_int_equal(fracas_model_create(&campaign->point[p].spec, &model), FRACAS_OK);
-        assert_int_equal(fracas_model_field(model, &campaign->point[p].strength, &field),
-                         FRACAS_OK);
+        OK(fracas_model_create(&campaign->point[p].spec, &model));
+        OK(fracas_model_field(model, &campaign->point[p].strength, &field));
         assert_int_equal(fracas_field_size(field), 100);
-        assert_int_equal(fracas_field_sample(field, &stream, 1, drawn[p]), FRACAS_OK);
+        OK(fracas_field_sample(field, &stream, 1, drawn[p]));
         fracas_field_destroy(field);
         fracas_model_destroy(model);
     }

@@ -21,9 +21,9 @@ static void make_chart(fracas_chart *chart)
     panel->x.log = panel->y.log = true;
     strcpy(panel->x.label, "rate [1/s]");
     strcpy(panel->y.label, "size [mm]");
-    assert_int_equal(fracas_panel_add(panel, FRACAS_CURVE, 0, 2, &series), FRACAS_OK);
+    OK(fracas_panel_add(panel, FRACAS_CURVE, 0, 2, &series));
     for (size_t i = 0; i < 2; i++) series->x[i] = series->y[i] = i ? 10 : 1;
-    assert_int_equal(fracas_panel_add(panel, FRACAS_MARKS, 0, 3, &series), FRACAS_OK);
+    OK(fracas_panel_add(panel, FRACAS_MARKS, 0, 3, &series));
     strcpy(series->name, "a \"quoted\", <name>");
     for (size_t i = 0; i < 3; i++) {
         series->x[i] = 1 + (double)i;
@@ -36,7 +36,7 @@ static void make_chart(fracas_chart *chart)
     strcpy(panel->x.label, "rate [1/s]");
     strcpy(panel->y.label, "energy [J]");
     panel->bars = "quartiles";
-    assert_int_equal(fracas_panel_add(panel, FRACAS_BAND, 1, 5, &series), FRACAS_OK);
+    OK(fracas_panel_add(panel, FRACAS_BAND, 1, 5, &series));
     strcpy(series->name, "band");
     for (size_t i = 0; i < 5; i++) {
         series->x[i] = (double)i;
@@ -57,8 +57,7 @@ static void make_names(fracas_chart *chart)
     panel->x.nnames = 2;
     strcpy(panel->x.label, "refined");
     strcpy(panel->y.label, "change [%]");
-    assert_int_equal(fracas_panel_add(panel, FRACAS_BOXES, FRACAS_CHART_GREY, 3, &series),
-                     FRACAS_OK);
+    OK(fracas_panel_add(panel, FRACAS_BOXES, FRACAS_CHART_GREY, 3, &series));
     strcpy(series->name, "as it is");
     for (size_t i = 0; i < 3; i++) {
         series->x[i] = i < 2 ? 0.8 + (double)i : 2;
@@ -66,7 +65,7 @@ static void make_names(fracas_chart *chart)
         series->high[i] = 1;
     }
     for (int open = 0; open < 2; open++) {
-        assert_int_equal(fracas_panel_add(panel, FRACAS_MARKS, 2, 1, &series), FRACAS_OK);
+        OK(fracas_panel_add(panel, FRACAS_MARKS, 2, 1, &series));
         strcpy(series->name, "a point");
         series->open = open;
         series->x[0] = open ? 2.2 : 0.8;
@@ -74,8 +73,7 @@ static void make_names(fracas_chart *chart)
         series->low[0] = 0;
         series->high[0] = 3;
     }
-    assert_int_equal(fracas_panel_add(panel, FRACAS_CURVE, FRACAS_CHART_GREY + 2, 2, &series),
-                     FRACAS_OK);
+    OK(fracas_panel_add(panel, FRACAS_CURVE, FRACAS_CHART_GREY + 2, 2, &series));
     for (size_t i = 0; i < 2; i++) series->x[i] = i ? 2.5 : 0.5, series->y[i] = 2;
 }
 
@@ -249,7 +247,7 @@ static void drawings_become_pdf(void **state)
     put_file("chart.svg", svg);
     put_file("again.svg", svg);
     free(svg);
-    assert_int_equal(fracas_pdf_write(folder, names, 2), FRACAS_OK);
+    OK(fracas_pdf_write(folder, names, 2));
     for (int i = 0; i < 2; i++) {
         snprintf(path, sizeof path, "%s/%s.pdf", folder, names[i]);
         FILE *file = fopen(path, "r");
@@ -268,7 +266,7 @@ static void drawings_become_pdf(void **state)
     snprintf(path, sizeof path, "%s/taken.pdf", folder);
     assert_int_equal(mkdir(path, 0777), 0);
     fails_with(taken, "taken.pdf");
-    assert_int_equal(fracas_pdf_write(folder, NULL, 0), FRACAS_OK);
+    OK(fracas_pdf_write(folder, NULL, 0));
 }
 
 int fracas_test(void)

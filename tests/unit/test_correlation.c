@@ -28,7 +28,7 @@ static double sites[MOST][3];
 static fracas_covariance *covariance_of(const fracas_strength *strength)
 {
     fracas_covariance *covariance;
-    assert_int_equal(fracas_covariance_create(strength, &covariance), FRACAS_OK);
+    OK(fracas_covariance_create(strength, &covariance));
     return covariance;
 }
 
@@ -98,7 +98,7 @@ static void only_strengths_that_are_drawn_are_correlated(void **state)
             fracas_strength strength = {
                 .distribution = fracas_strength_section.kinds[k], .file = &file, .value = 3e8};
             if (strcmp(strength.distribution->name, table[t].distribution) != 0) continue;
-            assert_int_equal(fracas_strength_check(&strength), FRACAS_OK);
+            OK(fracas_strength_check(&strength));
             strength.covariance = &fracas_covariance_exponential;
             strength.correlation_length = 1e-3;
             assert_int_equal(fracas_strength_check(&strength), FRACAS_USAGE);
@@ -117,7 +117,7 @@ static double *factor_of(const fracas_correlation *correlation, size_t n)
            *z = calloc(n + 1, sizeof *z);
     for (size_t k = 0; k < count; k++) {
         w[k] = 1;
-        assert_int_equal(fracas_correlation_apply(correlation, w, z), FRACAS_OK);
+        OK(fracas_correlation_apply(correlation, w, z));
         w[k] = 0;
         for (size_t i = 0; i < n; i++) a[i * count + k] = z[i];
     }
@@ -130,8 +130,7 @@ static double *factor_of(const fracas_correlation *correlation, size_t n)
 static double error_of(const fracas_strength *strength, size_t n, double period, const char *what)
 {
     fracas_correlation *correlation;
-    assert_int_equal(fracas_correlation_create(strength, n, SITES, period, &correlation),
-                     FRACAS_OK);
+    OK(fracas_correlation_create(strength, n, SITES, period, &correlation));
     const size_t count = fracas_correlation_normals(correlation);
     double *a = factor_of(correlation, n), worst = 0;
     for (size_t i = 0; i < n; i++)
@@ -177,7 +176,7 @@ static size_t normals_of(size_t n, const fracas_kind *kind, double length)
 {
     const fracas_strength strength = correlated(kind, length, NAN);
     fracas_correlation *correlation;
-    assert_int_equal(fracas_correlation_create(&strength, n, SITES, 0, &correlation), FRACAS_OK);
+    OK(fracas_correlation_create(&strength, n, SITES, 0, &correlation));
     const size_t count = fracas_correlation_normals(correlation);
     fracas_correlation_destroy(correlation);
     return count;
@@ -236,7 +235,7 @@ static void singular_covariances_are_factorised(void **state)
             order[i] = (uint32_t)i;
             for (int a = 0; a < 3 && way == 0; a++) sites[i][a] = sites[i % PLACES][a];
         }
-        assert_int_equal(fracas_dense_factor_init(covariance, SITES, N, order, &factor), FRACAS_OK);
+        OK(fracas_dense_factor_init(covariance, SITES, N, order, &factor));
         print_message("%d sites, rank %zu\n", N, factor.rank);
         assert_true(way ? factor.rank > PLACES && factor.rank < N / 2 : factor.rank == PLACES);
         fracas_dense_factor_clear(&factor);
@@ -255,14 +254,14 @@ static void no_circle_is_long_enough(void **state)
     const fracas_strength strength = correlated(&fracas_covariance_gaussian, 1.6e4, NAN);
     fracas_covariance *covariance = covariance_of(&strength);
     fracas_circulant *circulant;
-    assert_int_equal(fracas_circulant_line(covariance, N, 1.0, &circulant), FRACAS_OK);
+    OK(fracas_circulant_line(covariance, N, 1.0, &circulant));
     const size_t size = fracas_circulant_normals(circulant);
     assert_int_equal(size, 1 << 17); /* no larger one is tried */
     double *w = malloc(size * sizeof *w), z[N], rho[N] = {0}, worst = 0;
     for (size_t m = 0; m <= WAVES; m++) {
         for (size_t k = 0; k < size; k++)
             w[k] = cos(2 * M_PI * (double)(m * k % size) / (double)size);
-        assert_int_equal(fracas_circulant_apply(circulant, w, z), FRACAS_OK);
+        OK(fracas_circulant_apply(circulant, w, z));
         for (size_t i = 0; i < N; i++)
             rho[i] += (m ? 2 : 1) * z[0] * z[0] / (double)size *
                       cos(2 * M_PI * (double)(m * i % size) / (double)size);
@@ -284,7 +283,7 @@ static fracas_sparse_factor *sparse_of(const fracas_strength *strength, size_t n
 {
     fracas_covariance *covariance = covariance_of(strength);
     fracas_sparse_factor *factor;
-    assert_int_equal(fracas_sparse_factor_create(covariance, n, SITES, &factor), FRACAS_OK);
+    OK(fracas_sparse_factor_create(covariance, n, SITES, &factor));
     fracas_covariance_destroy(covariance);
     return factor;
 }
@@ -296,7 +295,7 @@ static double error_of_pairs(const fracas_strength *strength, const fracas_spars
     double *rho = malloc(n * sizeof *rho), worst = 0;
     *of_variance = 0;
     for (size_t i = 0; i < n; i += step) {
-        assert_int_equal(fracas_sparse_factor_correlation(factor, i, rho), FRACAS_OK);
+        OK(fracas_sparse_factor_correlation(factor, i, rho));
         for (size_t j = 0; j < n; j++) {
             assert_true(isfinite(rho[j])); /* fmax leaves out NaN */
             worst = fmax(worst,
@@ -352,13 +351,13 @@ static void correlations_are_those_of_the_factor(void **state)
     fracas_sparse_factor *factor = sparse_of(&strength, N);
     for (size_t k = 0; k < N; k++) {
         w[k] = 1;
-        assert_int_equal(fracas_sparse_factor_apply(factor, w, z), FRACAS_OK);
+        OK(fracas_sparse_factor_apply(factor, w, z));
         w[k] = 0;
         for (size_t r = 0; r < ROWS; r++)
             for (size_t i = 0; i < N; i++) product[r][i] += z[r * N / ROWS] * z[i];
     }
     for (size_t r = 0; r < ROWS; r++) {
-        assert_int_equal(fracas_sparse_factor_correlation(factor, r * N / ROWS, rho[r]), FRACAS_OK);
+        OK(fracas_sparse_factor_correlation(factor, r * N / ROWS, rho[r]));
         for (size_t i = 0; i < N; i++) assert_true(fabs(rho[r][i] - product[r][i]) < ROUNDED);
     }
     fracas_sparse_factor_destroy(factor);
@@ -410,7 +409,7 @@ static void orders_go_from_coarse_to_fine(void **state)
     static bool seen[N];
     double spacing = INFINITY;
     sites_scattered(N, sites);
-    assert_int_equal(fracas_order_sites(N, SITES, FIRST, M, order, near), FRACAS_OK);
+    OK(fracas_order_sites(N, SITES, FIRST, M, order, near));
     for (size_t k = 0; k < N; k++) {
         double d[N];
         assert_true(order[k] < N && !seen[order[k]]);

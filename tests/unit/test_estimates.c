@@ -32,7 +32,7 @@ static void add(fracas_ensemble *ensemble, const fracas_replica_values *value, c
             .size = size[f], .mass = 2 * size[f], .elements = (int64_t)size[f]};
     record.fragment = fragment;
     record.nfragment = count;
-    assert_int_equal(fracas_ensemble_add(ensemble, 0, 0, value, &record), FRACAS_OK);
+    OK(fracas_ensemble_add(ensemble, 0, 0, value, &record));
 }
 
 /* Sizes 1 2 3, 2 4, 1, 6. */
@@ -52,7 +52,7 @@ static void sizes_by_number_and_by_mass(void **state)
     fracas_ensemble ensemble;
     fracas_pooled pooled;
     make_four(0, &ensemble);
-    assert_int_equal(fracas_pooled_of(&ensemble, 1, &pooled), FRACAS_OK);
+    OK(fracas_pooled_of(&ensemble, 1, &pooled));
     assert_int_equal(pooled.number, 7);
     assert_near(pooled.all.mean.value, 19.0 / 7);
     assert_near(pooled.all.mass_mean.value, 71.0 / 19);
@@ -77,7 +77,7 @@ static void sizes_on_a_lattice_and_above_the_cut(void **state)
     fracas_pooled pooled;
     make_four(1, &ensemble);
     ensemble.size[3] = nextafter(2, 3); /* as roundings have it: the same size */
-    assert_int_equal(fracas_pooled_of(&ensemble, 1, &pooled), FRACAS_OK);
+    OK(fracas_pooled_of(&ensemble, 1, &pooled));
     assert_true(pooled.cut == 1.5);
     assert_int_equal(pooled.resolved, 5);
     const double quantile[] = {0.675, 1.375, 2.25, 3.75, 6.15};
@@ -104,7 +104,7 @@ static void variance_of_unequal_groups(void **state)
     fracas_ensemble ensemble;
     fracas_pooled pooled;
     make_four(0, &ensemble);
-    assert_int_equal(fracas_pooled_of(&ensemble, 1, &pooled), FRACAS_OK);
+    OK(fracas_pooled_of(&ensemble, 1, &pooled));
     assert_near(pooled.variance.within.value, 4.0 / 3);
     assert_near(pooled.variance.group, 34.0 / 21);
     assert_near(pooled.variance.between.value, 40.0 / 17);
@@ -123,17 +123,17 @@ static void estimates_at_their_ends(void **state)
     fracas_pooled pooled;
     fracas_replica_convergence convergence;
     fracas_ensemble_init(&ensemble, 0);
-    assert_int_equal(fracas_pooled_of(&ensemble, 1, &pooled), FRACAS_OK);
+    OK(fracas_pooled_of(&ensemble, 1, &pooled));
     assert_true(isnan(pooled.all.mean.value) && isnan(pooled.all.quantile[0].value) &&
                 pooled.number == 0 && isnan(pooled.cut));
-    assert_int_equal(fracas_replica_convergence_of(&ensemble, 1, &convergence), FRACAS_OK);
+    OK(fracas_replica_convergence_of(&ensemble, 1, &convergence));
     assert_true(convergence.count == 0 && convergence.unconverged == 0);
     add(&ensemble, &value, (double[]){1, 3}, 2);
-    assert_int_equal(fracas_pooled_of(&ensemble, 1, &pooled), FRACAS_OK);
+    OK(fracas_pooled_of(&ensemble, 1, &pooled));
     assert_true(pooled.all.mean.value == 2 && isnan(pooled.all.mean.low) &&
                 isnan(pooled.variance.intraclass.value));
     for (int i = 0; i < 7; i++) add(&ensemble, &value, (double[]){1, 3}, 2);
-    assert_int_equal(fracas_pooled_of(&ensemble, 1, &pooled), FRACAS_OK);
+    OK(fracas_pooled_of(&ensemble, 1, &pooled));
     assert_true(pooled.variance.intraclass.value == -1 && pooled.variance.design_effect.value == 0);
     assert_true(pooled.all.mean.low == 2 && pooled.all.mean.high == 2);
     assert_int_equal(pooled.all.mean.resamples, 2000);
@@ -157,7 +157,7 @@ static void numbers_that_settle_and_others(void **state)
                                              .largest_share = 0.5};
         add(&ensemble, &value, (double[]){1, 2, 3}, 3);
     }
-    assert_int_equal(fracas_replica_convergence_of(&ensemble, 1, &of), FRACAS_OK);
+    OK(fracas_replica_convergence_of(&ensemble, 1, &of));
     const int64_t rows[] = {4, 8, 16, 32, 40};
     assert_int_equal(of.count, FRACAS_COUNT(rows));
     for (size_t r = 0; r < of.count; r++) assert_int_equal(of.row[r].replicas, rows[r]);
@@ -179,7 +179,7 @@ static void numbers_that_settle_and_others(void **state)
     fracas_analysis analysis = {.table = &table, .point = &point, .header.complete = true};
     fracas_warning *warning;
     size_t warnings;
-    assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &warnings), FRACAS_OK);
+    OK(fracas_analysis_warnings(&analysis, &warning, &warnings));
     assert_int_equal(warnings, 1);
     assert_string_equal(warning->text, "unconverged with 40 replicas, known size to 1.5 % "
                                        "(drifts), dissipated to 16 %: raise replicas");
@@ -189,10 +189,10 @@ static void numbers_that_settle_and_others(void **state)
     /* Of two, count is 100 -+ t_(0.975, 1) = 12.7 and dissipated 2 -+ 12.7; what they have alike
      * may be so by chance, and nothing says whether halves differ. */
     ensemble.nrealizations = 2;
-    assert_int_equal(fracas_replica_convergence_of(&ensemble, 1, &point.convergence), FRACAS_OK);
+    OK(fracas_replica_convergence_of(&ensemble, 1, &point.convergence));
     assert_true(point.convergence.count == 1 && point.convergence.unconverged == 7 &&
                 isnan(point.convergence.alike[FRACAS_HEADLINE_SIZE]));
-    assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &warnings), FRACAS_OK);
+    OK(fracas_analysis_warnings(&analysis, &warning, &warnings));
     assert_int_equal(warnings, 1);
     assert_string_equal(warning->text,
                         "unconverged with 2 replicas, known count to 13 %, size to 0 % (all "
@@ -202,8 +202,8 @@ static void numbers_that_settle_and_others(void **state)
     free(warning);
     fracas_replica_convergence_clear(&point.convergence);
     ensemble.nrealizations = 1;
-    assert_int_equal(fracas_replica_convergence_of(&ensemble, 1, &point.convergence), FRACAS_OK);
-    assert_int_equal(fracas_analysis_warnings(&analysis, &warning, &warnings), FRACAS_OK);
+    OK(fracas_replica_convergence_of(&ensemble, 1, &point.convergence));
+    OK(fracas_analysis_warnings(&analysis, &warning, &warnings));
     assert_true(warnings == 1 && strstr(warning->text, "one usable replica cannot say"));
     free(warning);
     fracas_replica_convergence_clear(&point.convergence);
@@ -242,8 +242,7 @@ static void make_history(int64_t replica, fracas_record *record)
 static void read_bands(int64_t replicas, fracas_bands *bands)
 {
     fracas_bands_collector collector;
-    assert_int_equal(fracas_bands_begin(INTERVALS, INTERVALS, (size_t)replicas, bands, &collector),
-                     FRACAS_OK);
+    OK(fracas_bands_begin(INTERVALS, INTERVALS, (size_t)replicas, bands, &collector));
     for (int64_t replica = 0; replica < replicas; replica++) {
         fracas_record record;
         make_history(replica, &record);

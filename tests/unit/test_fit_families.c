@@ -13,8 +13,6 @@
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_sort.h>
 
-#define OK(call) assert_int_equal(call, FRACAS_OK)
-
 /* Lengths in elements, of some 20 a fragment; power laws above and below an exponent of 1. */
 static const synthetic law[] = {
     {.family = &fracas_family_exponential, .parameter = {20}},

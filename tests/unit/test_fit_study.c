@@ -95,8 +95,8 @@ static fracas_fits *fit(const char *folder, size_t point, FILE *out)
 {
     fracas_analysis *analysis;
     fracas_fits *fits = NULL;
-    assert_int_equal(fracas_analysis_create(folder, NULL, NULL, &analysis), FRACAS_OK);
-    assert_int_equal(fracas_fits_create(analysis, point, RESAMPLES, &fits), FRACAS_OK);
+    OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
+    OK(fracas_fits_create(analysis, point, RESAMPLES, &fits));
     if (out) fracas_fits_print(fits, analysis, out);
     fracas_analysis_destroy(analysis);
     return fits;
@@ -161,10 +161,10 @@ static void fits_of_a_study(void **state)
     assert_null(fracas_fits_ranked(fits, 1, 1));
     assert_true(value_of(fits, 1, "gamma", "fitted") == 0 &&
                 value_of(fits, 3, "gamma", "fitted") == 0);
-    assert_int_equal(fracas_fits_read(folder, &read), FRACAS_OK);
+    OK(fracas_fits_read(folder, &read));
     assert_null(read);
-    assert_int_equal(fracas_fits_write(fits, folder), FRACAS_OK);
-    assert_int_equal(fracas_fits_read(folder, &read), FRACAS_OK);
+    OK(fracas_fits_write(fits, folder));
+    OK(fracas_fits_read(folder, &read));
     assert_string_equal(read->campaign, fits->campaign);
     assert_int_equal(read->realizations, 40 + 1 + 40 + 2);
     same_rows(fits, read);
@@ -176,8 +176,8 @@ static void fits_of_a_study(void **state)
 static size_t keep(const char *folder, const char *other, size_t *stale, fracas_fits **fits)
 {
     fracas_analysis *analysis;
-    assert_int_equal(fracas_fits_read(folder, fits), FRACAS_OK);
-    assert_int_equal(fracas_analysis_create(other, NULL, NULL, &analysis), FRACAS_OK);
+    OK(fracas_fits_read(folder, fits));
+    OK(fracas_analysis_create(other, NULL, NULL, &analysis));
     fracas_fits_keep(*fits, analysis, stale);
     fracas_analysis_destroy(analysis);
     return (*fits)->n;
@@ -195,7 +195,7 @@ static void fits_of_the_same_realizations(void **state)
     snprintf(other, sizeof other, "%s/other", report_root);
     write_study(folder, 12);
     fracas_fits *fits = fit(folder, SIZE_MAX, NULL);
-    assert_int_equal(fracas_fits_write(fits, folder), FRACAS_OK);
+    OK(fracas_fits_write(fits, folder));
     keep(folder, folder, &stale, &kept);
     assert_int_equal(stale, 0);
     same_rows(fits, kept);
@@ -209,7 +209,7 @@ static void fits_of_the_same_realizations(void **state)
                 fracas_fits_find(kept, 3, "data", "cut"));
     fracas_fits_destroy(kept);
     for (size_t i = 0; i < fits->n; i++) fits->row[i].point = NPOINTS - 1 - fits->row[i].point;
-    assert_int_equal(fracas_fits_write(fits, other), FRACAS_OK);
+    OK(fracas_fits_write(fits, other));
     fracas_fits_destroy(fits);
     fits = fit(folder, SIZE_MAX, NULL);
     keep(other, folder, &stale, &kept);
@@ -219,7 +219,7 @@ static void fits_of_the_same_realizations(void **state)
     for (size_t i = 0; i < fits->n; i++) /* another realization of as many fragments */
         if (fits->row[i].point == 2 && !strcmp(fits->row[i].quantity, "fingerprint"))
             fits->row[i].note[5] ^= 1;
-    assert_int_equal(fracas_fits_write(fits, other), FRACAS_OK);
+    OK(fracas_fits_write(fits, other));
     keep(other, folder, &stale, &kept);
     assert_int_equal(stale, 1);
     fracas_fits_destroy(kept);
@@ -235,10 +235,10 @@ static void one_point(void **state)
     fracas_analysis *analysis;
     fracas_fits *all = fit(folder, SIZE_MAX, NULL), *one = fit(folder, 0, NULL);
     assert_true(one->n < all->n && one->row[one->n - 1].point == 0);
-    assert_int_equal(fracas_fits_complete(one, all), FRACAS_OK);
+    OK(fracas_fits_complete(one, all));
     same_rows(one, all);
     fracas_fits_destroy(one);
-    assert_int_equal(fracas_analysis_create(folder, NULL, NULL, &analysis), FRACAS_OK);
+    OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
     assert_int_equal(fracas_fits_create(analysis, NPOINTS, RESAMPLES, &one), FRACAS_USAGE);
     assert_non_null(strstr(fracas_message(), "point 4: the study has points 0 to 3"));
     fracas_analysis_destroy(analysis);

@@ -12,7 +12,7 @@
 static double mean_of(const fracas_spec *spec)
 {
     double volume, area;
-    assert_ok(fracas_mesh_interface_extent(spec, &volume, &area));
+    OK(fracas_mesh_interface_extent(spec, &volume, &area));
     return volume;
 }
 
@@ -39,7 +39,7 @@ static void interfaces_share_the_body(void **unused)
     for (int64_t elements = 2; elements < 2000; elements *= 3) {
         fracas_spec spec = bar_reference(elements, 1e4, 1e-6);
         fracas_model *model;
-        assert_ok(fracas_model_create(&spec, &model));
+        OK(fracas_model_create(&spec, &model));
         const size_t n = fracas_model_interfaces(model);
         double sum = 0.0;
         for (size_t i = 0; i < n; i++) sum += fracas_model_interface_volume(model, i);
@@ -60,7 +60,7 @@ static void interfaces_share_the_body_on_any_mesh(void **unused)
         else bar_grade(&spec, 100);
         if (i / 2) spec.geometry.ends = &fracas_ends_held;
         fracas_model *model;
-        assert_ok(fracas_model_create(&spec, &model));
+        OK(fracas_model_create(&spec, &model));
         const size_t n = fracas_model_interfaces(model);
         const double *h = model->table;
         double sum = 0.0, body = i / 2 ? 5e-8 - 0.5e-6 * (h[0] + h[299]) : 5e-8;
@@ -102,7 +102,7 @@ static void surfaces_lack_what_is_at_edges(void **unused)
     for (spec.mesh.order = 1; spec.mesh.order <= 2; spec.mesh.order++) {
         const fracas_surface *s;
         fracas_surface_measures all;
-        assert_ok(fracas_mesh_make(&spec, &s));
+        OK(fracas_mesh_make(&spec, &s));
         fracas_surface_measure(s, &all);
         double area = all.area;
         for (size_t b = 0; b < s->nborders; b++)

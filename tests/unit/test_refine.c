@@ -96,8 +96,8 @@ static void check_file(const fracas_campaign *campaign)
 static void check_elements(const fracas_campaign *plain, const fracas_refined *refined)
 {
     fracas_forecast coarse, fine;
-    assert_int_equal(fracas_forecast_make(plain, refined->from[0], &coarse), FRACAS_OK);
-    assert_int_equal(fracas_forecast_make(refined->campaign, 0, &fine), FRACAS_OK);
+    OK(fracas_forecast_make(plain, refined->from[0], &coarse));
+    OK(fracas_forecast_make(refined->campaign, 0, &fine));
     const bool surface = fracas_spec_is_surface(&plain->point[0].spec);
     const double ratio = (double)fine.elements / (double)coarse.elements,
                  halves = fine.element / coarse.element;
@@ -149,7 +149,7 @@ static void coarsen(const char *file, char path[200])
         campaign->point[p].spec.mesh.divisions /= 10;
         campaign->point[p].spec.cohesive.fracture_energy *= 50; /* which such elements resolve */
     }
-    assert_int_equal(fracas_campaign_keep(campaign, folder, "coarse.yaml"), FRACAS_OK);
+    OK(fracas_campaign_keep(campaign, folder, "coarse.yaml"));
     snprintf(path, 200, "%s/coarse.yaml", folder);
     fracas_campaign_destroy(campaign);
 }

@@ -10,8 +10,6 @@
 #include <malloc.h>
 #include <time.h>
 
-#define OK(call) assert_int_equal(call, FRACAS_OK)
-
 static bool next(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease)
 {
     bool given;

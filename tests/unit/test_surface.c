@@ -68,7 +68,7 @@ static void test_assembled(void **state)
         if (order == 1) make_sample(&s);
         else make_quadratic(&s);
         const fracas_surface *surface;
-        assert_int_equal(fracas_surface_assemble(&s.arrays, &surface), FRACAS_OK);
+        OK(fracas_surface_assemble(&s.arrays, &surface));
         assert_int_equal(surface->order, order);
         assert_int_equal(surface->nvertices, 5);
         assert_int_equal(surface->ninterfaces, 2);
@@ -167,7 +167,7 @@ static void test_refused_neighbours(void **state)
     s.node[4][0] = 1.0;
     s.node[4][2] = 1.0;
     const fracas_surface *surface;
-    assert_int_equal(fracas_surface_assemble(&s.arrays, &surface), FRACAS_OK);
+    OK(fracas_surface_assemble(&s.arrays, &surface));
     fracas_surface_destroy(surface);
     /* A fin on the edge between nodes 1 and 2. */
     make_sample(&s);
@@ -222,7 +222,7 @@ static void test_refused_middles(void **state)
             expect(&s, "element 0 is folded: its Jacobian is not positive everywhere");
             continue;
         }
-        assert_int_equal(fracas_surface_assemble(&s.arrays, &surface), FRACAS_OK);
+        OK(fracas_surface_assemble(&s.arrays, &surface));
         fracas_surface_destroy(surface);
     }
 }
@@ -334,7 +334,7 @@ static void test_refused_tags(void **state)
     make_sample(&s);
     s.tag[1] = (fracas_surface_tag){.node = {1, 0}, .tag = 7}; /* the same twice: harmless */
     const fracas_surface *surface;
-    assert_int_equal(fracas_surface_assemble(&s.arrays, &surface), FRACAS_OK);
+    OK(fracas_surface_assemble(&s.arrays, &surface));
     fracas_surface_destroy(surface);
 }
 
@@ -351,7 +351,7 @@ static void test_names(void **state)
     s.arrays.node_number = nodes;
     s.arrays.element_number = elements;
     const fracas_surface *surface;
-    assert_int_equal(fracas_surface_assemble(&s.arrays, &surface), FRACAS_OK);
+    OK(fracas_surface_assemble(&s.arrays, &surface));
     assert_int_equal(surface->given[1], 40); /* between its neighbours */
     fracas_surface_destroy(surface);
 }
@@ -363,7 +363,7 @@ static void test_locality(void **state)
 {
     const fracas_surface_fineness fineness = {.divisions = 60, .order = 1};
     const fracas_surface *plain, *surface;
-    assert_int_equal(fracas_surface_rectangle(1.0, 1.0, &fineness, &plain), FRACAS_OK);
+    OK(fracas_surface_rectangle(1.0, 1.0, &fineness, &plain));
     uint32_t *element = malloc(3 * plain->nelements * sizeof *element);
     assert_non_null(element);
     memcpy(element, plain->element, 3 * plain->nelements * sizeof *element);
@@ -381,7 +381,7 @@ static void test_locality(void **state)
                                           .nelements = plain->nelements,
                                           .node = plain->node,
                                           .element = element};
-    assert_int_equal(fracas_surface_assemble(&arrays, &surface), FRACAS_OK);
+    OK(fracas_surface_assemble(&arrays, &surface));
     check_edges(surface);
     double before = 0.0, nodes_apart = 0.0;
     for (size_t i = 0; i < surface->ninterfaces; i++)
@@ -417,7 +417,7 @@ static void test_parts(void **state)
     const fracas_surface_arrays arrays = {
         .order = 1, .nnodes = 6, .nelements = 2, .node = node, .element = element};
     const fracas_surface *surface;
-    assert_int_equal(fracas_surface_assemble(&arrays, &surface), FRACAS_OK);
+    OK(fracas_surface_assemble(&arrays, &surface));
     assert_int_equal(euler(surface), 2);
     assert_int_equal(surface->ninterfaces, 0);
     check_edges(surface);

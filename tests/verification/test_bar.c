@@ -16,7 +16,7 @@ static fracas_batch *batch_of(const fracas_model *model, double sigma_c)
 {
     fracas_batch *batch;
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    assert_ok(fracas_batch_create(model, 1, &options, &batch));
+    OK(fracas_batch_create(model, 1, &options, &batch));
     for (size_t i = 0; i < fracas_model_interfaces(model); i++)
         bar_set_strength(batch, 0, i, sigma_c);
     return batch;
@@ -31,7 +31,7 @@ static fracas_record run_alone(fracas_batch *batch)
 {
     fracas_record record;
     fracas_record_init(&record);
-    assert_ok(fracas_batch_run(batch, &record));
+    OK(fracas_batch_run(batch, &record));
     return record;
 }
 
@@ -49,7 +49,7 @@ static void onset_time_is_strength_over_stress_rate(void **unused)
                 spec.cohesive.law = laws[law];
                 if (ends) spec.geometry.ends = &fracas_ends_held;
                 fracas_model *model;
-                assert_ok(fracas_model_create(&spec, &model));
+                OK(fracas_model_create(&spec, &model));
                 fracas_batch *batch = batch_of(model, 301e6);
                 bar_set_strength(batch, 0, 37, 300e6);
                 fracas_record record = run_alone(batch);
@@ -76,16 +76,16 @@ static crack_errors isolated_crack(double rate, double x_b, int elements_per_s0)
     fracas_spec spec = bar_reference(elements, rate, 1.2 * broken);
     spec.geometry.length = (double)elements * BAR_S0 / elements_per_s0;
     fracas_model *model;
-    assert_ok(fracas_model_create(&spec, &model));
+    OK(fracas_model_create(&spec, &model));
     fracas_batch *batch = batch_of(model, 2.9e9);
     const size_t weak = (size_t)elements / 3;
     bar_set_strength(batch, 0, weak, 300e6);
-    assert_ok(fracas_batch_begin(batch));
+    OK(fracas_batch_begin(batch));
     fracas_record record;
     fracas_record_init(&record);
     crack_errors errors = {0, 0};
     for (size_t running = 1; running && batch->step.broken[0] == 0;) {
-        assert_ok(fracas_batch_step(batch, &record, &running));
+        OK(fracas_batch_step(batch, &record, &running));
         double x = (batch->step.time[0] - onset) / BAR_T0, damage = *field(batch, weak, DAMAGE);
         double exact = 2 * 1e4 * rate * BAR_T0 * BAR_T0 * (exp(x) - 1 - x);
         /* relative to delta_c/10 where the opening is smaller than that: both vanish at onset */
@@ -96,7 +96,7 @@ static crack_errors isolated_crack(double rate, double x_b, int elements_per_s0)
     fracas_batch_destroy(batch);
 
     const fracas_batch_options options = {.width = 1, .interfaces = true, .isa = FRACAS_ISA_BEST};
-    assert_ok(fracas_batch_create(model, 1, &options, &batch));
+    OK(fracas_batch_create(model, 1, &options, &batch));
     for (size_t i = 0; i < fracas_model_interfaces(model); i++)
         bar_set_strength(batch, 0, i, 2.9e9);
     bar_set_strength(batch, 0, weak, 300e6);
@@ -150,11 +150,11 @@ static double wave_error(const fracas_kind *ends, double beta, int64_t elements)
     spec.geometry.ends = ends;
     spec.cohesive.beta = beta;
     fracas_model *model;
-    assert_ok(fracas_model_create(&spec, &model));
+    OK(fracas_model_create(&spec, &model));
     double steps = ceil(quarter / model->time_step);
     model->time_step = quarter / steps;
     fracas_batch *batch = batch_of(model, 1e8);
-    assert_ok(fracas_batch_begin(batch));
+    OK(fracas_batch_begin(batch));
     const double h = length / (double)elements;
     for (size_t e = 0; e < (size_t)elements;
          e++) { /* w(0) = 0, so v(-dt/2) = v(0) to second order */
@@ -165,7 +165,7 @@ static double wave_error(const fracas_kind *ends, double beta, int64_t elements)
     fracas_record record;
     fracas_record_init(&record);
     size_t running;
-    for (int s = 0; s <= (int)steps; s++) assert_ok(fracas_batch_step(batch, &record, &running));
+    for (int s = 0; s <= (int)steps; s++) OK(fracas_batch_step(batch, &record, &running));
     double sum = 0, norm = 0;
     for (size_t e = 0; e < (size_t)elements; e++)
         for (int g = 0; g < 2; g++) { /* two Gauss points */
@@ -243,7 +243,7 @@ static critical_steps critical(const fracas_kind *law, double beta)
     spec.cohesive.law = law;
     spec.cohesive.beta = beta;
     fracas_model *model;
-    assert_ok(fracas_model_create(&spec, &model));
+    OK(fracas_model_create(&spec, &model));
     const double unit = model->element_size / BAR_WAVE_SPEED;
     critical_steps steps = {model->critical_closed / unit, model->critical_cracked / unit,
                             fracas_model_critical_time_step(model) / unit};
@@ -279,17 +279,17 @@ static void steps_blow_up_above_the_critical_one_only(void **unused)
     for (int above = 0; above < 2; above++) {
         fracas_spec spec = bar_reference(64, 1e-9, 1);
         fracas_model *model;
-        assert_ok(fracas_model_create(&spec, &model));
+        OK(fracas_model_create(&spec, &model));
         model->time_step = (above ? 1.01 : 0.99) * 0.5 * model->element_size / BAR_WAVE_SPEED;
         fracas_batch *batch = batch_of(model, 1e8);
-        assert_ok(fracas_batch_begin(batch));
+        OK(fracas_batch_begin(batch));
         for (size_t e = 0; e < 64; e++) *field(batch, e, V_LEFT) = 1e-9 * (e % 7 == 0);
         fracas_record record;
         fracas_record_init(&record);
         size_t running;
         double first = 0;
         for (int s = 0; s < 400; s++) {
-            assert_ok(fracas_batch_step(batch, &record, &running));
+            OK(fracas_batch_step(batch, &record, &running));
             if (s == 0) first = batch->step.kinetic[0];
         }
         double largest = 0;

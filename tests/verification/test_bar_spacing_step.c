@@ -130,7 +130,7 @@ static void critical_step_is_that_of_the_dense_operator(void **unused)
         if (i / 4 % 2 && !large) bar_grade(&spec, ratios[i % 5]);
         else bar_perturb(&spec, large ? 0.01 : amplitudes[i % 5], (uint64_t)i, noise);
         fracas_model *model;
-        assert_ok(fracas_model_create(&spec, &model));
+        OK(fracas_model_create(&spec, &model));
         for (int broken = 0; broken < 2; broken++) {
             const double found = broken ? model->critical_cracked : model->critical_closed;
             const double error = found / dense_step(model, broken) - 1;

@@ -54,7 +54,7 @@ static void run(const fracas_model *model, int width, fracas_isa isa, fracas_rec
         .history = 20, .interfaces = true, .width = width, .isa = isa};
     const fracas_stream stream = {.seed = 6, .purpose = FRACAS_PURPOSE_STRENGTH};
     fracas_batch *batch;
-    assert_ok(fracas_batch_create(model, (size_t)width, &options, &batch));
+    OK(fracas_batch_create(model, (size_t)width, &options, &batch));
     for (size_t l = 0; l < (size_t)width; l++) {
         for (size_t k = 0; k < strengths_of(model); k++)
             bar_set_strength(batch, l, k,
@@ -62,7 +62,7 @@ static void run(const fracas_model *model, int width, fracas_isa isa, fracas_rec
                                                     &stream, k / model->strengths + 100000 * l)));
         fracas_record_init(&record[l]);
     }
-    assert_ok(fracas_batch_run(batch, record));
+    OK(fracas_batch_run(batch, record));
     fracas_batch_destroy(batch);
 }
 
@@ -98,10 +98,9 @@ static void every_one_is_checked(void **unused)
     spec.strength_per_point = true;
     fracas_model *model = distorted_model(spec, 0, 0);
     fracas_batch *batch;
-    assert_ok(
-        fracas_batch_create(model, 1, &(fracas_batch_options){.isa = FRACAS_ISA_BEST}, &batch));
+    OK(fracas_batch_create(model, 1, &(fracas_batch_options){.isa = FRACAS_ISA_BEST}, &batch));
     for (size_t k = 0; k < strengths_of(model); k++) bar_set_strength(batch, 0, k, 300e6);
-    assert_ok(fracas_batch_begin(batch));
+    OK(fracas_batch_begin(batch));
     bar_set_strength(batch, 0, strengths_of(model) - 1, 0);
     assert_int_equal(fracas_batch_begin(batch), FRACAS_USAGE);
     char words[60];
@@ -116,7 +115,7 @@ static void chains_have_one(void **unused)
     fracas_spec spec = bar_reference(10, 1e4, 1e-6);
     fracas_model *model;
     spec.strength_per_point = true;
-    assert_ok(fracas_model_create(&spec, &model));
+    OK(fracas_model_create(&spec, &model));
     assert_int_equal(fracas_model_strengths_per_interface(model), 1);
     fracas_model_destroy(model);
 }

@@ -87,7 +87,7 @@ static void check_onsets(const fracas_spec *spec)
     model->spec.time.end = end;
     fracas_record record[MOST];
     for (size_t l = 0; l < count; l++) fracas_record_init(&record[l]);
-    assert_ok(fracas_batch_run(batch, record));
+    OK(fracas_batch_run(batch, record));
     double worst = 0;
     for (size_t l = 0; l < count; l++) {
         assert_int_equal(record[l].cracked, 1);
@@ -223,7 +223,7 @@ static void run_points(fracas_batch *batch, const fate f[2], fracas_record *reco
 {
     bool cracked[2] = {false, false};
     for (size_t running = 1; running > 0;) {
-        assert_ok(fracas_batch_step(batch, record, &running));
+        OK(fracas_batch_step(batch, record, &running));
         for (int g = 0; g < 2; g++) {
             if (cracked[g] ||
                 !(*fracas_surface_point(batch->model, &batch->step, 0, g, SURFACE_PEAK, 0) > 0))
@@ -251,7 +251,7 @@ static void check_fate(fracas_model *model, double velocity[2][6], const double 
     fracas_record record;
     fracas_record_init(&record);
     for (size_t k = 0; k < model->strengths; k++) bar_set_strength(batch, 0, k, strength[k]);
-    assert_ok(fracas_batch_begin(batch));
+    OK(fracas_batch_begin(batch));
     for (size_t side = 0; side < 2; side++)
         for (size_t i = 0; i < 6; i++)
             *membrane_state(batch, model->surface->interface[0].element[side], i / 2, SURFACE_V,
@@ -388,7 +388,7 @@ static void check_row(const fracas_model *model, int mode, int64_t in_the_row)
     }
     fracas_record record;
     fracas_record_init(&record);
-    assert_ok(fracas_batch_begin(batch));
+    OK(fracas_batch_begin(batch));
     move_halves(batch, mode, speed);
     run_to_end(batch, &record);
     const double energy = energy_of_row(batch, &record, in_row), half = size[0] * size[1] / 2;
@@ -541,7 +541,7 @@ static void fragments_and_histories_of_a_plate(void **unused)
         fracas_batch *batch = lane_of(model, 0.3, (uint64_t)which, 60);
         fracas_record record;
         fracas_record_init(&record);
-        assert_ok(fracas_batch_run(batch, &record));
+        OK(fracas_batch_run(batch, &record));
         size_t *label = malloc(model->elements * sizeof *label);
         assert_non_null(label);
         assert_int_equal(record.fragments,
@@ -568,7 +568,7 @@ static void an_interface_holds_by_its_last_point(void **unused)
     fracas_batch *batch = lane_of(model, 0, 0, 0);
     fracas_record record;
     fracas_record_init(&record);
-    assert_ok(fracas_batch_begin(batch));
+    OK(fracas_batch_begin(batch));
     for (size_t i = 0; i < model->interfaces; i++)
         for (int g = 0; g < 3; g++) {
             *fracas_surface_point(model, &batch->step, i, g, SURFACE_PEAK, 0) = BAR_STRENGTH_MEAN;
@@ -592,7 +592,7 @@ static void check_stop(const fracas_model *model, uint64_t replica)
     fracas_batch *batch = lane_of(model, 0.3, replica, 100000);
     fracas_record record;
     fracas_record_init(&record);
-    assert_ok(fracas_batch_run(batch, &record));
+    OK(fracas_batch_run(batch, &record));
     assert_int_equal(record.nhistory, record.steps + 1);
     double peak = 0, time = 0;
     bool fallen = false;

@@ -464,7 +464,7 @@ static gmsh_file equilateral(size_t n, int order)
                                           .nelements = 2 * n * n,
                                           .node = (const double(*)[3])node,
                                           .element = element};
-    assert_ok(fracas_surface_assemble(&arrays, &surface));
+    OK(fracas_surface_assemble(&arrays, &surface));
     gmsh_file file = gmsh_write(surface, false, false, false);
     gmsh_put(&file, "", 1);
     fracas_surface_destroy(surface);

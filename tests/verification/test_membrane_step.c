@@ -18,17 +18,17 @@ static membrane_run begin(const fracas_spec *spec, int width)
     membrane_run run = {.model = distorted_model(*spec, DISTORTION, 9), .running = 1};
     const fracas_batch_options options = {.width = width, .isa = FRACAS_ISA_BEST};
     size_t stride;
-    assert_ok(fracas_batch_create(run.model, 1, &options, &run.batch));
+    OK(fracas_batch_create(run.model, 1, &options, &run.batch));
     double *strength = fracas_batch_strength(run.batch, 0, &stride);
     for (size_t i = 0; i < run.model->interfaces; i++) strength[i * stride] = 1e12;
-    assert_ok(fracas_batch_begin(run.batch));
+    OK(fracas_batch_begin(run.batch));
     fracas_record_init(&run.record);
     return run;
 }
 
 static void step(membrane_run *run)
 {
-    assert_ok(fracas_batch_step(run->batch, &run->record, &run->running));
+    OK(fracas_batch_step(run->batch, &run->record, &run->running));
 }
 
 static void clear(membrane_run *run)

@@ -139,13 +139,13 @@ static membrane_errors turn_by(int64_t order, double size, const fracas_kind *ma
     fracas_record record;
     size_t running = 1, stride;
     membrane_errors errors = {.residual = 0};
-    assert_ok(fracas_batch_create(model, 1, &options, &batch));
+    OK(fracas_batch_create(model, 1, &options, &batch));
     fracas_record_init(&record);
     double *strength = fracas_batch_strength(batch, 0, &stride);
     for (size_t i = 0; i < model->interfaces; i++) strength[i * stride] = 1e12;
-    assert_ok(fracas_batch_begin(batch));
+    OK(fracas_batch_begin(batch));
     for (int seen = 0; seen < TIMES;) {
-        assert_ok(fracas_batch_step(batch, &record, &running));
+        OK(fracas_batch_step(batch, &record, &running));
         assert_int_equal(running, 1);
         if (batch->step.time[0] < times[seen]) continue;
         double stress, moved;

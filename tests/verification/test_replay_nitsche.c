@@ -130,8 +130,8 @@ static void write_figure(const dynfrag1d_run *run, const curve *const *curves, i
     snprintf(count->y.label, sizeof count->y.label, "fragments");
     snprintf(count->x.label, sizeof count->x.label, "time [µs]");
     for (int k = 0; k < ncurves; k++) {
-        assert_ok(add_curve(energy, curves[k], rows, true));
-        assert_ok(add_curve(count, curves[k], rows, false));
+        OK(add_curve(energy, curves[k], rows, true));
+        OK(add_curve(count, curves[k], rows, false));
     }
     fracas_chart_write(&chart, true, file);
     fracas_chart_clear(&chart);

@@ -16,7 +16,7 @@ static ring_run start(const fracas_spec *spec, double strength)
 {
     ring_run run = make(spec, isnan(strength) ? BAR_STRENGTH_MEAN : strength);
     if (isnan(strength)) bar_draw(run.batch, 0, 1.0 / 300, 0);
-    assert_ok(fracas_batch_begin(run.batch));
+    OK(fracas_batch_begin(run.batch));
     return run;
 }
 

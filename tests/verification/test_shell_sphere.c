@@ -199,7 +199,7 @@ static fracas_model *mirrored(const fracas_model *octant)
                                           .node = (const double(*)[3])node,
                                           .element = element};
     const fracas_surface *all;
-    assert_ok(fracas_surface_assemble(&arrays, &all));
+    OK(fracas_surface_assemble(&arrays, &all));
     fracas_model *model = shell_of(octant->spec, all);
     fracas_surface_destroy(all);
     free(node);

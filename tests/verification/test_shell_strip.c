@@ -72,7 +72,7 @@ static strip strip_of(const fracas_spec *spec, bool sliding, double strength)
     assert_true(s.field && s.model->elements == 2 && s.model->interfaces == 1);
     s.batch = lane_of(s.model, 0, 0);
     bar_set_strength(s.batch, 0, 0, strength);
-    assert_ok(fracas_batch_begin(s.batch));
+    OK(fracas_batch_begin(s.batch));
     s.answer.force = calloc(36, sizeof(double));
     assert_non_null(s.answer.force);
     s.length = sqrt(2) * spec->geometry.width;

@@ -184,7 +184,7 @@ static void critical_zones_refine_the_time_step(void **unused)
             spec.cohesive.refinement = xi;
             ring_run run = make(&spec, 3e9);
             bar_set_strength(run.batch, 0, link, 1e8 * it->strength);
-            assert_ok(fracas_batch_begin(run.batch));
+            OK(fracas_batch_begin(run.batch));
             for (size_t e = 0; e < N; e++) {
                 const size_t place = (e + N + 1 - link) % N; /* 0 .. 3 about the link */
                 set_stress(&run, e, 1e8 * (place < 4 ? it->stress[place] : 1));
@@ -216,7 +216,7 @@ static ring_run stressed(double stress, double strength)
     const fracas_spec spec = at_rest(40);
     ring_run run = make(&spec, 3e9);
     bar_set_strength(run.batch, 0, 5, strength);
-    assert_ok(fracas_batch_begin(run.batch));
+    OK(fracas_batch_begin(run.batch));
     expand(&run, stress);
     step(&run);
     return run;
@@ -282,7 +282,7 @@ static void the_base_step_is_the_papers(void **unused)
     for (size_t i = 0; i < FRACAS_COUNT(sizes); i++) {
         const fracas_spec spec = at_rest(sizes[i]);
         fracas_model *model;
-        assert_ok(fracas_model_create(&spec, &model));
+        OK(fracas_model_create(&spec, &model));
         const double paper = 0.8 * RING_CIRCUMFERENCE / (double)sizes[i] / BAR_WAVE_SPEED;
         const double odd = sizes[i] % 2 ? cos(0.5 * 3.14159265358979323846 / (double)sizes[i]) : 1;
         print_message("[  figures ] %5ld elements: time step %.2e beyond 0.8 h/c\n", (long)sizes[i],
@@ -491,7 +491,7 @@ static void the_bulk_law_at_prescribed_strains(void **unused)
         ring_run run = make(&spec, 1e9);
         bar_set_strength(run.batch, 0, AT - 1, 280e6);
         bar_set_strength(run.batch, 0, AT, 320e6);
-        assert_ok(fracas_batch_begin(run.batch));
+        OK(fracas_batch_begin(run.batch));
         *link_of(&run, AT - 1) = *link_of(&run, AT) = RING_LINK_BARRED;
         *at(&run, AT, RING_STRAIN) = p->largest < 0 ? -1 : p->largest * eps_y;
         set_stress(&run, AT, p->strain * yield);
@@ -528,7 +528,7 @@ static void what_is_barred_beyond_its_yield_is_booked(void **unused)
         spec.cohesive.zone = zone * 5 * RING_CIRCUMFERENCE / N;
         ring_run run = make(&spec, yield);
         bar_set_strength(run.batch, 0, WEAK, 90e6);
-        assert_ok(fracas_batch_begin(run.batch));
+        OK(fracas_batch_begin(run.batch));
         for (size_t e = 0; e < N; e++) set_stress(&run, e, e == AT ? stress : 100e6);
         step(&run);
         assert_links(&run, zone * 5, (size_t[]){WEAK}, 1);

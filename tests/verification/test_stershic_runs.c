@@ -29,7 +29,7 @@ static crack_errors isolated_link(double rate, double x_b, int elements_per_s0, 
     ring_run run = make(&spec, 2.9e9);
     const size_t weak = (size_t)n / 3;
     bar_set_strength(run.batch, 0, weak, sigma_c);
-    assert_ok(fracas_batch_begin(run.batch));
+    OK(fracas_batch_begin(run.batch));
     crack_errors errors = {0};
     while (run.running) {
         step(&run);
@@ -107,7 +107,7 @@ static void one_strength_needs_no_choice_of_parameters(void **unused)
                 }
                 run[by_opening] = make(&spec, 300e6);
                 if (several) bar_draw(run[by_opening].batch, 0, 0.05, 0);
-                assert_ok(fracas_batch_begin(run[by_opening].batch));
+                OK(fracas_batch_begin(run[by_opening].batch));
                 finish(&run[by_opening]);
             }
             assert_true(run[0].record.broken > 20);
@@ -127,7 +127,7 @@ static void the_clock_adds_up(void **unused)
     spec.cohesive.refinement = 0.3;
     ring_run run = make(&spec, 300e6);
     bar_draw(run.batch, 0, 1.0 / 300, 0);
-    assert_ok(fracas_batch_begin(run.batch));
+    OK(fracas_batch_begin(run.batch));
     const double base = run.model->time_step, steps[3] = {base, base * 0.3, base * 0.3 * 0.3};
     long double sum = 0;
     int64_t seen[3] = {0}, changes = 1;
@@ -226,7 +226,7 @@ static ring_run barred_ring(void)
     ring_run run = make(&spec, 300e6);
     for (size_t i = 0; i < N; i++)
         bar_set_strength(run.batch, 0, i, i == WEAK ? 300e6 : 310e6 + 1e5 * (double)((i * 37) % N));
-    assert_ok(fracas_batch_begin(run.batch));
+    OK(fracas_batch_begin(run.batch));
     while (!run.batch->step.cracked[0]) step(&run);
     return run;
 }
@@ -316,7 +316,7 @@ static ring_run scattered(const fracas_spec *spec, double scatter, uint64_t repl
 {
     ring_run run = make(spec, 300e6);
     bar_draw(run.batch, 0, scatter, replica);
-    assert_ok(fracas_batch_begin(run.batch));
+    OK(fracas_batch_begin(run.batch));
     return run;
 }
 
