@@ -28,7 +28,8 @@ int main(int argc, char **argv)
     for (const file_of_tests *file = test_files; argc > 1 && file->name; file++)
         if (strcmp(argv[1], file->name) == 0) return file->run();
     fprintf(stderr, "usage: %s NAME [ARGUMENT], NAME one of:", argv[0]);
-    for (const file_of_tests *file = test_files; file->name; file++) fprintf(stderr, " %s", file->name);
+    for (const file_of_tests *file = test_files; file->name; file++)
+        fprintf(stderr, " %s", file->name);
     fputc('\n', stderr);
     return 2;
 }
