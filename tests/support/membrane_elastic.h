@@ -98,7 +98,7 @@ static inline void interpolate(const fracas_model *model, membrane_field *field,
 static inline fracas_surface_operator *open_operator(const fracas_model *model)
 {
     fracas_surface_operator *op = NULL;
-    assert_ok(fracas_surface_operator_open(model, 0, &op));
+    OK(fracas_surface_operator_open(model, 0, &op));
     return op;
 }
 

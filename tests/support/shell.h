@@ -165,7 +165,7 @@ static inline fracas_model *grid_model(const fracas_spec *spec, const shell_grid
                                           .element = element,
                                           .tag = tag};
     const fracas_surface *surface;
-    assert_ok(fracas_surface_assemble(&arrays, &surface));
+    OK(fracas_surface_assemble(&arrays, &surface));
     fracas_model *model = shell_of(*spec, surface);
     fracas_surface_destroy(surface);
     free(tag);
@@ -238,7 +238,7 @@ static inline void interpolate(const fracas_model *model, shell_field *field, co
 static inline fracas_surface_operator *open_operator(const fracas_model *model)
 {
     fracas_surface_operator *op = NULL;
-    assert_ok(fracas_surface_operator_open(model, 0, &op));
+    OK(fracas_surface_operator_open(model, 0, &op));
     return op;
 }
 

@@ -144,10 +144,10 @@ typedef struct {
 static body body_of(const fracas_spec *spec)
 {
     body b = {.size = 6 * (size_t)spec->mesh.order};
-    assert_ok(fracas_model_create(spec, &b.model));
+    OK(fracas_model_create(spec, &b.model));
     b.n = b.size * b.model->elements;
     fracas_surface_operator *op;
-    assert_ok(fracas_surface_operator_open(b.model, 0, &op));
+    OK(fracas_surface_operator_open(b.model, 0, &op));
     gsl_matrix *matrix = gsl_matrix_alloc(b.n, b.n), *scaled = gsl_matrix_alloc(b.n, b.n);
     double *u = calloc(b.n, sizeof *u), *a = calloc(b.n, sizeof *a);
     for (size_t j = 0; j < b.n; j++) {
@@ -197,9 +197,9 @@ static void body_end(body *b)
 static void start(body *b, const double *mode, double u, double v)
 {
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    assert_ok(fracas_batch_create(b->model, 1, &options, &b->batch));
+    OK(fracas_batch_create(b->model, 1, &options, &b->batch));
     for (size_t i = 0; i < b->model->interfaces; i++) bar_set_strength(b->batch, 0, i, 1e9);
-    assert_ok(fracas_batch_begin(b->batch));
+    OK(fracas_batch_begin(b->batch));
     for (size_t i = 0; i < b->n; i++) {
         *fracas_surface_value(b->model, &b->batch->step, i / b->size, SURFACE_U, (int)(i % b->size),
                               0) = u * mode[i];
@@ -241,7 +241,7 @@ static void follow(body *b, size_t which, double omega_dt)
     motion x = {u, v * dt, -square * u};
     for (int n = 0; n < 300; n++) {
         const double before = x.v;
-        assert_ok(fracas_batch_step(b->batch, &record, &running));
+        OK(fracas_batch_step(b->batch, &record, &running));
         double after = x.v;
         if (n > 0 && alpha) x = advance(&h, square, x), after = x.v;
         if (!alpha) {
@@ -319,7 +319,7 @@ static void the_batch_blows_up_above_the_limit_only(void **unused)
         double largest = 0;
         size_t running = 1;
         for (int n = 0; n < 20000 && largest < 1e-12; n++) {
-            assert_ok(fracas_batch_step(b.batch, &record, &running));
+            OK(fracas_batch_step(b.batch, &record, &running));
             largest = apart(&b, b.mode, SURFACE_U, 0);
         }
         assert_true(above ? largest >= 1e-12 : largest < 1e-15);
