@@ -26,11 +26,11 @@ static fracas_strength strength_of(const char *name)
                                 .scale = 50e6,
                                 .shape = 2,
                                 .median = 300e6,
-                                .sigma = 0.1,
-                                .own = {1e9, 3}};
-    if (strcmp(name, "normal") == 0)
-        strength.mean =
-            10 * (strength.deviation = 30e6); /* of other laws they replace their own parameters */
+                                .sigma = 0.1};
+    if (strcmp(name, "normal") ==
+        0) /* elsewhere the moments replace a distribution's own numbers */
+        strength.mean = 10 * (strength.deviation = 30e6);
+    else memcpy(strength.own, (double[]){1e9, 3}, 2 * sizeof *strength.own);
     for (size_t i = 0; i < fracas_strength_section.nkinds; i++)
         if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0)
             strength.distribution = fracas_strength_section.kinds[i];

@@ -83,7 +83,7 @@ static void execute(const char *sql)
 {
     if (sqlite3_exec(index_->db, sql, NULL, NULL, NULL) != SQLITE_OK)
         fail_msg("%s: %s", sql, sqlite3_errmsg(index_->db));
-    assert_true(sqlite3_changes(index_->db) > 0);
+    if (sqlite3_changes(index_->db) == 0) fail_msg("%s: changes nothing", sql);
 }
 
 /* A flipped bit of a number, which SQLite cannot see: study.h5 is not made of it, and full
@@ -109,7 +109,7 @@ static void a_flipped_number_of_the_index_is_not_merged(void **state)
         execute("CREATE TABLE kept AS SELECT * FROM realization");
         snprintf(sql, sizeof sql,
                  "UPDATE realization SET %s WHERE (point, replica) IN (SELECT point, replica FROM "
-                 "realization WHERE status = 'done' AND outcome = 0 AND segment = 1 AND dissipated "
+                 "realization WHERE status = 'done' AND outcome = 0 AND segment < 6 AND dissipated "
                  "NOT NULL AND size NOT NULL LIMIT 1)",
                  flip[f]);
         execute(sql);
