@@ -25,8 +25,7 @@
 #include <immintrin.h>
 #endif
 
-/* Name of what a unit exports: LANES_UNIT(fracas_bar) is fracas_bar_avx2_4 for ISA avx2, LANES 4.
- */
+/* Name of a unit's export: LANES_UNIT(fracas_bar) is fracas_bar_avx2_4 for ISA avx2, LANES 4. */
 #define LANES_UNIT(name) LANES_JOIN_(name, ISA, LANES)
 #define LANES_JOIN_(name, isa, lanes) LANES_PASTE_(name, isa, lanes)
 #define LANES_PASTE_(name, isa, lanes) name##_##isa##_##lanes

@@ -36,8 +36,8 @@ typedef struct {
     const char *path; /* as named */
     const char *text; /* content, and a NUL after it */
     size_t size;      /* bytes, without the final NUL */
-    char digest[33]; /* of the content, XXH3 in hexadecimal: stands for the file wherever a point is
-                        identified */
+    char digest[33];  /* XXH3 of the content in hexadecimal: stands for the file in a point's
+                         identity */
 } fracas_attachment;
 
 /* A required value has no default. */
@@ -52,12 +52,12 @@ typedef struct {
     double minimum;                    /* allowed range, both ends included unless minimum_open */
     double maximum;                    /* INFINITY: no upper limit */
     bool minimum_open;                 /* value must be > minimum */
-    size_t offset;                     /* of the value in the section's struct */
-    const fracas_kind *const *choices; /* of a FRACAS_CHOICE */
+    size_t offset;                     /* place of the value in the section's struct */
+    const fracas_kind *const *choices; /* for FRACAS_CHOICE */
     size_t nchoices;
     const fracas_kind *const *only; /* models with this parameter, up to a NULL; NULL: all */
-    bool optional; /* no default: where it is not given the point has none (NaN, NULL). Not of
-                      FRACAS_INTEGER, FRACAS_BOOLEAN */
+    bool optional; /* no default: a point without it has NaN or NULL. Not for FRACAS_INTEGER and
+                      FRACAS_BOOLEAN */
 } fracas_param;
 
 struct fracas_kind {
@@ -81,10 +81,10 @@ typedef struct {
     const char *selector;            /* key that names the kind; NULL: the section has no kinds */
     const fracas_kind *const *kinds; /* registry; the first is the default */
     size_t nkinds;
-    size_t kind_offset;         /* of the `const fracas_kind *` in the section's struct */
+    size_t kind_offset;         /* place of the `const fracas_kind *` in the section's struct */
     const fracas_param *params; /* keys common to all kinds */
     size_t nparams;
-    size_t offset; /* of the section's struct in its owner (see the registry) */
+    size_t offset; /* place of the section's struct in its owner (see the registry) */
     bool hashed;   /* part of a point's identity (output options are not) */
     fracas_err (*check)(
         const void *section); /* checks values against each other; NULL: no such check */

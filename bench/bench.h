@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What benchmarks share: clocks, medians, and giving up. */
+/* Common to all benchmarks: clocks, medians, and giving up. */
 #ifndef FRACAS_BENCH_BENCH_H
 #define FRACAS_BENCH_BENCH_H
 

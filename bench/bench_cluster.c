@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a run would be on a cluster: the real scheduler (campaigns/scheduler/lease/scheduler.h)
+/* A run on a simulated cluster: the real scheduler (campaigns/scheduler/lease/scheduler.h)
  * gives leases to workers that are simulated, by a rank 0 that does one thing at a time, through
  * ranks that poll, with segments that a filesystem takes so many of a second.
  *
@@ -94,17 +94,17 @@ typedef enum { HEAR_COMPUTED, HEAR_SEGMENT, LEAD_IS_FREE, GET_LEASE, COMPUTED, W
 
 typedef struct {
     double time;
-    uint64_t order; /* of those at the same time */
+    uint64_t order; /* among those at the same time */
     event_kind kind;
     size_t worker;
     uint64_t lease;
-    double seconds; /* that the lease takes */
-    size_t rows;    /* of a lease or a segment */
+    double seconds; /* duration of the lease */
+    size_t rows;    /* in a lease or a segment */
 } event;
 
 typedef struct {
     uint64_t lease[FRACAS_LEASES_HELD];
-    double seconds[FRACAS_LEASES_HELD]; /* that they will take */
+    double seconds[FRACAS_LEASES_HELD]; /* their durations */
     size_t rows[FRACAS_LEASES_HELD], nheld;
     bool computing;
     size_t kept;   /* realizations in its memory */
@@ -115,13 +115,13 @@ typedef struct {
 typedef struct {
     const costs *c;
     fracas_scheduler *scheduler;
-    double *cost; /* of a realization of each point: the scheduler's */
+    double *cost; /* one realization of each point: the scheduler's */
     worker *worker;
     size_t workers;
     event *heap;
     size_t nheap, room;
     uint64_t order, dice;
-    double now, free_at; /* of rank 0: when it can turn to what comes next */
+    double now, free_at; /* free_at: when rank 0 can turn to the next message */
     event *queue;        /* messages that wait for rank 0, a ring */
     size_t first, waiting, queue_room;
     double disk;   /* when the filesystem takes the next segment */

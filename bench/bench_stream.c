@@ -19,7 +19,7 @@ enum { STREAMS = 16, WORDS = 13, GROUP = 8 }; /* 8 numbers of 52 bits are 13 wor
 static const fracas_stream named = {
     1, FRACAS_PURPOSE_STRENGTH, {0x243f6a8885a308d3, 0x13198a2e03707344}, 0};
 
-/* What is added to the name of a stream, and to the site. */
+/* Added to the name of a stream, and to the site. */
 static const struct {
     fracas_stream name;
     uint64_t site;

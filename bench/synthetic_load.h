@@ -6,7 +6,7 @@
 #include <stdint.h>
 
 typedef struct {
-    double seconds;      /* of a realization [s] */
+    double seconds;      /* a realization's [s] */
     double long_part;    /* fraction of realizations that take long_seconds, 0 to 1 */
     double long_seconds; /* [s] */
 } synthetic_load;

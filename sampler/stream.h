@@ -9,7 +9,7 @@
 /* The name of a stream of random numbers: a value depends on this and its place, on nothing else.
  */
 typedef struct {
-    uint64_t seed;     /* of the campaign */
+    uint64_t seed;     /* the campaign's */
     uint64_t purpose;  /* FRACAS_PURPOSE_... */
     uint64_t point[2]; /* point hash; 0 for draws common to all points */
     uint64_t replica;

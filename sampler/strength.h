@@ -30,7 +30,7 @@ typedef struct {
     const fracas_kind *interpolation; /* empirical: between its strengths */
     double reference_volume;          /* m3, or */
     double reference_area;            /* m2: extent of the interfaces with the given strengths */
-    const fracas_kind *covariance;    /* of a correlated field; NULL: strengths are independent */
+    const fracas_kind *covariance;    /* a correlated field's; NULL: strengths are independent */
     double correlation_length;        /* m */
     double smoothness;                /* 1, matern: nu */
     const fracas_kind *per;           /* interface, gauss-point; NULL: interface */

@@ -80,34 +80,34 @@ static fracas_err read_number(const fracas_file *file, const fracas_leaf *leaf,
 }
 
 static fracas_err check_keys(const fracas_file *file, const fracas_node *node,
-                             const fracas_kind *law)
+                             const fracas_kind *kind)
 {
     const char *keys[8] = {"distribution"};
     char subject[80];
-    for (size_t i = 0; i < law->nparams; i++) keys[i + 1] = law->params[i].name;
-    snprintf(subject, sizeof subject, "the distribution %s", law->name);
+    for (size_t i = 0; i < kind->nparams; i++) keys[i + 1] = kind->params[i].name;
+    snprintf(subject, sizeof subject, "the distribution %s", kind->name);
     return fracas_file_check_keys(file, node, keys, subject);
 }
 
 static fracas_err read_distribution(const fracas_file *file, const fracas_leaf *leaf,
                                     const fracas_node *node, fracas_uncertain *uncertain)
 {
-    const fracas_section *laws = &fracas_uncertain_section;
+    const fracas_section *table = &fracas_uncertain_section;
     if (node->type != FRACAS_MAP)
         return fracas_file_expected(
             file, node, leaf->path,
             "a distribution, as {distribution: uniform, minimum: ..., maximum: ...}");
-    TRY(read_kind(file, node, laws->selector, laws->kinds, laws->nkinds, &uncertain->law));
-    TRY(check_keys(file, node, uncertain->law));
-    for (size_t i = 0; i < uncertain->law->nparams; i++) {
-        const fracas_param *param = &uncertain->law->params[i];
+    TRY(read_kind(file, node, table->selector, table->kinds, table->nkinds, &uncertain->kind));
+    TRY(check_keys(file, node, uncertain->kind));
+    for (size_t i = 0; i < uncertain->kind->nparams; i++) {
+        const fracas_param *param = &uncertain->kind->params[i];
         const fracas_node *number = fracas_node_find(node, param->name);
         if (number) TRY(read_number(file, leaf, number, param, uncertain));
         else if (param->optional) fracas_param_clear(param, uncertain);
         else if (!isnan(param->fallback)) fracas_param_set(param, uncertain, param->fallback);
         else
             return fracas_file_error(file, node, "`%s` with distribution %s needs `%s` (%s)",
-                                     leaf->path, uncertain->law->name, param->name, param->doc);
+                                     leaf->path, uncertain->kind->name, param->name, param->doc);
     }
     return fracas_uncertain_check(uncertain) ? fracas_file_error_within(file, node, leaf->path)
                                              : FRACAS_OK;

@@ -134,18 +134,18 @@ static void write_section(const fracas_catalog *catalog, const fracas_section *s
 /* Types and distributions of designs. */
 static void write_designs(FILE *out)
 {
-    const fracas_section *laws = &fracas_uncertain_section;
+    const fracas_section *table = &fracas_uncertain_section;
     fprintf(out, "\n## Designs of the sweep\n\nAxes whose values are drawn: "
                  "[campaign-file.md](campaign-file.md#designs). A number whose unit is called its "
                  "own has that of its parameter.\n\n| `type:` | meaning |\n|---|---|\n");
     for (size_t t = 0; t < FRACAS_COUNT(fracas_design_types); t++)
         fprintf(out, "| `%s` | %s |\n", fracas_design_types[t]->name, fracas_design_types[t]->doc);
-    fprintf(out, "\n| `%s:` | meaning |\n|---|---|\n", laws->selector);
-    for (size_t k = 0; k < laws->nkinds; k++)
-        fprintf(out, "| `%s` | %s |\n", laws->kinds[k]->name, laws->kinds[k]->doc);
-    for (size_t k = 0; k < laws->nkinds; k++) {
-        fprintf(out, "\nWith `%s: %s`:\n", laws->selector, laws->kinds[k]->name);
-        write_params(laws->kinds[k]->params, laws->kinds[k]->nparams, out);
+    fprintf(out, "\n| `%s:` | meaning |\n|---|---|\n", table->selector);
+    for (size_t k = 0; k < table->nkinds; k++)
+        fprintf(out, "| `%s` | %s |\n", table->kinds[k]->name, table->kinds[k]->doc);
+    for (size_t k = 0; k < table->nkinds; k++) {
+        fprintf(out, "\nWith `%s: %s`:\n", table->selector, table->kinds[k]->name);
+        write_params(table->kinds[k]->params, table->kinds[k]->nparams, out);
     }
 }
 

@@ -9,7 +9,7 @@
 bool fracas_correlation_factor(size_t n, const double *correlation, double *factor, size_t *at,
                                double *rest)
 {
-    const double least = 1e-9; /* of the variance: less is rounding */
+    const double least = 1e-9; /* share of the variance: less is rounding */
     for (size_t j = 0; j < n; j++) {
         double left = 1.0;
         for (size_t k = 0; k < j; k++) {

@@ -16,7 +16,7 @@ extern const fracas_kind *const fracas_design_types[3];
 
 typedef struct {
     const fracas_kind *type;
-    uint64_t seed;             /* of the campaign */
+    uint64_t seed;             /* the campaign's */
     size_t points, parameters; /* at least 1 each */
     const uint64_t *name;      /* [parameters], all different: the names of their random numbers */
     const double *correlation; /* [parameters][parameters], of the normal scores Phi^-1(u); NULL:
@@ -28,7 +28,7 @@ size_t fracas_design_most_parameters(const fracas_kind *type);
 
 /* p[i*parameters + j] = u and 1 - u, 0 < u < 1, of parameter j at point i; same bits on every CPU.
  *
- * Of random and sobol, point i does not depend on how many points there are; of latin-hypercube
+ * In random and sobol, point i does not depend on how many points there are; in latin-hypercube
  * each parameter has one point in each of the intervals (k/n, (k+1)/n). Parameter j does not depend
  * on those after it; without correlation, and but for sobol, it depends on no other and not on its
  * place. The correlation must have a factor (sampler/design/correlation.h), and the parameters be

@@ -6,10 +6,10 @@
 #include "sampler/special/normal.h"
 
 typedef struct {
-    fracas_kind kind; /* first: an uncertain parameter names its law by this */
+    fracas_kind kind; /* first: an uncertain parameter names its distribution by this */
     double (*quantile)(const fracas_uncertain *uncertain, fracas_probability p);
     fracas_err (*check)(const fracas_uncertain *uncertain); /* may be NULL */
-} law;
+} uncertain_kind;
 
 /* ---- distributions of strengths, used here too ---- */
 
@@ -161,44 +161,46 @@ static const fracas_param gamma_params[] = {
            1e6, false),
 };
 
-#define LAW(name, text, doc, params, quantile, check) \
-    static const law name = {{text, doc, params, FRACAS_COUNT(params), NULL, 0}, quantile, check}
-LAW(uniform, "uniform", "all values between two bounds equally likely", between, uniform_quantile,
-    check_bounds);
-LAW(log_uniform, "log-uniform", "logarithm uniform between two bounds", log_between,
-    log_uniform_quantile, check_bounds);
-LAW(normal, "normal", "normal; of both signs, unless it is cut", normal_params, normal_quantile,
-    normal_check);
-LAW(lognormal, "lognormal", "logarithm normal: median exp(sigma z)", lognormal_params,
-    lognormal_quantile, NULL);
-LAW(weibull, "weibull", "Weibull, with two or three parameters", weibull_params, weibull_quantile,
-    NULL);
-LAW(gamma_law, "gamma", "gamma: mean shape scale, variance shape scale^2", gamma_params,
-    gamma_quantile, NULL);
+#define KIND(name, text, doc, params, quantile, check) \
+    static const uncertain_kind name = {               \
+        {text, doc, params, FRACAS_COUNT(params), NULL, 0}, quantile, check}
+KIND(uniform, "uniform", "all values between two bounds equally likely", between, uniform_quantile,
+     check_bounds);
+KIND(log_uniform, "log-uniform", "logarithm uniform between two bounds", log_between,
+     log_uniform_quantile, check_bounds);
+KIND(normal, "normal", "normal; of both signs, unless it is cut", normal_params, normal_quantile,
+     normal_check);
+KIND(lognormal, "lognormal", "logarithm normal: median exp(sigma z)", lognormal_params,
+     lognormal_quantile, NULL);
+KIND(weibull, "weibull", "Weibull, with two or three parameters", weibull_params, weibull_quantile,
+     NULL);
+KIND(gamma_kind, "gamma", "gamma: mean shape scale, variance shape scale^2", gamma_params,
+     gamma_quantile, NULL);
 
-static const fracas_kind *const laws[] = {&uniform.kind,   &log_uniform.kind, &normal.kind,
-                                          &lognormal.kind, &weibull.kind,     &gamma_law.kind};
+static const fracas_kind *const distributions[] = {&uniform.kind, &log_uniform.kind,
+                                                   &normal.kind,  &lognormal.kind,
+                                                   &weibull.kind, &gamma_kind.kind};
 
 const fracas_section fracas_uncertain_section = {
     .name = "parameters",
     .doc = "What is not known exactly",
     .selector = "distribution",
-    .kinds = laws,
-    .nkinds = FRACAS_COUNT(laws),
-    .kind_offset = offsetof(fracas_uncertain, law),
+    .kinds = distributions,
+    .nkinds = FRACAS_COUNT(distributions),
+    .kind_offset = offsetof(fracas_uncertain, kind),
 };
 
-static const law *law_of(const fracas_uncertain *uncertain)
+static const uncertain_kind *kind_of(const fracas_uncertain *uncertain)
 {
-    return (const law *)(const void *)uncertain->law;
+    return (const uncertain_kind *)(const void *)uncertain->kind;
 }
 
 fracas_err fracas_uncertain_check(const fracas_uncertain *uncertain)
 {
-    return law_of(uncertain)->check ? law_of(uncertain)->check(uncertain) : FRACAS_OK;
+    return kind_of(uncertain)->check ? kind_of(uncertain)->check(uncertain) : FRACAS_OK;
 }
 
 double fracas_uncertain_quantile(const fracas_uncertain *uncertain, fracas_probability p)
 {
-    return law_of(uncertain)->quantile(uncertain, p);
+    return kind_of(uncertain)->quantile(uncertain, p);
 }

@@ -7,19 +7,19 @@
 #include "base/param.h"
 #include "sampler/probability.h"
 
-#define FRACAS_OWN_UNIT "its own" /* in the tables of laws: the unit of the parameter */
+#define FRACAS_OWN_UNIT "its own" /* in the tables of distributions: the unit of the parameter */
 
 /* A distribution uses the members in its table; `minimum` and `maximum` are NaN where a normal
  * distribution is not cut. */
 typedef struct {
-    const fracas_kind *law;
+    const fracas_kind *kind; /* the distribution */
     double minimum, maximum;
     double mean, deviation;
     double median, sigma;
     double scale, shape;
 } fracas_uncertain;
 
-/* Its kinds are the laws; it is no section of a file. */
+/* Its kinds are the distributions; it is no section of a file. */
 extern const fracas_section fracas_uncertain_section;
 
 /* FRACAS_USAGE when values in range contradict each other. */

@@ -10,8 +10,7 @@
 #include "sampler/strength.h"
 
 typedef struct {
-    double mean,
-        deviation; /* Pa; the deviation is the standard one, of the law and not of a sample */
+    double mean, deviation; /* Pa; the standard deviation of the distribution, not of a sample */
 } fracas_moments;
 
 /* All functions but `init` take ready strengths (fracas_strength_init), and compute the
@@ -32,8 +31,9 @@ typedef struct {
     double (*far)(const fracas_strength *strength,
                   double t); /* [Pa] F^-1 where p.above is e^-t; NULL: the largest there is */
     double far_from; /* the t from which it holds, 700 at most: beyond 745 e^-t is no double */
-    fracas_moments (*weakest)(const fracas_strength *strength,
-                              double size); /* of the weakest of `size`; NULL: by quadrature */
+    fracas_moments (*weakest)(
+        const fracas_strength *strength,
+        double size); /* moments of the weakest of `size`; NULL: by quadrature */
     /* Both NULL for drawn strengths: the next strength of the file, and sigma_c[i*stride] =
      * strength of interface i. */
     fracas_lines_reader *read;

@@ -162,7 +162,7 @@ static void empirical_clear(fracas_strength *strength)
     table_free(strength->table);
 }
 
-/* ---- the law ---- */
+/* ---- the distribution ---- */
 
 /* (laws.17) From the nearer end, which keeps both tails exact. */
 static double empirical_quantile(const fracas_strength *strength, fracas_extent extent,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A law by its own parameters, or by mean and standard deviation. */
+/* A distribution by its own parameters, or by mean and standard deviation. */
 #ifndef FRACAS_SAMPLER_PAIRS_H
 #define FRACAS_SAMPLER_PAIRS_H
 
@@ -35,12 +35,13 @@ typedef struct {
 
 /* *by_moments = whether the second pair is given and not the first. FRACAS_USAGE unless exactly one
  * pair is given whole. */
-FRACAS_MUST_USE fracas_err fracas_pairs_choose(const char *law, const fracas_pair_key own[2],
+FRACAS_MUST_USE fracas_err fracas_pairs_choose(const char *distribution,
+                                               const fracas_pair_key own[2],
                                                const fracas_pair_key moments[2], bool *by_moments);
 
-/* FRACAS_USAGE unless least <= ratio <= most; the message calls the ratio `what`, as
+/* FRACAS_USAGE unless least <= ratio <= most; the message calls the ratio `name`, as
  * "deviation/mean". */
-FRACAS_MUST_USE fracas_err fracas_pairs_check(const char *law, const char *what, double ratio,
-                                              double least, double most);
+FRACAS_MUST_USE fracas_err fracas_pairs_check(const char *distribution, const char *name,
+                                              double ratio, double least, double most);
 
 #endif

@@ -9,8 +9,9 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-#define NEAR \
-    1e-3 /* of the interfaces' spacing: a line within this distance of an interface lies on it */
+#define NEAR                                                                                      \
+    1e-3 /* share of the interfaces' spacing: a line within this distance of an interface lies on \
+            it */
 #define NONE UINT32_MAX
 
 /* A line of the file. */
@@ -18,7 +19,7 @@ typedef struct {
     double x[2];     /* m */
     double strength; /* Pa */
     int64_t line;
-    uint32_t next;      /* of its cell, or NONE */
+    uint32_t next;      /* the next of its cell, or NONE */
     uint32_t interface; /* the line at its place, or NONE */
 } place;
 
@@ -72,7 +73,7 @@ typedef struct {
     size_t nplaces;
     double origin[2], spacing, near; /* m */
     size_t cells[2];
-    uint32_t *head; /* of each cell, a place or NONE */
+    uint32_t *head; /* a place of each cell, or NONE */
 } grid;
 
 static void grid_clear(grid *g)

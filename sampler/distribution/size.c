@@ -11,7 +11,7 @@ double fracas_size_of(const fracas_strength *strength, fracas_extent extent)
     return 1.0;
 }
 
-/* Where the law of the reference has P(strength > s) = e^-t. */
+/* The strength s [Pa] at which the reference has P(strength > s) = e^-t. */
 static double strength_at(const fracas_strength *strength, double t)
 {
     const fracas_distribution *distribution = fracas_distribution_of(strength);

@@ -13,7 +13,7 @@ double fracas_size_of(const fracas_strength *strength, fracas_extent extent);
 /* F^-1 [Pa] of the weakest of `size`. */
 double fracas_size_quantile(const fracas_strength *strength, double size, fracas_probability p);
 
-/* Their mean and standard deviation; where the law has no closed form by a quadrature within 1e-12
+/* Their mean and standard deviation; without a closed form by a quadrature within 1e-12
  * relative. */
 fracas_moments fracas_size_moments(const fracas_strength *strength, double size);
 

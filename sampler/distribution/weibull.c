@@ -38,7 +38,7 @@ static double weibull_tail(const fracas_strength *strength, fracas_extent extent
     return strength->shape;
 }
 
-/* (laws.11) The weakest follows the same law of another scale. */
+/* (laws.11) The weakest follows the same distribution with another scale. */
 static fracas_moments weibull_weakest(const fracas_strength *strength, double size)
 {
     fracas_strength weakest = *strength;

@@ -17,7 +17,7 @@ enum {
 
 struct fracas_circulant {
     size_t n;    /* sites */
-    size_t size; /* of the circle */
+    size_t size; /* sites of the circle */
     fracas_fft *fft;
     double *root; /* [size] of the eigenvalues, by size */
     double error;

@@ -24,7 +24,7 @@ struct fracas_covariance {
     double length;     /* m */
     double smoothness; /* nu */
     double factor;     /* 2^(1 - nu)/Gamma(nu) */
-    int degree;        /* of the polynomial; -1: nu is no half-integer */
+    int degree;        /* the polynomial's; -1: nu is no half-integer */
     double polynomial[10];
     double (*table)[TERMS]; /* [PIECES] Chebyshev coefficients of e^x rho; NULL where there is a
                                polynomial */

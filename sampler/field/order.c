@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#define RATIO 0.8 /* of the spacings of two levels */
+#define RATIO 0.8 /* ratio of the spacings of two levels */
 #define NONE UINT32_MAX
 
 typedef struct {
@@ -16,9 +16,9 @@ typedef struct {
     size_t first, m;
     uint32_t *order, *near;
     size_t taken;
-    double middle[3], size; /* of the box around all sites, m */
+    double middle[3], size; /* the box around all sites, m */
     double cell;            /* m */
-    size_t mask;            /* of the hash */
+    size_t mask;            /* the hash's */
     uint32_t *head;         /* [mask + 1] place in the order, or NONE */
     uint32_t *next;         /* [n] */
     int32_t (*cell_of)[3];  /* [n] of the site at a place in the order */

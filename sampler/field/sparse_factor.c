@@ -124,7 +124,7 @@ static fracas_err probe(fracas_sparse_factor *factor, const fracas_covariance *c
     return FRACAS_OK;
 }
 
-/* All of a few sites are looked at. Of many, some from the coarsest to the finest; from each the
+/* All of a few sites are looked at; among many some, from the coarsest to the finest: from each the
  * search goes on to its worst partner. */
 static fracas_err measure_error(fracas_sparse_factor *factor, const fracas_covariance *covariance,
                                 const double (*position)[3])

@@ -23,8 +23,8 @@ extern const char *const fracas_quantity_name[FRACAS_NQUANTITIES]; /* as a campa
 typedef struct {
     int64_t minimum, maximum; /* FRACAS_ROUND_FIRST <= minimum <= maximum */
     fracas_quantity quantity;
-    double relative_half_width; /* > 0: of the mean's absolute value */
-    double confidence;          /* of the interval, between 0 and 1 */
+    double relative_half_width; /* > 0: share of the mean's absolute value */
+    double confidence;          /* the interval's, between 0 and 1 */
 } fracas_sequential_rule;
 
 enum {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Moments of a power of an exponential variable, the core of the Weibull law; same bits on every
- * CPU. */
+/* Moments of a power of an exponential variable, the core of the Weibull distribution; same bits on
+ * every CPU. */
 #ifndef FRACAS_SAMPLER_WEIBULL_SHAPE_H
 #define FRACAS_SAMPLER_WEIBULL_SHAPE_H
 

@@ -42,12 +42,12 @@ static uint64_t name_of(const char *path)
     return word[0];
 }
 
-static const fracas_kind *law(const char *name)
+static const fracas_kind *kind(const char *name)
 {
     for (size_t i = 0; i < fracas_uncertain_section.nkinds; i++)
         if (strcmp(fracas_uncertain_section.kinds[i]->name, name) == 0)
             return fracas_uncertain_section.kinds[i];
-    fail_msg("no law %s", name);
+    fail_msg("no distribution %s", name);
     return NULL;
 }
 
@@ -61,10 +61,11 @@ static void test_points(void **state)
     const uint64_t name[4] = {name_of("material.young"), name_of("cohesive.fracture_energy"),
                               name_of("loading.rate"), name_of("mesh.elements")};
     const fracas_uncertain young = {
-        .law = law("normal"), .mean = 370e9, .deviation = 10e9, .minimum = 365e9, .maximum = NAN};
-    const fracas_uncertain energy = {.law = law("weibull"), .minimum = 0, .scale = 50, .shape = 10};
-    const fracas_uncertain rate = {.law = law("log-uniform"), .minimum = 1e3, .maximum = 1e5};
-    const fracas_uncertain elements = {.law = law("uniform"), .minimum = 50.5, .maximum = 950.5};
+        .kind = kind("normal"), .mean = 370e9, .deviation = 10e9, .minimum = 365e9, .maximum = NAN};
+    const fracas_uncertain energy = {
+        .kind = kind("weibull"), .minimum = 0, .scale = 50, .shape = 10};
+    const fracas_uncertain rate = {.kind = kind("log-uniform"), .minimum = 1e3, .maximum = 1e5};
+    const fracas_uncertain elements = {.kind = kind("uniform"), .minimum = 50.5, .maximum = 950.5};
     for (size_t t = 0; t < FRACAS_COUNT(types); t++) {
         fracas_campaign *campaign = read_design(types[t], YOUNG ENERGY RATE ELEMENTS TIED);
         const fracas_design design = {fracas_design_types[t], 7, 9, 4, name, tied};
@@ -120,8 +121,8 @@ static void test_product(void **state)
     fracas_campaign_destroy(both);
 }
 
-/* A design in which two laws of strength share a key: the drawn value is for the kind that the
- * point has. */
+/* A design in which two distributions of strength share a key: the drawn value is for the kind that
+ * the point has. */
 static void test_drawn_with_kind(void **state)
 {
     fracas_campaign *campaign = read_design(

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Designs: which numbers they are, what stays as it is when they grow, strata, correlation; laws of
- * uncertain parameters against GSL. */
+/* Designs: which numbers they are, what stays as it is when they grow, strata, correlation;
+ * distributions of uncertain parameters against GSL. */
 #include "sampler/design/correlation.h"
 #include "sampler/design/design.h"
 #include "sampler/design/uncertain.h"
@@ -335,14 +335,14 @@ static void test_margins(void **state)
     free(column);
 }
 
-/* ---- laws ---- */
+/* ---- distributions ---- */
 
-static const fracas_kind *law(const char *name)
+static const fracas_kind *kind(const char *name)
 {
     for (size_t i = 0; i < fracas_uncertain_section.nkinds; i++)
         if (strcmp(fracas_uncertain_section.kinds[i]->name, name) == 0)
             return fracas_uncertain_section.kinds[i];
-    fail_msg("no law %s", name);
+    fail_msg("no distribution %s", name);
     return NULL;
 }
 
@@ -351,23 +351,23 @@ static void assert_quantile(const fracas_uncertain *uncertain, fracas_probabilit
 {
     const double got = fracas_uncertain_quantile(uncertain, p);
     if (!(fabs(got - expected) <= tolerance))
-        fail_msg("%s at %g: %.17g is not %.17g", uncertain->law->name, p.below, got, expected);
+        fail_msg("%s at %g: %.17g is not %.17g", uncertain->kind->name, p.below, got, expected);
 }
 
 /* Against GSL's inverses, to 1e-12 relative as those of strengths
  * (docs/decisions/own-inverse-transforms.md). */
-static void test_laws(void **state)
+static void test_distributions(void **state)
 {
     static const double probes[] = {1e-9, 1e-4, 0.03, 0.3, 0.5, 0.77, 0.99, 0.99999};
-    const fracas_uncertain uniform = {.law = law("uniform"), .minimum = -3.0, .maximum = 5.0};
+    const fracas_uncertain uniform = {.kind = kind("uniform"), .minimum = -3.0, .maximum = 5.0};
     const fracas_uncertain log_uniform = {
-        .law = law("log-uniform"), .minimum = 1e3, .maximum = 1e5};
+        .kind = kind("log-uniform"), .minimum = 1e3, .maximum = 1e5};
     const fracas_uncertain normal = {
-        .law = law("normal"), .mean = 370.0, .deviation = 200.0, .minimum = NAN, .maximum = NAN};
-    const fracas_uncertain lognormal = {.law = law("lognormal"), .median = 4.0, .sigma = 0.5};
+        .kind = kind("normal"), .mean = 370.0, .deviation = 200.0, .minimum = NAN, .maximum = NAN};
+    const fracas_uncertain lognormal = {.kind = kind("lognormal"), .median = 4.0, .sigma = 0.5};
     const fracas_uncertain weibull = {
-        .law = law("weibull"), .minimum = -20.0, .scale = 50.0, .shape = 10.0};
-    const fracas_uncertain gamma_law = {.law = law("gamma"), .scale = 3.0, .shape = 2.5};
+        .kind = kind("weibull"), .minimum = -20.0, .scale = 50.0, .shape = 10.0};
+    const fracas_uncertain gamma_law = {.kind = kind("gamma"), .scale = 3.0, .shape = 2.5};
     for (size_t i = 0; i < FRACAS_COUNT(probes); i++) {
         const fracas_probability p = fracas_probability_of(probes[i]);
         const double z = gsl_cdf_ugaussian_Pinv(p.below);
@@ -383,8 +383,8 @@ static void test_laws(void **state)
                 0.0); /* not cut at 0, as a strength would be */
 }
 
-/* F of the cut normal law at its quantile is p again: dF = f dx, with f dx at most 1e-12 relative
- * of z about 10, and of kept. */
+/* F of the cut normal distribution at its quantile is p again: dF = f dx, with f dx at most 1e-12
+ * relative of z about 10, and of kept. */
 static void test_cut_normal(void **state)
 {
     static const double bounds[][2] = {{-1.0, 2.0}, {NAN, -0.5},  {1.5, NAN},
@@ -392,7 +392,7 @@ static void test_cut_normal(void **state)
     const double mean = 10.0, deviation = 4.0;
     for (size_t b = 0; b < FRACAS_COUNT(bounds); b++) {
         const double low = bounds[b][0], high = bounds[b][1];
-        const fracas_uncertain normal = {.law = law("normal"),
+        const fracas_uncertain normal = {.kind = kind("normal"),
                                          .mean = mean,
                                          .deviation = deviation,
                                          .minimum = mean + deviation * low,
@@ -417,16 +417,16 @@ static void test_cut_normal(void **state)
     }
 }
 
-static void test_law_checks(void **state)
+static void test_distribution_checks(void **state)
 {
-    const fracas_uncertain turned = {.law = law("uniform"), .minimum = 5.0, .maximum = 3.0};
-    const fracas_uncertain equal = {.law = law("log-uniform"), .minimum = 5.0, .maximum = 5.0};
+    const fracas_uncertain turned = {.kind = kind("uniform"), .minimum = 5.0, .maximum = 3.0};
+    const fracas_uncertain equal = {.kind = kind("log-uniform"), .minimum = 5.0, .maximum = 5.0};
     const fracas_uncertain crossed = {
-        .law = law("normal"), .mean = 0.0, .deviation = 1.0, .minimum = 1.0, .maximum = -1.0};
+        .kind = kind("normal"), .mean = 0.0, .deviation = 1.0, .minimum = 1.0, .maximum = -1.0};
     const fracas_uncertain far = {
-        .law = law("normal"), .mean = 0.0, .deviation = 1.0, .minimum = 7.0, .maximum = NAN};
+        .kind = kind("normal"), .mean = 0.0, .deviation = 1.0, .minimum = 7.0, .maximum = NAN};
     const fracas_uncertain open = {
-        .law = law("normal"), .mean = 0.0, .deviation = 1.0, .minimum = 1.0, .maximum = NAN};
+        .kind = kind("normal"), .mean = 0.0, .deviation = 1.0, .minimum = 1.0, .maximum = NAN};
     const fracas_uncertain *const wrong[] = {&turned, &equal, &crossed};
     for (size_t i = 0; i < FRACAS_COUNT(wrong); i++) {
         assert_int_equal(fracas_uncertain_check(wrong[i]), FRACAS_USAGE);
@@ -441,4 +441,4 @@ static void test_law_checks(void **state)
 TESTS(test_names, test_random_is_the_stream, test_sobol_is_gsl_shifted, test_golden_bits,
       test_prefix, test_other_parameters, test_untied_stays, test_strata,
       test_order_of_latin_hypercube, test_factor, test_contradiction, test_correlation,
-      test_margins, test_laws, test_cut_normal, test_law_checks)
+      test_margins, test_distributions, test_cut_normal, test_distribution_checks)
