@@ -95,7 +95,7 @@ double fracas_exp(double x)
     return exp_sum(x, 0.0);
 }
 
-/* (laws.1) */
+/* (distributions.1) */
 double fracas_expm1(double x)
 {
     if (fabs(x) > 0.6931) return fracas_exp(x) - 1.0;
@@ -104,7 +104,7 @@ double fracas_expm1(double x)
     return r == x ? y : y * (2.0 + y);
 }
 
-/* (laws.2) Adds back the rounding error of 1 + x. */
+/* (distributions.2) Adds back the rounding error of 1 + x. */
 double fracas_log1p(double x)
 {
     const double w = 1.0 + x;

@@ -76,9 +76,9 @@ double fracas_strength_mean(const fracas_strength *strength, fracas_extent exten
 double fracas_strength_deviation(const fracas_strength *strength, fracas_extent extent);
 
 /* Mott's modulus of the strengths of interfaces of this extent [1]
- *   M = m mean/(mean - minimum)                                      (size-laws.8), (size-laws.9)
- * where m is the Weibull shape, or the exponent of the flaws if most interfaces have one. NaN for
- * other distributions, or without such an m. */
+ *   M = m mean/(mean - minimum)                                      (scaling-laws.8),
+ * (scaling-laws.9) where m is the Weibull shape, or the exponent of the flaws if most interfaces
+ * have one. NaN for other distributions, or without such an m. */
 double fracas_strength_modulus(const fracas_strength *strength, fracas_extent extent);
 
 /* True if the strength of an interface depends on its extent. */

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* (size-laws.1), (size-laws.2), (size-laws.3). */
+/* (scaling-laws.1), (scaling-laws.2), (scaling-laws.3). */
 fracas_scales fracas_scales_of(double young, double density, double strength,
                                double fracture_energy)
 {
@@ -15,28 +15,28 @@ fracas_scales fracas_scales_of(double young, double density, double strength,
     return scales;
 }
 
-/* (size-laws.4): the kinetic energy of expansion of a fragment pays for its surface. */
+/* (scaling-laws.4): the kinetic energy of expansion of a fragment pays for its surface. */
 static double grady(double e, double modulus)
 {
     (void)modulus;
     return cbrt(24 / (e * e));
 }
 
-/* (size-laws.5): as Grady, with the elastic energy stored at failure. */
+/* (scaling-laws.5): as Grady, with the elastic energy stored at failure. */
 static double glenn_chudnovsky(double e, double modulus)
 {
     (void)modulus;
     return 4 / e * sinh(asinh(1.5 * e) / 3);
 }
 
-/* (size-laws.6). */
+/* (scaling-laws.6). */
 static double zmr(double e, double modulus)
 {
     (void)modulus;
     return 4.5 / (1 + 4.5 * cbrt(e * e));
 }
 
-/* (size-laws.7). */
+/* (scaling-laws.7). */
 static double zmr2(double e, double modulus)
 {
     (void)modulus;
@@ -44,7 +44,7 @@ static double zmr2(double e, double modulus)
     return 4.5 / (1 + 0.77 * quarter + 5.4 * quarter * quarter * quarter);
 }
 
-/* (size-laws.10): release waves of a rigid-plastic body stop the flaws in their reach. */
+/* (scaling-laws.10): release waves of a rigid-plastic body stop the flaws in their reach. */
 static double mott(double e, double modulus)
 {
     return sqrt(2 * M_PI / modulus) / e;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Characteristic scales of dynamic fragmentation and laws for the mean fragment size
- * (docs/theory/size-laws.md). */
+ * (docs/theory/scaling-laws.md). */
 #ifndef FRACAS_ANALYSIS_ESTIMATE_SCALES_H
 #define FRACAS_ANALYSIS_ESTIMATE_SCALES_H
 
@@ -12,8 +12,8 @@ typedef struct {
 } fracas_scales;
 
 /* t0 = E Gc/(sigma_c^2 c), s0 = c t0, edot0 = c sigma_c^3/(E^2 Gc) with c = sqrt(E/rho)
- * (size-laws.1) to (size-laws.3). young E > 0 [Pa], density rho > 0 [kg/m3], strength sigma_c > 0
- * [Pa], fracture_energy Gc > 0 [J/m2]; a NaN argument gives NaN scales. The modulus is NaN. */
+ * (scaling-laws.1) to (scaling-laws.3). young E > 0 [Pa], density rho > 0 [kg/m3], strength sigma_c
+ * > 0 [Pa], fracture_energy Gc > 0 [J/m2]; a NaN argument gives NaN scales. The modulus is NaN. */
 fracas_scales fracas_scales_of(double young, double density, double strength,
                                double fracture_energy);
 

@@ -58,7 +58,7 @@ static double soft(double z, double *slope)
     return z > 0 ? z + log1p(exp(-z)) : log1p(exp(z));
 }
 
-/* log s  (size-laws.14) */
+/* log s  (scaling-laws.14) */
 static double model(const double parameter[NPARAMETERS], double x)
 {
     double slope;
@@ -89,7 +89,7 @@ static int jacobian(const gsl_vector *parameter, void *context, gsl_matrix *J)
 }
 
 /* chi2 of the least squares found from *parameter, which becomes them; NaN without any
- * (size-laws.15). */
+ * (scaling-laws.15). */
 static double descend(fitter *of, double parameter[NPARAMETERS])
 {
     gsl_vector_view start = gsl_vector_view_array(parameter, NPARAMETERS);
@@ -171,7 +171,7 @@ static fracas_err judge(fitter *of, double best[NPARAMETERS], double chi2,
 }
 
 /* Means about the fitted ones, as far off as their errors are, and as uncertain as these
- * (size-laws.16). */
+ * (scaling-laws.16). */
 static void draw(const fitter *of, const double best[NPARAMETERS],
                  const fracas_size_crossover *crossover, gsl_rng *random)
 {
@@ -188,7 +188,7 @@ static void draw(const fitter *of, const double best[NPARAMETERS],
     }
 }
 
-/* The quantiles of constants fitted to drawn means  (size-laws.16). */
+/* The quantiles of constants fitted to drawn means  (scaling-laws.16). */
 static fracas_err resample(fitter *of, const double best[NPARAMETERS], int64_t resamples,
                            uint64_t seed, fracas_size_crossover *crossover)
 {

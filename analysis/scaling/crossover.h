@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Where mean size goes over from the quasi-static to the dynamic regime (docs/theory/size-laws.md).
+/* Where mean size goes over from the quasi-static to the dynamic regime
+ * (docs/theory/scaling-laws.md).
  */
 #ifndef FRACAS_ANALYSIS_SCALING_CROSSOVER_H
 #define FRACAS_ANALYSIS_SCALING_CROSSOVER_H
@@ -33,10 +34,10 @@ typedef struct {
 /* series, points, reason, ... */
 extern const fracas_fields fracas_crossover_fields;
 
-/* (size-laws.14), (size-laws.15), (size-laws.16): weighted least squares of log s over the points
- * that came apart and have a known standard error (fracas_mean_errors), and 95 % intervals from
- * `resamples` draws of their means (0: no intervals; NaN). Numbers are NaN and `reason` says why
- * for fewer than FRACAS_CROSSOVER_RATES rates, or without a bend between them. Equal seeds give
+/* (scaling-laws.14), (scaling-laws.15), (scaling-laws.16): weighted least squares of log s over the
+ * points that came apart and have a known standard error (fracas_mean_errors), and 95 % intervals
+ * from `resamples` draws of their means (0: no intervals; NaN). Numbers are NaN and `reason` says
+ * why for fewer than FRACAS_CROSSOVER_RATES rates, or without a bend between them. Equal seeds give
  * equal intervals. */
 FRACAS_MUST_USE fracas_err fracas_crossover_fit(const fracas_size_series *series, int64_t resamples,
                                                 uint64_t seed, fracas_size_crossover *crossover);

@@ -32,7 +32,7 @@ static const fracas_field fields[] = {
 };
 const fracas_fields fracas_window_fields = FRACAS_FIELDS(fields);
 
-/* (size-laws.11), (size-laws.12), (size-laws.13). */
+/* (scaling-laws.11), (scaling-laws.12), (scaling-laws.13). */
 fracas_window fracas_window_of(const fracas_size_point *low, const fracas_size_point *high)
 {
     const double x = log(high->rate / low->rate);

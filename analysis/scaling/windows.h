@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The exponent of mean size against strain rate from rate to rate (docs/theory/size-laws.md). */
+/* The exponent of mean size against strain rate from rate to rate (docs/theory/scaling-laws.md). */
 #ifndef FRACAS_ANALYSIS_SCALING_WINDOWS_H
 #define FRACAS_ANALYSIS_SCALING_WINDOWS_H
 
@@ -15,7 +15,8 @@ typedef struct {
                           less than FRACAS_REPLICAS_OWN where neither scatters */
 } fracas_window;
 
-/* (size-laws.11), (size-laws.12), (size-laws.13). NaN if the rates differ by rounding alone (1e-9).
+/* (scaling-laws.11), (scaling-laws.12), (scaling-laws.13). NaN if the rates differ by rounding
+ * alone (1e-9).
  */
 fracas_window fracas_window_of(const fracas_size_point *low, const fracas_size_point *high);
 

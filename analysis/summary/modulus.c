@@ -51,7 +51,7 @@ static bool most_have_flaws(const fracas_point_table *table, size_t point, doubl
     return fracas_columns_real(table, point, "strength.flaw_density") * volume > M_LN2;
 }
 
-/* (size-laws.8), (size-laws.9) */
+/* (scaling-laws.8), (scaling-laws.9) */
 fracas_modulus fracas_modulus_of(const fracas_point_table *table, size_t point, double length)
 {
     const size_t column = fracas_point_table_find(table, "strength.distribution");

@@ -11,8 +11,8 @@ typedef struct {
 } fracas_modulus;
 
 /* M = d ln n/d ln sigma = m sigma_c/(sigma_c - minimum) at the mean strength sigma_c, n(sigma) the
- * flaws per length weaker than sigma (size-laws.9). For Weibull strengths m is the shape, given or
- * found from mean and deviation to 1e-9; for flaws in the body their exponent, if half of all
+ * flaws per length weaker than sigma (scaling-laws.9). For Weibull strengths m is the shape, given
+ * or found from mean and deviation to 1e-9; for flaws in the body their exponent, if half of all
  * interfaces or more have one. Other distributions have none. length: of the body [m], a ring's
  * circumference. */
 fracas_modulus fracas_modulus_of(const fracas_point_table *table, size_t point, double length);

@@ -2,7 +2,7 @@
 """Mott's fragmentation as a process: flaws open at random, at a rate that grows as exp(t), where no wave has been.
 
 Lengths are in x0 = sqrt(2 P_F/(rho gamma))/edot, times in 1/(gamma edot): a break relieves sqrt(t) on either side after the
-time t. Prints the mean size, its standard error, and the share of fragments between x0 and 2 x0 (docs/theory/size-laws.md).
+time t. Prints the mean size, its standard error, and the share of fragments between x0 and 2 x0 (docs/theory/scaling-laws.md).
 """
 import bisect
 import math

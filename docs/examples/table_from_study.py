@@ -40,7 +40,7 @@ def weibull_shape(ratio):
 
 
 def modulus_of(point, p):
-    """Of the strengths, for Mott's law: NaN unless they are weibull or flaws (docs/theory/size-laws.md)."""
+    """Of the strengths, for Mott's law: NaN unless they are weibull or flaws (docs/theory/scaling-laws.md)."""
     def real(name, missing=math.nan):
         value = point[name][p] if name in point else math.nan
         return missing if math.isnan(value) else value
@@ -59,7 +59,7 @@ def modulus_of(point, p):
 
 
 def laws(row, young, density, strength, fracture_energy, modulus, rate):
-    """Scales and mean-size laws (docs/theory/size-laws.md)."""
+    """Scales and scaling laws of the mean size (docs/theory/scaling-laws.md)."""
     speed = math.sqrt(young / density)
     row["scale.time"] = young * fracture_energy / (strength**2 * speed)
     row["scale.size"] = s0 = young * fracture_energy / strength**2

@@ -211,7 +211,7 @@ double fracas_strength_deviation(const fracas_strength *strength, fracas_extent 
     return moments_of(strength, extent).deviation;
 }
 
-/* (size-laws.8), (size-laws.9) */
+/* (scaling-laws.8), (scaling-laws.9) */
 double fracas_strength_modulus(const fracas_strength *strength, fracas_extent extent)
 {
     fracas_strength ready;

@@ -69,7 +69,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* (laws.16) Every strength is as likely as every other. */
+/* (distributions.16) Every strength is as likely as every other. */
 static fracas_err spread(const fracas_strength *strength, struct fracas_table *table)
 {
     const bool is_linear = strength->interpolation != &steps;
@@ -164,7 +164,7 @@ static void empirical_clear(fracas_strength *strength)
 
 /* ---- the distribution ---- */
 
-/* (laws.17) From the nearer end, which keeps both tails exact. */
+/* (distributions.17) From the nearer end, which keeps both tails exact. */
 static double empirical_quantile(const fracas_strength *strength, fracas_extent extent,
                                  fracas_probability p)
 {
@@ -192,7 +192,8 @@ static double survival(double x, double power)
     return x < 1.0 ? fracas_exp(power * fracas_log1p(-x)) : 0.0;
 }
 
-/* (laws.18) integral_0^1 (1 - delta y)^power dy and the same of y (1 - delta y)^power, 0 <= delta
+/* (distributions.18) integral_0^1 (1 - delta y)^power dy and the same of y (1 - delta y)^power, 0
+ * <= delta
  * <= 1. */
 static void decay(double delta, double power, double *plain, double *first)
 {
@@ -213,8 +214,8 @@ static void decay(double delta, double power, double *plain, double *first)
     }
 }
 
-/* (laws.18) mean = x_1 + sum of range integral S^size, variance = (x_1 - mean)^2 + 2 sum of
- * integral (s - mean) S^size ds. */
+/* (distributions.18) mean = x_1 + sum of range integral S^size, variance = (x_1 - mean)^2 + 2 sum
+ * of integral (s - mean) S^size ds. */
 static fracas_moments linear_moments(const struct fracas_table *table, double size)
 {
     const double *x = table->strength;
@@ -236,7 +237,7 @@ static fracas_moments linear_moments(const struct fracas_table *table, double si
     return (fracas_moments){mean, sqrt(fmax(variance, 0.0))};
 }
 
-/* (laws.19) */
+/* (distributions.19) */
 static fracas_moments steps_moments(const struct fracas_table *table, double size)
 {
     double mean = 0.0, variance = 0.0;

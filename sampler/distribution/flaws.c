@@ -21,7 +21,7 @@ static double flaws_quantile(const fracas_strength *strength, fracas_extent exte
     return strength->minimum + range * fracas_exp(fracas_log(share) / strength->own[EXPONENT]);
 }
 
-/* (sampling.22), (laws.8) */
+/* (sampling.22), (distributions.8) */
 static fracas_moments flaws_moments(const fracas_strength *strength, fracas_extent extent)
 {
     const double range = strength->maximum - strength->minimum,

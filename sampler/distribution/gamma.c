@@ -18,7 +18,7 @@ static double gamma_far(const fracas_strength *strength, double t)
     return strength->scale * fracas_incomplete_gamma_far(strength->shape, t);
 }
 
-/* (sampling.20), (laws.6) */
+/* (sampling.20), (distributions.6) */
 static fracas_moments gamma_moments(const fracas_strength *strength, fracas_extent extent)
 {
     (void)extent;
@@ -26,7 +26,7 @@ static fracas_moments gamma_moments(const fracas_strength *strength, fracas_exte
                             strength->scale * sqrt(strength->shape)};
 }
 
-/* (laws.6) */
+/* (distributions.6) */
 FRACAS_MUST_USE static fracas_err gamma_init(fracas_strength *strength)
 {
     bool by_moments;

@@ -19,7 +19,7 @@ static double lognormal_far(const fracas_strength *strength, double t)
     return strength->median * fracas_exp(strength->sigma * fracas_normal_far(t));
 }
 
-/* (sampling.8), (laws.5) */
+/* (sampling.8), (distributions.5) */
 static fracas_moments lognormal_moments(const fracas_strength *strength, fracas_extent extent)
 {
     (void)extent;
@@ -27,7 +27,7 @@ static fracas_moments lognormal_moments(const fracas_strength *strength, fracas_
     return (fracas_moments){mean, mean * sqrt(fracas_expm1(strength->sigma * strength->sigma))};
 }
 
-/* (laws.5) */
+/* (distributions.5) */
 FRACAS_MUST_USE static fracas_err lognormal_init(fracas_strength *strength)
 {
     bool by_moments;

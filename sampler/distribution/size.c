@@ -20,15 +20,15 @@ static double strength_at(const fracas_strength *strength, double t)
                                   (fracas_probability){-fracas_expm1(-t), fracas_exp(-t)});
 }
 
-/* (laws.10) */
+/* (distributions.10) */
 double fracas_size_quantile(const fracas_strength *strength, double size, fracas_probability p)
 {
     return strength_at(strength, fracas_exponential_quantile(p) / size);
 }
 
-/* (laws.13) integral_0^infinity F^-1(t/size) e^-t dt with t = exp(x - e^-x), whose ends fall off
- * doubly exponentially: the sum over x = -4, -4 + 1/16, ... 6.75, divided by its own sum of
- * weights, is the integral. */
+/* (distributions.13) integral_0^infinity F^-1(t/size) e^-t dt with t = exp(x - e^-x), whose ends
+ * fall off doubly exponentially: the sum over x = -4, -4 + 1/16, ... 6.75, divided by its own sum
+ * of weights, is the integral. */
 fracas_moments fracas_size_moments(const fracas_strength *strength, double size)
 {
     enum { NODES = 173 };

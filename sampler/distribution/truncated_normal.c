@@ -85,7 +85,7 @@ static fracas_moments normal_moments(const fracas_strength *strength, fracas_ext
     return (fracas_moments){mean, strength->deviation * kept_deviation(k)};
 }
 
-/* (laws.9) The ratio of the moments falls as k grows, and is below 1/k. */
+/* (distributions.9) The ratio of the moments falls as k grows, and is below 1/k. */
 FRACAS_MUST_USE static fracas_err normal_init(fracas_strength *strength)
 {
     bool by_moments;

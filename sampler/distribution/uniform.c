@@ -12,7 +12,7 @@ static double uniform_quantile(const fracas_strength *strength, fracas_extent ex
     return strength->minimum + (strength->maximum - strength->minimum) * p.below;
 }
 
-/* (laws.7) */
+/* (distributions.7) */
 static fracas_moments uniform_moments(const fracas_strength *strength, fracas_extent extent)
 {
     (void)extent;
@@ -20,14 +20,14 @@ static fracas_moments uniform_moments(const fracas_strength *strength, fracas_ex
     return (fracas_moments){strength->minimum + half, half / sqrt(3.0)};
 }
 
-/* (laws.12) */
+/* (distributions.12) */
 static fracas_moments uniform_weakest(const fracas_strength *strength, double size)
 {
     const double above = (strength->maximum - strength->minimum) / (size + 1.0);
     return (fracas_moments){strength->minimum + above, above * sqrt(size / (size + 2.0))};
 }
 
-/* (laws.7) */
+/* (distributions.7) */
 FRACAS_MUST_USE static fracas_err uniform_init(fracas_strength *strength)
 {
     bool by_moments;

@@ -9,8 +9,8 @@
 
 static const double smallest_shape = 0.1, largest_shape = 1000.0;
 
-/* (laws.11) Any t. As exp(ln(t)/shape): a power with the rounded exponent 1/shape would be no more
- * accurate. */
+/* (distributions.11) Any t. As exp(ln(t)/shape): a power with the rounded exponent 1/shape would be
+ * no more accurate. */
 static double weibull_far(const fracas_strength *strength, double t)
 {
     return strength->minimum + strength->scale * fracas_exp(fracas_log(t) / strength->shape);
@@ -24,7 +24,7 @@ static double weibull_quantile(const fracas_strength *strength, fracas_extent ex
     return weibull_far(strength, fracas_exponential_quantile(p));
 }
 
-/* (sampling.6), (laws.3) */
+/* (sampling.6), (distributions.3) */
 static fracas_moments weibull_moments(const fracas_strength *strength, fracas_extent extent)
 {
     (void)extent;
@@ -38,7 +38,7 @@ static double weibull_tail(const fracas_strength *strength, fracas_extent extent
     return strength->shape;
 }
 
-/* (laws.11) The weakest follows the same distribution with another scale. */
+/* (distributions.11) The weakest follows the same distribution with another scale. */
 static fracas_moments weibull_weakest(const fracas_strength *strength, double size)
 {
     fracas_strength weakest = *strength;
@@ -46,7 +46,7 @@ static fracas_moments weibull_weakest(const fracas_strength *strength, double si
     return weibull_moments(&weakest, (fracas_extent){0});
 }
 
-/* (laws.4) */
+/* (distributions.4) */
 FRACAS_MUST_USE static fracas_err weibull_init(fracas_strength *strength)
 {
     bool by_moments;

@@ -147,8 +147,8 @@ static double log_weight(double a, double x)
     return a * fracas_log(x) - x - fracas_log(fracas_gamma(1.0 + a) / a);
 }
 
-/* (laws.15) Newton on ln Q = ln w + ln fraction, nearly a straight line there; its slope is -1/(x
- * fraction). */
+/* (distributions.15) Newton on ln Q = ln w + ln fraction, nearly a straight line there; its slope
+ * is -1/(x fraction). */
 double fracas_incomplete_gamma_far(double a, double t)
 {
     const double root = 1.0 - 1.0 / (9.0 * a) + fracas_normal_far(t) / (3.0 * sqrt(a));

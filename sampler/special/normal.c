@@ -70,8 +70,8 @@ double fracas_normal_upper(double z)
     return z < 0.0 ? 1.0 - tail : tail;
 }
 
-/* (laws.14) P(Z > z) = density(z)/hazard(z), the hazard a continued fraction: z + 1/(z + 2/(z +
- * 3/(z + ...))), z > 34. Newton on ln P, whose slope is minus the hazard. */
+/* (distributions.14) P(Z > z) = density(z)/hazard(z), the hazard a continued fraction: z + 1/(z +
+ * 2/(z + 3/(z + ...))), z > 34. Newton on ln P, whose slope is minus the hazard. */
 double fracas_normal_far(double t)
 {
     const double ln_sqrt_two_pi = 0x1.d67f1c864beb4p-1;

@@ -5,7 +5,8 @@
 
 #include <stddef.h>
 
-/* (laws.3) For small x the two gamma functions would cancel; there ln Gamma(1 + 2x) - 2 ln Gamma(1
+/* (distributions.3) For small x the two gamma functions would cancel; there ln Gamma(1 + 2x) - 2 ln
+ * Gamma(1
  * + x) by its series. */
 double fracas_weibull_variation(double x)
 {
@@ -31,8 +32,8 @@ double fracas_weibull_variation(double x)
     return fracas_expm1(x * x * sum);
 }
 
-/* (laws.4) It grows with x: halving the interval cannot fail, and 80 gamma functions, once, cost
- * nothing. */
+/* (distributions.4) It grows with x: halving the interval cannot fail, and 80 gamma functions,
+ * once, cost nothing. */
 double fracas_weibull_shape_inverse(double variation, double least, double most)
 {
     for (;;) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* ctest-labels: storm */
 /* ctest-timeout: 3600 */
-/* Crossovers from few replicas, of 3000 repetitions each: the table of docs/theory/size-laws.md.
+/* Crossovers from few replicas, of 3000 repetitions each: the table of docs/theory/scaling-laws.md.
  */
 #include "tests/support/few_replicas.h"
 #include "tests/support/test.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Lines and crossovers through means of few replicas, of known truth: how often intervals hold it,
  * and how often points that are on the line are said not to be. What docs/theory/estimators.md and
- * size-laws.md state. */
+ * scaling-laws.md state. */
 #ifndef FRACAS_TESTS_SUPPORT_FEW_REPLICAS_H
 #define FRACAS_TESTS_SUPPORT_FEW_REPLICAS_H
 

@@ -18,11 +18,11 @@ $$ s = 2 $$ **(bar.2)**
 code: `long_name_of_three`, `FOUR`
 As (bar.1) says.
 PAGE
-    cat >"$tree/docs/theory/size-laws.md" <<'PAGE'
-**(size-laws.1)** code: `two`
+    cat >"$tree/docs/theory/scaling-laws.md" <<'PAGE'
+**(scaling-laws.1)** code: `two`
 PAGE
     cat >"$tree/engine/one.h" <<'SOURCE'
-/* (bar.2), and (size-laws.1) over
+/* (bar.2), and (scaling-laws.1) over
  * lines: also (bar.1). */
 #define FOUR(x) do { \
         (x);
@@ -70,10 +70,10 @@ plant 's/code: `fracas_one`, `two`//' docs/theory/bar.md 'docs/theory/bar.md:2: 
 plant 's/`fracas_one`/`fracas_oen`/' docs/theory/bar.md 'docs/theory/bar.md:2: (bar.1) names fracas_oen, which no source defines'
 plant 's/^fracas_err fracas_one(int argument)$/&;/' engine/one.c 'docs/theory/bar.md:2: (bar.1) names fracas_one, which no source'
 plant 's/(bar.1)/(bar.2)/' engine/one.c 'engine/one.c:3: defines fracas_one but its file does not cite (bar.1)'
-plant 's/(size-laws.1)/size-laws.1/' engine/one.h 'engine/one.h:7: defines two but its file does not cite (size-laws.1)'
+plant 's/(scaling-laws.1)/scaling-laws.1/' engine/one.h 'engine/one.h:7: defines two but its file does not cite (scaling-laws.1)'
 plant 's/(bar.2)/(bar.2) (bar.3)/' engine/one.c 'engine/one.c:7: cites (bar.3), which no page defines'
 plant 's/(bar.2)/(baz.1)/' tests/unit/test_one.c 'tests/unit/test_one.c:1: cites (baz.1), which no page defines'
-plant 's/size-laws.1/size-laws.2/' docs/theory/size-laws.md 'docs/theory/size-laws.md:1: (size-laws.2) should be (size-laws.1)'
+plant 's/scaling-laws.1/scaling-laws.2/' docs/theory/scaling-laws.md 'docs/theory/scaling-laws.md:1: (scaling-laws.2) should be (scaling-laws.1)'
 plant 's/^As.*/**(bar.1)** code: `two`/' docs/theory/bar.md 'docs/theory/bar.md:5: (bar.1) is at docs/theory/bar.md:2 already'
 plant 's/^As.*/code: `two`/' docs/theory/bar.md 'docs/theory/bar.md:5: names code, but neither'
-plant 's/^\*\*.*//' docs/theory/size-laws.md 'engine/one.h:1: cites (size-laws.1), which no page defines'
+plant 's/^\*\*.*//' docs/theory/scaling-laws.md 'engine/one.h:1: cites (scaling-laws.1), which no page defines'

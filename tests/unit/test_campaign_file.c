@@ -392,7 +392,7 @@ static void test_table(void **state)
     fracas_campaign_destroy(campaign);
 }
 
-/* (size-laws.8), (size-laws.9): the shape by lgamma, which no code of ours uses. */
+/* (scaling-laws.8), (scaling-laws.9): the shape by lgamma, which no code of ours uses. */
 static void test_modulus(void **state)
 {
     fracas_campaign *campaign = read_replaced(

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Size laws against the table of docs/theory/size-laws.md, digit by digit as printed, and against
- * their limits. (Glenn-Chudnovsky at 1e3 /s is 1.99948.) */
+/* Size laws against the table of docs/theory/scaling-laws.md, digit by digit as printed, and
+ * against their limits. (Glenn-Chudnovsky at 1e3 /s is 1.99948.) */
 #include "analysis/estimate/scales.h"
 
 #include "analysis/summary/modulus.h"
