@@ -38,7 +38,7 @@ uint32_t fracas_partition_root(fracas_partition *partition, uint32_t e)
     return e;
 }
 
-void fracas_partition_join(fracas_partition *partition, uint32_t a, uint32_t b)
+void fracas_partition_unite(fracas_partition *partition, uint32_t a, uint32_t b)
 {
     a = fracas_partition_root(partition, a);
     b = fracas_partition_root(partition, b);

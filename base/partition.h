@@ -22,7 +22,7 @@ void fracas_partition_reset(fracas_partition *partition); /* again */
 void fracas_partition_clear(fracas_partition *partition);
 
 /* Elements `a` and `b` belong together. */
-void fracas_partition_join(fracas_partition *partition, uint32_t a, uint32_t b);
+void fracas_partition_unite(fracas_partition *partition, uint32_t a, uint32_t b);
 
 /* The smallest element of the set of `e`. */
 uint32_t fracas_partition_root(fracas_partition *partition, uint32_t e);

@@ -30,8 +30,8 @@ static fracas_err find_fragments(const fracas_stored_mesh *mesh, fracas_surface_
     TRY(fracas_partition_init(&partition, mesh->nelements));
     for (size_t i = 0; i < mesh->ninterfaces; i++)
         if (state->interface[i] != FRACAS_INTERFACE_BROKEN)
-            fracas_partition_join(&partition, (uint32_t)mesh->interface[i].element[0],
-                                  (uint32_t)mesh->interface[i].element[1]);
+            fracas_partition_unite(&partition, (uint32_t)mesh->interface[i].element[0],
+                                   (uint32_t)mesh->interface[i].element[1]);
     state->nfragments = fracas_partition_label(&partition);
     state->fragment = partition.label;
     partition.label = NULL;
@@ -122,7 +122,7 @@ static double break_through(const fracas_stored_mesh *mesh, const breaking *sort
         const uint32_t a = fracas_partition_root(cracks, (uint32_t)node[0]);
         const uint32_t b = fracas_partition_root(cracks, (uint32_t)node[1]);
         const uint8_t both = touches[a] | touches[b];
-        fracas_partition_join(cracks, a, b);
+        fracas_partition_unite(cracks, a, b);
         touches[fracas_partition_root(cracks, a)] = both;
         if (both == 3) return sorted[i].time;
     }

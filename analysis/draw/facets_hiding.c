@@ -301,7 +301,7 @@ static fracas_err find_parts(const hiding *h, parts *p)
         for (int side = 0; side < 3; side++) {
             const int32_t other = facets->facet[f].neighbour[side];
             if (other >= 0 && facets->facet[f].layer >= 0 && facets->facet[other].layer >= 0)
-                fracas_partition_join(&partition, (uint32_t)f, (uint32_t)other);
+                fracas_partition_unite(&partition, (uint32_t)f, (uint32_t)other);
         }
     p->count = fracas_partition_label(&partition);
     p->of = partition.label;

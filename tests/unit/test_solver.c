@@ -142,10 +142,10 @@ static void fragments_are_connected_elements(void **unused)
 {
     fracas_partition p;
     OK(fracas_partition_init(&p, 8));
-    fracas_partition_join(&p, 7, 2);
-    fracas_partition_join(&p, 2, 5);
-    fracas_partition_join(&p, 6, 1);
-    fracas_partition_join(&p, 5, 7);
+    fracas_partition_unite(&p, 7, 2);
+    fracas_partition_unite(&p, 2, 5);
+    fracas_partition_unite(&p, 6, 1);
+    fracas_partition_unite(&p, 5, 7);
     assert_int_equal(fracas_partition_label(&p), 5);
     const uint32_t expected[] = {0, 1, 2, 3, 4, 2, 1, 2};
     assert_memory_equal(p.label, expected, sizeof expected);

@@ -71,8 +71,8 @@ size_t fracas_chain_partition(const fracas_chain *chain, const fracas_model *mod
     fracas_partition_reset(partition);
     for (size_t e = 0; e < model->interfaces; e++)
         if (!fracas_chain_is_broken(chain, model, step, e, lane))
-            fracas_partition_join(partition, (uint32_t)e,
-                                  (uint32_t)(e + 1 < model->elements ? e + 1 : 0));
+            fracas_partition_unite(partition, (uint32_t)e,
+                                   (uint32_t)(e + 1 < model->elements ? e + 1 : 0));
     return fracas_partition_label(partition);
 }
 

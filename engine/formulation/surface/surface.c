@@ -276,7 +276,7 @@ static size_t partition(const fracas_model *model, fracas_step *step, int lane)
     for (size_t i = 0; i < model->interfaces; i++) {
         const uint32_t *element = model->surface->interface[i].element;
         if (damage_of(&c, step, i, lane) < 1.0)
-            fracas_partition_join(&step->partition, element[0], element[1]);
+            fracas_partition_unite(&step->partition, element[0], element[1]);
     }
     return fracas_partition_label(&step->partition);
 }
