@@ -21,5 +21,11 @@ LANES_FUNCTION plane_result plane_at_camacho_ortiz(const plane_interface *at, co
 {
     return extrinsic_at(at, in, 0, point);
 }
+
+LANES_FUNCTION vd plane_opening_camacho_ortiz(const plane_interface *at, const plane_input *in,
+                                              const double *point)
+{
+    return extrinsic_opening_at(at, in, point);
+}
 #endif
 #endif

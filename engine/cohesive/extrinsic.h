@@ -27,6 +27,7 @@ enum {
     EXTRINSIC_RUB,
     EXTRINSIC_FIELDS_FRICTION
 };
+_Static_assert((int)EXTRINSIC_FIELDS_FRICTION <= (int)SURFACE_POINT_FIELDS_MOST, "");
 
 #ifndef FRACAS_LAW_TABLES
 
@@ -37,6 +38,13 @@ typedef struct {
     vd slip, rub;    /* with friction: [m], [Pa] */
 } extrinsic_state;
 
+/* d_e [m] */
+LANES_FUNCTION vd extrinsic_opening(const plane_interface *at, vd d_n, vd d_t)
+{
+    const vd pull = plane_max(d_n, lanes_set(0.0)), shear = at->beta_c * d_t;
+    return lanes_sqrt(pull * pull + shear * shear);
+}
+
 /* The law at one point; `state` is brought up to date. `standard`: (cohesive.19), else
  * (cohesive.20). */
 LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const plane_input *in,
@@ -44,30 +52,26 @@ LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const pla
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
     const vmask was_cracked = lanes_lt(zero, state->peak);
-    vd judged_n = in->m_n, judged_t = in->m_t;
-    if (!at->onset_mean) {
-        judged_n = in->m_n + at->k_n * in->q_n;
-        judged_t = in->m_t + at->k_t * in->q_t;
-    }
+    const plane_traction held = plane_held(at, in);
     plane_result r;
-    vd judged = plane_onset(at, judged_n, judged_t);
+    vd judged = plane_onset(at, held.n, held.t);
     r.cracks = lanes_and(lanes_lt(at->sigma_c * at->sigma_c, judged), lanes_le(state->peak, zero));
     r.cracked = lanes_or(was_cracked, r.cracks);
     state->peak = lanes_select(r.cracks, lanes_sqrt(judged), state->peak);
-    state->q_n = lanes_select(r.cracks, in->q_n - plane_min(judged_n, zero) * at->softness_n,
+    state->q_n = lanes_select(r.cracks, in->q_n - plane_min(held.n, zero) * at->softness_n,
                               state->q_n);
     state->q_t = lanes_select(r.cracks, in->q_t, state->q_t);
-    state->t_n = lanes_select(r.cracks, plane_max(judged_n, zero), state->t_n);
+    state->t_n = lanes_select(r.cracks, plane_max(held.n, zero), state->t_n);
     /* an onset under pressure has friction at its limit; the law starts with the rest, beta_c p */
-    vd pressed = friction ? at->mu_c * plane_max(zero, zero - judged_n) : zero;
-    vd rubs = lanes_select(lanes_lt(judged_t, zero), zero - pressed, pressed);
-    state->t_t = lanes_select(r.cracks, judged_t - rubs, state->t_t);
+    vd pressed = friction ? at->mu_c * plane_max(zero, zero - held.n) : zero;
+    vd rubs = lanes_select(lanes_lt(held.t, zero), zero - pressed, pressed);
+    state->t_t = lanes_select(r.cracks, held.t - rubs, state->t_t);
     if (friction) state->slip = lanes_select(r.cracks, zero - rubs * at->softness_t, state->slip);
     vd p = lanes_select(r.cracked, state->peak, at->sigma_c);
 
     vd d_n = in->q_n - state->q_n, d_t = in->q_t - state->q_t;
-    vd pull = plane_max(d_n, zero), shear = at->beta_c * d_t, push = plane_min(d_n, zero);
-    vd opening = lanes_sqrt(pull * pull + shear * shear), energy = plane_energy(at, p);
+    vd pull = plane_max(d_n, zero), push = plane_min(d_n, zero);
+    vd opening = extrinsic_opening(at, d_n, d_t), energy = plane_energy(at, p);
     vd delta_c = (energy + energy) / p;
     vd reached = state->damage * delta_c;
     vmask loading = lanes_lt(reached, opening), opened = lanes_or(loading, lanes_lt(zero, reached));
@@ -132,6 +136,13 @@ LANES_FUNCTION plane_result extrinsic_at(const plane_interface *at, const plane_
         lanes_store(point + EXTRINSIC_RUB * LANES, state.rub);
     }
     return r;
+}
+
+LANES_FUNCTION vd extrinsic_opening_at(const plane_interface *at, const plane_input *in,
+                                       const double *point)
+{
+    return extrinsic_opening(at, in->q_n - lanes_load(point + EXTRINSIC_JUMP_N * LANES),
+                             in->q_t - lanes_load(point + EXTRINSIC_JUMP_T * LANES));
 }
 #endif
 #endif

@@ -24,6 +24,20 @@ LANES_FUNCTION plane_result plane_law(int law, const plane_interface *at, const 
     __builtin_unreachable();
 }
 
+/* Opening that law number `law` holds against delta_c at a point of a surface [m]. */
+LANES_FUNCTION vd plane_opening(int law, const plane_interface *at, const plane_input *in,
+                                const double *point)
+{
+#define IS_LAW(name) \
+    if (law == FRACAS_LAW_##name) return plane_opening_##name(at, in, point);
+#define FRACAS_LAW(name, bar, ring, membrane, shell) \
+    FRACAS_IF_##membrane(IS_LAW(name)) FRACAS_IF_##shell(IS_LAW(name))
+#include "engine/cohesive/laws.list.h"
+#undef FRACAS_LAW
+#undef IS_LAW
+    __builtin_unreachable();
+}
+
 /* Law number `law` at an interface of a chain. */
 LANES_FUNCTION line_result line_law(int law, const line_input *in)
 {

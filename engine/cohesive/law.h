@@ -8,7 +8,8 @@
  *       how the kernels use the law: FLUX or RIGID for chains, YES for surfaces, or NO.
  *   FRACAS_LAW_TABLES is defined: parameters and traits, compiled once (law.c).
  *   Neither is defined: the functions over lanes (engine/cohesive/kernels.h). A law that says FLUX
- *       defines line_NAME, one that says YES defines plane_at_NAME.
+ *       defines line_NAME, one that says YES defines plane_at_NAME and
+ *       plane_opening_NAME.
  * Code outside a law's file asks for its traits and never which law it is. */
 #ifndef FRACAS_ENGINE_COHESIVE_LAW_H
 #define FRACAS_ENGINE_COHESIVE_LAW_H
@@ -30,7 +31,7 @@ enum {
 #undef FRACAS_LAW
 
 /* First values of a surface's point in every law: damage D, and the peak p [Pa], 0 before onset. */
-enum { SURFACE_DAMAGE, SURFACE_PEAK, SURFACE_POINT_FIELDS };
+enum { SURFACE_DAMAGE, SURFACE_PEAK, SURFACE_POINT_FIELDS, SURFACE_POINT_FIELDS_MOST = 8 };
 
 typedef struct {
     fracas_kind kind; /* first: an entry of the section `cohesive` */

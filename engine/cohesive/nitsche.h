@@ -133,9 +133,8 @@ LANES_FUNCTION plane_result plane_nitsche(const plane_interface *at, const plane
              trial_t = m_t + at->k_t * in->q_t; /* (cohesive.12) */
 
     plane_result r;
-    vd judged = at->onset_mean ? lanes_select(in->opened, plane_onset(at, trial_n, trial_t),
-                                              plane_onset(at, in->m_n, in->m_t))
-                               : plane_onset(at, trial_n, trial_t);
+    const plane_traction held = plane_held(at, in);
+    vd judged = plane_onset(at, held.n, held.t);
     r.cracks = lanes_and(lanes_lt(at->sigma_c * at->sigma_c, judged), lanes_le(state->peak, zero));
     r.cracked = lanes_or(was_cracked, r.cracks);
     vd peak = state->peak, fresh = at->sigma_c, most = at->sigma_c;
@@ -236,5 +235,13 @@ LANES_FUNCTION plane_result plane_at_nitsche(const plane_interface *at, const pl
         lanes_store(point + NITSCHE_RUB * LANES, state.rub);
     }
     return r;
+}
+
+LANES_FUNCTION vd plane_opening_nitsche(const plane_interface *at, const plane_input *in,
+                                        const double *point)
+{
+    (void)point;
+    const plane_traction flux = plane_flux(at, in);
+    return lanes_sqrt(plane_effective(at, flux.n, flux.t)) * at->softness_n;
 }
 #endif

@@ -33,6 +33,10 @@ typedef struct {
 } plane_input;
 
 typedef struct {
+    vd n, t; /* Pa */
+} plane_traction;
+
+typedef struct {
     vd t_n, t_t;        /* traction T [Pa] */
     vd s_n, s_t;        /* what the flux carries of the jump [m]; 0 once it is left */
     vd flux, stored;    /* energies of the flux, and in openings and contact [J/m2] */
@@ -72,6 +76,21 @@ LANES_FUNCTION vd plane_onset(const plane_interface *at, vd t_n, vd t_t)
     const vd zero = lanes_set(0.0);
     return plane_effective(at, t_n,
                            plane_max(zero, plane_abs(t_t) + at->mu_c * plane_min(t_n, zero)));
+}
+
+/* T = m + k q of the flux. */
+LANES_FUNCTION plane_traction plane_flux(const plane_interface *at, const plane_input *in)
+{
+    return (plane_traction){in->m_n + at->k_n * in->q_n, in->m_t + at->k_t * in->q_t};
+}
+
+/* The traction that is held against sigma_c: that of the flux, or the mean  (cohesive.11) */
+LANES_FUNCTION plane_traction plane_held(const plane_interface *at, const plane_input *in)
+{
+    const plane_traction flux = plane_flux(at, in);
+    if (!at->onset_mean) return flux;
+    return (plane_traction){lanes_select(in->opened, flux.n, in->m_n),
+                            lanes_select(in->opened, flux.t, in->m_t)};
 }
 
 /* G_c of a point with this peak [J/m2]. */

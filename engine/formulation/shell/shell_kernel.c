@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The shell over lanes: a body's kernel (engine/formulation/surface/kernel.h). */
 #define BODY_NAME shell
-#define BODY_BOOK fracas_shell_book
 #define BODY_DIMENSION 3
 #define BODY_STRESSES 6
 #define BODY_LAYERS 3
@@ -409,17 +408,29 @@ LANES_FUNCTION void shell_press(shell_point *p)
     }
 }
 
+static const double layer_place[SHELL_LAYERS] = SHELL_LAYER_PLACES;
+
+LANES_FUNCTION plane_input shell_input(const fracas_surface_constants *s, const double *place,
+                                       const shell_point *p, int layer)
+{
+    (void)place;
+    const double h = s->thickness, z = layer_place[layer] * h;
+    const vd per_h = lanes_set(1.0 / h), bending = lanes_set(z * (12.0 / (h * h * h)));
+    return (plane_input){.m_n = p->mean_n[0] * per_h + bending * p->mean_m[0],
+                         .m_t = p->mean_n[1] * per_h + bending * p->mean_m[1],
+                         .q_n = p->jump[0] + lanes_set(z) * p->turn[0],
+                         .q_t = p->jump[1] + lanes_set(z) * p->turn[1]};
+}
+
 /* The layers of a Gauss point by the law  (shell.12), (shell.13), (shell.15). */
 LANES_FUNCTION shell_layers shell_layers_point(const surface_context *c,
                                                const plane_interface *interface,
                                                const shell_point *p, int law, double *fields,
                                                vmask *cracks, vmask *breaks)
 {
-    static const double place[SHELL_LAYERS] = SHELL_LAYER_PLACES,
-                        weight[SHELL_LAYERS] = SHELL_LAYER_WEIGHTS;
+    static const double weight[SHELL_LAYERS] = SHELL_LAYER_WEIGHTS;
     const fracas_surface_constants *s = c->constants;
-    const vd zero = lanes_set(0.0), one = lanes_set(1.0), per_h = lanes_set(1.0 / s->thickness);
-    const double per_h3 = 12.0 / (s->thickness * s->thickness * s->thickness);
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0);
     shell_layers all = {.cracked = lanes_lt(one, zero),
                         .broken = lanes_lt(zero, one),
                         .whole = lanes_lt(zero, one),
@@ -441,17 +452,13 @@ LANES_FUNCTION shell_layers shell_layers_point(const surface_context *c,
             lanes_lt(zero, lanes_load(surface_at(fields, k * s->point_fields + SURFACE_PEAK))));
     UNROLL_FOR (int k = 0; k < SHELL_LAYERS; k++) {
         double *point = surface_at(fields, k * s->point_fields);
-        const vd z = lanes_set(place[k] * s->thickness), w = lanes_set(weight[k] * s->thickness),
-                 bending = lanes_set(place[k] * s->thickness * per_h3);
+        const vd z = lanes_set(layer_place[k] * s->thickness),
+                 w = lanes_set(weight[k] * s->thickness);
         const vd share = lanes_set(weight[k]),
-                 moment = lanes_set(12.0 * weight[k] * place[k] / s->thickness);
-        vd mean[2], q[2];
-        UNROLL_FOR (int j = 0; j < 2; j++) {
-            mean[j] = p->mean_n[j] * per_h + bending * p->mean_m[j];
-            q[j] = p->jump[j] + z * p->turn[j];
-        }
-        const plane_input in = {
-            .m_n = mean[0], .m_t = mean[1], .q_n = q[0], .q_t = q[1], .opened = opened};
+                 moment = lanes_set(12.0 * weight[k] * layer_place[k] / s->thickness);
+        plane_input in = shell_input(s, NULL, p, k);
+        in.opened = opened;
+        const vd mean[2] = {in.m_n, in.m_t}, q[2] = {in.q_n, in.q_t};
         all.whole = lanes_and(all.whole,
                               lanes_le(lanes_load(surface_at(point, SURFACE_PEAK)), zero));
         const plane_result r = plane_law(law, interface, &in, point);

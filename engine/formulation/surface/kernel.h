@@ -18,6 +18,7 @@
  *   NAME_flux_energy, NAME_square  of such a point: twice the energy of the flux; square of the
  *                   largest traction in any direction
  *   NAME_press      turns such a point into one of a broken interface in contact, for the operator
+ *   NAME_input      mean traction and jump at a layer, for the law
  *   NAME_crack      the law at a Gauss point
  *   NAME_give       adds forces and strains of an interface to the slots of its two elements
  *   NAME_forces     forces of an element, from its slot
@@ -141,17 +142,26 @@ LANES_FUNCTION const double *surface_table(const surface_context *c, int order, 
     return c->tables->interface + i * (size_t)(BODY_HEAD + SURFACE_EDGE(order) * BODY_POINT_TABLE);
 }
 
-LANES_FUNCTION surface_sides surface_sides_of(const surface_context *c, int order, size_t i)
+/* The sides of interface i without their elements and slots. */
+LANES_FUNCTION surface_sides surface_places(const fracas_surface_tables *t, int order, size_t i)
 {
-    const uint32_t *element = c->tables->element[i];
-    const int k = c->tables->edge[i][0], l = c->tables->edge[i][1];
+    const int k = t->edge[i][0], l = t->edge[i][1];
     surface_sides sides = {.node = {{k, (k + 1) % 3, 3 + k}, {(l + 1) % 3, l, 3 + l}}};
     UNROLL_FOR (int side = 0; side < 2; side++) {
         const int linear = order == 1, away = ((side ? l : k) + 2) % 3;
-        sides.element[side] = c->elements + element[side] * c->element_size;
-        sides.slot[side] = surface_slot(c, order, element[side]);
         UNROLL_FOR (int p = 0; p < 3; p++)
             sides.bulk[side][p] = linear ? 0 : p < 2 ? sides.node[side][p] : away;
+    }
+    return sides;
+}
+
+LANES_FUNCTION surface_sides surface_sides_of(const surface_context *c, int order, size_t i)
+{
+    const uint32_t *element = c->tables->element[i];
+    surface_sides sides = surface_places(c->tables, order, i);
+    UNROLL_FOR (int side = 0; side < 2; side++) {
+        sides.element[side] = c->elements + element[side] * c->element_size;
+        sides.slot[side] = surface_slot(c, order, element[side]);
     }
     return sides;
 }

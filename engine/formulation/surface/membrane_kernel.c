@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The membrane over lanes: a body's kernel (engine/formulation/surface/kernel.h). */
 #define BODY_NAME membrane
-#define BODY_BOOK fracas_membrane_book
 #define BODY_DIMENSION 2
 #define BODY_STRESSES 3
 #define BODY_LAYERS 1
@@ -227,8 +226,11 @@ LANES_FUNCTION void membrane_press(membrane_point *p)
 }
 
 /* Mean tractions and jumps along the normal and the edge. */
-LANES_FUNCTION plane_input membrane_input(const double *place, const membrane_point *p)
+LANES_FUNCTION plane_input membrane_input(const fracas_surface_constants *m, const double *place,
+                                          const membrane_point *p, int layer)
 {
+    (void)m;
+    (void)layer;
     const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]);
     return (plane_input){.m_n = p->mean[0] * nx + p->mean[1] * ny,
                          .m_t = p->mean[1] * nx - p->mean[0] * ny,
@@ -241,10 +243,9 @@ LANES_FUNCTION surface_opening membrane_crack(const surface_context *c,
                                               const double *place, membrane_point *p, double *point,
                                               vmask *cracks, vmask *breaks)
 {
-    (void)c;
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
     const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]);
-    const plane_input in = membrane_input(place, p);
+    const plane_input in = membrane_input(c->constants, place, p, 0);
     const vmask whole = lanes_le(lanes_load(surface_at(point, SURFACE_PEAK)), zero);
     const plane_result r = plane_law(law, interface, &in, point);
     const surface_opening all = {

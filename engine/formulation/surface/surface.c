@@ -34,7 +34,7 @@ fracas_surface_constants fracas_surface_constants_of(const fracas_model *model)
                                   .mu_c = spec->cohesive.friction,
                                   .onset_mean = spec->cohesive.onset != &fracas_onset_flux,
                                   .friction = friction,
-                                  .flux = fracas_law_of(spec)->flux,
+                                  .law = fracas_law_of(spec)->number,
                                   .fields = has_alpha ? SURFACE_FIELDS_ALPHA : SURFACE_FIELDS,
                                   .point_fields = fracas_law_of(spec)->fields[friction],
                                   .strengths = (int)model->strengths,
@@ -164,9 +164,8 @@ size_t fracas_surface_state_size(const fracas_model *model)
     return fracas_surface_state_fields(&c);
 }
 
-/* Field `field` of a lane, counted from the start of its group's state. */
-static double *value_at(const fracas_surface_constants *c, const fracas_step *step, size_t field,
-                        int lane)
+double *fracas_surface_field(const fracas_surface_constants *c, const fracas_step *step,
+                             size_t field, int lane)
 {
     const size_t lanes = (size_t)step->lanes, group = (size_t)lane / lanes;
     return step->state + (group * fracas_surface_state_fields(c) + field) * lanes +
@@ -176,10 +175,10 @@ static double *value_at(const fracas_surface_constants *c, const fracas_step *st
 static double *element_value(const fracas_surface_constants *c, const fracas_step *step,
                              size_t element, int field, size_t i, int lane)
 {
-    return value_at(c, step,
-                    element * fracas_surface_element_fields(c) +
-                        (size_t)field * fracas_surface_unknowns(c->tables) + i,
-                    lane);
+    return fracas_surface_field(c, step,
+                                element * fracas_surface_element_fields(c) +
+                                    (size_t)field * fracas_surface_unknowns(c->tables) + i,
+                                lane);
 }
 
 static double *point_value(const fracas_surface_constants *c, const fracas_step *step,
@@ -187,7 +186,7 @@ static double *point_value(const fracas_surface_constants *c, const fracas_step 
 {
     const size_t at = fracas_surface_interfaces_at(c) +
                       interface * fracas_surface_interface_fields(c);
-    return value_at(c, step, at + (size_t)(p * c->point_fields + field), lane);
+    return fracas_surface_field(c, step, at + (size_t)(p * c->point_fields + field), lane);
 }
 
 double *fracas_surface_value(const fracas_model *model, const fracas_step *step, size_t element,
@@ -209,7 +208,7 @@ double *fracas_surface_strength(const fracas_model *model, const fracas_step *st
 {
     const fracas_surface_constants c = fracas_surface_constants_of(model);
     *stride = (size_t)step->lanes;
-    return value_at(&c, step, fracas_surface_strengths_at(&c), lane);
+    return fracas_surface_field(&c, step, fracas_surface_strengths_at(&c), lane);
 }
 
 /* Velocity of unknown i of element e at the start [m/s]: that of the expansion, everywhere or where
@@ -232,7 +231,7 @@ void fracas_surface_lane_init(const fracas_model *model, const fracas_step *step
 {
     const fracas_surface_constants c = fracas_surface_constants_of(model);
     const size_t strengths = fracas_surface_strengths_at(&c);
-    for (size_t f = 0; f < strengths; f++) *value_at(&c, step, f, lane) = 0;
+    for (size_t f = 0; f < strengths; f++) *fracas_surface_field(&c, step, f, lane) = 0;
     for (size_t e = 0; e < model->elements; e++)
         for (size_t i = 0; i < fracas_surface_unknowns(c.tables); i++)
             *element_value(&c, step, e, SURFACE_V, i, lane) = start_velocity(model, e, i);

@@ -25,7 +25,8 @@
 #define SURFACE_NODES(order) (3 * (order))
 #define SURFACE_BULK(order) ((order) == 1 ? 1 : 3)
 #define SURFACE_EDGE(order) ((order) + 1)
-enum { SURFACE_POINTS_MOST = 9 }; /* points of an interface at which a law acts, at most */
+/* At most: points of an interface at which a law acts, unknowns of an element. */
+enum { SURFACE_POINTS_MOST = 9, SURFACE_UNKNOWNS_MOST = 18 };
 
 /* Fields of an element, each as wide as it has unknowns: displacement at t_n; velocity, half a step
  * behind before the sweep and ahead after (Hulbert-Chung: at t_n); Hulbert-Chung: acceleration a_n
@@ -84,7 +85,7 @@ typedef struct {
     double normal, tangential; /* 1: k_n and k_t by K of the interface  (membrane.6) */
     double energy, opening;    /* G_c [J/m2], or delta_c [m]: the other is 0 */
     double beta_c, mu_c;       /* 1 */
-    int flux;                  /* the law's trait */
+    int law;                   /* its number */
     int onset_mean, friction;
     int fields, point_fields; /* of an element, by its unknowns; of a point of an interface */
     int strengths;            /* of an interface: 1, or one for each Gauss point */
@@ -93,6 +94,19 @@ typedef struct {
     int contact; /* the operator: all interfaces broken and in contact; else whole */
 } fracas_surface_constants;
 
+/* One lane's view of an interface. */
+typedef struct {
+    double u[2][SURFACE_UNKNOWNS_MOST]; /* displacements of its two elements [m] */
+    double fields[SURFACE_POINTS_MOST * SURFACE_POINT_FIELDS_MOST]; /* [point][field] of the law */
+    double strength[SURFACE_EDGE(2)];                               /* of its Gauss points [Pa] */
+    /* At each point: traction held against the strength, opening held against delta_c; 1 at the
+     * onset, at the break. */
+    double onset[SURFACE_POINTS_MOST], opening[SURFACE_POINTS_MOST];
+} fracas_surface_view;
+/* Fills the last two from the rest. */
+typedef void fracas_surface_look(const fracas_surface_constants *constants, size_t interface,
+                                 fracas_surface_view *view);
+
 /* Number of the sweep that applies the linear operator, after those of the laws. */
 enum { SURFACE_OPERATOR = FRACAS_LAWS, SURFACE_SWEEPS };
 
@@ -100,10 +114,11 @@ enum { SURFACE_OPERATOR = FRACAS_LAWS, SURFACE_SWEEPS };
 typedef void fracas_surface_sweep(const fracas_surface_constants *constants, fracas_step *step,
                                   int first);
 
-/* A unit: [law][order - 1]. The operator's, for one lane alone, leaves M^-1 (-f)(u) where
- * velocities are. */
+/* A unit: [law][order - 1]. Units of one lane alone have the operator's sweep, which leaves
+ * M^-1 (-f)(u) where velocities are, and views. */
 typedef struct {
     fracas_surface_sweep *sweep[SURFACE_SWEEPS][2];
+    fracas_surface_look *look[2];
 } fracas_surface_kernel;
 typedef const fracas_surface_kernel
     *const fracas_surface_kernels[FRACAS_NISAS][FRACAS_LANES_MAX + 1];
@@ -194,6 +209,9 @@ void fracas_surface_tables_destroy(void *tables); /* NULL is allowed */
 
 fracas_surface_constants fracas_surface_constants_of(const fracas_model *model);
 
+/* Where the state of lane `lane` has a field, counted from the start of its group's. */
+double *fracas_surface_field(const fracas_surface_constants *constants, const fracas_step *step,
+                             size_t field, int lane);
 /* Where the state has component i (dimension node + component) of SURFACE_U, ... of an element. */
 double *fracas_surface_value(const fracas_model *model, const fracas_step *step, size_t element,
                              int field, int i, int lane);
@@ -227,9 +245,8 @@ typedef struct {
 
 /* Counts the event of lane `lane` of the step, at the times interpolated between the step before
  * and this one  (membrane.12). */
-typedef void fracas_surface_note(const fracas_surface_constants *constants, fracas_step *step,
-                                 int lane, size_t interface, const fracas_surface_event *event);
-fracas_surface_note fracas_membrane_book, fracas_shell_book;
+void fracas_surface_book(const fracas_surface_constants *constants, fracas_step *step, int lane,
+                         size_t interface, const fracas_surface_event *event);
 
 /* ---- functions of the formulations ---- */
 

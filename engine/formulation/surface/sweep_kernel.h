@@ -18,8 +18,27 @@ surface_book(const surface_context *c, int points, size_t i, const vmask *cracks
             event.cracks[p] = lanes_get(cracks[p], l);
             event.breaks[p] = lanes_get(breaks[p], l);
         }
-        if (event.opens || event.parts) BODY_BOOK(c->constants, c->step, c->first + l, i, &event);
+        if (event.opens || event.parts)
+            fracas_surface_book(c->constants, c->step, c->first + l, i, &event);
     }
+}
+
+/* The law's view of an interface; the strength is each Gauss point's own. */
+LANES_FUNCTION plane_interface surface_interface(const fracas_surface_constants *s,
+                                                 const double *table)
+{
+    const vd stiffness = lanes_set(table[SURFACE_STIFFNESS]);
+    return (plane_interface){.k_n = lanes_set(s->normal) * stiffness,
+                             .k_t = lanes_set(s->tangential) * stiffness,
+                             .softness_n = lanes_set(table[SURFACE_COMPLIANCE] / s->normal),
+                             .softness_t = lanes_set(table[SURFACE_COMPLIANCE] / s->tangential),
+                             .beta_c = lanes_set(s->beta_c),
+                             .per_beta_c = lanes_set(1.0 / s->beta_c),
+                             .mu_c = lanes_set(s->mu_c),
+                             .energy = lanes_set(s->energy),
+                             .opening = lanes_set(s->opening),
+                             .onset_mean = s->onset_mean,
+                             .friction = s->friction};
 }
 
 /* An interface at which some lane is cracked, or is about to (shell.14). `at` holds the flux of the
@@ -31,18 +50,7 @@ LANES_FUNCTION void surface_crack(surface_context *c, int order, int law, size_t
     const fracas_surface_constants *s = c->constants;
     const int points = SURFACE_EDGE(order);
     const double *table = surface_table(c, order, i);
-    const vd stiffness = lanes_set(table[SURFACE_STIFFNESS]);
-    plane_interface interface = {.k_n = lanes_set(s->normal) * stiffness,
-                                 .k_t = lanes_set(s->tangential) * stiffness,
-                                 .softness_n = lanes_set(table[SURFACE_COMPLIANCE] / s->normal),
-                                 .softness_t = lanes_set(table[SURFACE_COMPLIANCE] / s->tangential),
-                                 .beta_c = lanes_set(s->beta_c),
-                                 .per_beta_c = lanes_set(1.0 / s->beta_c),
-                                 .mu_c = lanes_set(s->mu_c),
-                                 .energy = lanes_set(s->energy),
-                                 .opening = lanes_set(s->opening),
-                                 .onset_mean = s->onset_mean,
-                                 .friction = s->friction};
+    plane_interface interface = surface_interface(s, table);
     vmask cracks[3 * BODY_LAYERS], breaks[3 * BODY_LAYERS];
     vmask whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(one, zero), parts = opens;
     vd created = zero, rubbed = zero, bending = zero;
@@ -231,20 +239,56 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
     if (law != SURFACE_OPERATOR) surface_totals(c);
 }
 
+#if LANES == 1
+/* Brings a view up to date  (membrane.12). */
+LANES_FUNCTION void surface_look(const fracas_surface_constants *s, int order, size_t i,
+                                 fracas_surface_view *view)
+{
+    surface_context c = {.constants = s, .tables = s->tables};
+    surface_sides sides = surface_places(s->tables, order, i);
+    const double *table = surface_table(&c, order, i);
+    plane_interface interface = surface_interface(s, table);
+    double slot[2][BODY_SLOT(2)];
+    BODY(point) at[3];
+    for (int side = 0; side < 2; side++) {
+        sides.element[side] = view->u[side];
+        sides.slot[side] = slot[side];
+        BODY(strain)(&c, order, s->tables->element[i][side], view->u[side], slot[side]);
+    }
+    BODY(flux)(&c, order, i, &sides, at);
+    for (int p = 0; p < SURFACE_EDGE(order) * BODY_LAYERS; p++) {
+        const int g = p / BODY_LAYERS;
+        const double *point = view->fields + p * s->point_fields, peak = point[SURFACE_PEAK];
+        const plane_input in = BODY(input)(s, table + BODY_HEAD + g * BODY_POINT_TABLE, &at[g],
+                                           p % BODY_LAYERS);
+        const plane_traction held = plane_held(&interface, &in);
+        view->onset[p] = lanes_sqrt(plane_onset(&interface, held.n, held.t)) / view->strength[g];
+        view->opening[p] = plane_opening(s->law, &interface, &in, point) /
+                           cohesive_opening(s->energy, s->opening, peak);
+    }
+}
+#endif
+
 #define SURFACE_SWEEP(name, order, law)                                                       \
     static void name(const fracas_surface_constants *constants, fracas_step *step, int first) \
     {                                                                                         \
         surface_run(constants, step, first, order, law);                                      \
     }
+#define SURFACE_LOOK(name, order, law)                                    \
+    static void name(const fracas_surface_constants *constants, size_t i, \
+                     fracas_surface_view *view)                           \
+    {                                                                     \
+        surface_look(constants, order, i, view);                          \
+    }
 #if BODY_LINEAR
-#define SURFACE_SWEEPS_OF(name, law) \
-    SURFACE_SWEEP(linear_##name, 1, law) SURFACE_SWEEP(quadratic_##name, 2, law)
+#define SURFACE_ORDERS(DEFINE, name, law) \
+    DEFINE(linear_##name, 1, law) DEFINE(quadratic_##name, 2, law)
 #define SURFACE_ENTRY(name)             \
     {                                   \
         linear_##name, quadratic_##name \
     }
 #else
-#define SURFACE_SWEEPS_OF(name, law) SURFACE_SWEEP(quadratic_##name, 2, law)
+#define SURFACE_ORDERS(DEFINE, name, law) DEFINE(quadratic_##name, 2, law)
 #define SURFACE_ENTRY(name)    \
     {                          \
         NULL, quadratic_##name \
@@ -252,16 +296,20 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
 #endif
 
 #define FRACAS_LAW(name, bar, ring, membrane, shell) \
-    BODY_TAKES(bar, ring, membrane, shell, SURFACE_SWEEPS_OF(name, FRACAS_LAW_##name))
+    BODY_TAKES(bar, ring, membrane, shell, SURFACE_ORDERS(SURFACE_SWEEP, name, FRACAS_LAW_##name))
 #include "engine/cohesive/laws.list.h"
 #undef FRACAS_LAW
 #if LANES == 1
-SURFACE_SWEEPS_OF(operator, SURFACE_OPERATOR)
+SURFACE_ORDERS(SURFACE_SWEEP, operator, SURFACE_OPERATOR)
+SURFACE_ORDERS(SURFACE_LOOK, look, )
 #endif
 
 #define FRACAS_LAW(name, bar, ring, membrane, shell) \
     BODY_TAKES(bar, ring, membrane, shell, [FRACAS_LAW_##name] = SURFACE_ENTRY(name), )
 const fracas_surface_kernel LANES_UNIT(BODY_OF(fracas, BODY_NAME)) = {
+#if LANES == 1
+    .look = SURFACE_ENTRY(look),
+#endif
     .sweep = {
 #if LANES == 1
         [SURFACE_OPERATOR] = SURFACE_ENTRY(operator),
