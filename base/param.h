@@ -73,6 +73,7 @@ struct fracas_kind {
     /* The other way round: models that this kind can be combined with, up to a NULL; NULL: it is
      * for the models to name it. */
     const fracas_kind *const *only;
+    const void *traits; /* a struct of the section's own: answers to all who would ask which kind */
 };
 
 typedef struct {
@@ -91,6 +92,15 @@ typedef struct {
 } fracas_section;
 
 #define FRACAS_COUNT(array) (sizeof(array) / sizeof *(array))
+
+/* Initializers of members that name an array and its length. */
+#define FRACAS_PARAMS(array) .params = array, .nparams = FRACAS_COUNT(array)
+#define FRACAS_KINDS(array) .kinds = array, .nkinds = FRACAS_COUNT(array)
+#define FRACAS_GOES_WITH(array) .goes_with = array, .ngoes_with = FRACAS_COUNT(array)
+/* Initializers of a FRACAS_CHOICE among the kinds of an array. */
+#define FRACAS_ONE_OF(key, array, place, text)                         \
+    .name = key, .type = FRACAS_CHOICE, .unit = "1", .choices = array, \
+    .nchoices = FRACAS_COUNT(array), .offset = place, .doc = text
 
 /* True for choices and attachments, whose values are texts. */
 static inline bool fracas_param_is_text(const fracas_param *param)

@@ -2,7 +2,6 @@
 #include "campaigns/file/derived.h"
 
 #include "engine/mesh/body.h"
-#include "engine/mesh/make.h"
 
 static double surface(const fracas_derivation *of)
 {
@@ -16,15 +15,15 @@ static double length(const fracas_derivation *of)
 
 static double radius(const fracas_derivation *of)
 {
-    const fracas_geometry *geometry = &of->point->spec.geometry;
-    return geometry->shape == &fracas_shape_ring ? geometry->radius : NAN;
+    const fracas_spec *spec = &of->point->spec;
+    return fracas_shape_of(spec)->round ? spec->geometry.radius : NAN;
 }
 
 /* Elements of equal length make every fragment a multiple of it. */
 static double lattice(const fracas_derivation *of)
 {
-    const fracas_mesh *mesh = &of->point->spec.mesh;
-    return mesh->spacing == &fracas_spacing_uniform ? length(of) / (double)mesh->elements : 0;
+    const fracas_spec *spec = &of->point->spec;
+    return fracas_spacing_of(spec)->uniform ? length(of) / (double)spec->mesh.elements : 0;
 }
 
 static double strain_rate(const fracas_derivation *of)

@@ -4,9 +4,8 @@
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
 #include "engine/cohesive/law.h"
-#include "engine/loading/traits.h"
+#include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
-#include "engine/mesh/make.h"
 #include "engine/solver/batch.h"
 
 #include <math.h>
@@ -128,13 +127,12 @@ static double chain_stress_bound(const fracas_spec *spec, double t)
 static bool is_even(const fracas_spec *spec, const fracas_stretch *stretch)
 {
     bool held = false, released = false;
-    if (!fracas_shape_is_even(spec) || stretch->shock) return false;
+    if (!fracas_shape_of(spec)->even || stretch->shock) return false;
     for (int tag = 1; tag <= 4; tag++) {
-        const fracas_kind *edge = spec->geometry.edge[tag];
-        if (edge == &fracas_edge_fixed || (edge != &fracas_edge_free && !stretch->moving))
-            return false;
-        held = held || edge == &fracas_edge_held;
-        released = released || edge == &fracas_edge_free;
+        const fracas_edge *edge = fracas_edge_of(spec->geometry.edge[tag]);
+        if (edge->held && !(edge->moving && stretch->moving)) return false;
+        held = held || (edge->held && !edge->sliding);
+        released = released || !edge->held;
     }
     return !(held && released);
 }
@@ -220,7 +218,8 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
                                                            strength_at(point, extent.mean, 0.75);
     forecast->equal = forecast->uniform &&
                       fracas_strength_deviation(&point->strength, extent.mean) == 0;
-    forecast->lines = forecast->uniform && fracas_mesh_is_regular(spec);
+    forecast->lines = forecast->uniform && fracas_spacing_of(spec)->rows &&
+                      spec->mesh.amplitude == 0;
     forecast->mean = mean;
     forecast->bound = stress_bound(spec);
     forecast->spread = fracas_model_surface(model) && !fracas_law_of(spec)->flux
@@ -229,7 +228,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
                            : NAN;
     forecast->step_stress = spec->material.young * fabs(fracas_spec_strain_rate(spec)) *
                             forecast->time_step;
-    if (fracas_spec_is_ring(spec)) describe_ring(spec, forecast);
+    if (fracas_shape_of(spec)->round) describe_ring(spec, forecast);
     forecast->repeated = fracas_strength_is_given(&point->strength) && point->replicas > 1;
     return check_strengths(model, point, extent.least, factor.most);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/plan/warnings.h"
 
-#include "engine/loading/traits.h"
+#include "engine/loading/loading.h"
 #include "engine/mesh/make.h"
 
 #include <inttypes.h>
@@ -44,7 +44,7 @@ static void finer(const fracas_spec *spec, const fracas_forecast *forecast, char
     if (!fracas_spec_is_surface(spec))
         snprintf(text, size, "raise mesh.elements to %.0f",
                  ceil((double)forecast->elements * times));
-    else if (fracas_mesh_is_given(spec))
+    else if (fracas_spacing_of(spec)->from_file)
         snprintf(text, size, "give a mesh with edges %.2g times shorter", times);
     else if (spec->mesh.size > 0)
         snprintf(text, size, "lower mesh.size to %.2g m", spec->mesh.size / times);

@@ -117,8 +117,8 @@ double fracas_model_interface_area(const fracas_model *model, size_t interface)
 
 double fracas_model_period(const fracas_model *model)
 {
-    const fracas_geometry *geometry = &model->spec.geometry;
-    return geometry->ends == &fracas_ends_periodic ? geometry->length : 0;
+    const fracas_shape *shape = fracas_shape_of(&model->spec);
+    return shape->period ? shape->period(&model->spec.geometry) : 0;
 }
 
 /* Of an edge: its ends and, of quadratic triangles, its middle (else its first end, which then has

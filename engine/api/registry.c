@@ -22,8 +22,7 @@ const fracas_kind *const fracas_shell_models[] = {&fracas_formulation_shell.kind
 static const fracas_section formulation_section = {
     .name = "model",
     .doc = "What is broken up",
-    .kinds = formulations,
-    .nkinds = FRACAS_COUNT(formulations),
+    FRACAS_KINDS(formulations),
     .kind_offset = 0,
     .offset = offsetof(fracas_spec, formulation),
     .hashed = true,

@@ -2,7 +2,6 @@
 /* What follows from a point's parameters without a model. */
 #include "engine/spec.h"
 
-#include "base/elementary.h"
 #define LANES 1 /* plain numbers */
 #include "engine/cohesive/energy.h"
 #include "engine/loading/loading.h"
@@ -10,21 +9,14 @@
 
 double fracas_spec_length(const fracas_spec *spec)
 {
-    const fracas_geometry *geometry = &spec->geometry;
-    if (geometry->shape == &fracas_shape_ring) return 2 * FRACAS_PI * geometry->radius;
-    return geometry->shape == &fracas_shape_bar ? geometry->length : NAN;
+    const fracas_shape *shape = fracas_shape_of(spec);
+    return shape->length ? shape->length(&spec->geometry) : NAN;
 }
 
 double fracas_spec_strain_rate(const fracas_spec *spec)
 {
-    const fracas_loading *loading = &spec->loading;
-    if (loading->type == &fracas_loading_imposed_rate || loading->type == &fracas_loading_expansion)
-        return loading->rate;
-    if (loading->type == &fracas_loading_initial_velocity)
-        return loading->radial / spec->geometry.radius;
-    if (loading->type == &fracas_loading_held_velocity && loading->direction == &fracas_axis_radial)
-        return loading->velocity / spec->geometry.radius;
-    return NAN;
+    const fracas_loading_traits *loading = fracas_loading_traits_of(spec);
+    return loading->rate ? loading->rate(spec) : NAN;
 }
 
 double fracas_spec_fracture_energy(const fracas_spec *spec, double strength)

@@ -5,11 +5,11 @@ FRACAS_LAW(nitsche, FLUX, FLUX, YES, YES)
 #elif defined FRACAS_LAW_TABLES
 
 static const fracas_param nitsche_params[] = {
-    {"fracture_energy", FRACAS_REAL, "J/m2", "fracture energy G_c", FRACAS_REQUIRED, 0, INFINITY,
-     true, offsetof(fracas_cohesive, fracture_energy), .only = fracas_chain_models},
-    {"beta", FRACAS_REAL, "1",
-     "interface stiffness K = beta E/h; above 1 for a positive operator, 1.5 or more in practice",
-     4, 1, 1e4, true, offsetof(fracas_cohesive, beta), .only = fracas_chain_models},
+    FRACAS_LAW_REAL(fracture_energy, "J/m2", FRACAS_REQUIRED, 0, INFINITY, true,
+                    fracas_chain_models, "fracture energy G_c"),
+    FRACAS_LAW_REAL(beta, "1", 4, 1, 1e4, true, fracas_chain_models,
+                    "interface stiffness K = beta E/h; above 1 for a positive operator, 1.5 or "
+                    "more in practice"),
     FRACAS_SURFACE_LAW,
 };
 

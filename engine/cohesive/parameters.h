@@ -6,99 +6,40 @@
 #include "engine/cohesive/law.h"
 
 /* Head of fracas_law_NAME, whose parameters are NAME_params. */
-#define FRACAS_LAW_HEAD(law, name_, doc_)                                       \
-    .number = FRACAS_LAW_##law, .kind = {.name = name_,                         \
-                                         .doc = doc_,                           \
-                                         .params = law##_params,                \
-                                         .nparams = FRACAS_COUNT(law##_params), \
-                                         .only = law##_models}
+#define FRACAS_LAW_HEAD(law, name_, doc_) \
+    .number = FRACAS_LAW_##law,           \
+    .kind = {.name = name_, .doc = doc_, FRACAS_PARAMS(law##_params), .only = law##_models}
 
-/* G_c of a chain; `otherwise` is its default. */
-#define FRACAS_FRACTURE_ENERGY(least, otherwise, what)                               \
-    {                                                                                \
-        "fracture_energy", FRACAS_REAL, "J/m2", what, otherwise, 0, INFINITY, least, \
-            offsetof(fracas_cohesive, fracture_energy)                               \
+/* A parameter that is the member of that name. */
+#define FRACAS_LAW_REAL(key, si, otherwise, least, most, open, models, text)               \
+    {                                                                                      \
+        .name = #key, .type = FRACAS_REAL, .unit = si, .doc = text, .fallback = otherwise, \
+        .minimum = least, .maximum = most, .minimum_open = open,                           \
+        .offset = offsetof(fracas_cohesive, key), .only = models                           \
     }
 
 /* Parameters of laws for surfaces, whose interfaces slide, too. */
-#define FRACAS_SURFACE_LAW                                                                       \
-    {"fracture_energy",                                                                          \
-     FRACAS_REAL,                                                                                \
-     "J/m2",                                                                                     \
-     "fracture energy G_c, the same at every interface; or give critical_opening",               \
-     0,                                                                                          \
-     0,                                                                                          \
-     INFINITY,                                                                                   \
-     false,                                                                                      \
-     offsetof(fracas_cohesive, fracture_energy),                                                 \
-     .only = fracas_surface_models},                                                             \
-        {"critical_opening",                                                                     \
-         FRACAS_REAL,                                                                            \
-         "m",                                                                                    \
-         "opening delta_c at which an interface is broken, the same at every one: its G_c is "   \
-         "strength delta_c/2; or give fracture_energy",                                          \
-         0,                                                                                      \
-         0,                                                                                      \
-         INFINITY,                                                                               \
-         false,                                                                                  \
-         offsetof(fracas_cohesive, critical_opening),                                            \
-         .only = fracas_surface_models},                                                         \
-        {"beta",                                                                                 \
-         FRACAS_REAL,                                                                            \
-         "1",                                                                                    \
-         "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element by its edge; " \
-         "1.3 or more, 2.3 "                                                                     \
-         "with quadratic triangles",                                                             \
-         5,                                                                                      \
-         1.3,                                                                                    \
-         1e4,                                                                                    \
-         false,                                                                                  \
-         offsetof(fracas_cohesive, beta),                                                        \
-         .only = fracas_membrane_models},                                                        \
-        {"beta",                                                                                 \
-         FRACAS_REAL,                                                                            \
-         "1",                                                                                    \
-         "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element by its edge",  \
-         5,                                                                                      \
-         2.3,                                                                                    \
-         1e4,                                                                                    \
-         false,                                                                                  \
-         offsetof(fracas_cohesive, beta),                                                        \
-         .only = fracas_shell_models},                                                           \
-        {"beta_shear",                                                                           \
-         FRACAS_REAL,                                                                            \
-         "1",                                                                                    \
-         "stiffness that keeps faces from shearing off across the shell: beta_shear E "          \
-         "thickness/(2 (1 + nu) h) by "                                                          \
-         "length of the edge",                                                                   \
-         1,                                                                                      \
-         0,                                                                                      \
-         1e4,                                                                                    \
-         true,                                                                                   \
-         offsetof(fracas_cohesive, beta_shear),                                                  \
-         .only = fracas_shell_models},                                                           \
-        {.name = "onset",                                                                        \
-         .type = FRACAS_CHOICE,                                                                  \
-         .unit = "1",                                                                            \
-         .doc = "what is held against the strength",                                             \
-         .choices = onsets,                                                                      \
-         .nchoices = FRACAS_COUNT(onsets),                                                       \
-         .offset = offsetof(fracas_cohesive, onset),                                             \
-         .only = fracas_surface_models},                                                         \
-        {"coupling",                                                                             \
-         FRACAS_REAL,                                                                            \
-         "1",                                                                                    \
-         "shear strength by normal strength, beta_c",                                            \
-         1,                                                                                      \
-         0.01,                                                                                   \
-         100,                                                                                    \
-         false,                                                                                  \
-         offsetof(fracas_cohesive, coupling),                                                    \
-         .only = fracas_surface_models},                                                         \
-    {                                                                                            \
-        "friction", FRACAS_REAL, "1",                                                            \
-            "Coulomb's coefficient of friction between closed faces, mu_c", 0, 0, 10, false,     \
-            offsetof(fracas_cohesive, friction), .only = fracas_surface_models                   \
-    }
+#define FRACAS_SURFACE_LAW                                                                         \
+    FRACAS_LAW_REAL(fracture_energy, "J/m2", 0, 0, INFINITY, false, fracas_surface_models,         \
+                    "fracture energy G_c, the same at every interface; or give critical_opening"), \
+        FRACAS_LAW_REAL(critical_opening, "m", 0, 0, INFINITY, false, fracas_surface_models,       \
+                        "opening delta_c at which an interface is broken, the same at every one: " \
+                        "its G_c is strength delta_c/2; or give fracture_energy"),                 \
+        FRACAS_LAW_REAL(beta, "1", 5, 1.3, 1e4, false, fracas_membrane_models,                     \
+                        "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element " \
+                        "by its edge; 1.3 or more, 2.3 with quadratic triangles"),                 \
+        FRACAS_LAW_REAL(beta, "1", 5, 2.3, 1e4, false, fracas_shell_models,                        \
+                        "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element " \
+                        "by its edge"),                                                            \
+        FRACAS_LAW_REAL(beta_shear, "1", 1, 0, 1e4, true, fracas_shell_models,                     \
+                        "stiffness that keeps faces from shearing off across the shell: "          \
+                        "beta_shear E thickness/(2 (1 + nu) h) by length of the edge"),            \
+        {FRACAS_ONE_OF("onset", onsets, offsetof(fracas_cohesive, onset),                          \
+                       "what is held against the strength"),                                       \
+         .only = fracas_surface_models},                                                           \
+        FRACAS_LAW_REAL(coupling, "1", 1, 0.01, 100, false, fracas_surface_models,                 \
+                        "shear strength by normal strength, beta_c"),                              \
+        FRACAS_LAW_REAL(friction, "1", 0, 0, 10, false, fracas_surface_models,                     \
+                        "Coulomb's coefficient of friction between closed faces, mu_c")
 
 #endif

@@ -11,8 +11,8 @@
 FRACAS_LAW(rigid_link, RIGID, NO, NO, NO)
 #elif defined FRACAS_LAW_TABLES
 
-static const fracas_param rigid_link_params[] = {
-    FRACAS_FRACTURE_ENERGY(true, FRACAS_REQUIRED, "fracture energy G_c")};
+static const fracas_param rigid_link_params[] = {FRACAS_LAW_REAL(
+    fracture_energy, "J/m2", FRACAS_REQUIRED, 0, INFINITY, true, NULL, "fracture energy G_c")};
 const fracas_law fracas_law_rigid_link = {
     FRACAS_LAW_HEAD(rigid_link, "rigid-link",
                     "linear softening of a link that is rigid until its stress has exceeded its "

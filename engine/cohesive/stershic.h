@@ -16,29 +16,22 @@ const fracas_kind fracas_zone_steep = {
 static const fracas_kind *const zones[] = {&fracas_zone_softening, &fracas_zone_steep};
 
 static const fracas_param stershic_params[] = {
-    FRACAS_FRACTURE_ENERGY(
-        false, 0, "fracture energy G_c, the same at every interface; or give critical_opening"),
-    {"critical_opening", FRACAS_REAL, "m",
-     "opening delta_c at which an interface is broken, the same at every one; or give "
-     "fracture_energy",
-     0, 0, INFINITY, false, offsetof(fracas_cohesive, critical_opening)},
-    {"penalty", FRACAS_REAL, "1", "stiffness of contact by that of an element, E/h", 1, 0, 100,
-     true, offsetof(fracas_cohesive, penalty)},
-    {"refinement", FRACAS_REAL, "1",
-     "factor of the time step while an interface is about to open or softens steeply, and once "
-     "more while one is in compression; 0.1 to 0.4 in the paper, 1 for none",
-     0.25, 0, 1, true, offsetof(fracas_cohesive, refinement)},
-    {.name = "critical_zone",
-     .type = FRACAS_CHOICE,
-     .unit = "1",
-     .doc = "which open links refine the time step",
-     .choices = zones,
-     .nchoices = FRACAS_COUNT(zones),
-     .offset = offsetof(fracas_cohesive, critical_zone)},
-    {"zone", FRACAS_REAL, "m",
-     "once an interface opens, none opens within this distance of it, and elements between two "
-     "interfaces so barred suffer damage; 0 for no such zone",
-     0, 0, INFINITY, false, offsetof(fracas_cohesive, zone)},
+    FRACAS_LAW_REAL(fracture_energy, "J/m2", 0, 0, INFINITY, false, NULL,
+                    "fracture energy G_c, the same at every interface; or give critical_opening"),
+    FRACAS_LAW_REAL(critical_opening, "m", 0, 0, INFINITY, false, NULL,
+                    "opening delta_c at which an interface is broken, the same at every one; or "
+                    "give fracture_energy"),
+    FRACAS_LAW_REAL(penalty, "1", 1, 0, 100, true, NULL,
+                    "stiffness of contact by that of an element, E/h"),
+    FRACAS_LAW_REAL(refinement, "1", 0.25, 0, 1, true, NULL,
+                    "factor of the time step while an interface is about to open or softens "
+                    "steeply, and once more while one is in compression; 0.1 to 0.4 in the paper, "
+                    "1 for none"),
+    {FRACAS_ONE_OF("critical_zone", zones, offsetof(fracas_cohesive, critical_zone),
+                   "which open links refine the time step")},
+    FRACAS_LAW_REAL(zone, "m", 0, 0, INFINITY, false, NULL,
+                    "once an interface opens, none opens within this distance of it, and elements "
+                    "between two interfaces so barred suffer damage; 0 for no such zone"),
 };
 
 static double stershic_contact(const fracas_cohesive *cohesive)

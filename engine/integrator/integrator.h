@@ -3,10 +3,21 @@
 #ifndef FRACAS_ENGINE_INTEGRATOR_INTEGRATOR_H
 #define FRACAS_ENGINE_INTEGRATOR_INTEGRATOR_H
 
-#include "base/param.h"
+#include "engine/spec.h"
 
 /* Central difference is stable for omega dt below this. */
 #define FRACAS_CENTRAL_DIFFERENCE_LIMIT 2.0
+
+/* Traits of a scheme. */
+typedef struct {
+    double (*limit)(const fracas_time *); /* stable for omega dt below this, of an undamped body */
+    bool accelerations;                   /* they are part of the state, as in hulbert_chung.h */
+} fracas_integrator;
+
+static inline const fracas_integrator *fracas_integrator_of(const fracas_spec *spec)
+{
+    return spec->time.integrator->traits;
+}
 
 extern const fracas_kind fracas_integrator_central_difference, fracas_integrator_hulbert_chung;
 extern const fracas_kind fracas_mass_lumped, fracas_mass_consistent;

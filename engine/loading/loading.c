@@ -1,26 +1,59 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/loading/loading.h"
 
+#include <math.h>
+
 const fracas_kind fracas_axis_radial = {.name = "radial", .doc = "outward"};
 const fracas_kind fracas_axis_circumferential = {.name = "circumferential",
                                                  .doc = "along the ring, counter-clockwise"};
 static const fracas_kind *const axes[] = {&fracas_axis_radial, &fracas_axis_circumferential};
-#define DIRECTION(what)                                                                        \
-    {                                                                                          \
-        .name = "direction", .type = FRACAS_CHOICE, .unit = "1", .doc = what, .choices = axes, \
-        .nchoices = FRACAS_COUNT(axes), .offset = offsetof(fracas_loading, direction)          \
+#define DIRECTION(what)                                                             \
+    {                                                                               \
+        FRACAS_ONE_OF("direction", axes, offsetof(fracas_loading, direction), what) \
     }
+
+static bool is_radial(const fracas_spec *spec)
+{
+    return spec->loading.direction == &fracas_axis_radial;
+}
+
+/* Mass of a chain per length [kg/m]. */
+static double mass_of(const fracas_spec *spec)
+{
+    return spec->material.density * spec->geometry.area;
+}
+
+/* ---- imposed-rate ---- */
 
 static const fracas_param imposed_rate[] = {
     {"rate", FRACAS_REAL, "1/s",
      "strain rate; a bar's velocities start as rate x, a ring's nodes move outward at rate radius",
      FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_loading, rate)},
 };
+
+static double imposed_rate_of(const fracas_spec *spec)
+{
+    return spec->loading.rate;
+}
+
+static fracas_ring_drive rate_ring(const fracas_spec *spec, double t)
+{
+    return (fracas_ring_drive){.stress = spec->material.young * spec->loading.rate * t};
+}
+
+static fracas_ring_motion rate_motion(const fracas_spec *spec, double radius)
+{
+    return (fracas_ring_motion){.drive = RING_HELD, .level = spec->loading.rate * radius};
+}
+
 const fracas_kind fracas_loading_imposed_rate = {
     .name = "imposed-rate",
     .doc = "uniform stretching at a constant strain rate",
-    .params = imposed_rate,
-    .nparams = FRACAS_COUNT(imposed_rate)};
+    FRACAS_PARAMS(imposed_rate),
+    .traits = &(const fracas_loading_traits){
+        .rate = imposed_rate_of, .ring = rate_ring, .motion = rate_motion}};
+
+/* ---- initial-velocity ---- */
 
 static const fracas_param initial_velocity[] = {
     {"radial", FRACAS_REAL, "m/s", "velocity outward: the strain rate is radial/radius", 0,
@@ -29,11 +62,53 @@ static const fracas_param initial_velocity[] = {
      "velocity along the ring: it spins at circumferential/radius", 0, -INFINITY, INFINITY, false,
      offsetof(fracas_loading, circumferential)},
 };
+
+static double initial_rate(const fracas_spec *spec)
+{
+    return spec->loading.radial / spec->geometry.radius;
+}
+
+/* A free ring comes to E v/c and swings back (docs/theory/ring.md). */
+static fracas_ring_drive velocity_ring(const fracas_spec *spec, double t)
+{
+    const double young = spec->material.young, radius = spec->geometry.radius,
+                 speed = sqrt(young / spec->material.density);
+    return (fracas_ring_drive){
+        .stress = young * fabs(spec->loading.radial) / radius * fmin(t, radius / speed),
+        .along = spec->loading.circumferential};
+}
+
+static fracas_ring_motion velocity_motion(const fracas_spec *spec, double radius)
+{
+    const double swell = radius / spec->geometry.radius;
+    return (fracas_ring_motion){
+        .start = {spec->loading.radial * swell, spec->loading.circumferential * swell}};
+}
+
+static double velocity_path(const fracas_spec *spec, double t)
+{
+    return spec->loading.circumferential * t;
+}
+
+static bool velocity_folds(const fracas_spec *spec, bool whole, double turn)
+{
+    const fracas_loading *loading = &spec->loading;
+    if (loading->circumferential != 0) return false;
+    return loading->radial < 0 || (whole && loading->radial > 0 && spec->time.end > 2 * turn);
+}
+
 const fracas_kind fracas_loading_initial_velocity = {
     .name = "initial-velocity",
     .doc = "all nodes start with a velocity, then the ring is free",
-    .params = initial_velocity,
-    .nparams = FRACAS_COUNT(initial_velocity)};
+    FRACAS_PARAMS(initial_velocity),
+    .traits = &(const fracas_loading_traits){.rate = initial_rate,
+                                             .ring = velocity_ring,
+                                             .motion = velocity_motion,
+                                             .path = velocity_path,
+                                             .folds = velocity_folds,
+                                             .released = true}};
+
+/* ---- held-velocity ---- */
 
 static const fracas_param held_velocity[] = {
     DIRECTION("component of the velocity that is held; the other one starts at 0 and is free"),
@@ -42,11 +117,43 @@ static const fracas_param held_velocity[] = {
     {"acceleration", FRACAS_REAL, "m/s2", "its constant change with time", 0, -INFINITY, INFINITY,
      false, offsetof(fracas_loading, acceleration)},
 };
+
+static double held_rate(const fracas_spec *spec)
+{
+    return is_radial(spec) ? spec->loading.velocity / spec->geometry.radius : NAN;
+}
+
+static fracas_ring_drive held_ring(const fracas_spec *spec, double t)
+{
+    const double v = spec->loading.velocity, a = spec->loading.acceleration;
+    if (!is_radial(spec)) return (fracas_ring_drive){.along = fmax(fabs(v), fabs(v + a * t))};
+    return (fracas_ring_drive){.stress = spec->material.young * t / spec->geometry.radius *
+                                         (v + 0.5 * t * fmax(0, a))};
+}
+
+static fracas_ring_motion held_motion(const fracas_spec *spec, double radius)
+{
+    const double swell = radius / spec->geometry.radius;
+    return (fracas_ring_motion){.drive = RING_HELD,
+                                .circumferential = !is_radial(spec),
+                                .level = spec->loading.velocity * swell,
+                                .rate = spec->loading.acceleration * swell};
+}
+
+static double held_path(const fracas_spec *spec, double t)
+{
+    const fracas_loading *loading = &spec->loading;
+    return is_radial(spec) ? 0 : (loading->velocity + 0.5 * loading->acceleration * t) * t;
+}
+
 const fracas_kind fracas_loading_held_velocity = {
     .name = "held-velocity",
     .doc = "one component of every node's velocity is velocity + acceleration t",
-    .params = held_velocity,
-    .nparams = FRACAS_COUNT(held_velocity)};
+    FRACAS_PARAMS(held_velocity),
+    .traits = &(const fracas_loading_traits){
+        .rate = held_rate, .ring = held_ring, .motion = held_motion, .path = held_path}};
+
+/* ---- force ---- */
 
 static const fracas_param force[] = {
     DIRECTION("direction of the force"),
@@ -55,11 +162,47 @@ static const fracas_param force[] = {
     {"force_rate", FRACAS_REAL, "N/(m s)", "its constant change with time", 0, -INFINITY, INFINITY,
      false, offsetof(fracas_loading, force_rate)},
 };
+
+static fracas_ring_drive force_ring(const fracas_spec *spec, double t)
+{
+    const double f = spec->loading.force, rate = spec->loading.force_rate, mass = mass_of(spec);
+    if (is_radial(spec))
+        return (fracas_ring_drive){.outward = fmax(fabs(f), fabs(f + rate * t)) / mass};
+    return (fracas_ring_drive){.along = t * (fabs(f) + 0.5 * t * fabs(rate)) / mass};
+}
+
+static fracas_ring_motion force_motion(const fracas_spec *spec, double radius)
+{
+    (void)radius;
+    return (fracas_ring_motion){.drive = RING_FORCED,
+                                .circumferential = !is_radial(spec),
+                                .level = spec->loading.force,
+                                .rate = spec->loading.force_rate};
+}
+
+static double force_path(const fracas_spec *spec, double t)
+{
+    const fracas_loading *loading = &spec->loading;
+    if (is_radial(spec)) return 0;
+    return (0.5 * loading->force + loading->force_rate * t / 6) * t * t / mass_of(spec);
+}
+
+static bool force_folds(const fracas_spec *spec, bool whole, double turn)
+{
+    const fracas_loading *loading = &spec->loading;
+    (void)whole, (void)turn;
+    return is_radial(spec) &&
+           fmin(loading->force, loading->force + loading->force_rate * spec->time.end) < 0;
+}
+
 const fracas_kind fracas_loading_force = {
     .name = "force",
     .doc = "a force per length, force + force_rate t, on a ring at rest",
-    .params = force,
-    .nparams = FRACAS_COUNT(force)};
+    FRACAS_PARAMS(force),
+    .traits = &(const fracas_loading_traits){
+        .ring = force_ring, .motion = force_motion, .path = force_path, .folds = force_folds}};
+
+/* ---- expansion ---- */
 
 const fracas_kind fracas_start_moving = {.name = "moving", .doc = "with the same velocities"};
 const fracas_kind fracas_start_rest = {.name = "rest",
@@ -72,20 +215,27 @@ static const fracas_param expansion[] = {
      FRACAS_REQUIRED, -INFINITY, INFINITY, false, offsetof(fracas_loading, rate)},
     {"ratio", FRACAS_REAL, "1", "strain rate along y by that along x", 1, -INFINITY, INFINITY,
      false, offsetof(fracas_loading, ratio)},
-    {.name = "start",
-     .type = FRACAS_CHOICE,
-     .unit = "1",
-     .doc = "how the inside starts",
-     .choices = starts,
-     .nchoices = FRACAS_COUNT(starts),
-     .offset = offsetof(fracas_loading, start)},
+    {FRACAS_ONE_OF("start", starts, offsetof(fracas_loading, start), "how the inside starts")},
 };
+
+static fracas_stretch expansion_surface(const fracas_spec *spec, double t)
+{
+    const fracas_loading *loading = &spec->loading;
+    return (fracas_stretch){.strain = fabs(loading->rate) * t,
+                            .ratio = loading->ratio,
+                            .moving = true,
+                            .shock = loading->start == &fracas_start_rest};
+}
+
 const fracas_kind fracas_loading_expansion = {
     .name = "expansion",
     .doc = "velocities (rate x, ratio rate y; of shells also rate z): all nodes start with them, "
            "those of held edges keep them",
-    .params = expansion,
-    .nparams = FRACAS_COUNT(expansion)};
+    FRACAS_PARAMS(expansion),
+    .traits = &(const fracas_loading_traits){.rate = imposed_rate_of,
+                                             .surface = expansion_surface}};
+
+/* ---- centrifugal ---- */
 
 static const fracas_param centrifugal[] = {
     {"speed", FRACAS_REAL, "rad/s", "angular velocity w in the end", FRACAS_REQUIRED, 0, INFINITY,
@@ -93,12 +243,19 @@ static const fracas_param centrifugal[] = {
     {"ramp", FRACAS_REAL, "s", "time in which w rises from 0, in proportion to time", 0, 0,
      INFINITY, false, offsetof(fracas_loading, ramp)},
 };
+
+static fracas_stretch centrifugal_surface(const fracas_spec *spec, double t)
+{
+    const double speed = spec->loading.speed;
+    return (fracas_stretch){.strain = 0.5 * speed * speed * t * t, .ratio = 1};
+}
+
 const fracas_kind fracas_loading_centrifugal = {
     .name = "centrifugal",
     .doc = "a force w^2 r on every unit of mass of a body at rest, r from the origin to where it "
            "started",
-    .params = centrifugal,
-    .nparams = FRACAS_COUNT(centrifugal)};
+    FRACAS_PARAMS(centrifugal),
+    .traits = &(const fracas_loading_traits){.surface = centrifugal_surface, .body_force = true}};
 
 static const fracas_kind *const loadings[] = {
     &fracas_loading_imposed_rate, &fracas_loading_initial_velocity, &fracas_loading_held_velocity,
@@ -108,8 +265,7 @@ const fracas_section fracas_loading_section = {
     .name = "loading",
     .doc = "What drives the body",
     .selector = "type",
-    .kinds = loadings,
-    .nkinds = FRACAS_COUNT(loadings),
+    FRACAS_KINDS(loadings),
     .kind_offset = offsetof(fracas_loading, type),
     .offset = offsetof(fracas_spec, loading),
     .hashed = true,

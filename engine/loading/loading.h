@@ -1,9 +1,53 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What drives the body: the section `loading`. */
+/* Loads of the body: the section `loading`. */
 #ifndef FRACAS_ENGINE_LOADING_LOADING_H
 #define FRACAS_ENGINE_LOADING_LOADING_H
 
 #include "engine/spec.h"
+
+/* Maxima in a ring until a time t. */
+typedef struct {
+    double stress;  /* by a prescribed or initial radial velocity [Pa] */
+    double outward; /* radial acceleration by the load [m/s2] */
+    double along;   /* circumferential velocity [m/s] */
+} fracas_ring_drive;
+
+/* Nothing, one component of the velocity or a force is prescribed for every node. */
+typedef enum { RING_FREE, RING_HELD, RING_FORCED } ring_drive;
+
+typedef struct {
+    ring_drive drive;
+    int circumferential; /* direction of the drive; else radial */
+    double level, rate;  /* level + rate t: velocity [m/s], force by length of the ring [N/m] */
+    double start[2];     /* RING_FREE: velocities outward and along the ring at the start [m/s] */
+} fracas_ring_motion;
+
+/* Stretch (1, ratio) strain of a plate at a time t. */
+typedef struct {
+    double strain, ratio; /* |strain along x|; strain along y over that along x */
+    bool moving;          /* held edges move along */
+    bool shock;           /* they start with a jump in velocity: the inside is at rest */
+} fracas_stretch;
+
+/* Traits of a loading. Functions are NULL for bodies without this loading. */
+typedef struct {
+    double (*rate)(const fracas_spec *spec); /* strain rate at the start [1/s]; NULL: none */
+    fracas_ring_drive (*ring)(const fracas_spec *spec, double t); /* of a bar: stress alone */
+    /* Prescribed to nodes at this radius [m], those of a polygon around the ring's circle. */
+    fracas_ring_motion (*motion)(const fracas_spec *spec, double radius);
+    double (*path)(const fracas_spec *spec, double t); /* circumferential, ring [m]; NULL: 0 */
+    /* True if it compresses a ring. `whole`: the ring does not break; `turn`: its time from the
+     * greatest speed to the turning point [s]. NULL: never. */
+    bool (*folds)(const fracas_spec *spec, bool whole, double turn);
+    fracas_stretch (*surface)(const fracas_spec *spec, double t);
+    bool released;   /* the body moves freely after the start */
+    bool body_force; /* it acts on every unit of mass of a surface, by where that started */
+} fracas_loading_traits;
+
+static inline const fracas_loading_traits *fracas_loading_traits_of(const fracas_spec *spec)
+{
+    return spec->loading.type->traits;
+}
 
 extern const fracas_section fracas_loading_section;
 extern const fracas_kind fracas_loading_imposed_rate, fracas_loading_initial_velocity,

@@ -14,8 +14,7 @@ static const fracas_param elastic[] = {
 const fracas_section fracas_material_section = {
     .name = "material",
     .doc = "Linear elastic material",
-    .params = elastic,
-    .nparams = FRACAS_COUNT(elastic),
+    FRACAS_PARAMS(elastic),
     .offset = offsetof(fracas_spec, material),
     .hashed = true,
 };

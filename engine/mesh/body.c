@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/mesh/body.h"
 
+#include "base/elementary.h"
 #include "engine/formulation/formulation.h"
-#include "engine/mesh/surface/surface.h"
-#include "engine/spec.h"
+#include "engine/mesh/surface/gmsh.h"
 
 const fracas_kind fracas_ends_periodic = {
     .name = "periodic", .doc = "the bar closes on itself, as the hoop direction of a ring does"};
@@ -19,25 +19,40 @@ const fracas_kind fracas_direction_current = {
 static const fracas_kind *const directions[] = {&fracas_direction_current,
                                                 &fracas_direction_initial};
 
-const fracas_kind fracas_edge_free = {.name = "free", .doc = "nothing holds the edge"};
+#define EDGE_TRAITS(...)           \
+    .traits = &(const fracas_edge) \
+    {                              \
+        __VA_ARGS__                \
+    }
+const fracas_kind fracas_edge_free = {
+    .name = "free", .doc = "nothing holds the edge", EDGE_TRAITS(.membrane = true, .shell = true)};
 const fracas_kind fracas_edge_held = {
     .name = "held",
     .doc = "the edge moves with the velocity of the loading all the time: that of the expansion, "
-           "or none; a shell may turn about it"};
+           "or none; a shell may turn about it",
+    EDGE_TRAITS(.held = true, .moving = true, .membrane = true, .shell = true)};
 const fracas_kind fracas_edge_sliding = {
     .name = "sliding",
-    .doc = "membranes: as held, but free to slide along itself; an edge along x or y only"};
+    .doc = "membranes: as held, but free to slide along itself; an edge along x or y only",
+    EDGE_TRAITS(.held = true, .moving = true, .sliding = true, .membrane = true)};
 const fracas_kind fracas_edge_fixed = {
-    .name = "fixed", .doc = "the edge stays where it is; a shell may turn about it"};
+    .name = "fixed",
+    .doc = "the edge stays where it is; a shell may turn about it",
+    EDGE_TRAITS(.held = true, .membrane = true, .shell = true)};
 const fracas_kind fracas_edge_clamped = {
-    .name = "clamped", .doc = "shells: the edge stays where it is and does not turn"};
-const fracas_kind fracas_edge_symmetry = {.name = "symmetry",
-                                          .doc = "shells: the edge lies in a plane x, y or z = "
-                                                 "const, and what is beyond is the mirror image"};
+    .name = "clamped",
+    .doc = "shells: the edge stays where it is and does not turn",
+    EDGE_TRAITS(.held = true, .director = true, .shell = true)};
+const fracas_kind fracas_edge_symmetry = {
+    .name = "symmetry",
+    .doc = "shells: the edge lies in a plane x, y or z = const, and what is beyond is the mirror "
+           "image",
+    EDGE_TRAITS(.held = true, .director = true, .mirror = true, .shell = true)};
 const fracas_kind fracas_edge_diaphragm = {
     .name = "diaphragm",
     .doc = "shells: the edge lies in a plane x, y or z = const and does not move in it; it may "
-           "leave it, and the shell turn about it"};
+           "leave it, and the shell turn about it",
+    EDGE_TRAITS(.held = true, .in_plane = true, .shell = true)};
 static const fracas_kind *const edges[] = {
     &fracas_edge_free,    &fracas_edge_held,     &fracas_edge_sliding,  &fracas_edge_fixed,
     &fracas_edge_clamped, &fracas_edge_symmetry, &fracas_edge_diaphragm};
@@ -45,11 +60,10 @@ const fracas_kind fracas_part_whole = {.name = "whole", .doc = "all of it"};
 const fracas_kind fracas_part_octant = {.name = "octant",
                                         .doc = "x, y, z >= 0; the other seven are mirror images"};
 static const fracas_kind *const parts[] = {&fracas_part_whole, &fracas_part_octant};
-#define EDGE(key, tag, what)                                                          \
-    {                                                                                 \
-        .name = key, .type = FRACAS_CHOICE, .unit = "1", .doc = "what holds " what,   \
-        .choices = edges, .nchoices = FRACAS_COUNT(edges),                            \
-        .offset = offsetof(fracas_geometry, edge) + tag * sizeof(const fracas_kind *) \
+
+#define EDGE(key, tag, what)                                                                \
+    {                                                                                       \
+        FRACAS_ONE_OF(key, edges, offsetof(fracas_geometry, edge[tag]), "what holds " what) \
     }
 #define AREA                                                                             \
     {                                                                                    \
@@ -69,34 +83,45 @@ static const fracas_kind *const parts[] = {&fracas_part_whole, &fracas_part_octa
 
 static const fracas_param bar[] = {
     AREA,
-    {"length", FRACAS_REAL, "m",
-     "length of the bar; with periodic ends that of the circumference it stands for",
-     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_geometry, length)},
-    {.name = "ends",
-     .type = FRACAS_CHOICE,
-     .unit = "1",
-     .doc = "what happens at the bar's two ends",
-     .choices = ends,
-     .nchoices = FRACAS_COUNT(ends),
-     .offset = offsetof(fracas_geometry, ends)},
+    LENGTH("length", length,
+           "length of the bar; with periodic ends that of the circumference it stands for"),
+    {FRACAS_ONE_OF("ends", ends, offsetof(fracas_geometry, ends),
+                   "what happens at the bar's two ends")},
 };
+
+static double bar_length(const fracas_geometry *geometry)
+{
+    return geometry->length;
+}
+
+static double bar_period(const fracas_geometry *geometry)
+{
+    return geometry->ends == &fracas_ends_periodic ? geometry->length : 0;
+}
+
 const fracas_kind fracas_shape_bar = {
-    .name = "bar", .doc = "a straight bar", .params = bar, .nparams = FRACAS_COUNT(bar)};
+    .name = "bar",
+    .doc = "a straight bar",
+    FRACAS_PARAMS(bar),
+    .traits = &(const fracas_shape){.length = bar_length, .period = bar_period}};
 
 static const fracas_param ring[] = {
     AREA,
-    {"radius", FRACAS_REAL, "m", "radius of the ring: its circumference is 2 pi radius",
-     FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_geometry, radius)},
-    {.name = "direction",
-     .type = FRACAS_CHOICE,
-     .unit = "1",
-     .doc = "in which interfaces open",
-     .choices = directions,
-     .nchoices = FRACAS_COUNT(directions),
-     .offset = offsetof(fracas_geometry, direction)},
+    LENGTH("radius", radius, "radius of the ring: its circumference is 2 pi radius"),
+    {FRACAS_ONE_OF("direction", directions, offsetof(fracas_geometry, direction),
+                   "in which interfaces open")},
 };
+
+static double circumference(const fracas_geometry *geometry)
+{
+    return 2 * FRACAS_PI * geometry->radius;
+}
+
 const fracas_kind fracas_shape_ring = {
-    .name = "ring", .doc = "a closed thin ring", .params = ring, .nparams = FRACAS_COUNT(ring)};
+    .name = "ring",
+    .doc = "a closed thin ring",
+    FRACAS_PARAMS(ring),
+    .traits = &(const fracas_shape){.length = circumference, .round = true}};
 
 static const fracas_param plate[] = {
     LENGTH("width", width, "along x, from -width/2 to width/2"),
@@ -107,10 +132,19 @@ static const fracas_param plate[] = {
     EDGE("bottom", 3, "the edge at the smallest y"),
     EDGE("top", 4, "the edge at the largest y"),
 };
-const fracas_kind fracas_shape_plate = {.name = "plate",
-                                        .doc = "a flat rectangle about the origin",
-                                        .params = plate,
-                                        .nparams = FRACAS_COUNT(plate)};
+
+static fracas_err make_plate(const fracas_geometry *geometry,
+                             const fracas_surface_fineness *fineness,
+                             const fracas_surface **surface)
+{
+    return fracas_surface_rectangle(geometry->width, geometry->height, fineness, surface);
+}
+
+const fracas_kind fracas_shape_plate = {
+    .name = "plate",
+    .doc = "a flat rectangle about the origin",
+    FRACAS_PARAMS(plate),
+    .traits = &(const fracas_shape){.make = make_plate, .even = true}};
 
 static const fracas_param annulus[] = {
     LENGTH("inner", inner, "radius of the hole"),
@@ -119,26 +153,39 @@ static const fracas_param annulus[] = {
     EDGE("inner_edge", 1, "the edge of the hole"),
     EDGE("outer_edge", 2, "the rim"),
 };
+
+static fracas_err make_annulus(const fracas_geometry *geometry,
+                               const fracas_surface_fineness *fineness,
+                               const fracas_surface **surface)
+{
+    return fracas_surface_annulus(geometry->inner, geometry->outer, fineness, surface);
+}
+
 const fracas_kind fracas_shape_annulus = {.name = "annulus",
                                           .doc = "a flat plate ring about the origin",
-                                          .params = annulus,
-                                          .nparams = FRACAS_COUNT(annulus)};
+                                          FRACAS_PARAMS(annulus),
+                                          .traits = &(const fracas_shape){.make = make_annulus}};
 
 static const fracas_param sphere[] = {
     LENGTH("radius", radius, "radius of the mid-surface"),
     THICKNESS,
-    {.name = "part",
-     .type = FRACAS_CHOICE,
-     .unit = "1",
-     .doc = "how much of it is there",
-     .choices = parts,
-     .nchoices = FRACAS_COUNT(parts),
-     .offset = offsetof(fracas_geometry, part)},
+    {FRACAS_ONE_OF("part", parts, offsetof(fracas_geometry, part), "how much of it is there")},
 };
-const fracas_kind fracas_shape_sphere = {.name = "sphere",
-                                         .doc = "a thin spherical shell about the origin",
-                                         .params = sphere,
-                                         .nparams = FRACAS_COUNT(sphere)};
+
+static fracas_err make_sphere(const fracas_geometry *geometry,
+                              const fracas_surface_fineness *fineness,
+                              const fracas_surface **surface)
+{
+    return geometry->part == &fracas_part_octant
+               ? fracas_surface_octant(geometry->radius, fineness, surface)
+               : fracas_surface_sphere(geometry->radius, fineness, surface);
+}
+
+const fracas_kind fracas_shape_sphere = {
+    .name = "sphere",
+    .doc = "a thin spherical shell about the origin",
+    FRACAS_PARAMS(sphere),
+    .traits = &(const fracas_shape){.make = make_sphere, .edges = &fracas_edge_symmetry}};
 
 static const fracas_param file[] = {
     {.name = "file",
@@ -154,10 +201,21 @@ static const fracas_param file[] = {
     EDGE("edge_3", 3, "the edges of the physical group 3"),
     EDGE("edge_4", 4, "the edges of the physical group 4"),
 };
-const fracas_kind fracas_shape_file = {.name = "file",
-                                       .doc = "the surface of a mesh file",
-                                       .params = file,
-                                       .nparams = FRACAS_COUNT(file)};
+
+static fracas_err make_from_file(const fracas_geometry *geometry,
+                                 const fracas_surface_fineness *fineness,
+                                 const fracas_surface **surface)
+{
+    (void)fineness;
+    fracas_err err = fracas_surface_read_gmsh(geometry->file->text, geometry->file->size, surface);
+    return err ? fracas_fail_within(err, "mesh file %s", geometry->file->path) : FRACAS_OK;
+}
+
+const fracas_kind fracas_shape_file = {
+    .name = "file",
+    .doc = "the surface of a mesh file",
+    FRACAS_PARAMS(file),
+    .traits = &(const fracas_shape){.make = make_from_file, .from_file = true}};
 
 static const fracas_kind *const shapes[] = {&fracas_shape_bar,    &fracas_shape_ring,
                                             &fracas_shape_plate,  &fracas_shape_annulus,
@@ -166,8 +224,7 @@ const fracas_section fracas_geometry_section = {
     .name = "geometry",
     .doc = "The body",
     .selector = "shape",
-    .kinds = shapes,
-    .nkinds = FRACAS_COUNT(shapes),
+    FRACAS_KINDS(shapes),
     .kind_offset = offsetof(fracas_geometry, shape),
     .offset = offsetof(fracas_spec, geometry),
     .hashed = true,
@@ -182,8 +239,8 @@ const fracas_section fracas_geometry_section = {
 static const fracas_param uniform[] = {ELEMENTS};
 const fracas_kind fracas_spacing_uniform = {.name = "uniform",
                                             .doc = "elements of one length",
-                                            .params = uniform,
-                                            .nparams = FRACAS_COUNT(uniform)};
+                                            FRACAS_PARAMS(uniform),
+                                            .traits = &(const fracas_spacing){.uniform = true}};
 
 static const fracas_param graded[] = {
     ELEMENTS,
@@ -191,10 +248,21 @@ static const fracas_param graded[] = {
      "length of the last element by that of the first, those between in geometric progression",
      FRACAS_REQUIRED, 1e-3, 1e3, false, offsetof(fracas_mesh, ratio)},
 };
+
+/* (bar.19) */
+static fracas_err fill_graded(const fracas_mesh *mesh, double length, double *size)
+{
+    const double step = fracas_log(mesh->ratio) / (double)(mesh->elements - 1);
+    double sum = 0;
+    for (int64_t e = 0; e < mesh->elements; e++) sum += size[e] = fracas_exp(step * (double)e);
+    for (int64_t e = 0; e < mesh->elements; e++) size[e] *= length / sum;
+    return FRACAS_OK;
+}
+
 const fracas_kind fracas_spacing_graded = {.name = "graded",
                                            .doc = "lengths in geometric progression along the bar",
-                                           .params = graded,
-                                           .nparams = FRACAS_COUNT(graded)};
+                                           FRACAS_PARAMS(graded),
+                                           .traits = &(const fracas_spacing){.fill = fill_graded}};
 
 static const fracas_param perturbed[] = {
     ELEMENTS,
@@ -202,11 +270,27 @@ static const fracas_param perturbed[] = {
      "largest move of a node between elements, in uniform element lengths", FRACAS_REQUIRED, 0,
      0.45, true, offsetof(fracas_mesh, amplitude)},
 };
+
+/* (bar.19) */
+static fracas_err fill_perturbed(const fracas_mesh *mesh, double length, double *size)
+{
+    const double mean = length / (double)mesh->elements;
+    double before = 0;
+    if (!mesh->noise)
+        return fracas_fail(FRACAS_BUG, "a perturbed mesh without the numbers that move its nodes");
+    for (int64_t e = 0; e < mesh->elements; e++) {
+        double move = e + 1 < mesh->elements ? mesh->amplitude * mean * mesh->noise[e + 1] : 0.0;
+        size[e] = mean + move - before;
+        before = move;
+    }
+    return FRACAS_OK;
+}
+
 const fracas_kind fracas_spacing_perturbed = {
     .name = "perturbed",
     .doc = "nodes moved at random from a uniform mesh, once a point",
-    .params = perturbed,
-    .nparams = FRACAS_COUNT(perturbed)};
+    FRACAS_PARAMS(perturbed),
+    .traits = &(const fracas_spacing){.fill = fill_perturbed, .moves = true}};
 
 static const fracas_param triangles[] = {
     {"size", FRACAS_REAL, "m",
@@ -228,10 +312,12 @@ static const fracas_param triangles[] = {
 };
 const fracas_kind fracas_spacing_triangles = {.name = "triangles",
                                               .doc = "near-uniform triangles",
-                                              .params = triangles,
-                                              .nparams = FRACAS_COUNT(triangles)};
+                                              FRACAS_PARAMS(triangles),
+                                              .traits = &(const fracas_spacing){.rows = true}};
 
-const fracas_kind fracas_spacing_given = {.name = "given", .doc = "the elements of the mesh file"};
+const fracas_kind fracas_spacing_given = {.name = "given",
+                                          .doc = "the elements of the mesh file",
+                                          .traits = &(const fracas_spacing){.from_file = true}};
 
 static fracas_err check_mesh(const void *section)
 {
@@ -252,8 +338,7 @@ const fracas_section fracas_mesh_section = {
     .name = "mesh",
     .doc = "The elements",
     .selector = "spacing",
-    .kinds = spacings,
-    .nkinds = FRACAS_COUNT(spacings),
+    FRACAS_KINDS(spacings),
     .kind_offset = offsetof(fracas_mesh, spacing),
     .offset = offsetof(fracas_spec, mesh),
     .hashed = true,

@@ -3,7 +3,44 @@
 #ifndef FRACAS_ENGINE_MESH_BODY_H
 #define FRACAS_ENGINE_MESH_BODY_H
 
-#include "base/param.h"
+#include "engine/mesh/surface/surface.h"
+#include "engine/spec.h"
+
+#include <stdbool.h>
+
+/* Traits of a shape. */
+typedef struct {
+    double (*length)(const fracas_geometry *); /* of the whole chain [m]; NULL of surfaces */
+    double (*period)(const fracas_geometry *); /* of a bar, 0 where its ends are held; NULL: 0 */
+    /* Makes the mesh of a surface; NULL of chains. */
+    fracas_err (*make)(const fracas_geometry *, const fracas_surface_fineness *,
+                       const fracas_surface **);
+    bool round;               /* a chain along a circle in the plane */
+    bool even;                /* without holes, notches and curvature: stretches evenly */
+    bool from_file;           /* the mesh is an attachment */
+    const fracas_kind *edges; /* kind of all its edges; NULL: the campaign chooses */
+} fracas_shape;
+
+/* Traits of a spacing. */
+typedef struct {
+    bool uniform;   /* elements of one length */
+    bool rows;      /* triangles in regular rows, unless they are perturbed */
+    bool from_file; /* the elements are those of a mesh file */
+    bool moves;     /* moves the nodes of a chain at random */
+    /* Lengths [m] of the elements of a bar whose ends stay; NULL: all are equal. */
+    fracas_err (*fill)(const fracas_mesh *, double length, double *size);
+} fracas_spacing;
+
+/* Traits of an edge. */
+typedef struct {
+    bool held;     /* something holds it */
+    bool moving;   /* at the velocity of the loading; else it rests */
+    bool director; /* a shell does not turn about it */
+    bool sliding;  /* held across itself alone */
+    bool mirror;   /* lies in a plane x, y or z = const, and is held across that plane alone */
+    bool in_plane; /* lies in such a plane, and is held within that plane alone */
+    bool membrane, shell; /* edges of membranes, of shells can be such */
+} fracas_edge;
 
 extern const fracas_section fracas_geometry_section;
 extern const fracas_kind fracas_shape_bar, fracas_shape_ring, fracas_shape_plate,
@@ -17,5 +54,23 @@ extern const fracas_kind fracas_edge_free, fracas_edge_held, fracas_edge_sliding
 extern const fracas_section fracas_mesh_section;
 extern const fracas_kind fracas_spacing_uniform, fracas_spacing_graded, fracas_spacing_perturbed,
     fracas_spacing_triangles, fracas_spacing_given;
+
+static inline const fracas_shape *fracas_shape_of(const fracas_spec *spec)
+{
+    return spec->geometry.shape->traits;
+}
+static inline const fracas_spacing *fracas_spacing_of(const fracas_spec *spec)
+{
+    return spec->mesh.spacing->traits;
+}
+static inline const fracas_edge *fracas_edge_of(const fracas_kind *edge)
+{
+    return edge->traits;
+}
+
+static inline bool fracas_spec_is_surface(const fracas_spec *spec)
+{
+    return fracas_shape_of(spec)->make != NULL;
+}
 
 #endif

@@ -1,56 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/mesh/make.h"
 
-#include "engine/mesh/body.h"
-#include "engine/mesh/surface/gmsh.h"
-
-bool fracas_spec_is_surface(const fracas_spec *spec)
-{
-    const fracas_kind *shape = spec->geometry.shape;
-    return shape == &fracas_shape_plate || shape == &fracas_shape_annulus ||
-           shape == &fracas_shape_sphere || shape == &fracas_shape_file;
-}
-
-bool fracas_spec_is_ring(const fracas_spec *spec)
-{
-    return spec->geometry.shape == &fracas_shape_ring;
-}
-
-bool fracas_shape_is_even(const fracas_spec *spec)
-{
-    return spec->geometry.shape == &fracas_shape_plate;
-}
-
-bool fracas_mesh_is_regular(const fracas_spec *spec)
-{
-    return spec->mesh.spacing == &fracas_spacing_triangles && spec->mesh.amplitude == 0;
-}
-
-bool fracas_mesh_is_given(const fracas_spec *spec)
-{
-    return spec->mesh.spacing == &fracas_spacing_given;
-}
-
-static fracas_err check_spacing(const fracas_spec *spec)
-{
-    const bool from_file = spec->geometry.shape == &fracas_shape_file;
-    if (from_file == fracas_mesh_is_given(spec)) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "geometry.shape is %s, and mesh.spacing %s: %s",
-                       spec->geometry.shape->name, spec->mesh.spacing->name,
-                       from_file ? "write `spacing: given`, as the file has the elements"
-                                 : "write `spacing: triangles` with size or divisions");
-}
-
 fracas_err fracas_mesh_make(const fracas_spec *spec, const fracas_surface **surface)
 {
-    const fracas_geometry *geometry = &spec->geometry;
     const fracas_mesh *mesh = &spec->mesh;
-    TRY(check_spacing(spec));
-    if (geometry->shape == &fracas_shape_file) {
-        fracas_err err = fracas_surface_read_gmsh(geometry->file->text, geometry->file->size,
-                                                  surface);
-        return err ? fracas_fail_within(err, "mesh file %s", geometry->file->path) : FRACAS_OK;
-    }
+    const bool from_file = fracas_shape_of(spec)->from_file;
+    if (from_file != fracas_spacing_of(spec)->from_file)
+        return fracas_fail(FRACAS_USAGE, "geometry.shape is %s, and mesh.spacing %s: %s",
+                           spec->geometry.shape->name, mesh->spacing->name,
+                           from_file ? "write `spacing: given`, as the file has the elements"
+                                     : "write `spacing: triangles` with size or divisions");
     const fracas_surface_fineness fineness = {
         .size = mesh->size,
         .divisions = (size_t)mesh->divisions,
@@ -58,21 +17,14 @@ fracas_err fracas_mesh_make(const fracas_spec *spec, const fracas_surface **surf
         .amplitude = mesh->noise ? mesh->amplitude : 0.0,
         .shift = (const double(*)[2])(const void *)mesh->noise,
         .nshifts = mesh->nnoise / 2};
-    if (geometry->shape == &fracas_shape_plate)
-        return fracas_surface_rectangle(geometry->width, geometry->height, &fineness, surface);
-    if (geometry->shape == &fracas_shape_annulus)
-        return fracas_surface_annulus(geometry->inner, geometry->outer, &fineness, surface);
-    return geometry->part == &fracas_part_octant
-               ? fracas_surface_octant(geometry->radius, &fineness, surface)
-               : fracas_surface_sphere(geometry->radius, &fineness, surface);
+    return fracas_shape_of(spec)->make(&spec->geometry, &fineness, surface);
 }
 
 fracas_err fracas_mesh_noise_count(const fracas_spec *spec, size_t *count)
 {
-    *count = 0;
-    if (spec->mesh.spacing == &fracas_spacing_perturbed) *count = (size_t)spec->mesh.elements + 1;
-    if (spec->mesh.spacing != &fracas_spacing_triangles || !(spec->mesh.amplitude > 0))
-        return FRACAS_OK;
+    const fracas_spacing *spacing = fracas_spacing_of(spec);
+    *count = spacing->moves ? (size_t)spec->mesh.elements + 1 : 0;
+    if (!spacing->rows || !(spec->mesh.amplitude > 0)) return FRACAS_OK;
     fracas_spec regular = *spec;
     const fracas_surface *surface;
     regular.mesh.noise = NULL;

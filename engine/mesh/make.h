@@ -3,18 +3,7 @@
 #ifndef FRACAS_ENGINE_MESH_MAKE_H
 #define FRACAS_ENGINE_MESH_MAKE_H
 
-#include "engine/mesh/surface/surface.h"
-#include "engine/spec.h"
-
-/* True if the body is a surface. */
-bool fracas_spec_is_surface(const fracas_spec *spec);
-bool fracas_spec_is_ring(const fracas_spec *spec);
-/* True if the shape has no holes, notches or curvature, and stretches evenly under an even load. */
-bool fracas_shape_is_even(const fracas_spec *spec);
-/* True for triangles in regular rows, whose lines cracks follow. */
-bool fracas_mesh_is_regular(const fracas_spec *spec);
-/* True for a mesh from a file. */
-bool fracas_mesh_is_given(const fracas_spec *spec);
+#include "engine/mesh/body.h"
 
 /* Makes it; errors as those of the makers, and FRACAS_USAGE for a shape and a spacing that do not
  * go together. */

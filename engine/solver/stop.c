@@ -4,6 +4,12 @@
 #include "engine/formulation/formulation.h"
 #include "engine/integrator/integrator.h"
 
+/* Traits of a rule that can end a realization before time.end; `time` has none. */
+typedef struct {
+    bool (*is_over)(fracas_stop *, const fracas_time *, const fracas_progress *);
+    bool waits; /* time.quiet goes by until then */
+} stop_rule;
+
 const fracas_kind fracas_stop_time = {.name = "time", .doc = "at the set time `end`"};
 
 static const fracas_param settled[] = {
@@ -14,11 +20,23 @@ static const fracas_param settled[] = {
      "largest share of the dissipated energy that may be added in that time", 1e-3, 0, 1, true,
      offsetof(fracas_time, quiet_fraction)},
 };
+static bool is_settled(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)
+{
+    const int64_t events = now->cracked + now->broken;
+    if (events > stop->events ||
+        now->dissipated - stop->dissipated > rule->quiet_fraction * now->dissipated) {
+        stop->time = now->time;
+        stop->dissipated = now->dissipated;
+        stop->events = events;
+    }
+    return now->cracked > 0 && now->time - stop->time >= rule->quiet;
+}
+
 const fracas_kind fracas_stop_settled = {
     .name = "settled",
     .doc = "once the cracks have settled (armed by the first onset), at `end` at the latest",
-    .params = settled,
-    .nparams = FRACAS_COUNT(settled)};
+    FRACAS_PARAMS(settled),
+    .traits = &(const stop_rule){.is_over = is_settled, .waits = true}};
 
 static const fracas_param peak_multiple[] = {
     {"multiple", FRACAS_REAL, "1", "end by the time of the first peak of the elastic energy", 2, 1,
@@ -27,12 +45,22 @@ static const fracas_param peak_multiple[] = {
      "share of its largest value that the elastic energy must have lost for that to be a peak",
      0.05, 0, 1, true, offsetof(fracas_time, drop)},
 };
+static bool is_past_peak(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)
+{
+    if (!stop->peaked && now->elastic > stop->peak) {
+        stop->peak = now->elastic;
+        stop->peak_time = now->time;
+    }
+    stop->peaked = stop->peaked || now->elastic < (1.0 - rule->drop) * stop->peak;
+    return stop->peaked && now->time >= rule->multiple * stop->peak_time;
+}
+
 const fracas_kind fracas_stop_peak_multiple = {
     .name = "peak-multiple",
     .doc =
         "at a multiple of the time of the first peak of the elastic energy, at `end` at the latest",
-    .params = peak_multiple,
-    .nparams = FRACAS_COUNT(peak_multiple)};
+    FRACAS_PARAMS(peak_multiple),
+    .traits = &(const stop_rule){.is_over = is_past_peak}};
 
 static const fracas_kind *const stops[] = {&fracas_stop_time, &fracas_stop_settled,
                                            &fracas_stop_peak_multiple};
@@ -46,31 +74,21 @@ static const fracas_param time_params[] = {
      INFINITY, true, offsetof(fracas_time, end)},
     {"safety", FRACAS_REAL, "1", "time step as a fraction of the critical one", 0.25, 0, 1, true,
      offsetof(fracas_time, safety)},
-    {.name = "integrator",
-     .type = FRACAS_CHOICE,
-     .unit = "1",
-     .doc = "scheme of time integration",
-     .choices = integrators,
-     .nchoices = FRACAS_COUNT(integrators),
-     .offset = offsetof(fracas_time, integrator),
+    {FRACAS_ONE_OF("integrator", integrators, offsetof(fracas_time, integrator),
+                   "scheme of time integration"),
      .only = fracas_surface_models},
     {"spectral_radius", FRACAS_REAL, "1",
      "of hulbert-chung, at its bifurcation: the less, the more it damps high frequencies; "
      "central-difference damps nothing",
      0.95, 0, 1, false, offsetof(fracas_time, spectral_radius), .only = fracas_surface_models},
-    {.name = "mass",
-     .type = FRACAS_CHOICE,
-     .unit = "1",
-     .doc = "mass matrix of an element",
-     .choices = masses,
-     .nchoices = FRACAS_COUNT(masses),
-     .offset = offsetof(fracas_time, mass),
+    {FRACAS_ONE_OF("mass", masses, offsetof(fracas_time, mass), "mass matrix of an element"),
      .only = fracas_membrane_models},
 };
 static fracas_err check_time(const void *section)
 {
     const fracas_time *time = section;
-    if (time->stop == &fracas_stop_settled && time->quiet > time->end)
+    const stop_rule *rule = time->stop->traits;
+    if (rule && rule->waits && time->quiet > time->end)
         return fracas_fail(FRACAS_USAGE,
                            "quiet is %g s, but end is %g s already: nothing could settle; let "
                            "quiet be a fraction of end",
@@ -82,45 +100,20 @@ const fracas_section fracas_time_section = {
     .name = "time",
     .doc = "Time integration and its end",
     .selector = "stop",
-    .kinds = stops,
-    .nkinds = FRACAS_COUNT(stops),
+    FRACAS_KINDS(stops),
     .kind_offset = offsetof(fracas_time, stop),
-    .params = time_params,
-    .nparams = FRACAS_COUNT(time_params),
+    FRACAS_PARAMS(time_params),
     .offset = offsetof(fracas_spec, time),
     .hashed = true,
     .check = check_time,
 };
 
-static bool is_settled(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)
-{
-    const int64_t events = now->cracked + now->broken;
-    if (events > stop->events ||
-        now->dissipated - stop->dissipated > rule->quiet_fraction * now->dissipated) {
-        stop->time = now->time;
-        stop->dissipated = now->dissipated;
-        stop->events = events;
-    }
-    return now->cracked > 0 && now->time - stop->time >= rule->quiet;
-}
-
-static bool is_past_peak(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)
-{
-    if (!stop->peaked && now->elastic > stop->peak) {
-        stop->peak = now->elastic;
-        stop->peak_time = now->time;
-    }
-    stop->peaked = stop->peaked || now->elastic < (1.0 - rule->drop) * stop->peak;
-    return stop->peaked && now->time >= rule->multiple * stop->peak_time;
-}
-
 bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now,
                        fracas_outcome *outcome)
 {
+    const stop_rule *of = rule->stop->traits;
     *outcome = now->broken > 0 ? FRACAS_FRAGMENTED : FRACAS_INTACT;
-    if (rule->stop == &fracas_stop_time) return now->time >= rule->end;
-    if (rule->stop == &fracas_stop_settled && is_settled(stop, rule, now)) return true;
-    if (rule->stop == &fracas_stop_peak_multiple && is_past_peak(stop, rule, now)) return true;
-    if (now->time >= rule->end && now->cracked > 0) *outcome = FRACAS_TIME_LIMIT;
+    if (of && of->is_over(stop, rule, now)) return true;
+    if (of && now->time >= rule->end && now->cracked > 0) *outcome = FRACAS_TIME_LIMIT;
     return now->time >= rule->end;
 }

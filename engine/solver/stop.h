@@ -11,7 +11,7 @@
 extern const fracas_section fracas_time_section;
 extern const fracas_kind fracas_stop_time, fracas_stop_settled, fracas_stop_peak_multiple;
 
-/* Where a lane stands with its rule: the last step at which it was not quiet. */
+/* Memory of a lane's rule: the last step at which it was not quiet. */
 typedef struct {
     double time, dissipated; /* s, J */
     int64_t events;          /* onsets and breaks */

@@ -19,7 +19,7 @@ static const fracas_chain chain = {
 
 static bool is_uniform(const fracas_model *model)
 {
-    return model->spec.mesh.spacing == &fracas_spacing_uniform;
+    return fracas_spacing_of(&model->spec)->uniform;
 }
 
 /* Nodal mass as (bar.5). */
@@ -78,31 +78,14 @@ static void bar_interface_positions(const fracas_model *model, double (*position
     }
 }
 
-/* Lengths of the elements of a graded or perturbed mesh, in model->table  (bar.19). */
+/* Lengths of elements that are not alike, in model->table  (bar.19). */
 static fracas_err fill_sizes(fracas_model *model)
 {
     const fracas_mesh *mesh = &model->spec.mesh;
-    const double length = model->spec.geometry.length;
-    const size_t n = model->elements;
-    double *size = model->table = malloc(n * sizeof *size);
+    double *size = model->table = malloc(model->elements * sizeof *size);
     if (!size) return fracas_no_memory("the mesh of a bar");
-    if (mesh->spacing == &fracas_spacing_graded) {
-        const double step = fracas_log(mesh->ratio) / (double)(n - 1);
-        double sum = 0;
-        for (size_t e = 0; e < n; e++) sum += size[e] = fracas_exp(step * (double)e);
-        for (size_t e = 0; e < n; e++) size[e] *= length / sum;
-        model->longest = fmax(size[0], size[n - 1]);
-        return FRACAS_OK;
-    }
-    if (!mesh->noise)
-        return fracas_fail(FRACAS_BUG, "a perturbed mesh without the numbers that move its nodes");
-    double before = 0; /* nodes at the ends of the bar stay */
-    for (size_t e = 0; e < n; e++) {
-        double move = e + 1 < n ? mesh->amplitude * model->element_size * mesh->noise[e + 1] : 0.0;
-        size[e] = model->element_size + move - before;
-        model->longest = fmax(model->longest, size[e]);
-        before = move;
-    }
+    TRY(fracas_spacing_of(&model->spec)->fill(mesh, model->spec.geometry.length, size));
+    for (size_t e = 0; e < model->elements; e++) model->longest = fmax(model->longest, size[e]);
     return FRACAS_OK;
 }
 
@@ -114,8 +97,7 @@ static fracas_err bar_model_init(fracas_model *model)
                            "mesh.elements is %" PRId64 "; a bar takes 2 to 1e8 elements",
                            spec->mesh.elements);
     model->elements = (size_t)spec->mesh.elements;
-    model->interfaces = spec->geometry.ends == &fracas_ends_periodic ? model->elements
-                                                                     : model->elements - 1;
+    model->interfaces = model->elements - (fracas_model_period(model) > 0 ? 0 : 1);
     model->element_size = spec->geometry.length / (double)model->elements;
     model->longest = model->element_size;
     model->mass = spec->material.density * spec->geometry.area * spec->geometry.length;
@@ -275,8 +257,7 @@ static const fracas_kind *const goes_with[] = {&fracas_shape_bar, &fracas_spacin
 const fracas_formulation fracas_formulation_bar = {
     .kind = {.name = "bar",
              .doc = "a bar stretched at a uniform rate: the hoop direction of an expanding ring",
-             .goes_with = goes_with,
-             .ngoes_with = FRACAS_COUNT(goes_with)},
+             FRACAS_GOES_WITH(goes_with)},
     .model_init = bar_model_init,
     .check_strength = bar_check_strength,
     .interface_volume = bar_interface_volume,

@@ -37,34 +37,19 @@ static double vertex_radius(const fracas_model *model)
 }
 
 /* The drive of the nodes while the ring moves. */
-static void set_drive(const fracas_model *model, fracas_ring_constants *ring)
+static fracas_ring_motion motion_of(const fracas_model *model)
 {
-    const fracas_loading *loading = &model->spec.loading;
-    const double swell = ring->radius /
-                         model->spec.geometry.radius; /* of the vertices over the circle */
-    ring->circumferential = loading->direction == &fracas_axis_circumferential;
-    if (loading->type == &fracas_loading_imposed_rate) {
-        ring->drive = RING_HELD;
-        ring->circumferential = 0;
-        ring->level = loading->rate * ring->radius;
-    } else if (loading->type == &fracas_loading_held_velocity) {
-        ring->drive = RING_HELD;
-        ring->level = loading->velocity * swell;
-        ring->rate = loading->acceleration * swell;
-    } else if (loading->type == &fracas_loading_force) {
-        const double share = 0.5 * ring->size /
-                             ring->area; /* of a node, of a force per length, by area */
-        ring->drive = RING_FORCED;
-        ring->level = loading->force * share;
-        ring->rate = loading->force_rate * share;
-    }
+    return fracas_loading_traits_of(&model->spec)->motion(&model->spec, vertex_radius(model));
 }
 
 static fracas_ring_constants constants_of(const fracas_model *model)
 {
     const fracas_spec *spec = &model->spec;
     const double young = spec->material.young, h = model->element_size;
-    fracas_ring_constants ring = {
+    const fracas_ring_motion motion = motion_of(model);
+    /* of a force per length: a node's, by area */
+    const double share = motion.drive == RING_FORCED ? 0.5 * h / spec->geometry.area : 1.0;
+    return (fracas_ring_constants){
         .elements = model->elements,
         .table = model->table,
         .current = spec->geometry.direction == &fracas_direction_current,
@@ -79,9 +64,11 @@ static fracas_ring_constants constants_of(const fracas_model *model)
         .refinement = spec->cohesive.refinement,
         .time_step = model->time_step,
         .zone = spec->cohesive.zone,
-        .steep = spec->cohesive.critical_zone == &fracas_zone_steep};
-    set_drive(model, &ring);
-    return ring;
+        .steep = spec->cohesive.critical_zone == &fracas_zone_steep,
+        .drive = motion.drive,
+        .circumferential = motion.circumferential,
+        .level = motion.level * share,
+        .rate = motion.rate * share};
 }
 
 static fracas_err ring_model_init(fracas_model *model)
@@ -157,16 +144,13 @@ static double *ring_strength(const fracas_model *model, const fracas_step *step,
 static void start_velocities(const fracas_model *model, double velocity[2])
 {
     const fracas_ring_constants ring = constants_of(model);
-    const fracas_loading *loading = &model->spec.loading;
-    const double swell = ring.radius / model->spec.geometry.radius;
+    const fracas_ring_motion motion = motion_of(model);
     const double back = has_flux(model) ? 0.5 * model->time_step : 0.0;
-    velocity[0] = velocity[1] = 0;
+    velocity[0] = motion.start[0];
+    velocity[1] = motion.start[1];
     if (ring.drive == RING_HELD) velocity[ring.circumferential] = ring.level - ring.rate * back;
     if (ring.drive == RING_FORCED)
         velocity[ring.circumferential] = -ring.level / ring.nodal_mass * back;
-    if (loading->type != &fracas_loading_initial_velocity) return;
-    velocity[0] = loading->radial * swell;
-    velocity[1] = loading->circumferential * swell;
 }
 
 static void ring_lane_init(const fracas_model *model, const fracas_step *step, int lane)
@@ -253,8 +237,7 @@ static const fracas_kind *const goes_with[] = {&fracas_shape_ring,
 const fracas_formulation fracas_formulation_ring = {
     .kind = {.name = "ring",
              .doc = "a closed ring in the plane, of springs along its circumference",
-             .goes_with = goes_with,
-             .ngoes_with = FRACAS_COUNT(goes_with)},
+             FRACAS_GOES_WITH(goes_with)},
     .model_init = ring_model_init,
     .check_strength = fracas_chain_check_strength,
     .interface_volume = ring_interface_volume,

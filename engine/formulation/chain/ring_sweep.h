@@ -9,6 +9,7 @@
 
 #include "engine/cohesive/law.h"
 #include "engine/formulation/formulation.h"
+#include "engine/loading/loading.h"
 
 enum {
     RING_U_LEFT, /* displacement of the element's left node, x and y [m] */
@@ -29,8 +30,6 @@ enum {
 
 /* The values of RING_LAW for Stershic's links. */
 typedef enum { RING_LINK_CLOSED = 0, RING_LINK_OPEN = 1, RING_LINK_BARRED = 2 } ring_link_state;
-
-typedef enum { RING_FREE, RING_HELD, RING_FORCED } ring_drive;
 
 /* Everything a sweep needs that is the same for all lanes. */
 typedef struct {

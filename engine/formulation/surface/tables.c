@@ -108,8 +108,8 @@ static void fill_positions(const fracas_surface *surface, fracas_surface_tables 
 /* The kind of the edges of a tag. */
 static const fracas_kind *edge_kind(const fracas_spec *spec, int32_t tag)
 {
-    if (spec->geometry.shape == &fracas_shape_sphere)
-        return &fracas_edge_symmetry; /* of the octant; the whole sphere has none */
+    const fracas_kind *all = fracas_shape_of(spec)->edges;
+    if (all) return all;
     const fracas_kind *kind = spec->geometry.edge[tag > 0 && tag < FRACAS_EDGES ? tag : 0];
     return kind ? kind : &fracas_edge_free;
 }
@@ -118,8 +118,7 @@ static const fracas_kind *edge_kind(const fracas_spec *spec, int32_t tag)
 static fracas_err check_edge_tags(const fracas_model *model)
 {
     const fracas_surface *surface = model->surface;
-    for (int32_t tag = 1; model->spec.geometry.shape == &fracas_shape_file && tag < FRACAS_EDGES;
-         tag++) {
+    for (int32_t tag = 1; fracas_shape_of(&model->spec)->from_file && tag < FRACAS_EDGES; tag++) {
         size_t found = 0;
         for (size_t b = 0; b < surface->nborders; b++) found += surface->border[b].tag == tag;
         const fracas_kind *edge = model->spec.geometry.edge[tag];
