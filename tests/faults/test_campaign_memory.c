@@ -6,9 +6,6 @@
 #include "campaigns/plan/plan.h"
 #include "tests/support/campaign_text.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <limits.h>
 

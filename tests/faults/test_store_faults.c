@@ -6,9 +6,6 @@
 #include "campaigns/store/file/h5.h"
 #include "campaigns/store/index/index.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -3,9 +3,6 @@
  * crash. */
 #include "tests/support/gmsh.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #ifdef __SANITIZE_ADDRESS__
 /* AddressSanitizer owns malloc; this program has nothing to do there. */

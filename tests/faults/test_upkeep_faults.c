@@ -8,9 +8,6 @@
 #include "base/param.h"
 #include "campaigns/store/upkeep.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -9,9 +9,6 @@
 #include "campaigns/file/read.h"
 #include "tests/support/campaign_text.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <sys/stat.h>
 #include <time.h>

@@ -5,9 +5,6 @@
 #include "tests/support/same_record.h"
 #include "tests/support/membrane_cracks.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* ---- lanes ---- */
 

@@ -3,9 +3,6 @@
  * with it, and the critical step is that of its curvature. */
 #include "tests/support/ring_sample.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_eigen.h>
 

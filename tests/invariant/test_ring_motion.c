@@ -5,9 +5,6 @@
  */
 #include "tests/support/ring_sample.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* Strengths uniform in 300 MPa +- 0.33 %, of replica `replica`, interface i having that of i +
  * shift, or backwards. */

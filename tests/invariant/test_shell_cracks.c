@@ -6,9 +6,6 @@
 #include "tests/support/shell_cracks.h"
 #include "tests/support/same_record.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 typedef struct {
     const fracas_kind *shape, *part;

@@ -5,9 +5,6 @@
 
 #include "engine/formulation/chain/ring_sweep.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 enum { ELEMENTS = 200, POISONED_LINK = 17 };
 

@@ -5,9 +5,6 @@
  */
 #include "tests/support/bar.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 typedef struct {
     double mean, variance; /* of the counts; 1 */

@@ -8,9 +8,6 @@
 #include "analysis/compare/permutation.h"
 #include "analysis/summary/study.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>

@@ -3,9 +3,6 @@
  * seeds. */
 #include "analysis/converge/rows.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>

@@ -7,9 +7,6 @@
 #include "sampler/api/sampler.h"
 #include "tests/support/sites.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <inttypes.h>

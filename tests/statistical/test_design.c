@@ -4,9 +4,6 @@
 #include "base/elementary.h"
 #include "sampler/design/design.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 

@@ -8,9 +8,6 @@
 #include "analysis/data/estimate.h"
 #include "analysis/estimate/pooled.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>

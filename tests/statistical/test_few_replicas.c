@@ -6,9 +6,6 @@
  */
 #include "tests/support/few_replicas.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 

@@ -5,9 +5,6 @@
  */
 #include "tests/support/few_replicas.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 static void crossovers(void **state)
 {

@@ -6,9 +6,6 @@
  */
 #include "tests/support/fit_checks.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 enum { REPETITIONS = 1000, RESAMPLES = 299 };
 

@@ -4,9 +4,6 @@
 #include "analysis/estimate/convergence.h"
 #include "analysis/estimate/pooled.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>

@@ -4,9 +4,6 @@
  * docs/theory/sequential.md states the table below. */
 #include "sampler/sequential/sequential.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>

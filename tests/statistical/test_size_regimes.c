@@ -6,9 +6,6 @@
 #include "analysis/scaling/windows.h"
 #include "analysis/data/estimate.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>

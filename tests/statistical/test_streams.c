@@ -5,9 +5,6 @@
 #include "base/param.h"
 #include "sampler/stream.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 

@@ -4,9 +4,6 @@
  * right sampler exceeds with probability ALPHA or less. */
 #include "tests/support/strengths.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_randist.h>

@@ -4,9 +4,6 @@
 #include "campaigns/scheduler/launch/allocation.h"
 #include "campaigns/scheduler/launch/mpirun.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 static void lists_of_slurm(void **state)
 {

@@ -6,9 +6,6 @@
 
 #include "analysis/export/sha256.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* A file of so many bytes, all values among them; sha256sum must find what we find. */
 static void same_as_sha256sum(size_t bytes)

@@ -9,9 +9,6 @@
 #include "analysis/summary/study.h"
 #include "base/param.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* 2, 4, 4, 4, 5, 5, 7, 9: mean 5, squares 32, deviation sqrt(32/7); tabulated t_(0.975, 7)
  * = 2.364624 to 1e-6. */

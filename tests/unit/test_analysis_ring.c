@@ -10,9 +10,6 @@
 #include "base/param.h"
 #include "base/version.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* ---- arcs ---- */
 

@@ -4,9 +4,6 @@
 #include "analysis/scaling/slope.h"
 #include "analysis/summary/study.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_fit.h>

@@ -5,9 +5,6 @@
 
 #include "base/version.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 enum { NCOLUMNS = 10, NPOINTS = 4, HISTORY = 50 };
 

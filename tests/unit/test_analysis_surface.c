@@ -8,9 +8,6 @@
 #include "analysis/draw/surface_picture.h"
 #include "base/hash.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 static const grid_shape plate = {.nx = 6, .ny = 4}, ring = {.nx = 12, .ny = 3, .rolled = true};
 

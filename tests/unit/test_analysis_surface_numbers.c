@@ -6,9 +6,6 @@
 #include "analysis/scaling/slope.h"
 #include "analysis/export/table.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 enum { NPOINTS = 4 };
 

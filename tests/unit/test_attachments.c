@@ -11,9 +11,6 @@
 #include "campaigns/plan/point_model.h"
 #include "tests/support/campaign_text.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <errno.h>
 #include <sys/stat.h>

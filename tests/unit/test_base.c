@@ -5,9 +5,6 @@
 #include "base/json.h"
 #include "base/param.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 static fracas_err fails(int level)
 {

@@ -6,9 +6,6 @@
 #include "analysis/draw/frame.h"
 #include "analysis/draw/tint.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 static char *draw(const body *b, const fracas_view *view, double explode, double thickness,
                   fracas_surface_show show)

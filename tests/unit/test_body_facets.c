@@ -4,9 +4,6 @@
  * cells. */
 #include "tests/support/body.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* Largest circumradius of an element: the planes of the elements are at least sqrt(1 - that^2) from
  * the centre. */

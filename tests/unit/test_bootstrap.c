@@ -3,9 +3,6 @@
 #include "analysis/estimate/bootstrap.h"
 #include "analysis/data/ensemble.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 typedef struct {
     size_t n;

@@ -8,9 +8,6 @@
 
 #include "base/units.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #define YOUNG                                                                                    \
     "        material.young: {distribution: normal, mean: 370 GPa, deviation: 10 GPa, minimum: " \

@@ -5,9 +5,6 @@
 #include "campaigns/file/setting.h"
 #include "tests/support/campaign_text.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 typedef struct {
     const char *find,

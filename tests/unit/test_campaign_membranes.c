@@ -11,9 +11,6 @@
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 static const char membrane_campaign[] =
     "name: test\n"                                                /* 1 */

@@ -3,9 +3,6 @@
  * models. */
 #include "campaigns/file/resolve.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 typedef struct {
     const fracas_kind *model;

@@ -6,9 +6,6 @@
 #include "engine/engine.h"
 #include "tests/support/campaign_text.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <time.h>
 

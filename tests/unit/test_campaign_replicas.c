@@ -5,9 +5,6 @@
 
 #include "campaigns/file/replicas.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #define RULE                                                                                \
     "{minimum: 16, maximum: 256, until: {quantity: mean-count, relative-half-width: 0.02, " \

@@ -4,9 +4,6 @@
 #include "analysis/report/pdf.h"
 #include "base/param.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <sys/stat.h>
 #include <unistd.h>

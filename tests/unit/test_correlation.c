@@ -11,9 +11,6 @@
 #include "sampler/field/sparse_factor.h"
 #include "tests/support/sites.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_sf_bessel.h>
 #include <gsl/gsl_sf_gamma.h>

@@ -3,9 +3,6 @@
 #include "base/elementary.h"
 #include "base/hash.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <float.h>
 #include <inttypes.h>

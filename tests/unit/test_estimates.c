@@ -7,9 +7,6 @@
 #include "analysis/summary/study.h"
 #include "base/param.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <unistd.h>
 

@@ -3,9 +3,6 @@
 #include "sampler/special/bessel.h"
 #include "sampler/special/fft.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <float.h>
 #include <gsl/gsl_sf_bessel.h>

@@ -4,9 +4,6 @@
 #include "analysis/fit/goodness.h"
 #include "tests/support/fit_sample.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>

@@ -7,9 +7,6 @@
 #include "analysis/summary/study.h"
 #include "tests/support/fit_sample.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_errno.h>
 

@@ -2,9 +2,6 @@
 /* Fragments in space: sums over nodes become centre, momenta and the spin of a rigid body. */
 #include "engine/fragments/fragments.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <float.h>
 

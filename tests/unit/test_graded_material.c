@@ -12,9 +12,6 @@
 #include "tests/support/campaign_text.h"
 #include "tests/support/strengths.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* ---- the factor ---- */
 

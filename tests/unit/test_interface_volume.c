@@ -5,9 +5,6 @@
 
 #include "engine/mesh/make.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 static double mean_of(const fracas_spec *spec)
 {

@@ -2,9 +2,6 @@
 /* Lanczos' iteration against GSL's eigenvalues of symmetric pencils K x = lambda M x. */
 #include "engine/integrator/lanczos.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_blas.h>
 #include <gsl/gsl_eigen.h>

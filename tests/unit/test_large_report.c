@@ -10,9 +10,6 @@
 
 #include "tests/support/large_study.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <sys/resource.h>
 #include <sys/wait.h>

@@ -5,9 +5,6 @@
 #include "tests/support/laws.h"
 #include "tests/support/strengths.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <inttypes.h>

@@ -9,9 +9,6 @@
 #define FOLDER "fracas-refine"
 #include "tests/support/folder.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <glob.h>
 

@@ -6,9 +6,6 @@
 #include "sampler/special/normal.h"
 #include "tests/support/strengths.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>

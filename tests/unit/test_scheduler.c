@@ -3,9 +3,6 @@
  * events do to it: test_scheduler_events.c. */
 #include "tests/support/leases.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* ---- sizes and order ---- */
 

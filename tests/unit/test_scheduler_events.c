@@ -3,9 +3,6 @@
  * random courses of events. */
 #include "campaigns/scheduler/lease/scheduler.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <malloc.h>
 #include <time.h>

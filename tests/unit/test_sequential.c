@@ -3,9 +3,6 @@
 #include "sampler/sequential/sequential.h"
 #include "sampler/special/student.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 

@@ -2,9 +2,6 @@
 /* Flipped bytes of a study, and what the next run makes of them. */
 #include "tests/support/study_fixture.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* What the next run does with a study: recovers, computes what is planned, merges. *rows: what it
  * computed. */

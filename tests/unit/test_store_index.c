@@ -2,9 +2,6 @@
 /* The index: plan, lease, commit, its modes and its file. */
 #include "tests/support/study_fixture.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* ---- planning and rows ---- */
 

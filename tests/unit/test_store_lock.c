@@ -2,9 +2,6 @@
 /* STUDY/lock: who is refused, who takes over, and what the file says. */
 #include "tests/support/store_sample.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <fcntl.h>
 #include <signal.h>

@@ -7,9 +7,6 @@
 #include "analysis/analysis.h"
 #include "analysis/draw/surface_picture.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 enum {
     SURFACE = 1,

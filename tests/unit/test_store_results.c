@@ -6,9 +6,6 @@
 #include "campaigns/store/results.h"
 #include "campaigns/store/upkeep.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 static fracas_results *open_results(const fracas_point_table *of)
 {

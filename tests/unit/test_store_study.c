@@ -2,9 +2,6 @@
 /* A study as a whole: identity, merge, recover, verify, lock. */
 #include "tests/support/study_fixture.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* ---- what the study is of ---- */
 

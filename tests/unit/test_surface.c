@@ -2,9 +2,6 @@
 /* engine/mesh/surface: surfaces from arrays, every refusal, the order of elements. */
 #include "tests/support/surface.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* A square of two triangles and a third on its right side:
  *     3 - 2

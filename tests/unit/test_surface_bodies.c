@@ -3,9 +3,6 @@
  * bits. */
 #include "tests/support/surface.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #define PI 3.14159265358979323846
 

@@ -3,9 +3,6 @@
  * files. */
 #include "tests/support/gmsh.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <time.h>
 

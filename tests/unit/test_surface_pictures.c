@@ -3,9 +3,6 @@
  * anew: FRACAS_WRITE_MESHES=docs/theory build/werror/tests/test_unit_surface_pictures */
 #include "tests/support/surface.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 typedef fracas_err maker(const fracas_surface_fineness *fineness, const fracas_surface **surface);
 

@@ -2,9 +2,6 @@
 /* base/units: strict numbers, units to SI, 15 digits. */
 #include "base/units.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <locale.h>
 

@@ -2,9 +2,6 @@
 /* The bar on elements of different lengths: lengths, waves, events, fragments. */
 #include "tests/support/bar_spacing.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* ---- lengths ---- */
 

@@ -3,9 +3,6 @@
  * solver and by running. */
 #include "tests/support/bar_spacing.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_eigen.h>
 

@@ -7,9 +7,6 @@
 
 #include "engine/integrator/integrator.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* A body that breaks: E 320 GPa, nu 0.3, rho 3300, G_c 200 J/m2; a plate of 6 mm x 5 mm, an annulus
  * of 2 to 4 mm, a sphere of 1.5 mm. */

@@ -6,9 +6,6 @@
 
 #include "engine/integrator/hulbert_chung.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_matrix.h>

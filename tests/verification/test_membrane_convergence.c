@@ -6,9 +6,6 @@
 
 #include "engine/element/triangle.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_fit.h>
 

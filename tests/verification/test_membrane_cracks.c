@@ -3,9 +3,6 @@
  * and what is said of fragments. */
 #include "tests/support/membrane_cracks.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 enum { MOST = 8 };
 static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};

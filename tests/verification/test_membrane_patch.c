@@ -4,9 +4,6 @@
 #include "tests/support/gmsh.h"
 #include "tests/support/membrane_elastic.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_integration.h>
 

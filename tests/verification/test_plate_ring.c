@@ -6,9 +6,6 @@
 #include "tests/support/axisymmetric.h"
 #include "tests/support/membrane_elastic.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 static const disk plate_ring = {.young = 320e9,
                                 .poisson = 0.3,

@@ -3,8 +3,6 @@
  * by step. */
 #include "tests/support/dynfrag1d.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 enum { POTENTIAL, DISSIPATED, STORED, WORK, KINETIC, COLUMNS, DISTURBED = 8 };
 static const char *const column_name[COLUMNS] = {"potential", "dissipated", "stored", "work",

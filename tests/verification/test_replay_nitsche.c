@@ -7,9 +7,6 @@
 #include "analysis/draw/chart.h"
 #include "tests/support/dynfrag1d.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 enum { MOST_INTERFACES = 2500 };
 

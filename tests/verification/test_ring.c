@@ -4,9 +4,6 @@
 
 #include "engine/formulation/chain/ring_sweep.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #define YOUNG 275e9
 

@@ -5,9 +5,6 @@
 #include "tests/support/plane.h"
 #include "tests/support/shell_cracks.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* ---- a layer ---- */
 

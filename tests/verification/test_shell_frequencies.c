@@ -4,9 +4,6 @@
  */
 #include "tests/support/shell_statics.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 static double wave(const fracas_spec *spec) /* sqrt(D/(rho h)) */
 {

@@ -3,9 +3,6 @@
  * of curvature by differences. */
 #include "tests/support/shell_bodies.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_integration.h>
 

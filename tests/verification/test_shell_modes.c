@@ -3,9 +3,6 @@
  * critical step. */
 #include "tests/support/shell_bodies.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* Of M^-1/2 K M^-1/2, ascending: omega^2; the matrix becomes that. */
 static double *squares_of_frequencies(const fracas_model *model, double *matrix, size_t n)

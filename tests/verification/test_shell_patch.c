@@ -3,9 +3,6 @@
  * are exact. */
 #include "tests/support/shell_bodies.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_integration.h>
 

@@ -6,9 +6,6 @@
 #include "tests/support/shell.h"
 #include "tests/support/shell_run.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* The alumina sphere of docs/theory/shell.md: mid radius 9.95 mm, 0.1 mm thick; it grows at 1e4 /s
  * at the start. */

@@ -5,9 +5,6 @@
  */
 #include "tests/support/shell_statics.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* ---- loads ---- */
 

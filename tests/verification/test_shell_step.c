@@ -4,9 +4,6 @@
 #include "tests/support/shell_bodies.h"
 #include "tests/support/shell_run.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 static double *value_of(const shell_run *run, size_t unknown, int field)
 {

@@ -4,9 +4,6 @@
  * and where the crack is closed. */
 #include "tests/support/shell_cracks.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* Fields of the strip, in amplitudes: strain e and curvature k of both elements, then a jump a of
  * both halves and a turn b of one to the other, each along one direction: across the interface

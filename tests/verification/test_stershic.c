@@ -3,9 +3,6 @@
  * opening, zone, bulk damage. */
 #include "tests/support/stershic.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 /* Traction of link e [Pa] as both of its nodes felt it: in the first step a velocity is forces by
  * half the next time step by dt/2, and unstrained elements exert none. The element's own sum is

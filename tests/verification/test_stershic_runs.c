@@ -3,9 +3,6 @@
  * ledger, energy guard, momentum. */
 #include "tests/support/stershic.h"
 #include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
-#include "tests/support/test.h"
 
 #define PI 3.14159265358979323846
 
