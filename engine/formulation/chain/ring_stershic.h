@@ -131,34 +131,19 @@ static inline double *stershic_value(const ring_context *c, size_t element, int 
     return c->state + (element * RING_FIELDS_STERSHIC + (size_t)field) * LANES + lane;
 }
 
-/* How far the right node of an element is beyond its left one in a field of theirs, one lane. */
-static inline double stershic_between(const ring_context *c, size_t element, int left, int right,
-                                      int lane)
+/* Time at which the stress of link e passed its strength: within the step, at the rate that the
+ * velocities give [s]. */
+LANES_FUNCTION double stershic_onset(const ring_context *c, size_t e, int lane)
 {
-    return *stershic_value(c, element, right, lane) - *stershic_value(c, element, left, lane);
-}
-
-/* When the stress of link e passed its strength: within the step, at the rate that the velocities
- * give [s]. */
-static inline double stershic_onset(const ring_context *c, size_t e, int lane)
-{
-    const fracas_ring_constants *ring = c->ring;
-    const size_t next = e + 1 < ring->elements ? e + 1 : 0;
-    double rate = 0;
-    for (int side = 0; side < 2; side++) {
-        const size_t i = side ? next : e;
-        const double *table = ring->table + i * RING_TABLE;
-        const double x = stershic_between(c, i, RING_U_LEFT, RING_U_RIGHT, lane) -
-                         ring->size * table[RING_SIN_MIDDLE];
-        const double y = stershic_between(c, i, RING_U_LEFT + 1, RING_U_RIGHT + 1, lane) +
-                         ring->size * table[RING_COS_MIDDLE];
-        const double along = x * stershic_between(c, i, RING_V_LEFT, RING_V_RIGHT, lane) +
-                             y * stershic_between(c, i, RING_V_LEFT + 1, RING_V_RIGHT + 1, lane);
-        rate += 0.5 * ring->young / ring->size * along / sqrt(x * x + y * y);
-    }
-    return c->step->time[c->first + lane] -
-           (*stershic_value(c, e, RING_PULL, lane) - *stershic_value(c, e, RING_STRENGTH, lane)) /
-               rate;
+    const ring_element left = stershic_load(c, e),
+                       right = stershic_load(c, e + 1 < c->ring->elements ? e + 1 : 0);
+    const double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
+    const vd past = lanes_load(at + RING_PULL * LANES) - lanes_load(at + RING_STRENGTH * LANES),
+             time = lanes_load(c->step->time + c->first) -
+                    past / ring_stress_rate(c, &left, &right);
+    double of[LANES];
+    memcpy(of, &time, sizeof of);
+    return of[lane];
 }
 
 /* Opens link e, bars the closed ones within the zone, and lets elements between two barred ones
