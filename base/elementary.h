@@ -5,15 +5,13 @@
  * numbers may not depend on them. These use + - * / and integer operations only, in a fixed order;
  * the build switches contraction off. The rounding mode is the default one, to nearest. ulp:
  * distance of the two doubles around the exact result. Bounds hold over the whole range, subnormal
- * arguments and results included; tests/unit/test_elementary.c measures them against long double.
- */
+ * arguments and results included; tests/unit/test_elementary.c measures them by long double. */
 #ifndef FRACAS_BASE_ELEMENTARY_H
 #define FRACAS_BASE_ELEMENTARY_H
 
 #define FRACAS_PI 0x1.921fb54442d18p+1
 
-/* Natural logarithm, error below 1 ulp. 0 gives -infinity; x < 0 and NaN give NaN; infinity itself.
- */
+/* Natural logarithm, error below 1 ulp. 0 gives -infinity, x < 0 and NaN NaN, infinity itself. */
 double fracas_log(double x);
 
 /* e^x, error below 1 ulp. +infinity from 709.79 on, 0 from -745.14 down; NaN gives NaN. */

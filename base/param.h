@@ -26,8 +26,7 @@ typedef enum {
                          given */
 } fracas_param_type;
 
-/* A value of a selector. Objects with functions (a law, a distribution) have this as first member.
- */
+/* A value of a selector. Objects with functions (a law, a distribution) have it as first member. */
 typedef struct fracas_kind fracas_kind;
 
 /* A file named in a campaign file, read whole along with it: the rooms that understand its content

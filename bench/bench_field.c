@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Correlated strength fields: what it takes to make one, what a realization takes, and how far the
- * correlation is from the covariance.
+/* Correlated strength fields: time to make one, time of a realization, and error of the
+ * correlation.
  *
- *   bench_field           fields on chains, a plate (edges of a grid of triangles) and an octant of
- * a sphere (evenly spread sites) bench_field N         the surfaces with about N sites bench_field
- * N L       with this l/h alone, and a gaussian covariance as well
- */
+ *   bench_field        fields on chains, a plate (edges of a grid) and an octant (spread sites)
+ *   bench_field N      the surfaces with about N sites
+ *   bench_field N L    with this l/h alone, and a gaussian covariance as well */
 #include "bench/bench.h"
 
 #include "sampler/api/sampler.h"

@@ -6,8 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The name of a stream of random numbers: a value depends on this and its place, on nothing else.
- */
+/* The name of a stream of random numbers: a value depends on this and its site, on nothing else. */
 typedef struct {
     uint64_t seed;     /* the campaign's */
     uint64_t purpose;  /* FRACAS_PURPOSE_... */

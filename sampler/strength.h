@@ -76,16 +76,15 @@ double fracas_strength_mean(const fracas_strength *strength, fracas_extent exten
 double fracas_strength_deviation(const fracas_strength *strength, fracas_extent extent);
 
 /* Mott's modulus of the strengths of interfaces of this extent [1]
- *   M = m mean/(mean - minimum)                                      (scaling-laws.8),
- * (scaling-laws.9) where m is the Weibull shape, or the exponent of the flaws if most interfaces
- * have one. NaN for other distributions, or without such an m. */
+ *   M = m mean/(mean - minimum)                         (scaling-laws.8), (scaling-laws.9)
+ * where m is the Weibull shape, or the exponent of the flaws if most interfaces have one. NaN for
+ * other distributions, or without such an m. */
 double fracas_strength_modulus(const fracas_strength *strength, fracas_extent extent);
 
 /* True if the strength of an interface depends on its extent. */
 bool fracas_strength_has_size_effect(const fracas_strength *strength);
 
-/* Text for messages about equal strengths, ", here by ..." with the key that scatters them, or "".
- */
+/* Text for messages about equal strengths: ", here by ..." with the key that scatters them; "". */
 const char *fracas_strength_scatter_remedy(const fracas_strength *strength);
 
 /* Number of given strengths (distributions `file`, `positions`); 0 for drawn ones: there are as
@@ -98,8 +97,7 @@ bool fracas_strength_is_given(const fracas_strength *strength);
 /* True if each Gauss point of an interface has a strength of its own. */
 bool fracas_strength_is_per_point(const fracas_strength *strength);
 
-/* True if they are found by position (distribution `positions`): there may be more than interfaces.
- */
+/* True if found by position (distribution `positions`): there may be more than interfaces. */
 bool fracas_strength_is_placed(const fracas_strength *strength);
 
 #endif

@@ -8,7 +8,7 @@
 #include "sampler/strength.h"
 #include "sampler/stream.h"
 
-/* The places of strengths: a mesh as the sampler sees it. Strength k = i*points + g belongs to
+/* The sites of strengths: a mesh as the sampler sees it. Strength k = i*points + g belongs to
  * Gauss point g of interface i. */
 typedef struct {
     size_t n;                    /* interfaces */
@@ -21,7 +21,7 @@ typedef struct {
 typedef struct fracas_field fracas_field;
 
 /* The field of these strengths over these sites, which are copied as far as they are needed;
- * `strength` must outlive it. FRACAS_USAGE where they do not go together (a file with other places
+ * `strength` must outlive it. FRACAS_USAGE where they do not go together (a file with other sites
  * than these), FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_field_create(const fracas_strength *strength,
                                                const fracas_sites *sites, fracas_field **field);

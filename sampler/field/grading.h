@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Graded material: a factor of the strengths by place. */
+/* Graded material: a factor of the strengths by position. */
 #ifndef FRACAS_SAMPLER_FIELD_GRADING_H
 #define FRACAS_SAMPLER_FIELD_GRADING_H
 

@@ -228,8 +228,7 @@ fracas_err fracas_sparse_factor_apply(const fracas_sparse_factor *factor, const 
     return normal && value ? FRACAS_OK : fracas_no_memory("a correlated field");
 }
 
-/* (fields.15) A^T e of a site, by place: from the finest place to the coarsest. x, row: room for n.
- */
+/* (fields.15) A^T e of a site, by place, from the finest to the coarsest. x, row: room for n. */
 static void find_row(const fracas_sparse_factor *factor, size_t site, double *x, double *row)
 {
     const fracas_unscaled_factor *field = &factor->field;

@@ -7,8 +7,7 @@
 #include "sampler/field/sparse_factor.h"
 
 /* value[k], by place in the order of drawing: of the first `coarse` places L w, with the dense
- * factor; of each further one sum_a weight[a] value[near[a]] + rest w_k,   a < FRACAS_NEAR_SITES.
- */
+ * factor; of each further one sum_a weight[a] value[near[a]] + rest w_k, a < FRACAS_NEAR_SITES. */
 typedef struct {
     size_t n, coarse;
     fracas_dense_factor dense;

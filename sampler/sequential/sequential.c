@@ -22,8 +22,7 @@ int64_t fracas_sequential_next(const fracas_sequential_rule *rule, int64_t repli
     return more < rule->maximum - replicas ? replicas + more : rule->maximum;
 }
 
-/* Mean and half width of the t interval, in the order of the values  (sequential.2), (sequential.3)
- */
+/* Mean and half width of the t interval, in the values' order  (sequential.2), (sequential.3) */
 static fracas_sequential_decision estimate(const fracas_sequential_rule *rule, const double *value,
                                            int64_t replicas)
 {

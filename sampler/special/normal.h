@@ -9,8 +9,7 @@
  * 37, 477-484, 1988). */
 double fracas_normal_quantile(fracas_probability p);
 
-/* P(Z > z) of a standard normal Z, any z, to 2e-15 relative; P(Z <= z) is fracas_normal_upper(-z).
- */
+/* P(Z > z) of a standard normal Z, any z, to 2e-15 relative. P(Z <= z): fracas_normal_upper(-z). */
 double fracas_normal_upper(double z);
 
 /* The z with P(Z > z) = e^-t, t >= 600 (beyond 745 the probability is no double); to 1e-15
