@@ -27,10 +27,9 @@ double fracas_columns_real(const fracas_point_table *table, size_t point, const 
     return column == SIZE_MAX ? NAN : table->point[point].value[column].real;
 }
 
-double fracas_columns_rate(const fracas_point_table *table, size_t point)
+bool fracas_columns_surface(const fracas_point_table *table, size_t point)
 {
-    bool derived = fracas_point_table_find(table, strain_rate_path) != SIZE_MAX;
-    return fracas_columns_real(table, point, derived ? strain_rate_path : imposed_rate_path);
+    return fracas_columns_real(table, point, "derived.surface") == 1;
 }
 
 /* Causes come before numerics: a zipped sweep is named by its physical parameter, cases by their

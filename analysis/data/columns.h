@@ -15,9 +15,8 @@ typedef struct {
 /* The value of the column with this path, NaN if there is none or the point has none. */
 double fracas_columns_real(const fracas_point_table *table, size_t point, const char *path);
 
-/* The point's strain rate [1/s]: derived.strain_rate, or loading.rate in a study without this
- * column. */
-double fracas_columns_rate(const fracas_point_table *table, size_t point);
+/* True if the body of the point is a surface. */
+bool fracas_columns_surface(const fracas_point_table *table, size_t point);
 
 /* Columns in the order loading.rate, geometry.radius, case, loading, material, cohesive, strength,
  * geometry, model, mesh, time. Each is kept if it separates points equal in the columns before it;

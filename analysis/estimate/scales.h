@@ -8,7 +8,7 @@ typedef struct {
     double time;    /* t0 [s] */
     double size;    /* s0 [m] */
     double rate;    /* edot0 [1/s] */
-    double modulus; /* M of the strengths, by fracas_modulus_of; NaN: they have none */
+    double modulus; /* M of the strengths, of Mott's law; NaN: they have none */
 } fracas_scales;
 
 /* t0 = E Gc/(sigma_c^2 c), s0 = c t0, edot0 = c sigma_c^3/(E^2 Gc) with c = sqrt(E/rho)

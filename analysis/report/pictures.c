@@ -4,7 +4,6 @@
 #include "analysis/data/field.h"
 #include "analysis/data/output.h"
 #include "analysis/report/surfaces.h"
-#include "analysis/summary/body.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -50,7 +49,7 @@ static fracas_err check_point(making *m)
 {
     const size_t point = m->request->point, npoints = m->table->npoints;
     const bool kept = fracas_results_header(m->results)->interfaces;
-    if (!kept && point < npoints && !fracas_body_of(m->table, point).surface)
+    if (!kept && point < npoints && !fracas_columns_surface(m->table, point))
         return no_surface(point);
     if (!kept)
         return fracas_fail(FRACAS_USAGE,

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/summary/statistics.h"
 
-#include "analysis/summary/body.h"
-#include "analysis/summary/modulus.h"
 #include "analysis/data/columns.h"
 #include "analysis/data/ring.h"
 
@@ -128,20 +126,28 @@ const char *fracas_outcome_name(int64_t outcome)
     return outcome >= 0 && outcome < FRACAS_NOUTCOMES ? name[outcome] : "?";
 }
 
+/* Flaws have a modulus unless most interfaces are without one. */
+static const char *without_modulus(const fracas_point_table *table, size_t point)
+{
+    return isfinite(fracas_columns_real(table, point, "strength.flaw_density"))
+               ? "most interfaces are without a flaw"
+               : "its strengths have no Weibull modulus: they are neither weibull nor flaws";
+}
+
 void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
                                   fracas_point_statistics *statistics)
 {
-    const fracas_body body = fracas_body_of(table, point);
-    const fracas_modulus modulus = fracas_modulus_of(table, point, body.length);
+    const double lattice = fracas_columns_real(table, point, "derived.lattice"),
+                 modulus = fracas_columns_real(table, point, "derived.strength_modulus");
     *statistics = (fracas_point_statistics){
-        .rate = fracas_columns_rate(table, point),
-        .length = body.length,
-        .radius = body.radius,
-        .surface = body.surface,
+        .rate = fracas_columns_real(table, point, "derived.strain_rate"),
+        .length = fracas_columns_real(table, point, "derived.length"),
+        .radius = fracas_columns_real(table, point, "derived.radius"),
+        .surface = fracas_columns_surface(table, point),
         .scales = fracas_scales_of(fracas_columns_real(table, point, "material.young"),
                                    fracas_columns_real(table, point, "material.density"),
                                    fracas_columns_real(table, point, "derived.strength_mean"),
-                                   body.fracture_energy),
+                                   fracas_columns_real(table, point, "derived.fracture_energy")),
         .residual = NAN,
         .created = NAN,
         .drift = NAN,
@@ -151,11 +157,12 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
         .broken_replica = -1,
     };
     memcpy(&statistics->seed, table->point[point].hash.byte, sizeof statistics->seed);
-    statistics->scales.modulus = modulus.value;
+    statistics->scales.modulus = modulus;
     statistics->without_mott = statistics->surface       ? "the law is of one dimension"
                                : !(statistics->rate > 0) ? "there is no strain rate"
-                                                         : modulus.reason;
-    fracas_ensemble_init(&statistics->ensemble, body.lattice);
+                               : isnan(modulus)          ? without_modulus(table, point)
+                                                         : NULL;
+    fracas_ensemble_init(&statistics->ensemble, lattice > 0 ? lattice : 0);
     statistics->ensemble.surface = statistics->surface;
     for (int law = 0; law < FRACAS_SCALING_LAWS;
          law++) /* at rate 0, a ring that spins or is accelerated, they say nothing */

@@ -129,10 +129,14 @@ static void pattern_of_uniform_expansion(void **state)
 
 /* ---- a study of rings ---- */
 
-enum { NCOLUMNS = 11, NPOINTS = 9, REPLICAS = 6, ELEMENTS = 2400 };
+enum { NCOLUMNS = 15, NPOINTS = 9, REPLICAS = 6, ELEMENTS = 2400 };
 
 static const fracas_column column[NCOLUMNS] = {
     {"cohesive.fracture_energy", "J/m2", "fracture energy", false},
+    {"derived.fracture_energy", "J/m2", "fracture energy", false},
+    {"derived.lattice", "m", "lattice", false},
+    {"derived.length", "m", "circumference", false},
+    {"derived.radius", "m", "radius", false},
     {"derived.strain_rate", "1/s", "strain rate", false},
     {"derived.strength_mean", "Pa", "mean strength", false},
     {"geometry.area", "m2", "area", false},
@@ -167,12 +171,13 @@ static int64_t fragments_of(size_t p)
 static void make_table(made_table *made)
 {
     for (size_t p = 0; p < NPOINTS; p++) {
-        double real[NCOLUMNS] = {100,          speed_of(p) / radius_of(p),
-                                 300e6,        1e-6,
-                                 radius_of(p), speed_of(p),
-                                 NAN,          2750,
-                                 275e9,        ELEMENTS,
-                                 NAN};
+        const double radius = radius_of(p), speed = speed_of(p);
+        const double round = 2 * M_PI * radius;
+        const double real[NCOLUMNS] = {100,   100,      round / ELEMENTS,
+                                       round, radius,   speed / radius,
+                                       3e8,   1e-6,     radius,
+                                       speed, NAN,      2750,
+                                       275e9, ELEMENTS, NAN};
         for (size_t c = 0; c < NCOLUMNS; c++)
             made->value[p][c] = (fracas_value){.real = real[c],
                                                .text = column[c].text ? "initial-velocity" : ""};
@@ -293,27 +298,6 @@ static void report_of_rings(void **state)
 }
 
 /* ---- columns ---- */
-
-static double rate_of(const fracas_column *columns, const double *real, size_t n)
-{
-    fracas_value value[4];
-    for (size_t c = 0; c < n; c++) value[c] = (fracas_value){.real = real[c], .text = ""};
-    fracas_point_row row = {.value = value};
-    fracas_point_table table = {.ncolumns = n, .column = columns, .npoints = 1, .point = &row};
-    return fracas_columns_rate(&table, 0);
-}
-
-/* The derived rate where there is one, NaN or not; the imposed one in a study that has no such
- * column. */
-static void strain_rate_of_a_point(void **state)
-{
-    static const fracas_column both[] = {{"derived.strain_rate", "1/s", "", false},
-                                         {"loading.rate", "1/s", "", false}};
-    assert_true(rate_of(both, (double[]){2e3, 1e3}, 2) == 2e3);
-    assert_true(isnan(rate_of(both, (double[]){NAN, 1e3}, 2)));
-    assert_true(rate_of(both + 1, (double[]){1e3}, 1) == 1e3);
-    assert_true(isnan(rate_of(both, NULL, 0)));
-}
 
 /* The columns that tell points apart and those of them that make series, as "radius,radial|radius".
  * Each point: radius, radial, elements. */
@@ -493,6 +477,5 @@ static void scales_of_critical_opening(void **state)
 }
 
 TESTS_ALL(report_make_root, report_remove_root, scales_of_critical_opening, arcs,
-          motion_of_fragments, pattern_of_uniform_expansion, report_of_rings,
-          strain_rate_of_a_point, columns_of_rings, figure_of_rings, laws_of_mixed_series,
-          points_with_pictures)
+          motion_of_fragments, pattern_of_uniform_expansion, report_of_rings, columns_of_rings,
+          figure_of_rings, laws_of_mixed_series, points_with_pictures)

@@ -6,7 +6,7 @@
 #include "base/version.h"
 #include "tests/support/test.h"
 
-enum { NCOLUMNS = 10, NPOINTS = 4, HISTORY = 50 };
+enum { NCOLUMNS = 13, NPOINTS = 4, HISTORY = 50 };
 
 /* What a synthetic study is made of. */
 typedef struct {
@@ -38,8 +38,11 @@ static const truth awkward = {
 static const fracas_column column[NCOLUMNS] = {
     {"cohesive.fracture_energy", "J/m2", "fracture energy", false},
     {"cohesive.law", "", "law", true},
+    {"derived.fracture_energy", "J/m2", "fracture energy", false},
+    {"derived.lattice", "m", "lattice", false},
+    {"derived.length", "m", "length", false},
+    {"derived.strain_rate", "1/s", "strain rate", false},
     {"derived.strength_mean", "Pa", "mean strength", false},
-    {"geometry.area", "m2", "area", false},
     {"geometry.length", "m", "length", false},
     {"loading.rate", "1/s", "strain rate", false},
     {"material.density", "kg/m3", "density", false},
@@ -61,8 +64,11 @@ static void make_table(const truth *of, made_table *made)
         double rate = of->materials ? (p % 2 ? 1e5 : 1e4) : 1e3 * pow(10, (double)p);
         double real[NCOLUMNS] = {100,
                                  NAN,
+                                 100,
+                                 50e-3 / (double)of->elements[p],
+                                 50e-3,
+                                 rate,
                                  300e6,
-                                 1e-6,
                                  50e-3,
                                  rate,
                                  2750,

@@ -16,11 +16,14 @@ enum { NPOINTS = 4 };
 static void make_analysis(size_t bars, size_t bent, fracas_point_statistics point[NPOINTS],
                           fracas_analysis *analysis)
 {
-    static const fracas_column columns[] = {
-        {"cohesive.fracture_energy", "J/m2", "", false}, {"derived.strain_rate", "1/s", "", false},
-        {"derived.strength_mean", "Pa", "", false},      {"geometry.length", "m", "", false},
-        {"geometry.thickness", "m", "", false},          {"loading.rate", "1/s", "", false},
-        {"material.density", "kg/m3", "", false},        {"material.young", "Pa", "", false}};
+    static const fracas_column columns[] = {{"derived.fracture_energy", "J/m2", "", false},
+                                            {"derived.strain_rate", "1/s", "", false},
+                                            {"derived.strength_mean", "Pa", "", false},
+                                            {"derived.length", "m", "", false},
+                                            {"derived.surface", "1", "", false},
+                                            {"loading.rate", "1/s", "", false},
+                                            {"material.density", "kg/m3", "", false},
+                                            {"material.young", "Pa", "", false}};
     enum { NCOLUMNS = sizeof columns / sizeof *columns };
     static fracas_value value[NPOINTS][NCOLUMNS];
     static fracas_point_row row[NPOINTS];
@@ -28,7 +31,7 @@ static void make_analysis(size_t bars, size_t bent, fracas_point_statistics poin
     static const double size[2][3] = {{1e-3, 2e-3, 3e-3}, {1e-3, 4e-3}};
     for (size_t p = 0; p < NPOINTS; p++) {
         const double rate = 1e3 * (double)(p + 1),
-                     of[NCOLUMNS] = {100,  rate, 3e8,  p < bars ? 1e-2 : NAN, p < bars ? NAN : 1e-4,
+                     of[NCOLUMNS] = {100,  rate, 3e8,  p < bars ? 1e-2 : NAN, p < bars ? 0 : 1,
                                      rate, 2750, 275e9};
         for (size_t c = 0; c < NCOLUMNS; c++) value[p][c] = (fracas_value){of[c], ""};
         row[p] = (fracas_point_row){.replicas = 2, .value = value[p]};

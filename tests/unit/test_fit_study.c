@@ -10,11 +10,13 @@
 
 #include <gsl/gsl_errno.h>
 
-enum { NPOINTS = 4, NCOLUMNS = 6, RESAMPLES = 99 };
+enum { NPOINTS = 4, NCOLUMNS = 8, RESAMPLES = 99 };
 
 static const fracas_column column[NCOLUMNS] = {
-    {"geometry.length", "m", "length", false},
-    {"geometry.thickness", "m", "thickness", false},
+    {"derived.lattice", "m", "lattice", false},
+    {"derived.length", "m", "length", false},
+    {"derived.strain_rate", "1/s", "rate", false},
+    {"derived.surface", "1", "surface", false},
     {"loading.rate", "1/s", "rate", false},
     {"mesh.elements", "1", "elements", false},
     {"model", "", "model", true},
@@ -51,15 +53,18 @@ static void make_table(made_table *made, int64_t replicas)
     static const int64_t few[NPOINTS] = {0, 1, 0, 2};
     for (size_t p = 0; p < NPOINTS; p++) {
         const bool surface = p == 2;
-        const double real[NCOLUMNS] = {surface ? NAN : 20e-3,
-                                       surface ? 1e-3 : NAN,
-                                       pow(10, 3 + (double)p),
+        const double rate = pow(10, 3 + (double)p);
+        const double real[NCOLUMNS] = {surface ? 0 : 20e-6,
+                                       surface ? NAN : 20e-3,
+                                       rate,
+                                       surface,
+                                       rate,
                                        surface ? NAN : 1000,
                                        NAN,
                                        1e-6};
         for (size_t c = 0; c < NCOLUMNS; c++)
             made->value[p][c] = (fracas_value){.real = real[c],
-                                               .text = c == 4 ? surface ? "shell" : "bar" : ""};
+                                               .text = c == 6 ? surface ? "shell" : "bar" : ""};
         made->point[p] = (fracas_point_row){.hash = fracas_hash_of(&p, sizeof p),
                                             .replicas = few[p] ? few[p] : replicas,
                                             .value = made->value[p]};

@@ -3,7 +3,6 @@
  * against their limits. (Glenn-Chudnovsky at 1e3 /s is 1.99948.) */
 #include "analysis/estimate/scales.h"
 
-#include "analysis/summary/modulus.h"
 #include "tests/support/test.h"
 
 static fracas_scales reference_scales(void)
@@ -129,73 +128,4 @@ static void mott(void **state)
     assert_prints("%.2f", 50e-3 / fracas_scaling_law_at(FRACAS_LAW_MOTT, &scales, 1e4), "57.82");
 }
 
-/* What Mott's law knows of the strengths. */
-enum {
-    MEAN,
-    AREA,
-    DEVIATION,
-    LAW,
-    EXPONENT,
-    FLAWS,
-    STRENGTH_MEAN,
-    MINIMUM,
-    SHAPE,
-    ELEMENTS,
-    NCOLUMNS
-};
-
-static fracas_modulus modulus_of(const char *law, const double real[NCOLUMNS])
-{
-    static const fracas_column column[NCOLUMNS] = {
-        [MEAN] = {.path = "derived.strength_mean"},
-        [AREA] = {.path = "geometry.area"},
-        [DEVIATION] = {.path = "strength.deviation"},
-        [LAW] = {.path = "strength.distribution", .text = true},
-        [EXPONENT] = {.path = "strength.exponent"},
-        [FLAWS] = {.path = "strength.flaw_density"},
-        [STRENGTH_MEAN] = {.path = "strength.mean"},
-        [MINIMUM] = {.path = "strength.minimum"},
-        [SHAPE] = {.path = "strength.shape"},
-        [ELEMENTS] = {.path = "mesh.elements"}};
-    fracas_value value[NCOLUMNS];
-    for (size_t c = 0; c < NCOLUMNS; c++)
-        value[c] = (fracas_value){.real = c == LAW ? NAN : real[c], .text = c == LAW ? law : ""};
-    const fracas_point_row row = {.value = value};
-    const fracas_point_table table = {
-        .ncolumns = NCOLUMNS, .column = column, .npoints = 1, .point = &row};
-    return fracas_modulus_of(&table, 0, 10e-3);
-}
-
-static void modulus(void **state)
-{
-    double real[NCOLUMNS] = {
-        [MEAN] = 300e6,        [AREA] = 1e-6, [DEVIATION] = NAN, [EXPONENT] = NAN, [FLAWS] = NAN,
-        [STRENGTH_MEAN] = NAN, [MINIMUM] = 0, [SHAPE] = 10,      [ELEMENTS] = 500};
-    assert_true(modulus_of("weibull", real).value == 10 && !modulus_of("weibull", real).reason);
-    real[MINIMUM] = 200e6;
-    assert_true(fabs(modulus_of("weibull", real).value - 30) < 1e-13);
-    real[MINIMUM] = NAN;
-    assert_true(modulus_of("weibull", real).value == 10);
-    /* By mean and deviation: shape 10 has deviation/mean sqrt(Gamma(1.2)/Gamma(1.1)^2 - 1) =
-     * 0.12031. */
-    real[SHAPE] = NAN;
-    real[STRENGTH_MEAN] = 300e6;
-    real[DEVIATION] = 300e6 * sqrt(tgamma(1.2) / (tgamma(1.1) * tgamma(1.1)) - 1);
-    assert_true(fabs(real[DEVIATION] / 300e6 - 0.12031) < 1e-5);
-    assert_true(fabs(modulus_of("weibull", real).value - 10) < 1e-9);
-    real[DEVIATION] = 300e6 * 1e-3; /* narrower than shape 1000 */
-    assert_true(isnan(modulus_of("weibull", real).value) && modulus_of("weibull", real).reason);
-    /* Flaws: 1e-6 m2 x 10 mm/500 = 2e-11 m3 an interface; one in two interfaces has one at ln
-     * 2/2e-11 = 3.466e10 /m3. */
-    real[EXPONENT] = 6;
-    real[FLAWS] = 3.5e10;
-    assert_true(modulus_of("flaws", real).value == 6);
-    real[FLAWS] = 3.4e10;
-    assert_true(isnan(modulus_of("flaws", real).value) && modulus_of("flaws", real).reason);
-    const char *const without[] = {"uniform", "constant", "lognormal", ""};
-    for (size_t i = 0; i < 4; i++)
-        assert_true(isnan(modulus_of(without[i], real).value) &&
-                    modulus_of(without[i], real).reason);
-}
-
-TESTS(scales_of_the_reference_material, laws_as_printed, dimensional_forms, limits, mott, modulus)
+TESTS(scales_of_the_reference_material, laws_as_printed, dimensional_forms, limits, mott)
