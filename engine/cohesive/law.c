@@ -10,6 +10,11 @@ const fracas_kind fracas_onset_flux = {.name = "flux",
                                        .doc = "the traction of the discontinuous-Galerkin flux"};
 static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
 
+bool fracas_onset_by_mean(const fracas_cohesive *cohesive)
+{
+    return cohesive->onset != &fracas_onset_flux;
+}
+
 /* The models with kernels for each law. */
 #define FRACAS_LAW(name, bar, ring, membrane, shell)                      \
     static const fracas_kind *const name##_models[] = {                   \

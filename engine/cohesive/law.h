@@ -65,6 +65,8 @@ static inline const fracas_law *fracas_law_of(const fracas_spec *spec)
 
 extern const fracas_section fracas_cohesive_section;
 extern const fracas_kind fracas_onset_mean, fracas_onset_flux;
+/* True where the mean of the stresses is held against the strength, not the flux. */
+bool fracas_onset_by_mean(const fracas_cohesive *cohesive);
 extern const fracas_kind fracas_zone_softening, fracas_zone_steep;
 
 #endif

@@ -42,3 +42,8 @@ const fracas_kind fracas_mass_lumped = {
 const fracas_kind fracas_mass_consistent = {
     .name = "consistent",
     .doc = "the integral of the shape functions' products, inverted element by element"};
+
+bool fracas_mass_is_consistent(const fracas_time *time)
+{
+    return time->mass == &fracas_mass_consistent;
+}

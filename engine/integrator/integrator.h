@@ -21,5 +21,7 @@ static inline const fracas_integrator *fracas_integrator_of(const fracas_spec *s
 
 extern const fracas_kind fracas_integrator_central_difference, fracas_integrator_hulbert_chung;
 extern const fracas_kind fracas_mass_lumped, fracas_mass_consistent;
+/* True for masses that couple the nodes of an element; else they are diagonal. */
+bool fracas_mass_is_consistent(const fracas_time *time);
 
 #endif

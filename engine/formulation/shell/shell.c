@@ -11,8 +11,6 @@
 
 FRACAS_KERNEL_TABLE(const fracas_surface_kernel, fracas_shell);
 
-static const double edge_point[3] = FRACAS_EDGE_POINTS_2, edge_weight[3] = FRACAS_EDGE_WEIGHTS_2;
-
 static fracas_err check_order(const fracas_surface *surface)
 {
     if (surface->order == 2) return FRACAS_OK;
@@ -57,34 +55,32 @@ static void second_derivatives(double c[2][2], double of[3][3])
     of[2][2] = 2 * (c[0][0] * c[1][1] + c[0][1] * c[1][0]);
 }
 
-static void fill_bulk(const fracas_model *model, fracas_surface_tables *t, size_t e)
+static void fill_bulk(const fracas_model *model, size_t e, double xi, double eta, double weight,
+                      double *bulk)
 {
-    static const double at[3][2] = {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}};
-    for (int g = 0; g < SHELL_BULK; g++) {
-        double *bulk = t->bulk + (e * SHELL_BULK + (size_t)g) * SHELL_BULK_TABLE, c[2][2], of[3][3];
-        fracas_shell_geometry here;
-        fracas_shell_geometry_at(model->surface, e, at[g][0], at[g][1], &here);
-        for (int a = 0; a < 2; a++) {
-            c[a][0] = bulk[SHELL_XI_X + 2 * a] = fracas_shell_dot(here.dual[a], here.x);
-            c[a][1] = bulk[SHELL_XI_Y + 2 * a] = fracas_shell_dot(here.dual[a], here.y);
-        }
-        for (int i = 0; i < 3; i++) {
-            bulk[SHELL_X + i] = here.x[i];
-            bulk[SHELL_Y + i] = here.y[i];
-            bulk[SHELL_T + i] = here.normal[i];
-        }
-        second_derivatives(c, of);
-        for (int ij = 0; ij < 3; ij++)
-            for (int b = 0; b < 3; b++) {
-                bulk[SHELL_SECOND + 3 * ij + b] = -of[ij][b];
-                for (int a = 0; a < 2; a++) { /* Christoffel's symbols G^a_b */
-                    double *first = &bulk[SHELL_FIRST + 2 * ij + a];
-                    *first = (b ? *first : 0) +
-                             of[ij][b] * fracas_shell_dot(here.second[b], here.dual[a]);
-                }
-            }
-        bulk[SHELL_WEIGHT] = 0.5 / SHELL_BULK * here.area;
+    double c[2][2], of[3][3];
+    fracas_shell_geometry here;
+    fracas_shell_geometry_at(model->surface, e, xi, eta, &here);
+    for (int a = 0; a < 2; a++) {
+        c[a][0] = bulk[SHELL_XI_X + 2 * a] = fracas_shell_dot(here.dual[a], here.x);
+        c[a][1] = bulk[SHELL_XI_Y + 2 * a] = fracas_shell_dot(here.dual[a], here.y);
     }
+    for (int i = 0; i < 3; i++) {
+        bulk[SHELL_X + i] = here.x[i];
+        bulk[SHELL_Y + i] = here.y[i];
+        bulk[SHELL_T + i] = here.normal[i];
+    }
+    second_derivatives(c, of);
+    for (int ij = 0; ij < 3; ij++)
+        for (int b = 0; b < 3; b++) {
+            bulk[SHELL_SECOND + 3 * ij + b] = -of[ij][b];
+            for (int a = 0; a < 2; a++) { /* Christoffel's symbols G^a_b */
+                double *first = &bulk[SHELL_FIRST + 2 * ij + a];
+                *first = (b ? *first : 0) +
+                         of[ij][b] * fracas_shell_dot(here.second[b], here.dual[a]);
+            }
+        }
+    bulk[SHELL_WEIGHT] = weight * here.area;
 }
 
 /* One side of an edge at a point where the edge runs along `tangent`: its normal in the surface, n
@@ -114,16 +110,15 @@ static double curvature(const fracas_shell_geometry *at, const double a[3], cons
              (ax * by + ay * bx) * fracas_shell_dot(at->normal, at->second[2]));
 }
 
-static void fill_point(const fracas_surface *surface, const fracas_surface_interface *interface,
-                       int g, double *point)
+static void fill_point(const fracas_model *model, const fracas_surface_interface *interface,
+                       double s, double weight, double *point)
 {
     fracas_shell_geometry at[2];
     double tangent[3], normal[2][3], speed = 0;
     for (int side = 0; side < 2; side++) {
         double xi, eta;
-        fracas_shell_edge_point(interface->edge[side], side ? 1 - edge_point[g] : edge_point[g],
-                                &xi, &eta);
-        fracas_shell_geometry_at(surface, interface->element[side], xi, eta, &at[side]);
+        fracas_shell_edge_point(interface->edge[side], side ? 1 - s : s, &xi, &eta);
+        fracas_shell_geometry_at(model->surface, interface->element[side], xi, eta, &at[side]);
         if (side == 0) speed = fracas_shell_edge_tangent(&at[0], interface->edge[0], tangent);
         fill_side(&at[side], tangent, side ? -1 : 1, 0.5, point + SHELL_SIDES + side * SHELL_SIDE,
                   normal[side]);
@@ -137,7 +132,7 @@ static void fill_point(const fracas_surface *surface, const fracas_surface_inter
     }
     fracas_shell_cross(tangent, lift, point + SHELL_N);
     point[SHELL_PER_SPEED] = 1.0 / speed;
-    point[SHELL_LENGTH] = edge_weight[g] * speed;
+    point[SHELL_LENGTH] = weight * speed;
     point[SHELL_L_NN] = 0.5 * (curvature(&at[0], normal[0], normal[0]) +
                                curvature(&at[1], normal[1], normal[1]));
     point[SHELL_L_NS] = 0.5 * (curvature(&at[0], normal[0], tangent) +
@@ -147,38 +142,26 @@ static void fill_point(const fracas_surface *surface, const fracas_surface_inter
 }
 
 /* (membrane.5), (shell.7) */
-static void fill_interface(const fracas_model *model, fracas_surface_tables *t, size_t i)
+static void fill_head(const fracas_model *model, double inverse_size, double *head)
 {
     const fracas_spec *spec = &model->spec;
-    const fracas_surface_interface *interface = &model->surface->interface[i];
     const double nu = spec->material.poisson, young = spec->material.young;
-    const double inverse_size = fracas_surface_inverse_size(model->surface, i);
-    double *head = t->interface + i * SHELL_INTERFACE_TABLE;
     head[SURFACE_STIFFNESS] = spec->cohesive.beta * young / (1 - nu * nu) * inverse_size;
-    head[SURFACE_COMPLIANCE] = 1.0 / head[SURFACE_STIFFNESS];
     head[SHELL_SHEARING] = spec->cohesive.beta_shear * young / (2 * (1 + nu)) *
                            spec->geometry.thickness * inverse_size;
-    for (int g = 0; g < SHELL_EDGE; g++)
-        fill_point(model->surface, interface, g, head + SHELL_POINTS + g * SHELL_POINT_TABLE);
 }
 
 /* ---- edges ---- */
 
-static bool holds_director(const fracas_kind *kind)
-{
-    return kind == &fracas_edge_clamped || kind == &fracas_edge_symmetry;
-}
-
 /* The director's turn about the edge has twice the stiffness of an interface's: the other side is
  * its mirror image  (shell.9) */
-static void fill_rim(const fracas_model *model, fracas_surface_tables *t,
-                     const fracas_surface_border *border, size_t r)
+static void fill_rim(const fracas_model *model, const fracas_surface_border *border, double *rim)
 {
+    static const double edge_point[3] = FRACAS_EDGE_POINTS_2, weight[3] = FRACAS_EDGE_WEIGHTS_2;
     const fracas_spec *spec = &model->spec;
     const double nu = spec->material.poisson, h = spec->geometry.thickness,
                  modulus = spec->material.young / (1 - nu * nu);
     const double length = fracas_surface_length(model->surface, border->element, border->edge);
-    double *rim = t->rim + r * SHELL_RIM_TABLE;
     rim[SHELL_RIM_STIFFNESS] = 2 * spec->cohesive.beta * modulus * (h * h * h / 12) * length /
                                fracas_surface_area(model->surface, border->element);
     for (int g = 0; g < SHELL_EDGE; g++) {
@@ -187,8 +170,7 @@ static void fill_rim(const fracas_model *model, fracas_surface_tables *t,
         fracas_shell_geometry at;
         fracas_shell_edge_point(border->edge, edge_point[g], &xi, &eta);
         fracas_shell_geometry_at(model->surface, border->element, xi, eta, &at);
-        point[SHELL_RIM_LENGTH] = edge_weight[g] *
-                                  fracas_shell_edge_tangent(&at, border->edge, tangent);
+        point[SHELL_RIM_LENGTH] = weight[g] * fracas_shell_edge_tangent(&at, border->edge, tangent);
         fill_side(&at, tangent, 1, 1, point + SHELL_RIM_SIDE, normal);
     }
 }
@@ -221,46 +203,29 @@ static int axis_of(const fracas_surface *surface, const fracas_surface_border *b
 }
 
 static fracas_err hold_edge(const fracas_model *model, const fracas_surface_border *border,
-                            const fracas_kind *kind, uint32_t *held, uint32_t *fixed)
+                            const fracas_kind *kind, unsigned *components)
 {
-    const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
-    const bool one = kind == &fracas_edge_symmetry, others = kind == &fracas_edge_diaphragm;
-    const int axis = one || others ? axis_of(model->surface, border, one ? UPRIGHT : 0) : 3;
+    const fracas_edge *edge = fracas_edge_of(kind);
+    const bool plane = edge->mirror || edge->in_plane;
+    const int axis = plane ? axis_of(model->surface, border, edge->mirror ? UPRIGHT : 0) : 3;
     const double *at =
-        model->surface->node[model->surface->element[border->element * SHELL_NODES + k]];
-    if (kind == &fracas_edge_sliding)
+        model->surface->node[model->surface->element[border->element * SHELL_NODES + border->edge]];
+    if (!edge->shell)
         return fracas_fail(FRACAS_USAGE,
                            "an edge with tag %d is to slide, which edges of shells do not: let it "
                            "be a symmetry, a diaphragm, held, fixed, clamped or free",
                            (int)border->tag);
-    if ((one || others) && axis == 3)
+    if (plane && axis == 3)
         return fracas_fail(FRACAS_USAGE,
                            "an edge with tag %d is a %s, but at (%g, %g, %g) m it does not lie in "
                            "a plane x, y or z = const%s: hold it otherwise, or leave it free",
                            (int)border->tag, kind->name, at[0], at[1], at[2],
-                           one ? " that the shell meets at a right angle" : "");
-    for (int n = 0; n < 3; n++)
-        for (uint32_t i = 0; i < 3; i++) {
-            if ((one && (int)i != axis) || (others && (int)i == axis)) continue;
-            *held |= 1u << (3 * node[n] + i);
-        }
-    if (kind != &fracas_edge_held) *fixed = *held;
+                           edge->mirror ? " that the shell meets at a right angle" : "");
+    *components = edge->mirror ? 1u << axis : edge->in_plane ? 7u & ~(1u << axis) : 7u;
     return FRACAS_OK;
 }
 
 /* ---- the body ---- */
-
-static void fill_constants(const fracas_model *model, fracas_surface_constants *c)
-{
-    const fracas_spec *spec = &model->spec;
-    const double nu = spec->material.poisson, h = spec->geometry.thickness, bending = h * h / 12;
-    c->c11 = h * spec->material.young / (1 - nu * nu);
-    c->c12 = nu * c->c11;
-    c->c33 = h * spec->material.young / (2 * (1 + nu));
-    c->d11 = bending * c->c11;
-    c->d12 = bending * nu * c->c11;
-    c->d33 = bending * c->c33;
-}
 
 static void add_node(const fracas_surface_tables *t, size_t e, size_t k, const double (*x)[3],
                      const double (*v)[3], fracas_fragment_sums *sums)
@@ -273,6 +238,7 @@ static const fracas_surface_body body = {.dimension = 3,
                                          .stresses = 6,
                                          .layers = SHELL_LAYERS,
                                          .layer = layer,
+                                         .resultants = true,
                                          .bulk_table = SHELL_BULK_TABLE,
                                          .head = SHELL_POINTS,
                                          .point_table = SHELL_POINT_TABLE,
@@ -281,17 +247,11 @@ static const fracas_surface_body body = {.dimension = 3,
                                          .check_mesh = check_order,
                                          .check_tables = check_thickness,
                                          .fill_bulk = fill_bulk,
-                                         .fill_interface = fill_interface,
-                                         .hold_edge = hold_edge,
-                                         .has_rim = holds_director,
+                                         .fill_head = fill_head,
+                                         .fill_point = fill_point,
                                          .fill_rim = fill_rim,
-                                         .fill_constants = fill_constants,
+                                         .hold_edge = hold_edge,
                                          .add_node = add_node};
-
-static fracas_err shell_model_init(fracas_model *model)
-{
-    return fracas_surface_model_init(model, &body);
-}
 
 static const fracas_kind *const goes_with[] = {
     &fracas_shape_sphere,      &fracas_shape_plate,   &fracas_shape_annulus,    &fracas_shape_file,
@@ -299,7 +259,6 @@ static const fracas_kind *const goes_with[] = {
 const fracas_formulation fracas_formulation_shell = {
     .kind = {.name = "shell",
              .doc = "a thin shell or plate that stretches and bends, of triangles in space",
-             .goes_with = goes_with,
-             .ngoes_with = FRACAS_COUNT(goes_with)},
-    .model_init = shell_model_init,
+             FRACAS_GOES_WITH(goes_with),
+             .traits = &body},
     FRACAS_SURFACE_FORMULATION};

@@ -2,7 +2,6 @@
 /* A surface as a linear operator, and its critical time step. */
 #include "engine/formulation/surface/surface.h"
 
-#include "engine/integrator/hulbert_chung.h"
 #include "engine/integrator/integrator.h"
 #include "engine/integrator/lanczos.h"
 
@@ -128,10 +127,7 @@ static fracas_err largest_frequency(const fracas_model *model, int contact, doub
 /* (membrane.16) */
 fracas_err fracas_surface_critical_step(fracas_model *model)
 {
-    const fracas_time *time = &model->spec.time;
-    const double limit = time->integrator == &fracas_integrator_hulbert_chung
-                             ? fracas_hulbert_chung_of(time->spectral_radius).limit
-                             : FRACAS_CENTRAL_DIFFERENCE_LIMIT;
+    const double limit = fracas_integrator_of(&model->spec)->limit(&model->spec.time);
     double whole, pressed;
     TRY(largest_frequency(model, 0, &whole));
     TRY(largest_frequency(model, 1, &pressed));

@@ -22,34 +22,52 @@ fracas_surface_constants fracas_surface_constants_of(const fracas_model *model)
     const fracas_spec *spec = &model->spec;
     const fracas_surface_tables *t = tables_of(model);
     const fracas_hulbert_chung alpha = fracas_hulbert_chung_of(spec->time.spectral_radius);
-    const double beta_c = spec->cohesive.coupling;
+    const fracas_law *law = fracas_law_of(spec);
+    const double beta_c = spec->cohesive.coupling, nu = spec->material.poisson,
+                 h = spec->geometry.thickness, bending = h * h / 12,
+                 young = (t->body->resultants ? h : 1) * spec->material.young;
     const bool friction = spec->cohesive.friction > 0,
-               has_alpha = spec->time.integrator == &fracas_integrator_hulbert_chung;
-    fracas_surface_constants c = {.tables = t,
-                                  .thickness = spec->geometry.thickness,
-                                  .normal = beta_c < 1 ? 1 / (beta_c * beta_c) : 1,
-                                  .energy = spec->cohesive.fracture_energy,
-                                  .opening = spec->cohesive.critical_opening,
-                                  .beta_c = beta_c,
-                                  .mu_c = spec->cohesive.friction,
-                                  .onset_mean = spec->cohesive.onset != &fracas_onset_flux,
-                                  .friction = friction,
-                                  .law = fracas_law_of(spec)->number,
-                                  .fields = has_alpha ? SURFACE_FIELDS_ALPHA : SURFACE_FIELDS,
-                                  .point_fields = fracas_law_of(spec)->fields[friction],
-                                  .strengths = (int)model->strengths,
-                                  .motion = {has_alpha, alpha.alpha_m, alpha.beta, alpha.gamma}};
+               accelerations = fracas_integrator_of(spec)->accelerations,
+               spins = fracas_loading_traits_of(spec)->body_force;
+    fracas_surface_constants c = {
+        .tables = t,
+        .thickness = h,
+        .c11 = young / (1 - nu * nu),
+        .c33 = young / (2 * (1 + nu)),
+        .normal = beta_c < 1 ? 1 / (beta_c * beta_c) : 1,
+        .energy = spec->cohesive.fracture_energy,
+        .opening = spec->cohesive.critical_opening,
+        .beta_c = beta_c,
+        .mu_c = spec->cohesive.friction,
+        .onset_mean = fracas_onset_by_mean(&spec->cohesive),
+        .friction = friction,
+        .law = law->number,
+        .fields = accelerations ? SURFACE_FIELDS_ALPHA : SURFACE_FIELDS,
+        .point_fields = law->fields[friction],
+        .strengths = (int)model->strengths,
+        .speed = spins ? spec->loading.speed : 0,
+        .ramp = spec->loading.ramp,
+        .motion = {accelerations, alpha.alpha_m, alpha.beta, alpha.gamma}};
+    c.c12 = nu * c.c11;
+    c.d11 = bending * c.c11;
+    c.d12 = bending * nu * c.c11;
+    c.d33 = bending * c.c33;
     c.tangential = beta_c * beta_c * c.normal;
-    t->body->fill_constants(model, &c);
     return c;
+}
+
+/* The load's stretch at the start. */
+static fracas_stretch stretch_of(const fracas_model *model)
+{
+    return fracas_loading_traits_of(&model->spec)->surface(&model->spec, 0);
 }
 
 /* ---- the model ---- */
 
-static fracas_err check_noise(const fracas_mesh *mesh)
+static fracas_err check_noise(const fracas_spec *spec)
 {
-    if (mesh->noise || mesh->spacing != &fracas_spacing_triangles || mesh->amplitude == 0)
-        return FRACAS_OK;
+    const fracas_mesh *mesh = &spec->mesh;
+    if (mesh->noise || !fracas_spacing_of(spec)->rows || mesh->amplitude == 0) return FRACAS_OK;
     return fracas_fail(FRACAS_BUG, "a perturbed mesh without random numbers");
 }
 
@@ -68,10 +86,7 @@ static fracas_err check_beta(const fracas_model *model)
 /* Something moves: not all starts at rest, or edges are held. */
 static fracas_err check_motion(const fracas_model *model)
 {
-    const fracas_loading *loading = &model->spec.loading;
-    if (loading->type != &fracas_loading_expansion || loading->start != &fracas_start_rest ||
-        tables_of(model)->moves)
-        return FRACAS_OK;
+    if (!stretch_of(model).shock || tables_of(model)->moves) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE, "loading.start is rest, and all edges are free: nothing would "
                                      "ever move; let an edge be held, or start moving");
 }
@@ -102,10 +117,11 @@ static void measure(fracas_model *model)
             : sqrt(model->mass / (model->spec.material.density * model->spec.geometry.thickness));
 }
 
-fracas_err fracas_surface_model_init(fracas_model *model, const fracas_surface_body *body)
+fracas_err fracas_surface_model_init(fracas_model *model)
 {
+    const fracas_surface_body *body = model->formulation->kind.traits;
     fracas_surface_tables *t;
-    TRY(check_noise(&model->spec.mesh));
+    TRY(check_noise(&model->spec));
     TRY(fracas_mesh_make(&model->spec, &model->surface));
     TRY(body->check_mesh(model->surface));
     TRY(check_beta(model));
@@ -113,7 +129,7 @@ fracas_err fracas_surface_model_init(fracas_model *model, const fracas_surface_b
     model->interfaces = model->surface->ninterfaces;
     if (model->spec.strength_per_point)
         model->strengths = (size_t)SURFACE_EDGE(model->surface->order);
-    TRY(fracas_surface_tables_create(model, body, &t));
+    TRY(fracas_surface_tables_create(model, &t));
     model->plan = t;
     if (body->check_tables) TRY(body->check_tables(model));
     TRY(check_motion(model));
@@ -216,15 +232,13 @@ double *fracas_surface_strength(const fracas_model *model, const fracas_step *st
 static double start_velocity(const fracas_model *model, size_t e, size_t i)
 {
     const fracas_surface_tables *t = tables_of(model);
-    const fracas_loading *loading = &model->spec.loading;
+    const fracas_stretch stretch = stretch_of(model);
     const size_t dimension = (size_t)t->body->dimension, component = i % dimension;
     const bool held = t->held[e] >> i & 1, fixed = t->fixed[e] >> i & 1;
     const double *x =
         model->surface->node[model->surface->element[e * model->surface->corners + i / dimension]];
-    if ((held && fixed) || loading->type != &fracas_loading_expansion ||
-        (loading->start == &fracas_start_rest && !held))
-        return 0;
-    return (component == 1 ? loading->ratio : 1.0) * loading->rate * x[component];
+    if ((held && fixed) || !stretch.moving || (stretch.shock && !held)) return 0;
+    return (component == 1 ? stretch.ratio : 1.0) * model->spec.loading.rate * x[component];
 }
 
 void fracas_surface_lane_init(const fracas_model *model, const fracas_step *step, int lane)

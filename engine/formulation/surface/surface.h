@@ -61,10 +61,10 @@ typedef struct {
     uint8_t (*edge)[2];     /* [interface]: which of its elements' edges */
     uint32_t *held, *fixed; /* [element]: bit dimension node + component is set where the velocity
                                is held, and where it is held at 0 */
-    bool moves;             /* some edge is held; a shell: and not fixed */
-    /* Shells: edges that hold the director. */
+    bool moves;             /* some edge is held, and not fixed */
+    /* Edges that hold the director of a shell. */
     size_t nrims;
-    double *rim;        /* [rim][SHELL_RIM_TABLE] */
+    double *rim;        /* [rim][body->rim_table] */
     uint8_t *rim_edge;  /* [rim]: which of its element's edges */
     uint32_t *rim_from; /* [element]: its rims are rim_from[e] to rim_from[e + 1] - 1 */
     fracas_surface_visits visits;
@@ -123,31 +123,30 @@ typedef struct {
 typedef const fracas_surface_kernel
     *const fracas_surface_kernels[FRACAS_NISAS][FRACAS_LANES_MAX + 1];
 
+/* A body: the traits of its formulation. Functions fill tables that the caller allocates. */
 struct fracas_surface_body {
     int dimension;       /* components of a displacement */
     int stresses;        /* values of stress at a bulk point */
     int layers;          /* points through the thickness at each Gauss point of an interface */
     const double *layer; /* [layers]: their weights, of sum 1 */
-    size_t bulk_table;   /* doubles, as are the next two */
-    size_t head, point_table;
+    bool resultants;     /* stresses are integrals over the thickness */
+    size_t bulk_table, head, point_table, rim_table; /* doubles; no rims: 0 */
     const fracas_surface_kernels *kernels;
     /* FRACAS_USAGE for a mesh that is none of this body; once its tables are there. */
     fracas_err (*check_mesh)(const fracas_surface *surface);
     fracas_err (*check_tables)(const fracas_model *model); /* NULL: nothing to check */
-    void (*fill_bulk)(const fracas_model *model, fracas_surface_tables *tables, size_t element);
-    void (*fill_interface)(const fracas_model *model, fracas_surface_tables *tables,
-                           size_t interface);
-    /* Which components of which nodes an edge holds: bits as of `held`, all of them and the fixed
-     * ones. */
+    /* A bulk point at xi, eta of an element, of quadrature weight `weight`. */
+    void (*fill_bulk)(const fracas_model *model, size_t element, double xi, double eta,
+                      double weight, double *bulk);
+    /* Head of an interface but for its compliance; `inverse_size` is 1/h_s [1/m]. */
+    void (*fill_head)(const fracas_model *model, double inverse_size, double *head);
+    /* Its Gauss point at s of the first element's edge, of quadrature weight `weight`. */
+    void (*fill_point)(const fracas_model *model, const fracas_surface_interface *interface,
+                       double s, double weight, double *point);
+    void (*fill_rim)(const fracas_model *model, const fracas_surface_border *border, double *rim);
+    /* Components that an edge of this kind holds, by bits; FRACAS_USAGE where it cannot. */
     fracas_err (*hold_edge)(const fracas_model *model, const fracas_surface_border *border,
-                            const fracas_kind *kind, uint32_t *held, uint32_t *fixed);
-    /* True for an edge that has a rim; fills rim r. NULL: there are none. */
-    bool (*has_rim)(const fracas_kind *kind);
-    void (*fill_rim)(const fracas_model *model, fracas_surface_tables *tables,
-                     const fracas_surface_border *border, size_t r);
-    size_t rim_table; /* doubles */
-    /* c11 ... d33 and the load's own. */
-    void (*fill_constants)(const fracas_model *model, fracas_surface_constants *constants);
+                            const fracas_kind *kind, unsigned *components);
     /* Adds a node of an element to its fragment's sums, with the inertia that it moves with: x and
      * v of all its nodes [m], [m/s]. */
     void (*add_node)(const fracas_surface_tables *tables, size_t element, size_t k,
@@ -203,7 +202,6 @@ static inline size_t fracas_surface_strength_of(const fracas_surface_constants *
 
 /* Tables of model->surface and model->spec, checked. The caller destroys. */
 FRACAS_MUST_USE fracas_err fracas_surface_tables_create(const fracas_model *model,
-                                                        const fracas_surface_body *body,
                                                         fracas_surface_tables **tables);
 void fracas_surface_tables_destroy(void *tables); /* NULL is allowed */
 
@@ -250,8 +248,7 @@ void fracas_surface_book(const fracas_surface_constants *constants, fracas_step 
 
 /* ---- functions of the formulations ---- */
 
-FRACAS_MUST_USE fracas_err fracas_surface_model_init(fracas_model *model,
-                                                     const fracas_surface_body *body);
+FRACAS_MUST_USE fracas_err fracas_surface_model_init(fracas_model *model);
 FRACAS_MUST_USE fracas_err fracas_surface_check_strength(const fracas_model *model,
                                                          double strength);
 double fracas_surface_interface_volume(const fracas_model *model, size_t interface);
@@ -264,13 +261,13 @@ int64_t fracas_surface_fragment_count(const fracas_model *model, fracas_step *st
 FRACAS_MUST_USE fracas_err fracas_surface_harvest(const fracas_model *model, fracas_step *step,
                                                   int lane, fracas_record *record);
 
-/* All members of a formulation of surfaces but `kind` and `model_init`. */
-#define FRACAS_SURFACE_FORMULATION                                                          \
-    .check_strength = fracas_surface_check_strength,                                        \
-    .interface_volume = fracas_surface_interface_volume,                                    \
-    .plan_destroy = fracas_surface_tables_destroy, .state_size = fracas_surface_state_size, \
-    .strength = fracas_surface_strength, .lane_init = fracas_surface_lane_init,             \
-    .advance = fracas_surface_advance, .fragment_count = fracas_surface_fragment_count,     \
+/* All members of a formulation of surfaces but `kind`, whose traits are the body. */
+#define FRACAS_SURFACE_FORMULATION                                                            \
+    .model_init = fracas_surface_model_init, .check_strength = fracas_surface_check_strength, \
+    .interface_volume = fracas_surface_interface_volume,                                      \
+    .plan_destroy = fracas_surface_tables_destroy, .state_size = fracas_surface_state_size,   \
+    .strength = fracas_surface_strength, .lane_init = fracas_surface_lane_init,               \
+    .advance = fracas_surface_advance, .fragment_count = fracas_surface_fragment_count,       \
     .harvest = fracas_surface_harvest
 
 #endif

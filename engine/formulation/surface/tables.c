@@ -25,7 +25,7 @@ static bool allocate(fracas_surface_tables *t, bool consistent, bool positions)
 {
     const fracas_surface_body *body = t->body;
     const size_t n = t->nelements, m = t->ninterfaces ? t->ninterfaces : 1,
-                 nodes = (size_t)SURFACE_NODES(t->order), rims = t->nrims ? t->nrims : 1;
+                 nodes = (size_t)SURFACE_NODES(t->order);
     const size_t interface = body->head + (size_t)SURFACE_EDGE(t->order) * body->point_table;
     t->bulk = malloc(n * (size_t)SURFACE_BULK(t->order) * body->bulk_table * sizeof *t->bulk);
     t->lumped = malloc(n * 2 * nodes * sizeof *t->lumped);
@@ -36,14 +36,12 @@ static bool allocate(fracas_surface_tables *t, bool consistent, bool positions)
     t->edge = malloc(m * sizeof *t->edge);
     t->held = calloc(n, sizeof *t->held);
     t->fixed = calloc(n, sizeof *t->fixed);
-    if (body->has_rim) {
-        t->rim = malloc(rims * body->rim_table * sizeof *t->rim);
-        t->rim_edge = malloc(rims * sizeof *t->rim_edge);
-        t->rim_from = calloc(n + 1, sizeof *t->rim_from);
-    }
+    t->rim = malloc((t->nrims * body->rim_table + 1) * sizeof *t->rim);
+    t->rim_edge = malloc((t->nrims + 1) * sizeof *t->rim_edge);
+    t->rim_from = calloc(n + 1, sizeof *t->rim_from);
     return t->bulk && t->lumped && (t->consistent || !consistent) && (t->position || !positions) &&
-           t->interface && t->element && t->edge && t->held && t->fixed &&
-           ((t->rim && t->rim_edge && t->rim_from) || !body->has_rim);
+           t->interface && t->element && t->edge && t->held && t->fixed && t->rim && t->rim_edge &&
+           t->rim_from;
 }
 
 /* ---- masses ---- */
@@ -122,7 +120,7 @@ static fracas_err check_edge_tags(const fracas_model *model)
         size_t found = 0;
         for (size_t b = 0; b < surface->nborders; b++) found += surface->border[b].tag == tag;
         const fracas_kind *edge = model->spec.geometry.edge[tag];
-        if (found == 0 && edge && edge != &fracas_edge_free)
+        if (found == 0 && edge && fracas_edge_of(edge)->held)
             return fracas_fail(
                 FRACAS_USAGE,
                 "geometry.edge_%d is %s, but the mesh has no edge on its boundary of the physical "
@@ -136,67 +134,87 @@ static fracas_err check_edge_tags(const fracas_model *model)
 static fracas_err fill_edges(const fracas_model *model, fracas_surface_tables *t)
 {
     const fracas_surface_body *body = t->body;
+    const int dimension = body->dimension;
     size_t r = 0, e = 0;
     for (size_t b = 0; b < model->surface->nborders; b++) {
         const fracas_surface_border *border = &model->surface->border[b];
         const fracas_kind *kind = edge_kind(&model->spec, border->tag);
-        uint32_t held = 0, fixed = 0;
-        if (kind != &fracas_edge_free) TRY(body->hold_edge(model, border, kind, &held, &fixed));
+        const fracas_edge *edge = fracas_edge_of(kind);
+        const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
+        unsigned components = 0;
+        uint32_t held = 0;
+        if (edge->held) TRY(body->hold_edge(model, border, kind, &components));
+        for (int n = 0; n < t->order + 1; n++) held |= components << dimension * (int)node[n];
         t->held[border->element] |= held;
-        t->fixed[border->element] |= fixed;
-        if (!body->has_rim) continue;
+        if (!edge->moving) t->fixed[border->element] |= held;
         while (e < border->element) t->rim_from[++e] = (uint32_t)r;
-        if (body->has_rim(kind)) {
-            t->rim_edge[r] = (uint8_t)border->edge;
-            body->fill_rim(model, t, border, r++);
-        }
+        if (!edge->director) continue;
+        t->rim_edge[r] = (uint8_t)k;
+        body->fill_rim(model, border, t->rim + r++ * body->rim_table);
     }
-    while (body->has_rim && e < t->nelements) t->rim_from[++e] = (uint32_t)r;
+    while (e < t->nelements) t->rim_from[++e] = (uint32_t)r;
     return FRACAS_OK;
+}
+
+/* ---- elements and interfaces ---- */
+
+static void fill_element(const fracas_model *model, fracas_surface_tables *t, size_t e)
+{
+    static const double at[2][3][2] = {
+        {{1.0 / 3, 1.0 / 3}}, {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}}};
+    const size_t points = SURFACE_BULK(t->order);
+    for (size_t g = 0; g < points; g++)
+        t->body->fill_bulk(model, e, at[t->order - 1][g][0], at[t->order - 1][g][1],
+                           0.5 / (double)points, t->bulk + (e * points + g) * t->body->bulk_table);
+    fill_mass(model, t, e);
+    if (t->position) fill_positions(model->surface, t, e);
+    t->moves = t->moves || t->held[e] & ~t->fixed[e];
+}
+
+static void fill_interface(const fracas_model *model, fracas_surface_tables *t, size_t i)
+{
+    static const double at[2][3] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2},
+                        weight[2][3] = {FRACAS_EDGE_WEIGHTS_1, FRACAS_EDGE_WEIGHTS_2};
+    const fracas_surface_interface *interface = &model->surface->interface[i];
+    const fracas_surface_body *body = t->body;
+    const size_t points = SURFACE_EDGE(t->order);
+    double *head = t->interface + i * (body->head + points * body->point_table);
+    for (int side = 0; side < 2; side++) {
+        t->element[i][side] = interface->element[side];
+        t->edge[i][side] = (uint8_t)interface->edge[side];
+    }
+    body->fill_head(model, fracas_surface_inverse_size(model->surface, i), head);
+    head[SURFACE_COMPLIANCE] = 1.0 / head[SURFACE_STIFFNESS];
+    for (size_t g = 0; g < points; g++)
+        body->fill_point(model, interface, at[t->order - 1][g], weight[t->order - 1][g],
+                         head + body->head + g * body->point_table);
 }
 
 static fracas_err fill(const fracas_model *model, fracas_surface_tables *t)
 {
     TRY(check_edge_tags(model));
     TRY(fill_edges(model, t));
-    for (size_t e = 0; e < t->nelements; e++) {
-        t->moves = t->moves || t->held[e] & ~(t->body->has_rim ? t->fixed[e] : 0);
-        t->body->fill_bulk(model, t, e);
-        fill_mass(model, t, e);
-        if (t->position) fill_positions(model->surface, t, e);
-    }
-    for (size_t i = 0; i < t->ninterfaces; i++) {
-        const fracas_surface_interface *interface = &model->surface->interface[i];
-        for (int side = 0; side < 2; side++) {
-            t->element[i][side] = interface->element[side];
-            t->edge[i][side] = (uint8_t)interface->edge[side];
-        }
-        t->body->fill_interface(model, t, i);
-    }
+    for (size_t e = 0; e < t->nelements; e++) fill_element(model, t, e);
+    for (size_t i = 0; i < t->ninterfaces; i++) fill_interface(model, t, i);
     return fracas_surface_visits_init(&t->visits, model->surface);
 }
 
-fracas_err fracas_surface_tables_create(const fracas_model *model, const fracas_surface_body *body,
-                                        fracas_surface_tables **tables)
+fracas_err fracas_surface_tables_create(const fracas_model *model, fracas_surface_tables **tables)
 {
     const fracas_surface *surface = model->surface;
     fracas_surface_tables *t = calloc(1, sizeof *t);
     if (!t) return fracas_no_memory("the tables of a surface");
-    t->body = body;
+    t->body = model->formulation->kind.traits;
     t->order = surface->order;
     t->nelements = surface->nelements;
     t->ninterfaces = surface->ninterfaces;
-    for (size_t b = 0; body->has_rim && b < surface->nborders; b++)
-        t->nrims += body->has_rim(edge_kind(&model->spec, surface->border[b].tag));
-    const bool consistent = model->spec.time.mass == &fracas_mass_consistent;
-    const bool positions = model->spec.loading.type == &fracas_loading_centrifugal;
-    fracas_err err = allocate(t, consistent, positions)
+    for (size_t b = 0; b < surface->nborders; b++)
+        t->nrims += fracas_edge_of(edge_kind(&model->spec, surface->border[b].tag))->director;
+    fracas_err err = allocate(t, fracas_mass_is_consistent(&model->spec.time),
+                              fracas_loading_traits_of(&model->spec)->body_force)
                          ? fill(model, t)
                          : fracas_no_memory("the tables of a surface");
-    if (err) {
-        fracas_surface_tables_destroy(t);
-        return err;
-    }
-    *tables = t;
-    return FRACAS_OK;
+    if (err) fracas_surface_tables_destroy(t);
+    else *tables = t;
+    return err;
 }
