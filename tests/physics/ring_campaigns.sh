@@ -1,4 +1,4 @@
-# ctest-labels: slow-sanitize
+# ctest-labels: ci slow-sanitize
 # ctest-serial
 # The shipped ring campaigns with 8 replicas a point: collapse on v/R, slope, distributions, zone; no energy drift anywhere.
 . tests/support/campaigns.sh
