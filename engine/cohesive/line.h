@@ -14,11 +14,12 @@ typedef struct {
 } line_input;
 
 typedef struct {
-    vd traction;               /* T [Pa] */
-    vd slip;                   /* s = q - delta, which the flux itself carries of the jump [m] */
-    vd damage;                 /* D after the step */
-    vd dissipated;             /* so far, by G_c [1] */
-    vd past_onset, past_break; /* trial stress beyond those of onset and break [Pa] */
+    vd traction;   /* T [Pa] */
+    vd slip;       /* s = q - delta, which the flux itself carries of the jump [m] */
+    vd damage;     /* D after the step */
+    vd dissipated; /* so far, by G_c [1] */
+    vd past_onset; /* trial stress beyond that of onset [Pa] */
+    vd softening;  /* trial stress of the break beyond that of onset [Pa] */
 } line_result;
 
 #endif

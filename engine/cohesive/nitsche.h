@@ -67,7 +67,7 @@ LANES_FUNCTION line_result line_nitsche(const line_input *in)
                          .damage = now,
                          .dissipated = now,
                          .past_onset = excess,
-                         .past_break = excess - x};
+                         .softening = x};
 }
 
 /* ---- surfaces ----

@@ -100,7 +100,8 @@ LANES_FUNCTION bar_link bar_flux(bar_context *c, int uniform, int law, size_t e,
         vd rate = bar_stress_rate(c, uniform, left, right) +
                   spring * (right->v_left - left->v_right);
         vd time = lanes_load(c->step->time + c->first);
-        vd onset = time - it.past_onset / rate, broke = time - it.past_break / rate;
+        vd onset = time - it.past_onset / rate,
+           broke = time - (it.past_onset - it.softening) / rate;
         vd lost = half * mean * mean * compliance; /* (cohesive.6) */
         chain_note_events(c->step, c->first, c->bar->area, e,
                           &(chain_events){cracks, breaks, onset, broke, zero, lost});

@@ -57,7 +57,7 @@ LANES_FUNCTION ring_link ring_join(ring_context *c, int law, size_t e, const rin
             &(chain_events){.cracks = cracks,
                             .breaks = breaks,
                             .onset = time - it.past_onset / rate,
-                            .broke = time - it.past_break / rate,
+                            .broke = time - (it.past_onset - it.softening) / rate,
                             .at_onset = zero - half * c->spring * p * p,   /* (ring.7) */
                             .at_break = half * mean * mean * compliance}); /* (cohesive.6) */
     }
