@@ -11,6 +11,7 @@
 
 #include "base/err.h"
 #include "base/hash.h"
+#include "base/own.h"
 #include "campaigns/points.h"
 #include "campaigns/store/mesh.h"
 #include "campaigns/store/summary.h"
@@ -103,6 +104,7 @@ FRACAS_MUST_USE fracas_err fracas_reader_open(const char *path, fracas_reader **
 FRACAS_MUST_USE fracas_err fracas_reader_open_records(const char *path, unsigned parts,
                                                       fracas_reader **reader);
 void fracas_reader_close(fracas_reader *reader); /* NULL is allowed */
+FRACAS_OWNER(fracas_reader, fracas_reader_close)
 const fracas_file_header *fracas_reader_header(const fracas_reader *reader);
 const fracas_point_table *fracas_reader_points(const fracas_reader *reader);
 size_t fracas_reader_realizations(const fracas_reader *reader);
@@ -204,6 +206,7 @@ typedef struct {
  * as none. FRACAS_DAMAGED says how to go on. */
 FRACAS_MUST_USE fracas_err fracas_index_open(const char *study, bool create, fracas_index **index);
 void fracas_index_close(fracas_index *index); /* NULL is allowed */
+FRACAS_OWNER(fracas_index, fracas_index_close)
 
 /* True if STUDY/index.sqlite has tables of ours; a run killed at its start leaves one without. */
 bool fracas_index_exists(const char *study);
@@ -308,9 +311,7 @@ FRACAS_MUST_USE fracas_err fracas_index_count_points(fracas_index *index,
  * into it who has it: host, pid, time, kernel, Slurm job. FRACAS_IN_USE names the holder's host and
  * pid. A lock left by a dead process of this host, or of this Slurm job before its requeue, is
  * taken over. A lock left by another host is refused unless `force`: its holder may live there,
- * with a filesystem that does not share locks. A lock whose holder is known to live is never taken.
- * FRACAS_TEST_HOST in the environment stands in for the name of the host, and is then another
- * kernel too: for tests. */
+ * with a filesystem that does not share locks. A lock whose holder is known to live is never taken. */
 FRACAS_MUST_USE fracas_err fracas_study_lock(const char *study, bool force, int *lock);
 /* The same without a line in the file, to read a study while nobody else changes it; released by
  * close(). */

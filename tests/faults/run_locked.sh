@@ -9,9 +9,10 @@ expect 0 "$fracas" status undisturbed
 
 # Another host, which is killed: refused with its name until --force; nothing is changed before.
 export FRACAS_TEST_HOST=node7
+program=$faulty # which takes this for the name of its host
 start small.yaml --study study --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments study 3
-unset FRACAS_TEST_HOST
+unset FRACAS_TEST_HOST program
 expect 4 "$fracas" run small.yaml --study study
 said 'another run uses this study: host node7, pid [0-9]*, since 20'
 expect 4 "$fracas" run small.yaml --study study --force
@@ -47,12 +48,13 @@ said '^took over$'
 
 # A job of Slurm that was requeued to another node.
 export FRACAS_TEST_HOST=node8 SLURM_JOB_ID=77
+program=$faulty
 start small.yaml --study job --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments job 3
 kill_session
 export FRACAS_TEST_HOST=node9
-expect 4 "$fracas" run small.yaml --study job --jobs 2
+expect 4 "$faulty" run small.yaml --study job --jobs 2
 SLURM_RESTART_COUNT=1
 export SLURM_RESTART_COUNT
-expect 0 "$fracas" run small.yaml --study job --jobs 2
+expect 0 "$faulty" run small.yaml --study job --jobs 2
 same undisturbed job

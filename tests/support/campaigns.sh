@@ -67,7 +67,7 @@ segments()
 start()
 {
     : > background
-    setsid "$fracas" run "$@" > background 2>&1 &
+    setsid "${program:-$fracas}" run "$@" > background 2>&1 &
     session=$!
 }
 

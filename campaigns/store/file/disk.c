@@ -188,3 +188,11 @@ fracas_err fracas_disk_is_local(const char *path, bool *local)
         if ((uint32_t)info.f_type == (uint32_t)known[k]) *local = true;
     return FRACAS_OK;
 }
+
+void fracas_disk_host(char host[FRACAS_HOST_TEXT], char boot[FRACAS_BOOT_TEXT])
+{
+    host[FRACAS_HOST_TEXT - 1] = *boot = '\0';
+    if (gethostname(host, FRACAS_HOST_TEXT - 1) < 0 || !*host) strcpy(host, "unknown");
+    OWN(FILE) in = fopen("/proc/sys/kernel/random/boot_id", "re");
+    if (!in || fscanf(in, "%63s", boot) != 1) *boot = '\0';
+}

@@ -46,6 +46,11 @@ FRACAS_MUST_USE fracas_err fracas_disk_has_size(const char *path, uint64_t bytes
 /* True if `path` lies on a known filesystem of this machine, false on a network one or another. */
 FRACAS_MUST_USE fracas_err fracas_disk_is_local(const char *path, bool *local);
 
+enum { FRACAS_HOST_TEXT = 257, FRACAS_BOOT_TEXT = 64 };
+/* Names this host, "unknown" if it has no name, and the present boot of its kernel, "" if it does
+ * not say. Tests link another one in its place (ld --wrap). */
+void fracas_disk_host(char host[FRACAS_HOST_TEXT], char boot[FRACAS_BOOT_TEXT]);
+
 /* FRACAS_ENVIRONMENT: "cannot VERB PATH: reason" from errno. */
 FRACAS_MUST_USE fracas_err fracas_disk_fail(const char *verb, const char *path);
 

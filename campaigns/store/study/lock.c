@@ -31,16 +31,6 @@ enum { TEXT = 1024 };
 
 /* ---- who is who ---- */
 
-static void read_line(const char *path, char *text, size_t size)
-{
-    *text = '\0';
-    FILE *in = fopen(path, "re");
-    if (!in) return;
-    if (!fgets(text, (int)size, in)) *text = '\0';
-    text[strcspn(text, "\n")] = '\0';
-    fclose(in);
-}
-
 /* Start of a process in ticks since the boot, 0 if there is none, or only its entry until its
  * parent asks how it ended. */
 static unsigned long long start_of(long pid)
@@ -48,8 +38,9 @@ static unsigned long long start_of(long pid)
     char path[64], text[TEXT], state = 'X';
     unsigned long long start = 0;
     snprintf(path, sizeof path, "/proc/%ld/stat", pid);
-    read_line(path, text, sizeof text);
-    const char *at = strrchr(text, ')'); /* a name may hold anything */
+    OWN(FILE) in = fopen(path, "re");
+    const char *at = in && fgets(text, sizeof text, in) ? strrchr(text, ')')
+                                                        : NULL; /* a name may hold anything */
     if (at && sscanf(at + 1, " %c%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%llu",
                      &state, &start) != 2)
         start = 0;
@@ -65,12 +56,11 @@ static void put_word(char *to, size_t size, const char *word) /* no spaces withi
 static holder this_process(void)
 {
     holder self = {.pid = getpid(), .start = start_of(getpid())};
-    const char *host = getenv("FRACAS_TEST_HOST"), *restart = getenv("SLURM_RESTART_COUNT");
-    char name[257] = "", boot[64];
-    if (gethostname(name, sizeof name - 1) < 0 || !*name) strcpy(name, "unknown");
-    read_line("/proc/sys/kernel/random/boot_id", boot, sizeof boot);
-    put_word(self.host, sizeof self.host, host ? host : name);
-    put_word(self.boot, sizeof self.boot, host ? host : boot); /* another host has another kernel */
+    const char *restart = getenv("SLURM_RESTART_COUNT");
+    char host[FRACAS_HOST_TEXT], boot[FRACAS_BOOT_TEXT];
+    fracas_disk_host(host, boot);
+    put_word(self.host, sizeof self.host, host);
+    put_word(self.boot, sizeof self.boot, boot);
     put_word(self.job, sizeof self.job, getenv("SLURM_JOB_ID"));
     self.restart = restart ? atoi(restart) : 0;
     time_t now = time(NULL);
@@ -79,9 +69,8 @@ static holder this_process(void)
     return self;
 }
 
-/* "host=H pid=N since=T start=N boot=B job=J restart=N", "-" for an unknown value; "H N" before
- * there was more. */
-static bool parse(const char *text, holder *h)
+/* "host=H pid=N since=T start=N boot=B job=J restart=N", "-" for an unknown value. */
+static void parse(const char *text, holder *h)
 {
     *h = (holder){0};
     int fields = sscanf(text,
@@ -89,11 +78,7 @@ static bool parse(const char *text, holder *h)
                         h->host, &h->pid, h->since, &h->start, h->boot, h->job, &h->restart);
     if (!strcmp(h->boot, "-")) *h->boot = '\0';
     if (!strcmp(h->job, "-")) *h->job = '\0';
-    if (fields == 7) return true;
-    *h = (holder){0};
-    if (!strncmp(text, "host=", 5) || sscanf(text, "%256s %ld", h->host, &h->pid) != 2)
-        *h = (holder){0};
-    return *h->host != '\0';
+    if (fields != 7) *h = (holder){.host = "unknown"};
 }
 
 /* False if the file says nothing. */
@@ -103,7 +88,7 @@ static bool read_holder(int fd, holder *h)
     ssize_t got = pread(fd, text, sizeof text - 1, 0);
     *h = (holder){0};
     if (got <= 0) return false;
-    if (!parse(text, h)) snprintf(h->host, sizeof h->host, "unknown");
+    parse(text, h);
     return true;
 }
 
@@ -240,15 +225,14 @@ static fracas_err take(int fd, const char *path, bool force, bool signing)
 
 static fracas_err open_and_take(const char *study, bool force, bool signing, int *lock)
 {
-    char *path;
+    OWNED char *path = NULL;
     *lock = -1;
     TRY(fracas_disk_join(study, "lock", &path));
-    fracas_err err = FRACAS_OK;
-    *lock = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (*lock < 0) err = fracas_disk_fail("open", path);
-    if (!err) err = take(*lock, path, force, signing);
-    if (err && *lock >= 0) close(*lock), *lock = -1;
-    free(path);
+    const int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0) return fracas_disk_fail("open", path);
+    fracas_err err = take(fd, path, force, signing);
+    if (err) close(fd);
+    else *lock = fd;
     return err;
 }
 
@@ -285,14 +269,13 @@ bool fracas_study_took_over(int lock, char text[FRACAS_HOLDER_TEXT])
 
 fracas_lock_state fracas_study_lock_state(const char *study, char text[FRACAS_HOLDER_TEXT])
 {
-    char *path;
+    OWNED char *path = NULL;
     holder h, self = this_process();
     fracas_lock_state state = FRACAS_LOCK_FREE;
     *text = '\0';
     if (fracas_disk_join(study, "lock", &path)) return state;
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     int fd = open(path, O_RDONLY | O_CLOEXEC);
-    free(path);
     if (fd < 0) return state;
     bool held = fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK,
          named = read_holder(fd, &h);
