@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* The one mutable object outside the callers' storage, as errno is. A message belongs to the thread
@@ -77,6 +78,19 @@ fracas_err fracas_no_memory(const char *what)
 {
     return fracas_fail(FRACAS_ENVIRONMENT,
                        "no memory for %s; free some, or use fewer --jobs or elements", what);
+}
+
+fracas_err fracas_grow(void *array, size_t size, size_t count, size_t *room, const char *what)
+{
+    void *rows;
+    if (count < *room) return FRACAS_OK;
+    memcpy(&rows, array, sizeof rows);
+    const size_t more = 2 * *room + 16;
+    rows = realloc(rows, more * size);
+    if (!rows) return fracas_no_memory(what);
+    memcpy(array, &rows, sizeof rows);
+    *room = more;
+    return FRACAS_OK;
 }
 
 const char *fracas_message(void)

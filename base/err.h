@@ -3,6 +3,8 @@
 #ifndef FRACAS_BASE_ERR_H
 #define FRACAS_BASE_ERR_H
 
+#include <stddef.h>
+
 /* The codes are the program's exit statuses (docs/formats/exit-status.md). */
 typedef enum {
     FRACAS_OK = 0,
@@ -45,6 +47,11 @@ const char *fracas_remedy(int reason);
 
 /* FRACAS_ENVIRONMENT with "no memory for <purpose>". */
 FRACAS_MUST_USE fracas_err fracas_no_memory(const char *what);
+
+/* Gives the array *array of `count` rows of `size` bytes room for one row more: *room rows.
+ * fracas_no_memory(what) leaves it as it is. */
+FRACAS_MUST_USE fracas_err fracas_grow(void *array, size_t size, size_t count, size_t *room,
+                                       const char *what);
 
 /* The message of the last failure of this thread; "" before the first. Never NULL. */
 const char *fracas_message(void);

@@ -4,6 +4,7 @@
 #define FRACAS_BASE_HASH_H
 
 #include "base/err.h"
+#include "base/own.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -25,6 +26,7 @@ FRACAS_MUST_USE fracas_err fracas_checksum_create(fracas_checksum **checksum);
 void fracas_checksum_add(fracas_checksum *checksum, const void *bytes, size_t size);
 uint64_t fracas_checksum_end(const fracas_checksum *checksum);
 void fracas_checksum_destroy(fracas_checksum *checksum); /* NULL is allowed */
+FRACAS_OWNER(fracas_checksum, fracas_checksum_destroy)
 
 bool fracas_hash_equal(const fracas_hash *a, const fracas_hash *b);
 /* word[0] = first eight bytes, word[1] = last eight, read as big-endian numbers. */

@@ -18,12 +18,12 @@
 
 /* Behind the options of `fracas run STUDY`. */
 enum { STUDY = FRACAS_NSTUDY_RUN_OPTIONS, ONLY, TOLERANCE, JSON, NOPTIONS };
-#define OWN(option) [(option)-FRACAS_NSTUDY_RUN_OPTIONS]
+#define AT(option) [(option)-FRACAS_NSTUDY_RUN_OPTIONS]
 static const fracas_option options[NOPTIONS - FRACAS_NSTUDY_RUN_OPTIONS] = {
-    OWN(STUDY) = {"study", "DIR", "folder of the studies (studies/NAME-converge)"},
-    OWN(ONLY) = {"only", "mesh|step|beta", "refine that alone (all three in turn)"},
-    OWN(TOLERANCE) = {"tolerance", "PERCENT", "a change within which a number holds (2)"},
-    OWN(JSON) = {"json", NULL, "print the result as JSON"},
+    AT(STUDY) = {"study", "DIR", "folder of the studies (studies/NAME-converge)"},
+    AT(ONLY) = {"only", "mesh|step|beta", "refine that alone (all three in turn)"},
+    AT(TOLERANCE) = {"tolerance", "PERCENT", "a change within which a number holds (2)"},
+    AT(JSON) = {"json", NULL, "print the result as JSON"},
 };
 
 enum { NAME = 8, STUDY_PATH = PATH_MAX + NAME };

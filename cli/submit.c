@@ -29,18 +29,18 @@ enum {
     SUBMIT,
     NOPTIONS
 };
-#define OWN(option) [(option)-FRACAS_NRUN_OPTIONS]
+#define AT(option) [(option)-FRACAS_NRUN_OPTIONS]
 static const fracas_option options[NOPTIONS - FRACAS_NRUN_OPTIONS] = {
-    OWN(NODES) = {"nodes", "N", "nodes of the job (1)"},
-    OWN(TIME) = {"time", "TIME",
-                 "the most it may take each time it is started: 2:00:00, 90m; needed"},
-    OWN(TASKS) = {"tasks-per-node", "N", "processes on each node (the whole node: one a core)"},
-    OWN(PARTITION) = {"partition", "NAME", "partition (the cluster's default)"},
-    OWN(ACCOUNT) = {"account", "NAME", "account that is charged (your default)"},
-    OWN(LEAD) = {"signal-lead", "S", "have Slurm signal S seconds before the end (60)"},
-    OWN(OUTPUT) = {"output", "FILE", "what the run says; %j: number of the job (FILE.%j.out)"},
-    OWN(SCRIPT) = {"script", "PATH", "write the script there (FILE.sbatch)"},
-    OWN(SUBMIT) = {"submit", NULL, "hand it to sbatch, and print the number of the job"},
+    AT(NODES) = {"nodes", "N", "nodes of the job (1)"},
+    AT(TIME) = {"time", "TIME",
+                "the most it may take each time it is started: 2:00:00, 90m; needed"},
+    AT(TASKS) = {"tasks-per-node", "N", "processes on each node (the whole node: one a core)"},
+    AT(PARTITION) = {"partition", "NAME", "partition (the cluster's default)"},
+    AT(ACCOUNT) = {"account", "NAME", "account that is charged (your default)"},
+    AT(LEAD) = {"signal-lead", "S", "have Slurm signal S seconds before the end (60)"},
+    AT(OUTPUT) = {"output", "FILE", "what the run says; %j: number of the job (FILE.%j.out)"},
+    AT(SCRIPT) = {"script", "PATH", "write the script there (FILE.sbatch)"},
+    AT(SUBMIT) = {"submit", NULL, "hand it to sbatch, and print the number of the job"},
 };
 
 enum { MOST_WORDS = 4 + 2 * FRACAS_NRUN_OPTIONS };

@@ -311,7 +311,8 @@ FRACAS_MUST_USE fracas_err fracas_index_count_points(fracas_index *index,
  * into it who has it: host, pid, time, kernel, Slurm job. FRACAS_IN_USE names the holder's host and
  * pid. A lock left by a dead process of this host, or of this Slurm job before its requeue, is
  * taken over. A lock left by another host is refused unless `force`: its holder may live there,
- * with a filesystem that does not share locks. A lock whose holder is known to live is never taken. */
+ * with a filesystem that does not share locks. A lock whose holder is known to live is never taken.
+ */
 FRACAS_MUST_USE fracas_err fracas_study_lock(const char *study, bool force, int *lock);
 /* The same without a line in the file, to read a study while nobody else changes it; released by
  * close(). */

@@ -368,7 +368,9 @@ static void leftovers_are_noted(void **state)
     sample_spill(sample_path(study, ".study.h5.tmp-99"), "abc", 3);
     sample_spill(sample_path(study, "segments/orphan.h5"), "abc", 3);
     sample_spill(sample_path(study, "segments/old.damaged"), "abc", 3);
-    sample_spill(sample_path(study, "lock"), "node9 77\n", 9);
+    static const char lock[] =
+        "host=node9 pid=77 since=2026-01-31T12:00:00Z start=5 boot=b9 job=- restart=0\n";
+    sample_spill(sample_path(study, "lock"), lock, strlen(lock));
     assert_int_equal(verify_as(false, true, text), 0);
     static const char *const said[] = {
         "segments/.x.h5.tmp-123: half written", "/.study.h5.tmp-99: half written",

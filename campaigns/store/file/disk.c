@@ -31,11 +31,8 @@ fracas_err fracas_disk_join(const char *folder, const char *name, char **path)
 
 fracas_err fracas_disk_segment(const char *study, const char *name, char **path)
 {
-    char *folder;
-    TRY(fracas_disk_join(study, "segments", &folder));
-    fracas_err err = fracas_disk_join(folder, name, path);
-    free(folder);
-    return err;
+    if (asprintf(path, "%s/segments/%s", study, name) < 0) return fracas_no_memory("a file name");
+    return FRACAS_OK;
 }
 
 fracas_err fracas_disk_temporary(const char *path, char **temporary)
@@ -84,37 +81,44 @@ fracas_err fracas_disk_each(const char *folder,
 fracas_err fracas_disk_sync_folder(const char *path)
 {
     const char *slash = strrchr(path, '/');
-    char *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
+    OWNED char *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path))
+                               : strdup(".");
     if (!folder) return fracas_no_memory("a file name");
     fracas_err err = FRACAS_OK;
     int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     /* EINVAL: a filesystem that has no syncing of folders, and so nothing to wait for. */
     if (fd < 0 || (fsync(fd) < 0 && errno != EINVAL)) err = fracas_disk_fail("sync folder", folder);
     if (fd >= 0) close(fd);
-    free(folder);
     return err;
+}
+
+fracas_err fracas_disk_open(const char *path, int *fd)
+{
+    *fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (*fd >= 0) return FRACAS_OK;
+    return errno == ENOENT ? fracas_fail(FRACAS_DAMAGED, "%s is not there", path)
+                           : fracas_disk_fail("open", path);
 }
 
 fracas_err fracas_disk_seal_first(int fd, const char *path, uint64_t most, fracas_file_seal *seal)
 {
     enum { BLOCK = 1 << 20 };
-    char *block = malloc(BLOCK);
-    fracas_checksum *checksum = NULL;
+    OWNED char *block = malloc(BLOCK);
+    OWN(fracas_checksum) checksum = NULL;
     *seal = (fracas_file_seal){0};
-    fracas_err err = block ? fracas_checksum_create(&checksum) : fracas_no_memory("a checksum");
-    while (!err) {
+    if (!block) return fracas_no_memory("a checksum");
+    TRY(fracas_checksum_create(&checksum));
+    for (;;) {
         const uint64_t left = most - seal->bytes;
         ssize_t got = pread(fd, block, left < BLOCK ? left : BLOCK, (off_t)seal->bytes);
         if (got < 0 && errno == EINTR) continue;
-        if (got < 0) err = fracas_disk_fail("read", path);
-        if (got <= 0) break;
+        if (got < 0) return fracas_disk_fail("read", path);
+        if (got == 0) break;
         seal->bytes += (uint64_t)got;
         fracas_checksum_add(checksum, block, (size_t)got);
     }
-    if (!err) seal->checksum = fracas_checksum_end(checksum); /* = fracas_checksum_of the whole */
-    fracas_checksum_destroy(checksum);
-    free(block);
-    return err;
+    seal->checksum = fracas_checksum_end(checksum); /* = fracas_checksum_of the whole */
+    return FRACAS_OK;
 }
 
 fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
@@ -124,9 +128,8 @@ fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
 
 fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal)
 {
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
-    if (fd < 0 && errno == ENOENT) return fracas_fail(FRACAS_DAMAGED, "%s is not there", path);
-    if (fd < 0) return fracas_disk_fail("open", path);
+    int fd;
+    TRY(fracas_disk_open(path, &fd));
     fracas_err err = fracas_disk_seal(fd, path, seal);
     close(fd);
     return err;
@@ -146,16 +149,18 @@ fracas_err fracas_disk_check_seal(const char *path, const fracas_file_seal *want
 fracas_err fracas_disk_set_aside(const char *path, char **aside)
 {
     const char *dot = strrchr(path, '.'), *slash = strrchr(path, '/');
+    OWNED char *name = NULL;
+    *aside = NULL;
     if (!dot || (slash && dot < slash)) dot = path + strlen(path);
-    if (asprintf(aside, "%.*s.damaged", (int)(dot - path), path) < 0) {
-        *aside = NULL;
+    if (asprintf(&name, "%.*s.damaged", (int)(dot - path), path) < 0) {
+        name = NULL;
         return fracas_no_memory("a file name");
     }
-    fracas_err err = FRACAS_OK;
-    if (rename(path, *aside) == 0) err = fracas_disk_sync_folder(path);
-    else if (errno != ENOENT) err = fracas_disk_fail("rename", path);
-    if (err) free(*aside), *aside = NULL;
-    return err;
+    if (rename(path, name) == 0) TRY(fracas_disk_sync_folder(path));
+    else if (errno != ENOENT) return fracas_disk_fail("rename", path);
+    *aside = name;
+    name = NULL;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_disk_has_size(const char *path, uint64_t bytes, bool *has)

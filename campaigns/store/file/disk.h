@@ -26,6 +26,8 @@ bool fracas_disk_ends(const char *name, const char *end);
 
 /* Makes the names in the folder of `path` durable. */
 FRACAS_MUST_USE fracas_err fracas_disk_sync_folder(const char *path);
+/* Opens a file to read; FRACAS_DAMAGED if it is not there. */
+FRACAS_MUST_USE fracas_err fracas_disk_open(const char *path, int *fd);
 /* Size and checksum of an open file, read in blocks; `path` is for the message. */
 FRACAS_MUST_USE fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal);
 /* The same of its first `most` bytes alone. */

@@ -3,7 +3,6 @@
 #include "campaigns/store/file/disk.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -89,9 +88,8 @@ static fracas_err check_open(int fd, const char *path)
 
 fracas_err fracas_disk_check_own_seal(const char *path)
 {
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
-    if (fd < 0 && errno == ENOENT) return fracas_fail(FRACAS_DAMAGED, "%s is not there", path);
-    if (fd < 0) return fracas_disk_fail("open", path);
+    int fd;
+    TRY(fracas_disk_open(path, &fd));
     fracas_err err = check_open(fd, path);
     close(fd);
     return err;

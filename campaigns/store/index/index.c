@@ -2,6 +2,7 @@
 /* The index: opening the database, its tables and its statements. */
 #include "campaigns/store/index/index.h"
 
+#include "base/param.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/tables.h"
 
@@ -15,64 +16,6 @@
 #include <unistd.h>
 
 static const char remedy[] = "`fracas reindex` makes it anew from the segments";
-
-static const char *const sql_text[FRACAS_NSQL] = {
-    [FRACAS_SQL_BEGIN] = "BEGIN IMMEDIATE",
-    [FRACAS_SQL_BEGIN_READING] = "BEGIN",
-    [FRACAS_SQL_COMMIT] = "COMMIT",
-    [FRACAS_SQL_POINT_ADD] = "INSERT INTO point(hash, replicas) VALUES (?1, ?2) ON CONFLICT (hash) "
-                             "DO UPDATE SET replicas = max(replicas, excluded.replicas)",
-    [FRACAS_SQL_POINT_FIND] = "SELECT id FROM point WHERE hash = ?1",
-    [FRACAS_SQL_POINT_COUNT] = "SELECT count(*) FROM point",
-    [FRACAS_SQL_POINT_ALL] = "SELECT hash, replicas FROM point ORDER BY id",
-    [FRACAS_SQL_ROW_COUNT] = "SELECT count(*) FROM realization WHERE point = ?1 AND replica < ?2",
-    [FRACAS_SQL_ROW_ADD] =
-        "WITH RECURSIVE n(replica) AS (SELECT 0 UNION ALL SELECT replica + 1 FROM n WHERE replica "
-        "+ 1 < ?2) INSERT OR IGNORE INTO realization(point, replica, status) SELECT ?1, replica, "
-        "'planned' FROM n",
-    [FRACAS_SQL_ROW_FIND] = "SELECT " FRACAS_PLACE_COLUMNS
-                            " FROM realization WHERE point = ?1 AND replica = ?2",
-    [FRACAS_SQL_ROW_OF_POINT] = "SELECT replica, status, attempts FROM realization WHERE point = "
-                                "?1 AND replica >= ?3 AND replica < ?2 ORDER BY replica",
-    [FRACAS_SQL_ROW_FAILED] =
-        "SELECT replica, status, attempts, coalesce(reason, '') FROM realization WHERE point = ?1 "
-        "AND status IN ('failed', 'quarantined') ORDER BY replica",
-    [FRACAS_SQL_ROW_BY_SEGMENT] =
-        "SELECT hash, replica, " FRACAS_PLACE_COLUMNS " FROM realization r JOIN point p ON p.id = "
-        "r.point WHERE segment IS NOT NULL OR status = 'done' ORDER BY segment, row",
-    [FRACAS_SQL_ROW_UNLEASE] = "UPDATE realization SET status = 'planned' WHERE status = 'leased'",
-    [FRACAS_SQL_ROW_LEASE] = "UPDATE realization SET status = 'leased' WHERE point = ?1 AND "
-                             "replica >= ?2 AND replica < ?2 + ?3 AND status = 'planned'",
-    [FRACAS_SQL_ROW_FAIL] =
-        "UPDATE realization SET attempts = attempts + 1, reason = ?3, status = ?4, outcome = ?5 "
-        "WHERE point = ?1 AND replica = ?2 AND status <> 'done'",
-    [FRACAS_SQL_ROW_DONE] =
-        "UPDATE realization SET status = ?3, segment = ?4, row = ?5" FRACAS_EACH_SUMMARY(
-            FRACAS_SQL_SET) " WHERE point = ?1 AND replica = ?2 AND status <> 'done'",
-    [FRACAS_SQL_ROW_FORGET] = "UPDATE realization SET " FRACAS_UNSET_PLACE
-                              " WHERE segment IN (SELECT id FROM segment WHERE bytes < 0)",
-    [FRACAS_SQL_TALLY] = "SELECT status, outcome, point FROM realization",
-    [FRACAS_SQL_SEGMENT_ADD] =
-        "INSERT INTO segment(name, bytes, checksum, rows, provenance) VALUES (?1, ?2, ?3, ?4, ?5)",
-    [FRACAS_SQL_SEGMENT_FIND] = "SELECT id, bytes, checksum FROM segment WHERE name = ?1",
-    [FRACAS_SQL_SEGMENT_ALL] = "SELECT id, name, bytes, checksum, rows FROM segment ORDER BY id",
-    [FRACAS_SQL_SEGMENT_LOSE] = "UPDATE segment SET bytes = -1 WHERE id = ?1",
-    [FRACAS_SQL_SEGMENT_FORGET] = "DELETE FROM segment WHERE bytes < 0",
-    [FRACAS_SQL_SEGMENT_TOTAL] = "SELECT count(*), coalesce(sum(bytes), 0) FROM segment",
-    [FRACAS_SQL_EVENT_ADD] = "INSERT INTO event(time, kind, text) VALUES "
-                             "(strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?1, ?2)",
-    [FRACAS_SQL_EVENT_LAST] = "SELECT text FROM event WHERE kind = ?1 ORDER BY id DESC LIMIT 1",
-    [FRACAS_SQL_ROW_OF_POINT_PLACE] = "SELECT replica, " FRACAS_PLACE_COLUMNS
-                                      " FROM realization WHERE point = ?1 AND replica < "
-                                      "?2 ORDER BY replica",
-    [FRACAS_SQL_ROW_TRIM] = "DELETE FROM realization WHERE point = ?1 AND replica >= ?2",
-    [FRACAS_SQL_DECISION_ADD] =
-        "INSERT INTO decision VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14)",
-    [FRACAS_SQL_DECISION_DROP] = "DELETE FROM decision WHERE point = ?1 AND round >= ?2",
-    [FRACAS_SQL_DECISION_OF_POINT] =
-        "SELECT round, replicas, failed, mean, half_width, stop, quantity, minimum, maximum, "
-        "relative_half_width, confidence FROM decision WHERE point = ?1 ORDER BY round",
-};
 
 /* ---- errors and statements ---- */
 
@@ -126,60 +69,121 @@ fracas_err fracas_index_error(const fracas_index *index, const char *doing)
     }
 }
 
-fracas_err fracas_index_step(fracas_index *index, fracas_sql sql, bool *row)
+static fracas_err check(const fracas_index *index, int code)
+{
+    return code == SQLITE_OK ? FRACAS_OK : fracas_index_error(index, "read or write");
+}
+
+static int bind(sqlite3_stmt *statement, int n, const fracas_sql_value *value)
+{
+    char hex[FRACAS_HASH_HEX];
+    switch (value->type) {
+    case SQLITE_INTEGER: return sqlite3_bind_int64(statement, n, value->integer);
+    case SQLITE_FLOAT: return sqlite3_bind_double(statement, n, value->real); /* NaN: NULL */
+    case SQLITE_TEXT: return sqlite3_bind_text(statement, n, value->text, -1, SQLITE_TRANSIENT);
+    case SQLITE_BLOB:
+        fracas_hash_hex(value->hash, hex);
+        return sqlite3_bind_text(statement, n, hex, -1, SQLITE_TRANSIENT);
+    default: return sqlite3_bind_null(statement, n);
+    }
+}
+
+fracas_err fracas_sql_start(fracas_index *index, const char *text, const fracas_sql_value *value,
+                            size_t count, sqlite3_stmt **statement)
+{
+    size_t s = 0;
+    *statement = NULL;
+    while (s < FRACAS_COUNT(index->statement) && index->statement[s].prepared &&
+           index->statement[s].text != text)
+        s++;
+    if (s == FRACAS_COUNT(index->statement))
+        return fracas_fail(FRACAS_BUG, "%s: too many statements: %s", index->path, text);
+    if (!index->statement[s].prepared)
+        TRY(check(index, sqlite3_prepare_v3(index->db, text, -1, SQLITE_PREPARE_PERSISTENT,
+                                            &index->statement[s].prepared, NULL)));
+    index->statement[s].text = text;
+    sqlite3_reset(index->statement[s].prepared);
+    for (size_t n = 0; n < count; n++)
+        TRY(check(index, bind(index->statement[s].prepared, (int)n + 1, &value[n])));
+    *statement = index->statement[s].prepared;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_sql_next(fracas_index *index, sqlite3_stmt *statement, bool *row)
 {
     errno = 0;
-    int code = sqlite3_step(index->statement[sql]);
+    const int code = sqlite3_step(statement);
     *row = code == SQLITE_ROW;
-    if (code == SQLITE_ROW || code == SQLITE_DONE) return FRACAS_OK;
-    fracas_err err = fracas_index_error(index, "read or write");
-    fracas_index_reset(index, sql);
+    if (*row) return FRACAS_OK;
+    fracas_err err = code == SQLITE_DONE ? FRACAS_OK : check(index, code);
+    fracas_sql_end(statement);
     return err;
 }
 
-void fracas_index_reset(fracas_index *index, fracas_sql sql)
+void fracas_sql_end(sqlite3_stmt *statement)
 {
-    sqlite3_reset(
-        index->statement[sql]); /* repeats the error of the last step, which was reported */
+    if (statement) sqlite3_reset(statement); /* repeats the error of its last step */
 }
 
-fracas_err fracas_index_do(fracas_index *index, fracas_sql sql)
+fracas_err fracas_sql_do(fracas_index *index, const char *text, const fracas_sql_value *value,
+                         size_t count)
 {
-    bool row = false;
-    fracas_err err = fracas_index_step(index, sql, &row);
-    fracas_index_reset(index, sql);
-    return err;
+    OWN(sqlite3_stmt) s = NULL;
+    bool row = true;
+    TRY(fracas_sql_start(index, text, value, count, &s));
+    while (row) TRY(fracas_sql_next(index, s, &row));
+    return FRACAS_OK;
 }
 
-static fracas_err bound(fracas_index *index, int code)
+fracas_err fracas_sql_numbers(fracas_index *index, const char *text, const fracas_sql_value *value,
+                              size_t count, int64_t *first, int64_t *second)
 {
-    return code == SQLITE_OK ? FRACAS_OK : fracas_index_error(index, "bind a value");
+    OWN(sqlite3_stmt) s = NULL;
+    bool row;
+    TRY(fracas_sql_start(index, text, value, count, &s));
+    TRY(fracas_sql_next(index, s, &row));
+    *first = row ? sqlite3_column_int64(s, 0) : 0;
+    if (second) *second = row ? sqlite3_column_int64(s, 1) : 0;
+    return FRACAS_OK;
 }
 
-fracas_err fracas_index_bind(fracas_index *index, fracas_sql sql, int n, int64_t value)
+fracas_err fracas_sql_text(fracas_index *index, const char *text, const fracas_sql_value *value,
+                           size_t count, char **found)
 {
-    return bound(index, sqlite3_bind_int64(index->statement[sql], n, value));
+    OWN(sqlite3_stmt) s = NULL;
+    bool row;
+    *found = NULL;
+    TRY(fracas_sql_start(index, text, value, count, &s));
+    TRY(fracas_sql_next(index, s, &row));
+    const char *column = row ? (const char *)sqlite3_column_text(s, 0) : NULL;
+    if (column) *found = strdup(column);
+    return column && !*found ? fracas_no_memory("a text of the index") : FRACAS_OK;
 }
 
-fracas_err fracas_index_bind_real(fracas_index *index, fracas_sql sql, int n, double value)
+fracas_err fracas_sql_script(fracas_index *index, const char *text)
 {
-    return bound(index,
-                 sqlite3_bind_double(index->statement[sql], n, value)); /* NaN becomes NULL */
+    return check(index, sqlite3_exec(index->db, text, NULL, NULL, NULL));
 }
 
-fracas_err fracas_index_bind_text(fracas_index *index, fracas_sql sql, int n, const char *text)
+fracas_err fracas_sql_checkpoint(fracas_index *index)
 {
-    return bound(index, sqlite3_bind_text(index->statement[sql], n, text, -1, SQLITE_TRANSIENT));
+    return check(
+        index, sqlite3_wal_checkpoint_v2(index->db, NULL, SQLITE_CHECKPOINT_TRUNCATE, NULL, NULL));
 }
 
 fracas_err fracas_index_begin(fracas_index *index)
 {
-    return fracas_index_do(index, FRACAS_SQL_BEGIN);
+    return fracas_sql_do(index, "BEGIN IMMEDIATE", NULL, 0);
+}
+
+fracas_err fracas_index_begin_reading(fracas_index *index)
+{
+    return fracas_sql_do(index, "BEGIN", NULL, 0);
 }
 
 fracas_err fracas_index_end(fracas_index *index, fracas_err err)
 {
-    if (!err) err = fracas_index_do(index, FRACAS_SQL_COMMIT);
+    if (!err) err = fracas_sql_do(index, "COMMIT", NULL, 0);
     /* SQLite may have rolled back by itself (disk full); the first error is the one to tell. */
     if (err && !sqlite3_get_autocommit(index->db))
         sqlite3_exec(index->db, "ROLLBACK", NULL, NULL, NULL);
@@ -191,19 +195,12 @@ fracas_err fracas_index_end(fracas_index *index, fracas_err err)
 /* Runs a pragma and compares its first value. */
 static fracas_err pragma(fracas_index *index, const char *text, const char *wanted)
 {
-    sqlite3_stmt *statement;
-    if (sqlite3_prepare_v2(index->db, text, -1, &statement, NULL) != SQLITE_OK)
-        return fracas_index_error(index, "open");
-    int code = sqlite3_step(statement);
-    const char *found = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
-    fracas_err err = FRACAS_OK;
-    if (code != SQLITE_ROW && code != SQLITE_DONE) err = fracas_index_error(index, "open");
-    else if (wanted && (!found || strcmp(found, wanted) != 0))
-        err = fracas_fail(FRACAS_ENVIRONMENT,
-                          "%s: '%s' gives '%s', not '%s': nothing would be durable here",
-                          index->path, text, found ? found : "", wanted);
-    sqlite3_finalize(statement);
-    return err;
+    OWNED char *found = NULL;
+    TRY(fracas_sql_text(index, text, NULL, 0, &found));
+    if (!wanted || (found && !strcmp(found, wanted))) return FRACAS_OK;
+    return fracas_fail(FRACAS_ENVIRONMENT,
+                       "%s: '%s' gives '%s', not '%s': nothing would be durable here", index->path,
+                       text, found ? found : "", wanted);
 }
 
 static fracas_err set_memory(fracas_index *index)
@@ -222,23 +219,33 @@ static fracas_err set_durability(fracas_index *index)
     return pragma(index, "PRAGMA synchronous", "2"); /* FULL */
 }
 
-static fracas_err create_tables(fracas_index *index)
+/* Runs the statements that `print` prints. */
+static fracas_err run_printed(fracas_index *index, void (*print)(FILE *out), const char *doing)
 {
-    char *text;
+    OWNED char *text = NULL;
     size_t size;
     FILE *out = open_memstream(&text, &size);
     if (!out) return fracas_no_memory("the tables of the index");
+    print(out);
+    if (fclose(out) != 0) return fracas_no_memory("the tables of the index");
+    if (sqlite3_exec(index->db, text, NULL, NULL, NULL) == SQLITE_OK) return FRACAS_OK;
+    fracas_err err = fracas_index_error(index, doing);
+    if (!sqlite3_get_autocommit(index->db)) sqlite3_exec(index->db, "ROLLBACK", NULL, NULL, NULL);
+    return err;
+}
+
+static void print_creation(FILE *out)
+{
     fputs("BEGIN IMMEDIATE;", out);
     fracas_index_print_schema(out);
     fprintf(out, "INSERT OR IGNORE INTO meta VALUES ('format_version', '%d'); COMMIT",
             FRACAS_FORMAT_VERSION);
-    fracas_err err = fclose(out) == 0 ? FRACAS_OK : fracas_no_memory("the tables of the index");
-    if (!err && sqlite3_exec(index->db, text, NULL, NULL, NULL) != SQLITE_OK) {
-        err = fracas_index_error(index, "create its tables");
-        sqlite3_exec(index->db, "ROLLBACK", NULL, NULL, NULL);
-    }
-    free(text);
-    return err ? err : fracas_disk_sync_folder(index->path);
+}
+
+static fracas_err create_tables(fracas_index *index)
+{
+    TRY(run_printed(index, print_creation, "create its tables"));
+    return fracas_disk_sync_folder(index->path);
 }
 
 static fracas_err check_version(fracas_index *index)
@@ -325,27 +332,17 @@ static fracas_err connect_to(fracas_index *index, const char *study, bool create
 }
 
 /* Counts the tables, and the ones called `meta`. */
-static fracas_err count_tables(fracas_index *index, int *all, int *meta)
+static fracas_err count_tables(fracas_index *index, int64_t *all, int64_t *meta)
 {
-    static const char query[] = "SELECT count(*), count(CASE name WHEN 'meta' THEN 1 END) FROM "
-                                "sqlite_master WHERE type = 'table'";
-    sqlite3_stmt *statement;
-    if (sqlite3_prepare_v2(index->db, query, -1, &statement, NULL) != SQLITE_OK)
-        return fracas_index_error(index, "open");
-    bool row = sqlite3_step(statement) == SQLITE_ROW;
-    fracas_err err = row ? FRACAS_OK
-                         : fracas_index_error(
-                               index,
-                               "open"); /* first: a column that is not there is another error */
-    *all = row ? sqlite3_column_int(statement, 0) : 0;
-    *meta = row ? sqlite3_column_int(statement, 1) : 0;
-    sqlite3_finalize(statement);
-    return err;
+    return fracas_sql_numbers(index,
+                              "SELECT count(*), count(CASE name WHEN 'meta' THEN 1 END) FROM "
+                              "sqlite_master WHERE type = 'table'",
+                              NULL, 0, all, meta);
 }
 
 static fracas_err open_database(fracas_index *index, const char *study, bool create)
 {
-    int all, meta;
+    int64_t all, meta;
     TRY(connect_to(index, study, create));
     TRY(set_memory(index));
     if (!index->reading) TRY(set_durability(index));
@@ -357,22 +354,15 @@ static fracas_err open_database(fracas_index *index, const char *study, bool cre
         return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas; %s", index->path, remedy);
     if (create) TRY(create_tables(index));
     TRY(check_version(index));
-    for (int s = 0; s < FRACAS_NSQL; s++)
-        if (sqlite3_prepare_v3(index->db, sql_text[s], -1, SQLITE_PREPARE_PERSISTENT,
-                               &index->statement[s], NULL))
-            return fracas_index_error(index, "prepare a statement");
-    return FRACAS_OK;
+    return run_printed(index, fracas_index_print_check, "prepare a statement");
 }
 
 bool fracas_index_exists(const char *study)
 {
-    fracas_index index = {0};
-    int all, meta = 0;
-    bool exists = !fracas_disk_join(study, "index.sqlite", &index.path) &&
-                  !connect_to(&index, study, false) && !count_tables(&index, &all, &meta) && meta;
-    sqlite3_close(index.db);
-    free(index.path);
-    return exists;
+    int64_t all, meta;
+    OWN(fracas_index) index = calloc(1, sizeof *index);
+    return index && !fracas_disk_join(study, "index.sqlite", &index->path) &&
+           !connect_to(index, study, false) && !count_tables(index, &all, &meta) && meta;
 }
 
 fracas_err fracas_index_open_as(const char *study, bool create, bool local, fracas_index **index)
@@ -401,7 +391,8 @@ fracas_err fracas_index_open(const char *study, bool create, fracas_index **inde
 void fracas_index_close(fracas_index *index)
 {
     if (!index) return;
-    for (int s = 0; s < FRACAS_NSQL; s++) sqlite3_finalize(index->statement[s]);
+    for (size_t s = 0; s < FRACAS_COUNT(index->statement); s++)
+        sqlite3_finalize(index->statement[s].prepared);
     sqlite3_close(index->db);
     free(index->path);
     free(index);

@@ -8,70 +8,83 @@
 
 #include <sqlite3.h>
 
-/* Statements, prepared once when the index is opened (text in index.c). */
-typedef enum {
-    FRACAS_SQL_BEGIN,
-    FRACAS_SQL_BEGIN_READING,
-    FRACAS_SQL_COMMIT,
-    FRACAS_SQL_POINT_ADD,
-    FRACAS_SQL_POINT_FIND,
-    FRACAS_SQL_POINT_COUNT,
-    FRACAS_SQL_POINT_ALL,
-    FRACAS_SQL_ROW_COUNT,
-    FRACAS_SQL_ROW_ADD,
-    FRACAS_SQL_ROW_FIND,
-    FRACAS_SQL_ROW_OF_POINT,
-    FRACAS_SQL_ROW_FAILED,
-    FRACAS_SQL_ROW_BY_SEGMENT,
-    FRACAS_SQL_ROW_UNLEASE,
-    FRACAS_SQL_ROW_LEASE,
-    FRACAS_SQL_ROW_FAIL,
-    FRACAS_SQL_ROW_DONE,
-    FRACAS_SQL_ROW_FORGET,
-    FRACAS_SQL_TALLY,
-    FRACAS_SQL_SEGMENT_ADD,
-    FRACAS_SQL_SEGMENT_FIND,
-    FRACAS_SQL_SEGMENT_ALL,
-    FRACAS_SQL_SEGMENT_LOSE,
-    FRACAS_SQL_SEGMENT_FORGET,
-    FRACAS_SQL_SEGMENT_TOTAL,
-    FRACAS_SQL_EVENT_ADD,
-    FRACAS_SQL_EVENT_LAST,
-    FRACAS_SQL_ROW_OF_POINT_PLACE,
-    FRACAS_SQL_ROW_TRIM,
-    FRACAS_SQL_DECISION_ADD,
-    FRACAS_SQL_DECISION_DROP,
-    FRACAS_SQL_DECISION_OF_POINT,
-    FRACAS_NSQL
-} fracas_sql;
-
 struct fracas_index {
     sqlite3 *db;
     char *path;
     bool local;   /* WAL: a filesystem of this machine */
     bool reading; /* the study cannot be written */
-    sqlite3_stmt *statement[FRACAS_NSQL];
+    struct {
+        const char *text;
+        sqlite3_stmt *prepared;
+    } statement[64]; /* of fracas_sql_start, each prepared at its first use */
 };
 
 /* fracas_index_open with the kind of filesystem given. */
 FRACAS_MUST_USE fracas_err fracas_index_open_as(const char *study, bool create, bool local,
                                                 fracas_index **index);
 
-/* The last SQLite failure as our message. */
+/* The last SQLite failure as our message: "cannot DOING". */
 FRACAS_MUST_USE fracas_err fracas_index_error(const fracas_index *index, const char *doing);
-/* Steps a statement: *row says whether a row is there. The caller resets with fracas_index_reset.
+
+/* An argument of a statement: SQL_INTEGER(5), SQL_REAL(NAN), SQL_TEXT("5"), SQL_HASH(&hash); {0} is
+ * NULL, as is a NaN. */
+typedef struct {
+    int type; /* SQLITE_INTEGER, ...; SQLITE_BLOB: a hash */
+    int64_t integer;
+    double real;
+    const char *text;
+    const fracas_hash *hash;
+} fracas_sql_value;
+#define SQL_INTEGER(value)                         \
+    {                                              \
+        .type = SQLITE_INTEGER, .integer = (value) \
+    }
+#define SQL_REAL(value)                       \
+    {                                         \
+        .type = SQLITE_FLOAT, .real = (value) \
+    }
+#define SQL_TEXT(value)                      \
+    {                                        \
+        .type = SQLITE_TEXT, .text = (value) \
+    }
+#define SQL_HASH(value)                      \
+    {                                        \
+        .type = SQLITE_BLOB, .hash = (value) \
+    }
+#define SQL_VALUES(...)                      \
+    (const fracas_sql_value[]){__VA_ARGS__}, \
+        sizeof((const fracas_sql_value[]){__VA_ARGS__}) / sizeof(fracas_sql_value)
+
+/* Starts a statement, whose `text` lives as long as the index and is known by its address, with
+ * these arguments; *statement belongs to the index. */
+FRACAS_MUST_USE fracas_err fracas_sql_start(fracas_index *index, const char *text,
+                                            const fracas_sql_value *value, size_t count,
+                                            sqlite3_stmt **statement);
+/* Steps it: *row says whether a row is there to be read. It ends without one, and after an error.
  */
-FRACAS_MUST_USE fracas_err fracas_index_step(fracas_index *index, fracas_sql sql, bool *row);
-void fracas_index_reset(fracas_index *index, fracas_sql sql);
-/* Steps a statement without rows, and resets it. */
-FRACAS_MUST_USE fracas_err fracas_index_do(fracas_index *index, fracas_sql sql);
-/* Binds argument `n` (from 1). */
-FRACAS_MUST_USE fracas_err fracas_index_bind(fracas_index *index, fracas_sql sql, int n,
-                                             int64_t value);
-FRACAS_MUST_USE fracas_err fracas_index_bind_real(fracas_index *index, fracas_sql sql, int n,
-                                                  double value);
-FRACAS_MUST_USE fracas_err fracas_index_bind_text(fracas_index *index, fracas_sql sql, int n,
-                                                  const char *text);
+FRACAS_MUST_USE fracas_err fracas_sql_next(fracas_index *index, sqlite3_stmt *statement, bool *row);
+/* Ends it before its last row; NULL is allowed. */
+void fracas_sql_end(sqlite3_stmt *statement);
+FRACAS_OWNER(sqlite3_stmt, fracas_sql_end)
+/* Runs a statement whose rows, if it has any, are not asked for. */
+FRACAS_MUST_USE fracas_err fracas_sql_do(fracas_index *index, const char *text,
+                                         const fracas_sql_value *value, size_t count);
+/* The first columns of its first row, 0 without one; second: NULL is allowed. */
+FRACAS_MUST_USE fracas_err fracas_sql_numbers(fracas_index *index, const char *text,
+                                              const fracas_sql_value *value, size_t count,
+                                              int64_t *first, int64_t *second);
+/* The text in the first column of its first row, NULL without one; freed by the caller. */
+FRACAS_MUST_USE fracas_err fracas_sql_text(fracas_index *index, const char *text,
+                                           const fracas_sql_value *value, size_t count,
+                                           char **found);
+/* Several statements without arguments. */
+FRACAS_MUST_USE fracas_err fracas_sql_script(fracas_index *index, const char *text);
+/* Puts the write-ahead log back into the database and empties it; nothing is done where there is
+ * none. */
+FRACAS_MUST_USE fracas_err fracas_sql_checkpoint(fracas_index *index);
+
+/* fracas_index_begin for a transaction that only reads. */
+FRACAS_MUST_USE fracas_err fracas_index_begin_reading(fracas_index *index);
 
 /* The value under `key` in meta, cut to `size`; "" if there is none. */
 FRACAS_MUST_USE fracas_err fracas_index_read_meta(fracas_index *index, const char *key, char *value,
@@ -88,10 +101,12 @@ FRACAS_MUST_USE fracas_err fracas_index_study_seal(fracas_index *index, bool *se
 FRACAS_MUST_USE fracas_err fracas_index_quick_check(fracas_index *index);
 /* True for JSON, which the table `segment` takes as provenance. */
 bool fracas_index_is_json(fracas_index *index, const char *text);
-FRACAS_MUST_USE fracas_err fracas_index_points(fracas_index *index, int64_t *points);
 
 /* Id of a point, 0 if it is not there. */
 FRACAS_MUST_USE fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point,
+                                                   int64_t *id);
+/* The same of a point that must be there, else FRACAS_DAMAGED. */
+FRACAS_MUST_USE fracas_err fracas_index_need_point(fracas_index *index, const fracas_hash *point,
                                                    int64_t *id);
 
 /* Plans the missing replicas of a point, within a transaction. */
@@ -125,7 +140,6 @@ fracas_index_each_by_segment(fracas_index *index,
 /* FRACAS_DAMAGED if the index has no such realization. */
 FRACAS_MUST_USE fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point,
                                               int64_t replica, fracas_place *place);
-fracas_row_status fracas_index_status(const unsigned char *text);
 /* Value of a column, NaN for NULL. */
 double fracas_index_real(sqlite3_stmt *row, int column);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The index: planning, leasing, committing and counting realizations. */
 #include "campaigns/store/index/index.h"
+#include "campaigns/store/index/tables.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -8,20 +9,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-static sqlite3_stmt *at(fracas_index *index, fracas_sql sql)
-{
-    return index->statement[sql];
-}
-
 static const char *const status_text[] = {
     [FRACAS_PLANNED] = "planned",   [FRACAS_LEASED] = "leased",           [FRACAS_DONE] = "done",
     [FRACAS_FAILED_ROW] = "failed", [FRACAS_QUARANTINED] = "quarantined",
 };
 
-/* The tables' CHECK allows nothing else; a text with a flipped bit counts as planned.
- */
-fracas_row_status fracas_index_status(const unsigned char *text)
+/* The tables' CHECK allows nothing else; a text with a flipped bit counts as planned. */
+static fracas_row_status status_of(sqlite3_stmt *row, int column)
 {
+    const unsigned char *text = sqlite3_column_text(row, column);
     for (int s = FRACAS_PLANNED; text && s <= FRACAS_QUARANTINED; s++)
         if (!strcmp((const char *)text, status_text[s])) return (fracas_row_status)s;
     return FRACAS_PLANNED;
@@ -35,7 +31,7 @@ double fracas_index_real(sqlite3_stmt *row, int column)
 
 fracas_place fracas_place_read(sqlite3_stmt *row, int first)
 {
-    fracas_place place = {.status = fracas_index_status(sqlite3_column_text(row, first)),
+    fracas_place place = {.status = status_of(row, first),
                           .segment = sqlite3_column_int64(row, first + 1),
                           .row = sqlite3_column_int64(row, first + 2)};
     first += 3;
@@ -56,18 +52,11 @@ bool fracas_place_fits(const fracas_place *place, const fracas_record *record, b
 
 fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point, int64_t *id)
 {
-    char hex[FRACAS_HASH_HEX];
-    bool found = false;
-    fracas_hash_hex(point, hex);
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_POINT_FIND, 1, hex));
-    TRY(fracas_index_step(index, FRACAS_SQL_POINT_FIND, &found));
-    *id = found ? sqlite3_column_int64(at(index, FRACAS_SQL_POINT_FIND), 0) : 0;
-    fracas_index_reset(index, FRACAS_SQL_POINT_FIND);
-    return FRACAS_OK;
+    return fracas_sql_numbers(index, "SELECT id FROM point WHERE hash = ?1",
+                              SQL_VALUES(SQL_HASH(point)), id, NULL);
 }
 
-/* The same for a point that must be there. */
-static fracas_err need_point(fracas_index *index, const fracas_hash *point, int64_t *id)
+fracas_err fracas_index_need_point(fracas_index *index, const fracas_hash *point, int64_t *id)
 {
     TRY(fracas_index_find_point(index, point, id));
     if (*id) return FRACAS_OK;
@@ -79,41 +68,32 @@ static fracas_err need_point(fracas_index *index, const fracas_hash *point, int6
         index->path, hex);
 }
 
-/* Steps a statement of one row of numbers. */
-static fracas_err one_row(fracas_index *index, fracas_sql sql, int64_t *first, int64_t *second)
-{
-    bool row = false;
-    TRY(fracas_index_step(index, sql, &row));
-    *first = sqlite3_column_int64(at(index, sql), 0);
-    if (second) *second = sqlite3_column_int64(at(index, sql), 1);
-    fracas_index_reset(index, sql);
-    return FRACAS_OK;
-}
-
 /* ---- planning ---- */
 
 fracas_err fracas_index_plan_point(fracas_index *index, const fracas_point_row *point)
 {
-    char hex[FRACAS_HASH_HEX];
     int64_t id, there;
-    fracas_hash_hex(&point->hash, hex);
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_POINT_ADD, 1, hex));
-    TRY(fracas_index_bind(index, FRACAS_SQL_POINT_ADD, 2, point->replicas));
-    TRY(fracas_index_do(index, FRACAS_SQL_POINT_ADD));
-    TRY(need_point(index, &point->hash, &id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_COUNT, 1, id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_COUNT, 2, point->replicas));
-    TRY(one_row(index, FRACAS_SQL_ROW_COUNT, &there, NULL));
+    TRY(fracas_sql_do(index,
+                      "INSERT INTO point(hash, replicas) VALUES (?1, ?2) ON CONFLICT (hash) DO "
+                      "UPDATE SET replicas = max(replicas, excluded.replicas)",
+                      SQL_VALUES(SQL_HASH(&point->hash), SQL_INTEGER(point->replicas))));
+    TRY(fracas_index_need_point(index, &point->hash, &id));
+    TRY(fracas_sql_numbers(
+        index, "SELECT count(*) FROM realization WHERE point = ?1 AND replica < ?2",
+        SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(point->replicas)), &there, NULL));
     if (there == point->replicas) return FRACAS_OK; /* to resume a large study is quick */
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_ADD, 1, id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_ADD, 2, point->replicas));
-    return fracas_index_do(index, FRACAS_SQL_ROW_ADD);
+    return fracas_sql_do(index,
+                         "WITH RECURSIVE n(replica) AS (SELECT 0 UNION ALL SELECT replica + 1 FROM "
+                         "n WHERE replica + 1 < ?2) INSERT OR IGNORE INTO realization(point, "
+                         "replica, status) SELECT ?1, replica, 'planned' FROM n",
+                         SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(point->replicas)));
 }
 
 fracas_err fracas_index_plan(fracas_index *index, const fracas_point_table *table)
 {
-    TRY(fracas_index_do(index, FRACAS_SQL_BEGIN));
-    fracas_err err = fracas_index_do(index, FRACAS_SQL_ROW_UNLEASE);
+    TRY(fracas_index_begin(index));
+    fracas_err err = fracas_sql_do(
+        index, "UPDATE realization SET status = 'planned' WHERE status = 'leased'", NULL, 0);
     for (size_t p = 0; !err && p < table->npoints; p++)
         err = fracas_index_plan_point(index, &table->point[p]);
     return fracas_index_end(index, err);
@@ -124,19 +104,20 @@ fracas_err fracas_index_rows_from(fracas_index *index, const fracas_point_row *p
 {
     int64_t id, found = first;
     bool more = true;
-    TRY(need_point(index, &point->hash, &id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_OF_POINT, 1, id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_OF_POINT, 2, point->replicas));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_OF_POINT, 3, first));
-    sqlite3_stmt *s = at(index, FRACAS_SQL_ROW_OF_POINT);
+    OWN(sqlite3_stmt) s = NULL;
+    TRY(fracas_index_need_point(index, &point->hash, &id));
+    TRY(fracas_sql_start(
+        index,
+        "SELECT replica, status, attempts FROM realization WHERE point = ?1 AND replica >= ?3 AND "
+        "replica < ?2 ORDER BY replica",
+        SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(point->replicas), SQL_INTEGER(first)), &s));
     for (;; found++) {
-        TRY(fracas_index_step(index, FRACAS_SQL_ROW_OF_POINT, &more));
+        TRY(fracas_sql_next(index, s, &more));
         if (!more || sqlite3_column_int64(s, 0) != found)
             break; /* else first, first + 1 ... below point->replicas */
-        row[found - first] = (fracas_index_row){
-            p, found, fracas_index_status(sqlite3_column_text(s, 1)), sqlite3_column_int64(s, 2)};
+        row[found - first] = (fracas_index_row){p, found, status_of(s, 1),
+                                                sqlite3_column_int64(s, 2)};
     }
-    fracas_index_reset(index, FRACAS_SQL_ROW_OF_POINT);
     if (found == point->replicas) return FRACAS_OK;
     return fracas_fail(
         FRACAS_DAMAGED,
@@ -150,16 +131,16 @@ fracas_err fracas_index_rows(fracas_index *index, const fracas_point_table *tabl
 {
     *count = 0;
     for (size_t p = 0; p < table->npoints; p++) *count += (size_t)table->point[p].replicas;
-    *row = calloc(*count ? *count : 1, sizeof **row);
-    if (!*row) return fracas_no_memory("the plan");
-    fracas_err err = FRACAS_OK;
-    size_t first = 0;
-    for (size_t p = 0; !err && p < table->npoints; p++) {
-        err = fracas_index_rows_from(index, &table->point[p], p, 0, *row + first);
+    OWNED fracas_index_row *all = calloc(*count ? *count : 1, sizeof *all);
+    *row = NULL;
+    if (!all) return fracas_no_memory("the plan");
+    for (size_t p = 0, first = 0; p < table->npoints; p++) {
+        TRY(fracas_index_rows_from(index, &table->point[p], p, 0, all + first));
         first += (size_t)table->point[p].replicas;
     }
-    if (err) free(*row), *row = NULL;
-    return err;
+    *row = all;
+    all = NULL;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *table,
@@ -167,21 +148,23 @@ fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *
                                              const char *reason),
                                  void *context)
 {
-    sqlite3_stmt *s = at(index, FRACAS_SQL_ROW_FAILED);
     for (size_t p = 0; p < table->npoints; p++) {
         int64_t id;
-        bool more;
-        TRY(need_point(index, &table->point[p].hash, &id));
-        TRY(fracas_index_bind(index, FRACAS_SQL_ROW_FAILED, 1, id));
+        bool more = true;
+        OWN(sqlite3_stmt) s = NULL;
+        TRY(fracas_index_need_point(index, &table->point[p].hash, &id));
+        TRY(fracas_sql_start(index,
+                             "SELECT replica, status, attempts, coalesce(reason, '') FROM "
+                             "realization WHERE point = ?1 AND status IN ('failed', 'quarantined') "
+                             "ORDER BY replica",
+                             SQL_VALUES(SQL_INTEGER(id)), &s));
         for (;;) {
-            TRY(fracas_index_step(index, FRACAS_SQL_ROW_FAILED, &more));
+            TRY(fracas_sql_next(index, s, &more));
             if (!more) break;
-            fracas_index_row row = {p, sqlite3_column_int64(s, 0),
-                                    fracas_index_status(sqlite3_column_text(s, 1)),
+            fracas_index_row row = {p, sqlite3_column_int64(s, 0), status_of(s, 1),
                                     sqlite3_column_int64(s, 2)};
             say(context, &row, (const char *)sqlite3_column_text(s, 3));
         }
-        fracas_index_reset(index, FRACAS_SQL_ROW_FAILED);
     }
     return FRACAS_OK;
 }
@@ -190,15 +173,17 @@ fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int
                               fracas_place *place)
 {
     int64_t id;
-    bool found = false;
-    TRY(need_point(index, point, &id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_FIND, 1, id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_FIND, 2, replica));
-    TRY(fracas_index_step(index, FRACAS_SQL_ROW_FIND, &found));
-    sqlite3_stmt *s = at(index, FRACAS_SQL_ROW_FIND);
-    if (found) *place = fracas_place_read(s, 0);
-    fracas_index_reset(index, FRACAS_SQL_ROW_FIND);
-    if (found) return FRACAS_OK;
+    bool found;
+    OWN(sqlite3_stmt) s = NULL;
+    TRY(fracas_index_need_point(index, point, &id));
+    TRY(fracas_sql_start(
+        index, "SELECT " FRACAS_PLACE_COLUMNS " FROM realization WHERE point = ?1 AND replica = ?2",
+        SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(replica)), &s));
+    TRY(fracas_sql_next(index, s, &found));
+    if (found) {
+        *place = fracas_place_read(s, 0);
+        return FRACAS_OK;
+    }
     char hex[FRACAS_HASH_HEX];
     fracas_hash_hex(point, hex);
     return fracas_fail(FRACAS_DAMAGED,
@@ -213,18 +198,22 @@ fracas_err fracas_index_each_by_segment(fracas_index *index,
                                                             const fracas_place *place),
                                         void *context)
 {
-    sqlite3_stmt *s = at(index, FRACAS_SQL_ROW_BY_SEGMENT);
-    bool more = true;
-    fracas_err err = FRACAS_OK;
-    while (!err && !(err = fracas_index_step(index, FRACAS_SQL_ROW_BY_SEGMENT, &more)) && more) {
+    OWN(sqlite3_stmt) s = NULL;
+    bool more;
+    TRY(fracas_sql_start(index,
+                         "SELECT hash, replica, " FRACAS_PLACE_COLUMNS
+                         " FROM realization r JOIN point p ON p.id = r.point WHERE segment IS NOT "
+                         "NULL OR status = 'done' ORDER BY segment, row",
+                         NULL, 0, &s));
+    for (;;) {
+        TRY(fracas_sql_next(index, s, &more));
+        if (!more) return FRACAS_OK;
         fracas_hash point;
         const char *hex = (const char *)sqlite3_column_text(s, 0);
         const bool valid = hex && fracas_hash_parse(hex, &point);
         const fracas_place place = fracas_place_read(s, 2);
-        err = visit(context, valid ? &point : NULL, sqlite3_column_int64(s, 1), &place);
+        TRY(visit(context, valid ? &point : NULL, sqlite3_column_int64(s, 1), &place));
     }
-    fracas_index_reset(index, FRACAS_SQL_ROW_BY_SEGMENT);
-    return err;
 }
 
 /* The last update changed this realization, or it is done already and stays; FRACAS_DAMAGED if it
@@ -238,95 +227,72 @@ static fracas_err changed_or_done(fracas_index *index, const fracas_hash *point,
 
 /* ---- leases, failures, events ---- */
 
-static fracas_err synchronous(fracas_index *index, const char *text)
-{
-    if (sqlite3_exec(index->db, text, NULL, NULL, NULL) == SQLITE_OK) return FRACAS_OK;
-    return fracas_index_error(index, "change its syncing");
-}
-
 /* A lease need not survive: after any death its rows are planned again. So it waits for no disk
  * where the journal cannot suffer from that (WAL). */
 fracas_err fracas_index_lease(fracas_index *index, const fracas_hash *point, int64_t replica,
                               int64_t count)
 {
     int64_t id;
-    TRY(need_point(index, point, &id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_LEASE, 1, id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_LEASE, 2, replica));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_LEASE, 3, count));
-    if (index->local) TRY(synchronous(index, "PRAGMA synchronous = NORMAL"));
-    fracas_err err = fracas_index_do(index, FRACAS_SQL_ROW_LEASE);
-    if (index->local && !err) err = synchronous(index, "PRAGMA synchronous = FULL");
-    return err;
+    TRY(fracas_index_need_point(index, point, &id));
+    if (index->local) TRY(fracas_sql_script(index, "PRAGMA synchronous = NORMAL"));
+    TRY(fracas_sql_do(index,
+                      "UPDATE realization SET status = 'leased' WHERE point = ?1 AND replica >= ?2 "
+                      "AND replica < ?2 + ?3 AND status = 'planned'",
+                      SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(replica), SQL_INTEGER(count))));
+    return index->local ? fracas_sql_script(index, "PRAGMA synchronous = FULL") : FRACAS_OK;
 }
 
 fracas_err fracas_index_fail(fracas_index *index, const fracas_hash *point, int64_t replica,
                              const char *reason, bool final)
 {
     int64_t id;
-    TRY(need_point(index, point, &id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_FAIL, 1, id));
-    TRY(fracas_index_bind(index, FRACAS_SQL_ROW_FAIL, 2, replica));
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_ROW_FAIL, 3, reason));
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_ROW_FAIL, 4,
-                               status_text[final ? FRACAS_FAILED_ROW : FRACAS_PLANNED]));
-    if (final) TRY(fracas_index_bind(index, FRACAS_SQL_ROW_FAIL, 5, FRACAS_FAILED));
-    else sqlite3_bind_null(at(index, FRACAS_SQL_ROW_FAIL), 5);
-    TRY(fracas_index_do(index, FRACAS_SQL_ROW_FAIL));
+    const char *status = status_text[final ? FRACAS_FAILED_ROW : FRACAS_PLANNED];
+    TRY(fracas_index_need_point(index, point, &id));
+    TRY(fracas_sql_do(
+        index,
+        "UPDATE realization SET attempts = attempts + 1, reason = ?3, status = ?4, outcome = ?5 "
+        "WHERE point = ?1 AND replica = ?2 AND status <> 'done'",
+        SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(replica), SQL_TEXT(reason), SQL_TEXT(status),
+                   {.type = final ? SQLITE_INTEGER : SQLITE_NULL, .integer = FRACAS_FAILED})));
     return changed_or_done(index, point, replica);
 }
 
 fracas_err fracas_index_event(fracas_index *index, const char *kind, const char *text)
 {
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_EVENT_ADD, 1, kind));
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_EVENT_ADD, 2, text));
-    return fracas_index_do(index, FRACAS_SQL_EVENT_ADD);
+    return fracas_sql_do(index,
+                         "INSERT INTO event(time, kind, text) VALUES "
+                         "(strftime('%Y-%m-%dT%H:%M:%fZ', 'now'), ?1, ?2)",
+                         SQL_VALUES(SQL_TEXT(kind), SQL_TEXT(text)));
 }
 
 fracas_err fracas_index_last_event(fracas_index *index, const char *kind, char **text)
 {
-    bool found = false;
-    *text = NULL;
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_EVENT_LAST, 1, kind));
-    TRY(fracas_index_step(index, FRACAS_SQL_EVENT_LAST, &found));
-    if (found)
-        *text = strdup((const char *)sqlite3_column_text(at(index, FRACAS_SQL_EVENT_LAST), 0));
-    fracas_index_reset(index, FRACAS_SQL_EVENT_LAST);
-    return found && !*text ? fracas_no_memory("an event") : FRACAS_OK;
+    return fracas_sql_text(index, "SELECT text FROM event WHERE kind = ?1 ORDER BY id DESC LIMIT 1",
+                           SQL_VALUES(SQL_TEXT(kind)), text);
 }
 
 /* ---- segments ---- */
-
-static void checksum_text(uint64_t checksum, char text[17])
-{
-    snprintf(text, 17, "%016" PRIx64, checksum);
-}
 
 /* Id of the segment; added if the index does not know it. */
 static fracas_err add_segment(fracas_index *index, const char *name, const fracas_file_seal *seal,
                               size_t rows, const char *provenance, int64_t *id)
 {
     char checksum[17];
-    bool known = false, same = false;
-    checksum_text(seal->checksum, checksum);
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_SEGMENT_FIND, 1, name));
-    TRY(fracas_index_step(index, FRACAS_SQL_SEGMENT_FIND, &known));
-    if (known) {
-        sqlite3_stmt *s = at(index, FRACAS_SQL_SEGMENT_FIND);
-        *id = sqlite3_column_int64(s, 0);
-        same = sqlite3_column_int64(s, 1) == (int64_t)seal->bytes &&
-               !strcmp((const char *)sqlite3_column_text(s, 2), checksum);
-    }
-    fracas_index_reset(index, FRACAS_SQL_SEGMENT_FIND);
-    if (known && !same)
+    int64_t same;
+    snprintf(checksum, sizeof checksum, "%016" PRIx64, seal->checksum);
+    TRY(fracas_sql_numbers(
+        index, "SELECT id, bytes = ?2 AND checksum = ?3 FROM segment WHERE name = ?1",
+        SQL_VALUES(SQL_TEXT(name), SQL_INTEGER((int64_t)seal->bytes), SQL_TEXT(checksum)), id,
+        &same));
+    if (*id && !same)
         return fracas_fail(FRACAS_BUG, "%s knows another segment %s", index->path, name);
-    if (known) return FRACAS_OK;
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_SEGMENT_ADD, 1, name));
-    TRY(fracas_index_bind(index, FRACAS_SQL_SEGMENT_ADD, 2, (int64_t)seal->bytes));
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_SEGMENT_ADD, 3, checksum));
-    TRY(fracas_index_bind(index, FRACAS_SQL_SEGMENT_ADD, 4, (int64_t)rows));
-    TRY(fracas_index_bind_text(index, FRACAS_SQL_SEGMENT_ADD, 5, provenance));
-    TRY(fracas_index_do(index, FRACAS_SQL_SEGMENT_ADD));
+    if (*id) return FRACAS_OK;
+    TRY(fracas_sql_do(
+        index,
+        "INSERT INTO segment(name, bytes, checksum, rows, provenance) VALUES (?1, "
+        "?2, ?3, ?4, ?5)",
+        SQL_VALUES(SQL_TEXT(name), SQL_INTEGER((int64_t)seal->bytes), SQL_TEXT(checksum),
+                   SQL_INTEGER((int64_t)rows), SQL_TEXT(provenance))));
     *id = sqlite3_last_insert_rowid(index->db);
     return FRACAS_OK;
 }
@@ -334,20 +300,15 @@ static fracas_err add_segment(fracas_index *index, const char *name, const fraca
 static fracas_err set_done(fracas_index *index, int64_t point, int64_t segment,
                            const fracas_segment_row *row)
 {
-    bool failed = row->summary.outcome == FRACAS_FAILED;
-    const fracas_sql done = FRACAS_SQL_ROW_DONE;
-    int n = 6;
-    TRY(fracas_index_bind(index, done, 1, point));
-    TRY(fracas_index_bind(index, done, 2, row->replica));
-    TRY(fracas_index_bind_text(index, done, 3,
-                               status_text[failed ? FRACAS_FAILED_ROW : FRACAS_DONE]));
-    TRY(fracas_index_bind(index, done, 4, segment));
-    TRY(fracas_index_bind(index, done, 5, row->row));
-#define BIND_INTEGER fracas_index_bind
-#define BIND_REAL fracas_index_bind_real
-#define BIND(key, type, value, meaning) TRY(BIND_##type(index, done, n++, row->summary.key));
-    FRACAS_EACH_SUMMARY(BIND)
-    TRY(fracas_index_do(index, FRACAS_SQL_ROW_DONE));
+    const bool failed = row->summary.outcome == FRACAS_FAILED;
+#define VALUE(key, type, value, meaning) SQL_##type(row->summary.key),
+    TRY(fracas_sql_do(
+        index,
+        "UPDATE realization SET status = ?3, segment = ?4, row = ?5" FRACAS_EACH_SUMMARY(
+            FRACAS_SQL_SET) " WHERE point = ?1 AND replica = ?2 AND status <> 'done'",
+        SQL_VALUES(SQL_INTEGER(point), SQL_INTEGER(row->replica),
+                   SQL_TEXT(status_text[failed ? FRACAS_FAILED_ROW : FRACAS_DONE]),
+                   SQL_INTEGER(segment), SQL_INTEGER(row->row), FRACAS_EACH_SUMMARY(VALUE))));
     return changed_or_done(index, &row->point, row->replica);
 }
 
@@ -355,12 +316,12 @@ fracas_err fracas_index_commit(fracas_index *index, const char *segment,
                                const fracas_file_seal *seal, const fracas_segment_row *row,
                                size_t count, const char *provenance)
 {
-    TRY(fracas_index_do(index, FRACAS_SQL_BEGIN));
+    TRY(fracas_index_begin(index));
     int64_t id = 0, point = 0;
     fracas_err err = add_segment(index, segment, seal, count, provenance, &id);
     for (size_t r = 0; !err && r < count; r++) {
         if (r == 0 || !fracas_hash_equal(&row[r].point, &row[r - 1].point))
-            err = need_point(index, &row[r].point, &point);
+            err = fracas_index_need_point(index, &row[r].point, &point);
         if (!err) err = set_done(index, point, id, &row[r]);
     }
     return fracas_index_end(index, err);
@@ -368,18 +329,15 @@ fracas_err fracas_index_commit(fracas_index *index, const char *segment,
 
 static fracas_err load_segments(fracas_index *index, fracas_known_segment **segment, size_t *count)
 {
-    sqlite3_stmt *s = at(index, FRACAS_SQL_SEGMENT_ALL);
+    OWN(sqlite3_stmt) s = NULL;
     size_t room = 0;
+    TRY(fracas_sql_start(index, "SELECT id, name, bytes, checksum, rows FROM segment ORDER BY id",
+                         NULL, 0, &s));
     for (;;) {
-        bool more = false;
-        TRY(fracas_index_step(index, FRACAS_SQL_SEGMENT_ALL, &more));
+        bool more;
+        TRY(fracas_sql_next(index, s, &more));
         if (!more) return FRACAS_OK;
-        if (*count == room) {
-            room = room ? 2 * room : 64;
-            fracas_known_segment *bigger = realloc(*segment, room * sizeof **segment);
-            if (!bigger) return fracas_no_memory("the list of segments");
-            *segment = bigger;
-        }
+        TRY(fracas_grow(segment, sizeof **segment, *count, &room, "the list of segments"));
         const char *name = (const char *)sqlite3_column_text(s, 1),
                    *hex = (const char *)sqlite3_column_text(s, 3);
         char *end;
@@ -402,7 +360,6 @@ fracas_err fracas_index_segments(fracas_index *index, fracas_known_segment **seg
     *segment = NULL;
     *count = 0;
     fracas_err err = load_segments(index, segment, count);
-    fracas_index_reset(index, FRACAS_SQL_SEGMENT_ALL);
     if (err) fracas_index_segments_free(*segment, *count), *segment = NULL, *count = 0;
     return err;
 }
@@ -418,16 +375,19 @@ fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment, size
 {
     *rows = 0;
     if (!count) return FRACAS_OK;
-    TRY(fracas_index_do(index, FRACAS_SQL_BEGIN));
+    TRY(fracas_index_begin(index));
     fracas_err err = FRACAS_OK;
     /* Marked by an impossible size, so that one scan of the realizations serves them all. */
-    for (size_t s = 0; !err && s < count; s++) {
-        err = fracas_index_bind(index, FRACAS_SQL_SEGMENT_LOSE, 1, segment[s]);
-        if (!err) err = fracas_index_do(index, FRACAS_SQL_SEGMENT_LOSE);
-    }
-    if (!err) err = fracas_index_do(index, FRACAS_SQL_ROW_FORGET);
+    for (size_t s = 0; !err && s < count; s++)
+        err = fracas_sql_do(index, "UPDATE segment SET bytes = -1 WHERE id = ?1",
+                            SQL_VALUES(SQL_INTEGER(segment[s])));
+    if (!err)
+        err = fracas_sql_do(index,
+                            "UPDATE realization SET " FRACAS_UNSET_PLACE
+                            " WHERE segment IN (SELECT id FROM segment WHERE bytes < 0)",
+                            NULL, 0);
     if (!err) *rows = sqlite3_changes64(index->db);
-    if (!err) err = fracas_index_do(index, FRACAS_SQL_SEGMENT_FORGET);
+    if (!err) err = fracas_sql_do(index, "DELETE FROM segment WHERE bytes < 0", NULL, 0);
     return fracas_index_end(index, err);
 }
 
@@ -447,15 +407,20 @@ static void add_to(fracas_index_counts *counts, fracas_row_status status, int64_
 }
 
 /* Counts every row into *counts, and those of point id `i` into each[i - 1], for i to `most`. */
-static fracas_err tally(fracas_index *index, fracas_sql sql, fracas_index_counts *counts,
-                        fracas_index_counts **each, int64_t most)
+static fracas_err count_all(fracas_index *index, fracas_index_counts *counts,
+                            fracas_index_counts **each, int64_t most)
 {
-    sqlite3_stmt *s = at(index, sql);
+    OWN(sqlite3_stmt) s = NULL;
+    *counts = (fracas_index_counts){0};
+    TRY(fracas_sql_numbers(index, "SELECT count(*) FROM point", NULL, 0, &counts->points, NULL));
+    TRY(fracas_sql_numbers(index, "SELECT count(*), coalesce(sum(bytes), 0) FROM segment", NULL, 0,
+                           &counts->segments, &counts->bytes));
+    TRY(fracas_sql_start(index, "SELECT status, outcome, point FROM realization", NULL, 0, &s));
     for (;;) {
-        bool more = false;
-        TRY(fracas_index_step(index, sql, &more));
-        if (!more) break;
-        const fracas_row_status status = fracas_index_status(sqlite3_column_text(s, 0));
+        bool more;
+        TRY(fracas_sql_next(index, s, &more));
+        if (!more) return FRACAS_OK;
+        const fracas_row_status status = status_of(s, 0);
         const int64_t outcome = sqlite3_column_type(s, 1) == SQLITE_NULL
                                     ? -1
                                     : sqlite3_column_int64(s, 1);
@@ -463,22 +428,6 @@ static fracas_err tally(fracas_index *index, fracas_sql sql, fracas_index_counts
         const int64_t id = each ? sqlite3_column_int64(s, 2) : 0;
         if (id > 0 && id <= most && each[id - 1]) add_to(each[id - 1], status, outcome);
     }
-    fracas_index_reset(index, sql);
-    return FRACAS_OK;
-}
-
-fracas_err fracas_index_points(fracas_index *index, int64_t *points)
-{
-    return one_row(index, FRACAS_SQL_POINT_COUNT, points, NULL);
-}
-
-static fracas_err count_all(fracas_index *index, fracas_index_counts *counts,
-                            fracas_index_counts **each, int64_t most)
-{
-    *counts = (fracas_index_counts){0};
-    TRY(one_row(index, FRACAS_SQL_POINT_COUNT, &counts->points, NULL));
-    TRY(one_row(index, FRACAS_SQL_SEGMENT_TOTAL, &counts->segments, &counts->bytes));
-    return tally(index, FRACAS_SQL_TALLY, counts, each, most);
 }
 
 fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts)
@@ -489,18 +438,16 @@ fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts)
 fracas_err fracas_index_count_points(fracas_index *index, const fracas_point_table *table,
                                      fracas_index_counts *counts, fracas_index_counts *point)
 {
-    int64_t *id = malloc((table->npoints + 1) * sizeof *id), most = 0;
-    fracas_err err = id ? FRACAS_OK : fracas_no_memory("the counts of the points");
-    for (size_t p = 0; !err && p < table->npoints; p++) {
+    OWNED int64_t *id = malloc((table->npoints + 1) * sizeof *id);
+    int64_t most = 0;
+    if (!id) return fracas_no_memory("the counts of the points");
+    for (size_t p = 0; p < table->npoints; p++) {
         point[p] = (fracas_index_counts){.points = 1};
-        err = need_point(index, &table->point[p].hash, &id[p]);
-        if (!err && id[p] > most) most = id[p];
+        TRY(fracas_index_need_point(index, &table->point[p].hash, &id[p]));
+        if (id[p] > most) most = id[p];
     }
-    fracas_index_counts **each = err ? NULL : calloc((size_t)most + 1, sizeof *each);
-    if (!err && !each) err = fracas_no_memory("the counts of the points");
-    for (size_t p = 0; !err && p < table->npoints; p++) each[id[p] - 1] = &point[p];
-    if (!err) err = count_all(index, counts, each, most);
-    free(each);
-    free(id);
-    return err;
+    OWNED fracas_index_counts **each = calloc((size_t)most + 1, sizeof *each);
+    if (!each) return fracas_no_memory("the counts of the points");
+    for (size_t p = 0; p < table->npoints; p++) each[id[p] - 1] = &point[p];
+    return count_all(index, counts, each, most);
 }

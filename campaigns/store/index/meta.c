@@ -10,28 +10,18 @@ static const char seal_key[] = "study_seal";
 
 fracas_err fracas_index_read_meta(fracas_index *index, const char *key, char *value, size_t size)
 {
-    sqlite3_stmt *statement;
-    int code = sqlite3_prepare_v2(index->db, "SELECT value FROM meta WHERE key = ?1", -1,
-                                  &statement, NULL);
-    if (code == SQLITE_OK) code = sqlite3_bind_text(statement, 1, key, -1, SQLITE_STATIC);
-    if (code == SQLITE_OK) code = sqlite3_step(statement);
-    const char *found = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+    OWNED char *found = NULL;
+    TRY(fracas_sql_text(index, "SELECT value FROM meta WHERE key = ?1", SQL_VALUES(SQL_TEXT(key)),
+                        &found));
     snprintf(value, size, "%s", found ? found : "");
-    fracas_err err = code == SQLITE_ROW || code == SQLITE_DONE
-                         ? FRACAS_OK
-                         : fracas_index_error(index, "read `meta`");
-    sqlite3_finalize(statement);
-    return err;
+    return FRACAS_OK;
 }
 
 /* Durable on return, outside of a transaction. */
 static fracas_err write_meta(fracas_index *index, const char *key, const char *value)
 {
-    char *text = sqlite3_mprintf("INSERT OR REPLACE INTO meta VALUES (%Q, %Q)", key, value);
-    if (!text) return fracas_no_memory("a statement");
-    int code = sqlite3_exec(index->db, text, NULL, NULL, NULL);
-    sqlite3_free(text);
-    return code == SQLITE_OK ? FRACAS_OK : fracas_index_error(index, "write `meta`");
+    return fracas_sql_do(index, "INSERT OR REPLACE INTO meta VALUES (?1, ?2)",
+                         SQL_VALUES(SQL_TEXT(key), SQL_TEXT(value)));
 }
 
 /* ---- identity ---- */
@@ -55,7 +45,7 @@ fracas_err fracas_index_claim(fracas_index *index, const fracas_file_header *hea
                            "%s: the study was begun with %s; go on with the program and the "
                            "campaign that began it, or choose another --study",
                            index->path, text);
-    TRY(fracas_index_do(index, FRACAS_SQL_BEGIN));
+    TRY(fracas_index_begin(index));
     fracas_err err = FRACAS_OK;
     for (int v = 0; !err && v < FRACAS_IDENTITY_VALUES; v++)
         err = write_meta(index, fracas_identity_name[v], wanted.value[v]);
@@ -92,31 +82,20 @@ const char *fracas_sqlite_version(void)
 
 bool fracas_index_is_json(fracas_index *index, const char *text)
 {
-    sqlite3_stmt *statement;
-    bool valid = false;
-    if (sqlite3_prepare_v2(index->db, "SELECT json_valid(?1)", -1, &statement, NULL) == SQLITE_OK &&
-        sqlite3_bind_text(statement, 1, text, -1, SQLITE_STATIC) == SQLITE_OK &&
-        sqlite3_step(statement) == SQLITE_ROW)
-        valid = sqlite3_column_int(statement, 0) == 1;
-    sqlite3_finalize(statement);
-    return valid;
+    int64_t valid;
+    return !fracas_sql_numbers(index, "SELECT json_valid(?1)", SQL_VALUES(SQL_TEXT(text)), &valid,
+                               NULL) &&
+           valid;
 }
 
 fracas_err fracas_index_quick_check(fracas_index *index)
 {
-    sqlite3_stmt *statement;
-    if (sqlite3_prepare_v2(index->db, "PRAGMA quick_check(1)", -1, &statement, NULL) != SQLITE_OK)
-        return fracas_index_error(index, "check");
-    fracas_err err = FRACAS_OK;
-    const int code = sqlite3_step(statement);
-    const char *text = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
-    if (code != SQLITE_ROW && code != SQLITE_DONE) err = fracas_index_error(index, "check");
-    else if (text && strcmp(text, "ok") != 0)
-        err = fracas_fail(FRACAS_DAMAGED,
-                          "%s: damaged: %s; `fracas reindex` makes it anew from the segments",
-                          index->path, text);
-    sqlite3_finalize(statement);
-    return err;
+    OWNED char *text = NULL;
+    TRY(fracas_sql_text(index, "PRAGMA quick_check(1)", NULL, 0, &text));
+    if (!text || !strcmp(text, "ok")) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s: damaged: %s; `fracas reindex` makes it anew from the segments",
+                       index->path, text);
 }
 
 /* ---- the seal of study.h5 ---- */

@@ -97,6 +97,16 @@ void fracas_index_print_schema(FILE *out)
     }
 }
 
+void fracas_index_print_check(FILE *out)
+{
+    for (size_t t = 0; t < FRACAS_COUNT(tables); t++) {
+        fputs("SELECT ", out);
+        for (size_t c = 0; c < tables[t].ncolumns; c++)
+            fprintf(out, "%s%s", c ? ", " : "", tables[t].column[c].name);
+        fprintf(out, " FROM %s LIMIT 0;", tables[t].name);
+    }
+}
+
 static void print_tables(FILE *out)
 {
     fputs("| table | column | type | meaning |\n|---|---|---|---|\n", out);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Needless files of a study: found, and removed. */
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/index/query.h"
+#include "campaigns/store/index/index.h"
 #include "campaigns/store/upkeep.h"
 
 #include <errno.h>
@@ -57,10 +57,13 @@ static fracas_err judge_file(void *context, const char *path, const char *name)
     return dispose(j->c, path, what, why);
 }
 
+/* `folder`: in the study; "": itself. */
 static fracas_err each(collection *c, const char *folder,
                        fate (*judge)(const collection *c, const char *name, const char **why))
 {
-    return fracas_disk_each(folder, judge_file, &(judging){c, judge});
+    OWNED char *path = NULL;
+    if (*folder) TRY(fracas_disk_join(c->study, folder, &path));
+    return fracas_disk_each(path ? path : c->study, judge_file, &(judging){c, judge});
 }
 
 /* ---- the study folder, and the leftovers of a reindex ---- */
@@ -140,17 +143,18 @@ static fate judge_segment(const collection *c, const char *name, const char **wh
 
 static fracas_err list_needless(collection *c)
 {
-    sqlite3_stmt *statement;
-    bool row = false;
+    OWN(sqlite3_stmt) s = NULL;
+    bool row = true;
     c->needless = calloc(c->nsegments + 1, sizeof *c->needless);
     if (!c->needless) return fracas_no_memory("the list of segments");
-    fracas_err err = fracas_query_begin(
-        c->index, "SELECT id FROM segment WHERE " NEEDLESS " ORDER BY id", &statement);
-    while (!err && !(err = fracas_query_step(c->index, statement, &row)) && row &&
-           c->nneedless < c->nsegments)
-        c->needless[c->nneedless++] = sqlite3_column_int64(statement, 0);
-    sqlite3_finalize(statement);
-    return err;
+    TRY(fracas_sql_start(c->index, "SELECT id FROM segment WHERE " NEEDLESS " ORDER BY id", NULL, 0,
+                         &s));
+    while (c->nneedless < c->nsegments) {
+        TRY(fracas_sql_next(c->index, s, &row));
+        if (!row) break;
+        c->needless[c->nneedless++] = sqlite3_column_int64(s, 0);
+    }
+    return FRACAS_OK;
 }
 
 /* Before their files go: killed in between, they are found and known again; the other way round
@@ -161,21 +165,17 @@ static fracas_err forget_needless(collection *c)
     if (!c->nneedless || c->options->dry) return FRACAS_OK;
     snprintf(text, sizeof text, "%zu segments that no realization needs are removed", c->nneedless);
     TRY(fracas_index_begin(c->index));
-    fracas_err err = fracas_query_all(c->index, "DELETE FROM segment WHERE " NEEDLESS);
+    fracas_err err = fracas_sql_script(c->index, "DELETE FROM segment WHERE " NEEDLESS);
     if (!err) err = fracas_index_event(c->index, "collected", text);
     return fracas_index_end(c->index, err);
 }
 
 static fracas_err collect_segments(collection *c)
 {
-    char *folder;
     TRY(fracas_index_segments_by_name(c->index, &c->segment, &c->nsegments));
     TRY(list_needless(c));
     TRY(forget_needless(c));
-    TRY(fracas_disk_join(c->study, "segments", &folder));
-    fracas_err err = each(c, folder, judge_segment);
-    free(folder);
-    return err;
+    return each(c, "segments", judge_segment);
 }
 
 /* ---- the index ---- */
@@ -196,12 +196,17 @@ static fracas_err index_bytes(const collection *c, uint64_t *bytes)
     return FRACAS_OK;
 }
 
+static fracas_err number(const collection *c, const char *pragma, int64_t *value)
+{
+    return fracas_sql_numbers(c->index, pragma, NULL, 0, value, NULL);
+}
+
 static fracas_err free_pages(const collection *c, uint64_t before, uint64_t *bytes)
 {
     int64_t pages, size, all;
-    TRY(fracas_query_number(c->index, "PRAGMA freelist_count", &pages));
-    TRY(fracas_query_number(c->index, "PRAGMA page_count", &all));
-    TRY(fracas_query_number(c->index, "PRAGMA page_size", &size));
+    TRY(number(c, "PRAGMA freelist_count", &pages));
+    TRY(number(c, "PRAGMA page_count", &all));
+    TRY(number(c, "PRAGMA page_size", &size));
     const uint64_t after = (uint64_t)((all - pages) * size);
     *bytes = before > after ? before - after : 0;
     return FRACAS_OK;
@@ -214,9 +219,9 @@ static fracas_err compact(collection *c)
     if (c->options->dry) {
         TRY(free_pages(c, before, &freed));
     } else {
-        TRY(fracas_query_checkpoint(c->index));
-        TRY(fracas_query_all(c->index, "VACUUM"));
-        TRY(fracas_query_checkpoint(c->index));
+        TRY(fracas_sql_checkpoint(c->index));
+        TRY(fracas_sql_script(c->index, "VACUUM"));
+        TRY(fracas_sql_checkpoint(c->index));
         TRY(index_bytes(c, &after));
         freed = before > after ? before - after : 0;
     }
@@ -232,17 +237,11 @@ static fracas_err compact(collection *c)
 
 static fracas_err collect(collection *c)
 {
-    char *folder;
-    TRY(fracas_disk_join(c->study, FRACAS_REINDEX_FOLDER, &folder));
-    fracas_err err = each(c, folder, judge_nursery);
-    free(folder);
-    if (!err) err = each(c, c->study, judge_study);
-    if (!err) err = collect_segments(c);
-    TRY(err);
-    TRY(fracas_disk_join(c->study, "attachments", &folder));
-    err = each(c, folder, judge_attachment);
-    free(folder);
-    return err ? err : compact(c);
+    TRY(each(c, FRACAS_REINDEX_FOLDER, judge_nursery));
+    TRY(each(c, "", judge_study));
+    TRY(collect_segments(c));
+    TRY(each(c, "attachments", judge_attachment));
+    return compact(c);
 }
 
 fracas_err fracas_study_collect(const char *study, fracas_index *index,

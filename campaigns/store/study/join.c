@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Two studies of one campaign, computed in two places, made one. */
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/index/query.h"
 #include "campaigns/store/study/segments.h"
 #include "campaigns/store/upkeep.h"
 
@@ -64,17 +63,17 @@ fracas_err fracas_study_compare(const char *into, fracas_index *into_index, cons
                                 const fracas_point_table *table, int64_t *both)
 {
     comparison c = {.into = into, .from = from, .index = into_index, .table = table};
-    fracas_segments *theirs = NULL;
+    OWN(fracas_segments) ours = NULL;
+    OWN(fracas_segments) theirs = NULL;
     fracas_identity identity;
     fracas_identity_of(header, &identity);
+    TRY(fracas_segments_create(into, into_index, &identity, &ours));
+    TRY(fracas_segments_create(from, from_index, &identity, &theirs));
+    c.segments = ours;
     fracas_record_init(&c.record);
-    fracas_err err = fracas_segments_create(into, into_index, &identity, &c.segments);
-    if (!err) err = fracas_segments_create(from, from_index, &identity, &theirs);
     const fracas_want want = {
         .table = table, .parts = FRACAS_READ_ALL, .visit = compare, .context = &c};
-    if (!err) err = fracas_study_each_planned(theirs, from_index, &want);
-    fracas_segments_destroy(theirs);
-    fracas_segments_destroy(c.segments);
+    fracas_err err = fracas_study_each_planned(theirs, from_index, &want);
     fracas_record_clear(&c.record);
     *both = c.both;
     return err;
@@ -96,25 +95,21 @@ typedef struct {
 static fracas_err copy_bytes(int from, int to, const char *path)
 {
     enum { BLOCK = 1 << 20 };
-    char *block = malloc(BLOCK);
-    fracas_err err = block ? FRACAS_OK : fracas_no_memory("a copy");
-    for (ssize_t got = 1; !err && got > 0;) {
-        got = read(from, block, BLOCK);
-        if (got < 0 && errno == EINTR) got = 1;
-        else if (got < 0) err = fracas_disk_fail("read for", path);
-        else
-            for (ssize_t at = 0, put; !err && at < got; at += put)
-                if ((put = write(to, block + at, (size_t)(got - at))) < 0)
-                    err = fracas_disk_fail("write", path);
+    OWNED char *block = malloc(BLOCK);
+    if (!block) return fracas_no_memory("a copy");
+    for (ssize_t got; (got = read(from, block, BLOCK)) != 0;) {
+        if (got < 0 && errno != EINTR) return fracas_disk_fail("read for", path);
+        for (ssize_t at = 0, put; at < got; at += put)
+            if ((put = write(to, block + at, (size_t)(got - at))) < 0)
+                return fracas_disk_fail("write", path);
     }
-    free(block);
-    return err;
+    return FRACAS_OK;
 }
 
 /* Whole under a temporary name, of the right checksum, synced, renamed. */
 static fracas_err copy_to(int from, const fracas_file_seal *seal, const char *path)
 {
-    char *temporary;
+    OWNED char *temporary = NULL;
     fracas_file_seal copied;
     TRY(fracas_disk_temporary(path, &temporary));
     int to = open(temporary, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -130,7 +125,6 @@ static fracas_err copy_to(int from, const fracas_file_seal *seal, const char *pa
     if (to >= 0) close(to);
     if (!err && rename(temporary, path) < 0) err = fracas_disk_fail("rename to", path);
     if (err) unlink(temporary);
-    free(temporary);
     return err;
 }
 
@@ -180,44 +174,22 @@ static fracas_err choose_name(const joining *j, const fracas_known_segment *segm
 
 static fracas_err take_segment(const joining *j, const fracas_known_segment *segment, char **name)
 {
-    char *path = NULL, *theirs = NULL;
-    bool there = false;
-    fracas_err err = choose_name(j, segment, name, &path, &there);
-    if (!err && !there) err = fracas_disk_segment(j->from, segment->name, &theirs);
-    if (!err && !there) err = bring(theirs, &segment->seal, path);
-    free(theirs);
-    free(path);
-    return err;
-}
-
-static fracas_err provenance_of(fracas_index *index, int64_t id, char **text)
-{
-    sqlite3_stmt *statement;
-    bool row = false;
-    *text = NULL;
-    fracas_err err = fracas_query_begin(index, "SELECT provenance FROM segment WHERE id = ?1",
-                                        &statement);
-    if (!err) err = fracas_query_bind(index, statement, 1, id);
-    if (!err) err = fracas_query_step(index, statement, &row);
-    if (!err && !(*text = strdup(row ? (const char *)sqlite3_column_text(statement, 0) : "{}")))
-        err = fracas_no_memory("provenance");
-    sqlite3_finalize(statement);
-    return err;
+    OWNED char *path = NULL;
+    OWNED char *theirs = NULL;
+    bool there;
+    TRY(choose_name(j, segment, name, &path, &there));
+    if (there) return FRACAS_OK;
+    TRY(fracas_disk_segment(j->from, segment->name, &theirs));
+    return bring(theirs, &segment->seal, path);
 }
 
 /* Deletes the decisions with this realization as failed. */
 static fracas_err undecide(fracas_index *index, const fracas_segment_row *row)
 {
-    sqlite3_stmt *statement;
-    fracas_err err = fracas_query_begin(index,
-                                        "DELETE FROM decision WHERE replicas > ?2 AND point = "
-                                        "(SELECT id FROM point WHERE hash = ?1)",
-                                        &statement);
-    if (!err) err = fracas_query_bind_hash(index, statement, 1, &row->point);
-    if (!err) err = fracas_query_bind(index, statement, 2, row->replica);
-    if (!err) err = fracas_query_do(index, statement);
-    sqlite3_finalize(statement);
-    return err;
+    return fracas_sql_do(index,
+                         "DELETE FROM decision WHERE replicas > ?2 AND point = (SELECT id FROM "
+                         "point WHERE hash = ?1)",
+                         SQL_VALUES(SQL_HASH(&row->point), SQL_INTEGER(row->replica)));
 }
 
 /* Counts the rows not done in `into`; where one failed there, study.h5 will change. */
@@ -250,7 +222,8 @@ static fracas_err take_rows(joining *j)
 {
     const fracas_known_segment wanted = {.id = j->id};
     int64_t fresh;
-    char *name = NULL, *provenance = NULL;
+    OWNED char *name = NULL;
+    OWNED char *provenance = NULL;
     if (!j->nrows) return FRACAS_OK;
     const fracas_known_segment *segment = j->nsegments ? bsearch(&wanted, j->segment, j->nsegments,
                                                                  sizeof wanted, compare_ids)
@@ -261,12 +234,11 @@ static fracas_err take_rows(joining *j)
     const size_t nrows = j->nrows;
     j->nrows = 0;
     if (!fresh) return FRACAS_OK;
-    fracas_err err = take_segment(j, segment, &name);
-    if (!err) err = provenance_of(j->theirs, j->id, &provenance);
-    if (!err) err = fracas_index_commit(j->index, name, &segment->seal, j->row, nrows, provenance);
-    free(provenance);
-    free(name);
-    if (err) return err;
+    TRY(take_segment(j, segment, &name));
+    TRY(fracas_sql_text(j->theirs, "SELECT provenance FROM segment WHERE id = ?1",
+                        SQL_VALUES(SQL_INTEGER(j->id)), &provenance));
+    TRY(fracas_index_commit(j->index, name, &segment->seal, j->row, nrows,
+                            provenance ? provenance : "{}"));
     j->joined->realizations += fresh;
     j->joined->segments++;
     return FRACAS_OK;
@@ -281,12 +253,7 @@ static fracas_err add_row(void *context, const fracas_hash *point, int64_t repli
         return fracas_fail(FRACAS_DAMAGED, "%s: a point has no valid hash", j->theirs->path);
     if (place->segment != j->id) TRY(take_rows(j));
     j->id = place->segment;
-    if (j->nrows == j->room) {
-        j->room = 2 * j->room + 256;
-        fracas_segment_row *bigger = realloc(j->row, j->room * sizeof *bigger);
-        if (!bigger) return fracas_no_memory("the rows of a segment");
-        j->row = bigger;
-    }
+    TRY(fracas_grow(&j->row, sizeof *j->row, j->nrows, &j->room, "the rows of a segment"));
     j->row[j->nrows++] = (fracas_segment_row){*point, replica, place->row, place->summary};
     return FRACAS_OK;
 }
@@ -296,7 +263,6 @@ static fracas_err add_row(void *context, const fracas_hash *point, int64_t repli
 typedef struct {
     joining *joining;
     const fracas_point_table *table;
-    sqlite3_stmt *fail;
     fracas_err err;
 } failing;
 
@@ -304,13 +270,14 @@ static void take_failure(void *context, const fracas_index_row *row, const char 
 {
     failing *f = context;
     fracas_index *index = f->joining->index;
-    if (!f->err)
-        f->err = fracas_query_bind_hash(index, f->fail, 1, &f->table->point[row->point].hash);
-    if (!f->err) f->err = fracas_query_bind(index, f->fail, 2, row->replica);
-    if (!f->err) f->err = fracas_query_bind(index, f->fail, 3, row->attempts);
-    if (!f->err) f->err = fracas_query_bind_text(index, f->fail, 4, reason);
-    if (!f->err) f->err = fracas_query_bind(index, f->fail, 5, FRACAS_FAILED);
-    if (!f->err) f->err = fracas_query_do(index, f->fail);
+    if (f->err) return;
+    f->err = fracas_sql_do(
+        index,
+        "UPDATE realization SET status = 'failed', attempts = ?3, reason = ?4, outcome = ?5 WHERE "
+        "point = (SELECT id FROM point WHERE hash = ?1) AND replica = ?2 AND status IN ('planned', "
+        "'leased')",
+        SQL_VALUES(SQL_HASH(&f->table->point[row->point].hash), SQL_INTEGER(row->replica),
+                   SQL_INTEGER(row->attempts), SQL_TEXT(reason), SQL_INTEGER(FRACAS_FAILED)));
     if (!f->err) f->joining->joined->failed += sqlite3_changes(index->db);
 }
 
@@ -318,14 +285,7 @@ static fracas_err take_failures(joining *j, const fracas_point_table *table)
 {
     failing f = {.joining = j, .table = table};
     TRY(fracas_index_begin(j->index));
-    fracas_err err = fracas_query_begin(
-        j->index,
-        "UPDATE realization SET status = 'failed', attempts = ?3, reason = ?4, outcome = ?5 WHERE "
-        "point = (SELECT id FROM point WHERE hash = ?1) AND replica = ?2 AND status IN ('planned', "
-        "'leased')",
-        &f.fail);
-    if (!err) err = fracas_index_failures(j->theirs, table, take_failure, &f);
-    sqlite3_finalize(f.fail);
+    fracas_err err = fracas_index_failures(j->theirs, table, take_failure, &f);
     return fracas_index_end(j->index, err ? err : f.err);
 }
 

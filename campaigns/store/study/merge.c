@@ -33,17 +33,15 @@ static fracas_err append(void *context, fracas_visit *visit)
 /* After all records, point by point, of the points whose replicas a rule decides. */
 static fracas_err append_decisions(const merging *m, fracas_index *index)
 {
-    fracas_err err = FRACAS_OK;
-    for (size_t p = 0; !err && p < m->table->npoints; p++) {
-        fracas_decision *decision;
+    for (size_t p = 0; p < m->table->npoints; p++) {
+        OWNED fracas_decision *decision = NULL;
         size_t count;
         if (!m->table->point[p].most) continue;
         TRY(fracas_index_decisions(index, &m->table->point[p].hash, &decision, &count));
         for (size_t d = 0; d < count; d++) decision[d].point = (int64_t)p;
-        err = fracas_writer_decisions(m->writer, decision, count);
-        free(decision);
+        TRY(fracas_writer_decisions(m->writer, decision, count));
     }
-    return err;
+    return FRACAS_OK;
 }
 
 /* After all records, point by point: the order depends on nothing else. */
@@ -63,7 +61,8 @@ static fracas_err append_meshes(const merging *m, const fracas_mesh_source *mesh
  * Without any, the message of the merge stands. */
 static fracas_err plan_damaged_again(const char *study, fracas_index *index)
 {
-    char *text = NULL, before[1024];
+    char before[1024];
+    OWNED char *text = NULL;
     size_t size;
     int64_t rows = 0;
     snprintf(before, sizeof before, "%s", fracas_message());
@@ -71,24 +70,22 @@ static fracas_err plan_damaged_again(const char *study, fracas_index *index)
     if (!report) return fracas_no_memory("a report");
     fracas_err err = fracas_segments_sweep(study, index, true, report, &rows);
     if (fclose(report) != 0 && !err) err = fracas_no_memory("a report");
-    if (!err && *text) err = fracas_index_event(index, "recovered", text);
-    if (!err)
-        err = rows ? fracas_fail(FRACAS_INTERRUPTED,
-                                 "damage was found when study.h5 was to be made: %sthe same "
-                                 "command computes them",
-                                 text)
-                   : fracas_fail(FRACAS_DAMAGED, "%s", before);
-    free(text);
-    return err;
+    TRY(err);
+    if (*text) TRY(fracas_index_event(index, "recovered", text));
+    if (!rows) return fracas_fail(FRACAS_DAMAGED, "%s", before);
+    return fracas_fail(FRACAS_INTERRUPTED,
+                       "damage was found when study.h5 was to be made: %sthe same command computes "
+                       "them",
+                       text);
 }
 
 fracas_err fracas_study_merge(const char *study, fracas_index *index,
                               const fracas_file_header *header, const fracas_point_table *table,
                               const fracas_mesh_source *meshes)
 {
-    char *path;
+    OWNED char *path = NULL;
     merging m = {.table = table, .complete = true};
-    fracas_segments *segments = NULL;
+    OWN(fracas_segments) segments = NULL;
     fracas_identity identity;
     fracas_file_seal seal;
     fracas_identity_of(header, &identity);
@@ -106,21 +103,17 @@ fracas_err fracas_study_merge(const char *study, fracas_index *index,
     if (err) fracas_writer_abandon(m.writer);
     else err = fracas_writer_finish(m.writer, m.complete, &seal);
     if (!err) err = fracas_index_seal_study(index, &seal);
-    fracas_segments_destroy(segments);
-    free(path);
     return err == FRACAS_DAMAGED ? plan_damaged_again(study, index) : err;
 }
 
 fracas_err fracas_study_file_sealed(const char *study, fracas_index *index, bool *sealed)
 {
-    char *path;
+    OWNED char *path = NULL;
     fracas_file_seal seal;
     TRY(fracas_index_study_seal(index, sealed, &seal));
     if (!*sealed) return FRACAS_OK;
     TRY(fracas_disk_join(study, "study.h5", &path));
-    fracas_err err = fracas_disk_has_size(path, seal.bytes, sealed);
-    free(path);
-    return err;
+    return fracas_disk_has_size(path, seal.bytes, sealed);
 }
 
 fracas_err fracas_study_sealed(const char *study, fracas_index *index, bool *sealed)

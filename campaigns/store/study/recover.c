@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sweeping a study after an interruption. */
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/index/query.h"
 #include "campaigns/store/study/segments.h"
 
 #include <errno.h>
@@ -28,24 +27,37 @@ static fracas_err remove_temporary(void *report, const char *path, const char *n
 /* Removes half-written files of merges and workers. */
 static fracas_err sweep(const char *study, FILE *report)
 {
-    char *folder;
+    OWNED char *folder = NULL;
     TRY(fracas_disk_each(study, remove_temporary, report));
     TRY(fracas_disk_join(study, "segments", &folder));
-    fracas_err err = fracas_disk_each(folder, remove_temporary, report);
-    free(folder);
-    return err;
+    return fracas_disk_each(folder, remove_temporary, report);
+}
+
+/* *report: what `write` prints, freed by the caller. */
+static fracas_err report_of(fracas_err (*write)(void *context, FILE *report), void *context,
+                            char **report)
+{
+    OWNED char *text = NULL;
+    size_t size;
+    *report = NULL;
+    FILE *out = open_memstream(&text, &size);
+    if (!out) return fracas_no_memory("a report");
+    fracas_err err = write(context, out);
+    if (fclose(out) != 0 && !err) err = fracas_no_memory("a report");
+    TRY(err);
+    *report = text;
+    text = NULL;
+    return FRACAS_OK;
+}
+
+static fracas_err sweep_to(void *study, FILE *report)
+{
+    return sweep(study, report);
 }
 
 fracas_err fracas_study_sweep(const char *study, char **report)
 {
-    size_t size;
-    *report = NULL;
-    FILE *text = open_memstream(report, &size);
-    if (!text) return fracas_no_memory("a report");
-    fracas_err err = sweep(study, text);
-    if (fclose(text) != 0 && !err) err = fracas_no_memory("a report");
-    if (err) free(*report), *report = NULL;
-    return err;
+    return report_of(sweep_to, (void *)(uintptr_t)study, report);
 }
 
 /* ---- lost segments ---- */
@@ -53,29 +65,24 @@ fracas_err fracas_study_sweep(const char *study, char **report)
 fracas_err fracas_segment_is_there(const char *study, const fracas_known_segment *segment,
                                    bool *there)
 {
-    char *path;
+    OWNED char *path = NULL;
     TRY(fracas_disk_segment(study, segment->name, &path));
-    fracas_err err = fracas_disk_has_size(path, segment->seal.bytes, there);
-    free(path);
-    return err;
+    return fracas_disk_has_size(path, segment->seal.bytes, there);
 }
 
 fracas_err fracas_segment_check(const char *study, const fracas_known_segment *segment)
 {
-    char *path;
+    OWNED char *path = NULL;
     TRY(fracas_disk_segment(study, segment->name, &path));
-    fracas_err err = fracas_disk_check_seal(path, &segment->seal);
-    free(path);
-    return err;
+    return fracas_disk_check_seal(path, &segment->seal);
 }
 
 /* Out of the way, but kept: no result is removed without a command. */
 static fracas_err set_aside(const char *path, FILE *report)
 {
-    char *aside;
+    OWNED char *aside = NULL;
     TRY(fracas_disk_set_aside(path, &aside));
     fprintf(report, "; it is %s now\n", aside);
-    free(aside);
     return FRACAS_OK;
 }
 
@@ -83,7 +90,7 @@ static fracas_err set_aside(const char *path, FILE *report)
 static fracas_err sweep_segment(const char *study, const fracas_known_segment *segment, bool seal,
                                 FILE *report, bool *lost)
 {
-    char *path;
+    OWNED char *path = NULL;
     bool there;
     TRY(fracas_segment_is_there(study, segment, &there));
     fracas_err err = there && seal ? fracas_segment_check(study, segment) : FRACAS_OK;
@@ -92,14 +99,11 @@ static fracas_err sweep_segment(const char *study, const fracas_known_segment *s
     TRY(fracas_disk_segment(study, segment->name, &path));
     if (access(path, F_OK) < 0) {
         fprintf(report, "segment %s is missing\n", segment->name);
-        err = FRACAS_OK;
-    } else {
-        if (there) fprintf(report, "%s", fracas_message());
-        else fprintf(report, "segment %s has another size than the index says", segment->name);
-        err = set_aside(path, report);
+        return FRACAS_OK;
     }
-    free(path);
-    return err;
+    if (there) fprintf(report, "%s", fracas_message());
+    else fprintf(report, "segment %s has another size than the index says", segment->name);
+    return set_aside(path, report);
 }
 
 fracas_err fracas_segments_sweep(const char *study, fracas_index *index, bool seals, FILE *report,
@@ -125,22 +129,25 @@ fracas_err fracas_segments_sweep(const char *study, fracas_index *index, bool se
 
 /* ---- study.h5 ---- */
 
-/* A study.h5 with another checksum than its seal loses the seal, and is merged again. */
-static fracas_err unseal_damaged(const char *study, fracas_index *index, FILE *report)
+/* FRACAS_DAMAGED for a sealed study.h5 that does not fit its seal. */
+static fracas_err check_study_file(const char *study, fracas_index *index)
 {
-    char *path;
+    OWNED char *path = NULL;
     bool sealed;
     fracas_file_seal seal;
     TRY(fracas_index_study_seal(index, &sealed, &seal));
     if (!sealed) return FRACAS_OK;
     TRY(fracas_disk_join(study, "study.h5", &path));
-    fracas_err err = fracas_disk_check_seal(path, &seal);
-    if (err == FRACAS_DAMAGED) {
-        fprintf(report, "%s: it is made again\n", fracas_message());
-        err = fracas_index_seal_study(index, NULL);
-    }
-    free(path);
-    return err;
+    return fracas_disk_check_seal(path, &seal);
+}
+
+/* A study.h5 with another checksum than its seal loses the seal, and is merged again. */
+static fracas_err unseal_damaged(const char *study, fracas_index *index, FILE *report)
+{
+    fracas_err err = check_study_file(study, index);
+    if (err != FRACAS_DAMAGED) return err;
+    fprintf(report, "%s: it is made again\n", fracas_message());
+    return fracas_index_seal_study(index, NULL);
 }
 
 /* True if every byte is to be read at the start of a run: seconds, but for studies of many
@@ -152,7 +159,7 @@ static fracas_err is_quick_to_check(fracas_index *index, bool *quick)
     int64_t bytes;
     fracas_file_seal seal;
     TRY(fracas_index_study_seal(index, &sealed, &seal));
-    TRY(fracas_query_number(index, "SELECT sum(bytes) FROM segment", &bytes));
+    TRY(fracas_sql_numbers(index, "SELECT sum(bytes) FROM segment", NULL, 0, &bytes, NULL));
     *quick = (double)seal.bytes + (double)bytes <= most;
     return FRACAS_OK;
 }
@@ -168,18 +175,13 @@ static fracas_err forget_lost(const char *study, fracas_index *index, FILE *repo
 
 fracas_err fracas_study_sound(const char *study, fracas_index *index, bool *sound)
 {
-    bool sealed, quick;
-    fracas_file_seal seal;
+    bool quick;
     fracas_known_segment *segment;
-    char *path;
     size_t count;
     *sound = true;
     TRY(is_quick_to_check(index, &quick));
     if (!quick) return FRACAS_OK;
-    TRY(fracas_index_study_seal(index, &sealed, &seal));
-    TRY(fracas_disk_join(study, "study.h5", &path));
-    fracas_err err = sealed ? fracas_disk_check_seal(path, &seal) : FRACAS_OK;
-    free(path);
+    fracas_err err = check_study_file(study, index);
     if (!err && (err = fracas_index_segments(index, &segment, &count)) == FRACAS_OK) {
         for (size_t s = 0; !err && s < count; s++) err = fracas_segment_check(study, &segment[s]);
         fracas_index_segments_free(segment, count);
@@ -240,7 +242,7 @@ static fracas_err commit(adoption *a, const char *path, const char *name,
                          const fracas_file_seal *seal)
 {
     const size_t count = fracas_reader_realizations(a->reader);
-    char *provenance;
+    OWNED char *provenance = NULL;
     if (!a->asked) {
         fprintf(a->report,
                 "left %s, which has realizations that this campaign does not ask for; move it "
@@ -251,11 +253,10 @@ static fracas_err commit(adoption *a, const char *path, const char *name,
     TRY(fracas_disk_sync_folder(path)); /* whoever renamed it may have died before this */
     TRY(fracas_reader_provenance(a->reader, &provenance));
     const bool tells = provenance && fracas_index_is_json(a->index, provenance);
-    fracas_err err = fracas_index_commit(a->index, name, seal, a->row, count,
-                                         tells ? provenance : "{\"adopted\": true}");
-    free(provenance);
-    if (!err) fprintf(a->report, "adopted %s with %zu realizations\n", path, count);
-    return err;
+    TRY(fracas_index_commit(a->index, name, seal, a->row, count,
+                            tells ? provenance : "{\"adopted\": true}"));
+    fprintf(a->report, "adopted %s with %zu realizations\n", path, count);
+    return FRACAS_OK;
 }
 
 /* Every record is read, so that every checksum of the file is looked at. A segment of another
@@ -273,22 +274,21 @@ static fracas_err adopt(adoption *a, const char *path, const char *name)
         return FRACAS_OK;
     }
     TRY(fracas_disk_seal_path(path, &seal));
-    TRY(fracas_reader_open(path, &a->reader));
-    fracas_identity_of(fracas_reader_header(a->reader), &found);
-    fracas_err err = FRACAS_OK;
+    OWN(fracas_reader) reader = NULL;
+    TRY(fracas_reader_open(path, &reader));
+    a->reader = reader;
+    fracas_identity_of(fracas_reader_header(reader), &found);
     if (fracas_identity_differs(&found, a->identity, text)) {
         fprintf(a->report, "left %s, which is not of this study: %s; move it away\n", path, text);
-    } else {
-        a->asked = true;
-        a->row = calloc(fracas_reader_realizations(a->reader) + 1, sizeof *a->row);
-        err = a->row ? fracas_reader_each(a->reader, FRACAS_READ_ALL, read_row, a)
-                     : fracas_no_memory("the rows of a segment");
-        a->sound = !err;
-        if (!err) err = commit(a, path, name, &seal);
-        free(a->row);
+        return FRACAS_OK;
     }
-    fracas_reader_close(a->reader);
-    return err;
+    OWNED fracas_segment_row *row = calloc(fracas_reader_realizations(reader) + 1, sizeof *row);
+    if (!row) return fracas_no_memory("the rows of a segment");
+    a->row = row;
+    a->asked = true;
+    TRY(fracas_reader_each(reader, FRACAS_READ_ALL, read_row, a));
+    a->sound = true;
+    return commit(a, path, name, &seal);
 }
 
 static fracas_err adopt_or_set_aside(void *context, const char *path, const char *name)
@@ -350,7 +350,7 @@ static fracas_err check_index(fracas_index *index, const fracas_point_table *tab
     struct stat info;
     int64_t points, id, known = 0;
     if (stat(index->path, &info) == 0 && info.st_size <= MOST) TRY(fracas_index_quick_check(index));
-    TRY(fracas_index_points(index, &points));
+    TRY(fracas_sql_numbers(index, "SELECT count(*) FROM point", NULL, 0, &points, NULL));
     for (size_t p = 0; p < table->npoints; p++) {
         TRY(fracas_index_find_point(index, &table->point[p].hash, &id));
         known += id != 0;
@@ -363,35 +363,33 @@ static fracas_err check_index(fracas_index *index, const fracas_point_table *tab
                        index->path, points - known, points);
 }
 
-static fracas_err recover(const char *study, const fracas_point_table *table, fracas_index *index,
-                          const fracas_identity *identity, FILE *report)
+typedef struct {
+    const char *study;
+    const fracas_point_table *table;
+    fracas_index *index;
+    fracas_identity identity;
+} recovery;
+
+static fracas_err recover(void *context, FILE *report)
 {
-    char *folder;
-    TRY(fracas_disk_join(study, "segments", &folder));
-    fracas_err err = FRACAS_OK;
-    if (mkdir(folder, 0777) < 0 && errno != EEXIST) err = fracas_disk_fail("create", folder);
-    if (!err) err = sweep(study, report);
-    if (!err) err = forget_lost(study, index, report);
-    if (!err) err = adopt_orphans(folder, table, index, identity, report);
-    free(folder);
-    return err;
+    const recovery *r = context;
+    OWNED char *folder = NULL;
+    TRY(fracas_disk_join(r->study, "segments", &folder));
+    if (mkdir(folder, 0777) < 0 && errno != EEXIST) return fracas_disk_fail("create", folder);
+    TRY(sweep(r->study, report));
+    TRY(forget_lost(r->study, r->index, report));
+    return adopt_orphans(folder, r->table, r->index, &r->identity, report);
 }
 
 fracas_err fracas_study_recover(const char *study, fracas_index *index,
                                 const fracas_file_header *header, const fracas_point_table *table,
                                 char **report)
 {
-    size_t size;
-    fracas_identity identity;
-    fracas_identity_of(header, &identity);
+    recovery r = {.study = study, .table = table, .index = index};
+    fracas_identity_of(header, &r.identity);
     *report = NULL;
     TRY(check_index(index, table));       /* before anything is added to it */
     TRY(fracas_index_plan(index, table)); /* before the sweep: a segment of a realization that the
                                              index does not know is left alone */
-    FILE *text = open_memstream(report, &size);
-    if (!text) return fracas_no_memory("a report");
-    fracas_err err = recover(study, table, index, &identity, text);
-    if (fclose(text) != 0 && !err) err = fracas_no_memory("a report");
-    if (err) free(*report), *report = NULL;
-    return err;
+    return report_of(recover, &r, report);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STUDY/index.sqlite made anew from the segments. */
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/index/query.h"
+#include "campaigns/store/index/index.h"
 #include "campaigns/store/upkeep.h"
 
 #include <errno.h>
@@ -72,19 +72,17 @@ static fracas_err note_version(void *context, const char *path, const char *name
 /* A study of another format version is refused as such, not as one without any segment of ours. */
 static fracas_err check_versions(const char *study)
 {
-    char *folder;
+    OWNED char *folder = NULL;
     versions found = {0};
     TRY(fracas_disk_join(study, "segments", &folder));
     fracas_err err = fracas_disk_each(folder, note_version, &found);
-    if (!err && !found.ours && found.other)
-        err = fracas_fail(FRACAS_DAMAGED,
-                          "%s has format version %" PRIu64
-                          "; this program reads %d: use the program version that wrote it, or "
-                          "compute the study again in another folder",
-                          found.other, found.version, FRACAS_FORMAT_VERSION);
-    free(found.other);
-    free(folder);
-    return err;
+    OWNED char *other = found.other;
+    if (err || found.ours || !other) return err;
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s has format version %" PRIu64
+                       "; this program reads %d: use the program version that wrote it, or compute "
+                       "the study again in another folder",
+                       other, found.version, FRACAS_FORMAT_VERSION);
 }
 
 /* Every page of the old index, before anything is taken from it. */
@@ -92,19 +90,14 @@ static fracas_err check_old(reindexing *r, fracas_index *old)
 {
     fracas_identity found;
     char difference[FRACAS_DIFFERENCE_TEXT];
-    sqlite3_stmt *check;
-    bool row = false;
-    fracas_err err = fracas_query_begin(old, "PRAGMA integrity_check(1)", &check);
-    if (!err) err = fracas_query_step(old, check, &row);
-    const char *text = row ? (const char *)sqlite3_column_text(check, 0) : NULL;
-    if (!err && (!text || strcmp(text, "ok") != 0))
-        err = fracas_fail(FRACAS_DAMAGED, "%s: damaged: %s", r->old, text ? text : "");
-    sqlite3_finalize(check);
-    if (!err) err = fracas_index_identity(old, &found);
-    if (!err && fracas_identity_differs(&found, &r->identity, difference))
-        err = fracas_fail(FRACAS_DAMAGED, "%s: not of this study: %s", r->old, difference);
-    if (!err) err = fracas_query_checkpoint(old); /* so that its file alone is all of it */
-    return err;
+    OWNED char *text = NULL;
+    TRY(fracas_sql_text(old, "PRAGMA integrity_check(1)", NULL, 0, &text));
+    if (!text || strcmp(text, "ok") != 0)
+        return fracas_fail(FRACAS_DAMAGED, "%s: damaged: %s", r->old, text ? text : "");
+    TRY(fracas_index_identity(old, &found));
+    if (fracas_identity_differs(&found, &r->identity, difference))
+        return fracas_fail(FRACAS_DAMAGED, "%s: not of this study: %s", r->old, difference);
+    return fracas_sql_checkpoint(old); /* so that its file alone is all of it */
 }
 
 static fracas_err look_at_old(reindexing *r)
@@ -127,13 +120,18 @@ static fracas_err look_at_old(reindexing *r)
 
 /* ---- the new index ---- */
 
+static fracas_err path_of(const char *file, const char *stamp, const char *end, char **path)
+{
+    if (asprintf(path, "%s%s%s", file, stamp, end) >= 0) return FRACAS_OK;
+    *path = NULL;
+    return fracas_no_memory("a file name");
+}
+
 static void drop_nursery(const reindexing *r)
 {
     for (int t = 0; t < NTAILS; t++) {
-        char *path;
-        if (asprintf(&path, "%s%s", r->fresh, tail[t]) < 0) return;
-        unlink(path);
-        free(path);
+        OWNED char *path = NULL;
+        if (!path_of(r->fresh, "", tail[t], &path)) unlink(path);
     }
     rmdir(r->nursery);
 }
@@ -148,27 +146,19 @@ static fracas_err clear_nursery(const reindexing *r)
 /* Plans as many replicas as in the old index where a rule decides their number. */
 static fracas_err plan_as_before(reindexing *r)
 {
-    sqlite3_stmt *most;
-    bool row = true;
-    TRY(fracas_query_begin(r->index,
-                           "SELECT coalesce(max(r.replica) + 1, 0) FROM old.realization r JOIN "
-                           "old.point q ON q.id = r.point WHERE q.hash = ?1 AND r.replica < ?2",
-                           &most));
-    fracas_err err = FRACAS_OK;
-    for (size_t p = 0; !err && p < r->table->npoints; p++) {
+    for (size_t p = 0; p < r->table->npoints; p++) {
         fracas_point_row point = r->table->point[p];
+        int64_t replicas;
         if (!point.most) continue;
-        err = fracas_query_bind_hash(r->index, most, 1, &point.hash);
-        if (!err) err = fracas_query_bind(r->index, most, 2, point.most);
-        if (!err) err = fracas_query_step(r->index, most, &row);
-        if (err) break;
-        const int64_t replicas = sqlite3_column_int64(most, 0);
-        sqlite3_reset(most);
+        TRY(fracas_sql_numbers(r->index,
+                               "SELECT coalesce(max(r.replica) + 1, 0) FROM old.realization r JOIN "
+                               "old.point q ON q.id = r.point WHERE q.hash = ?1 AND r.replica < ?2",
+                               SQL_VALUES(SQL_HASH(&point.hash), SQL_INTEGER(point.most)),
+                               &replicas, NULL));
         if (replicas > point.replicas) point.replicas = replicas;
-        err = fracas_index_plan_point(r->index, &point);
+        TRY(fracas_index_plan_point(r->index, &point));
     }
-    sqlite3_finalize(most);
-    return err;
+    return FRACAS_OK;
 }
 
 /* A failure holds unless a segment has the realization. */
@@ -191,24 +181,17 @@ static fracas_err carry(reindexing *r)
 {
     TRY(fracas_index_begin(r->index));
     fracas_err err = plan_as_before(r);
-    if (!err) err = fracas_query_all(r->index, carried);
+    if (!err) err = fracas_sql_script(r->index, carried);
     return fracas_index_end(r->index, err);
 }
 
 /* Takes over facts of the old index that no segment has. */
 static fracas_err take_over(reindexing *r)
 {
-    sqlite3_stmt *attach;
     if (!r->readable) return FRACAS_OK;
-    fracas_err err = fracas_query_begin(r->index, "ATTACH ?1 AS old", &attach);
-    if (!err) err = fracas_query_bind_text(r->index, attach, 1, r->old);
-    if (!err) err = fracas_query_do(r->index, attach);
-    sqlite3_finalize(attach);
-    if (err) return err;
-    err = carry(r);
-    /* The first error is told: it may be the reason that the index stays attached. */
-    const fracas_err left = err ? FRACAS_OK : fracas_query_all(r->index, "DETACH old");
-    return err ? err : left;
+    TRY(fracas_sql_do(r->index, "ATTACH ?1 AS old", SQL_VALUES(SQL_TEXT(r->old))));
+    TRY(carry(r)); /* its error may be the reason that the index stays attached */
+    return fracas_sql_script(r->index, "DETACH old");
 }
 
 /* Prints the lines of the sweep, one for all adopted segments. */
@@ -224,14 +207,13 @@ static void tell(const reindexing *r, char *report)
 
 static fracas_err fill(reindexing *r, const fracas_file_header *header)
 {
-    char *report;
+    OWNED char *report = NULL;
     TRY(fracas_index_claim(r->index, header));
     TRY(fracas_study_recover(r->study, r->index, header, r->table, &report));
     tell(r, report);
-    free(report);
     TRY(take_over(r));
     TRY(fracas_index_event(r->index, "reindexed", "index.sqlite is made anew from the segments"));
-    return fracas_query_checkpoint(r->index);
+    return fracas_sql_checkpoint(r->index);
 }
 
 static fracas_err sync_file(const char *path)
@@ -258,25 +240,20 @@ static fracas_err make(reindexing *r, const fracas_file_header *header)
  * database is nothing, but it must not be found beside another one. */
 static fracas_err move_old(const reindexing *r)
 {
-    char stamp[32];
+    char day[32], stamp[64];
     struct tm utc;
     struct timespec now;
     clock_gettime(CLOCK_REALTIME, &now);
     gmtime_r(&now.tv_sec, &utc);
-    strftime(stamp, sizeof stamp, "%Y%m%dT%H%M%S", &utc);
+    strftime(day, sizeof day, "%Y%m%dT%H%M%S", &utc);
+    snprintf(stamp, sizeof stamp, ".before-%s.%09ld", day, now.tv_nsec);
     for (int t = 0; t < NTAILS; t++) {
-        char *from, *to = NULL;
-        if (asprintf(&from, "%s%s", r->old, tail[t]) < 0) return fracas_no_memory("a file name");
-        if (asprintf(&to, "%s.before-%s.%09ld%s", r->old, stamp, now.tv_nsec, tail[t]) < 0)
-            to = NULL;
-        fracas_err err = to ? FRACAS_OK : fracas_no_memory("a file name");
-        if (!err && rename(from, to) < 0 && errno != ENOENT)
-            err = fracas_disk_fail("move away", from);
-        else if (!err && t == 0 && access(to, F_OK) == 0)
-            fracas_say_line(r->said, "the index before is %s", to);
-        free(from);
-        free(to);
-        TRY(err);
+        OWNED char *from = NULL;
+        OWNED char *to = NULL;
+        TRY(path_of(r->old, "", tail[t], &from));
+        TRY(path_of(r->old, stamp, tail[t], &to));
+        if (rename(from, to) < 0 && errno != ENOENT) return fracas_disk_fail("move away", from);
+        if (t == 0 && access(to, F_OK) == 0) fracas_say_line(r->said, "the index before is %s", to);
     }
     return FRACAS_OK;
 }
@@ -285,11 +262,10 @@ static fracas_err exchange(const reindexing *r)
 {
     bool whole = r->readable; /* nothing of it is in a log */
     for (int t = 1; whole && t < NTAILS; t++) {
-        char *path;
+        OWNED char *path = NULL;
         struct stat info;
-        if (asprintf(&path, "%s%s", r->old, tail[t]) < 0) return fracas_no_memory("a file name");
+        TRY(path_of(r->old, "", tail[t], &path));
         whole = stat(path, &info) < 0 || info.st_size == 0 || strcmp(tail[t], "-shm") == 0;
-        free(path);
     }
     if (!whole) TRY(move_old(r));
     if (rename(r->fresh, r->old) < 0) return fracas_disk_fail("rename to", r->old);

@@ -2,7 +2,6 @@
 #include "campaigns/store/results.h"
 
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/index/query.h"
 #include "campaigns/store/index/tables.h"
 #include "campaigns/store/study/segments.h"
 
@@ -31,11 +30,11 @@ struct fracas_results {
     size_t nrows, room;
     fracas_segments *segments;
     fracas_decision *decision;
-    size_t ndecisions;
+    size_t ndecisions, decision_room;
     char **note; /* study.h5 has them, too */
-    size_t nnotes;
+    size_t nnotes, note_room;
     int64_t *named; /* segments that a note names */
-    size_t nnamed;
+    size_t nnamed, named_room;
 };
 
 FRACAS_PRINTF(2, 3) static fracas_err take_note(fracas_results *results, const char *format, ...)
@@ -46,37 +45,22 @@ FRACAS_PRINTF(2, 3) static fracas_err take_note(fracas_results *results, const c
     const int length = vasprintf(&text, format, arguments);
     va_end(arguments);
     if (length < 0) return fracas_no_memory("a note");
-    char **more = realloc(results->note, (results->nnotes + 1) * sizeof *more);
-    if (!more) {
-        free(text);
-        return fracas_no_memory("a note");
-    }
-    results->note = more;
-    results->note[results->nnotes++] = text;
-    return FRACAS_OK;
+    fracas_err err = fracas_grow(&results->note, sizeof *results->note, results->nnotes,
+                                 &results->note_room, "a note");
+    if (err) free(text);
+    else results->note[results->nnotes++] = text;
+    return err;
 }
 
 /* ---- study.h5 ---- */
 
-static fracas_err file_is_there(const char *study, bool *there)
-{
-    char *path;
-    TRY(fracas_disk_join(study, "study.h5", &path));
-    *there = access(path, F_OK) == 0;
-    free(path);
-    return FRACAS_OK;
-}
-
 static fracas_err open_file(const char *study, fracas_reader **reader)
 {
-    char *path;
+    OWNED char *path = NULL;
     TRY(fracas_disk_join(study, "study.h5", &path));
-    fracas_err err = access(path, F_OK)
-                         ? fracas_fail(FRACAS_DAMAGED, "%s is not there; `fracas run` makes it",
-                                       path)
-                         : fracas_reader_open(path, reader);
-    free(path);
-    return err;
+    if (access(path, F_OK))
+        return fracas_fail(FRACAS_DAMAGED, "%s is not there; `fracas run` makes it", path);
+    return fracas_reader_open(path, reader);
 }
 
 /* Takes study.h5 if it has every realization of the index; else leaves results->reader NULL. */
@@ -102,21 +86,19 @@ static fracas_err take_file(const char *study, fracas_index *index, const fracas
 static fracas_err take_file_alone(const char *study, const fracas_hash *campaign,
                                   fracas_results *results)
 {
-    char *why = strdup(fracas_message());
+    OWNED char *why = strdup(fracas_message());
+    OWNED char *path = NULL;
     if (!why) return fracas_no_memory("a message");
-    bool there = false;
-    fracas_err err = file_is_there(study, &there);
-    if (!err && !there)
-        err = fracas_fail(FRACAS_DAMAGED, "%s; and there is no %s/study.h5", why, study);
-    if (!err) err = open_file(study, &results->reader);
-    if (!err && !fracas_hash_equal(&fracas_reader_header(results->reader)->campaign, campaign))
-        err = fracas_fail(FRACAS_DAMAGED,
-                          "%s; and %s/study.h5 is of another campaign than %s/campaign.yaml, from "
-                          "before it was extended",
-                          why, study, study);
-    if (!err) err = take_note(results, "%s; study.h5 is taken as it is", why);
-    free(why);
-    return err;
+    TRY(fracas_disk_join(study, "study.h5", &path));
+    if (access(path, F_OK))
+        return fracas_fail(FRACAS_DAMAGED, "%s; and there is no %s/study.h5", why, study);
+    TRY(open_file(study, &results->reader));
+    if (!fracas_hash_equal(&fracas_reader_header(results->reader)->campaign, campaign))
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s; and %s/study.h5 is of another campaign than %s/campaign.yaml, from "
+                           "before it was extended",
+                           why, study, study);
+    return take_note(results, "%s; study.h5 is taken as it is", why);
 }
 
 /* ---- the index ---- */
@@ -124,26 +106,27 @@ static fracas_err take_file_alone(const char *study, const fracas_hash *campaign
 static fracas_err add_row(fracas_results *results, size_t p, int64_t replica,
                           const fracas_place *place)
 {
-    if (results->nrows == results->room) {
-        const size_t room = results->room ? 2 * results->room : 256;
-        entry *more = realloc(results->row, room * sizeof *more);
-        if (!more) return fracas_no_memory("the realizations of a study");
-        results->row = more;
-        results->room = room;
-    }
+    TRY(fracas_grow(&results->row, sizeof *results->row, results->nrows, &results->room,
+                    "the realizations of a study"));
     results->row[results->nrows++] = (entry){.point = p, .replica = replica, .place = *place};
     return FRACAS_OK;
 }
 
-/* The rows of a point in `s`, without replicas beyond the campaign's. */
-static fracas_err read_rows(fracas_results *results, fracas_index *index, sqlite3_stmt *s, size_t p)
+/* The rows of a point, without replicas beyond the campaign's. */
+static fracas_err read_rows(fracas_results *results, fracas_index *index, size_t p)
 {
     fracas_point_row *point = &results->point[p];
     const int64_t most = point->most ? point->most : point->replicas;
     int64_t given = 0;
+    OWN(sqlite3_stmt) s = NULL;
+    TRY(fracas_sql_start(index,
+                         "SELECT replica, " FRACAS_PLACE_COLUMNS
+                         " FROM realization WHERE point = (SELECT id FROM point WHERE hash = ?1) "
+                         "ORDER BY replica",
+                         SQL_VALUES(SQL_HASH(&point->hash)), &s));
     for (;;) {
         bool more;
-        TRY(fracas_query_step(index, s, &more));
+        TRY(fracas_sql_next(index, s, &more));
         if (!more) break;
         const int64_t replica = sqlite3_column_int64(s, 0);
         if (replica < 0 || replica >= most) continue;
@@ -152,45 +135,26 @@ static fracas_err read_rows(fracas_results *results, fracas_index *index, sqlite
         if (place.status != FRACAS_PLANNED && place.status != FRACAS_LEASED)
             TRY(add_row(results, p, replica, &place));
     }
-    sqlite3_reset(s);
     if (point->most && given) point->replicas = given;
     return FRACAS_OK;
-}
-
-static fracas_err read_points(fracas_results *results, fracas_index *index)
-{
-    sqlite3_stmt *s;
-    fracas_err err = fracas_query_begin(index,
-                                        "SELECT replica, " FRACAS_PLACE_COLUMNS
-                                        " FROM realization WHERE point = (SELECT id FROM "
-                                        "point WHERE hash = ?1) ORDER BY replica",
-                                        &s);
-    for (size_t p = 0; !err && p < results->table.npoints; p++) {
-        err = fracas_query_bind_hash(index, s, 1, &results->point[p].hash);
-        if (!err) err = read_rows(results, index, s, p);
-    }
-    sqlite3_finalize(s);
-    return err;
 }
 
 static fracas_err read_decisions(fracas_results *results, fracas_index *index)
 {
     for (size_t p = 0; p < results->table.npoints; p++) {
-        fracas_decision *decision, *more;
+        OWNED fracas_decision *decision = NULL;
         size_t count;
         int64_t id;
         if (!results->point[p].most) continue;
         TRY(fracas_index_find_point(index, &results->point[p].hash, &id));
         if (!id) continue; /* it is not planned yet */
         TRY(fracas_index_decisions(index, &results->point[p].hash, &decision, &count));
-        for (size_t d = 0; d < count; d++) decision[d].point = (int64_t)p;
-        more = count ? realloc(results->decision, (results->ndecisions + count) * sizeof *more)
-                     : results->decision;
-        if (count && more) memcpy(more + results->ndecisions, decision, count * sizeof *decision);
-        free(decision);
-        if (count && !more) return fracas_no_memory("the decisions of a study");
-        results->decision = more;
-        results->ndecisions += count;
+        for (size_t d = 0; d < count; d++) {
+            TRY(fracas_grow(&results->decision, sizeof *results->decision, results->ndecisions,
+                            &results->decision_room, "the decisions of a study"));
+            decision[d].point = (int64_t)p;
+            results->decision[results->ndecisions++] = decision[d];
+        }
     }
     return FRACAS_OK;
 }
@@ -215,7 +179,7 @@ static fracas_err read_index(const char *study, fracas_index *index, const fraca
     if (results->reader) return FRACAS_OK;
     TRY(fracas_index_identity(index, &identity));
     read_header(&identity, campaign, &results->header);
-    TRY(read_points(results, index));
+    for (size_t p = 0; p < results->table.npoints; p++) TRY(read_rows(results, index, p));
     TRY(read_decisions(results, index));
     TRY(fracas_segments_create(study, index, &identity, &results->segments));
     fracas_segments_only_records(results->segments);
@@ -248,14 +212,11 @@ static fracas_err check_any(const char *study, const fracas_results *results)
 static fracas_err open_by_index(const char *study, const fracas_hash *campaign,
                                 fracas_results *results)
 {
-    fracas_index *index;
+    OWN(fracas_index) index = NULL;
     fracas_err err = fracas_index_open(study, false, &index);
     if (err == FRACAS_DAMAGED) return take_file_alone(study, campaign, results);
-    if (!err) {
-        err = fracas_index_do(index, FRACAS_SQL_BEGIN_READING);
-        if (!err) err = fracas_index_end(index, read_index(study, index, campaign, results));
-        fracas_index_close(index);
-    }
+    if (!err) err = fracas_index_begin_reading(index);
+    if (!err) err = fracas_index_end(index, read_index(study, index, campaign, results));
     if (err == FRACAS_IN_USE)
         err = fracas_fail_within(
             err,
@@ -308,17 +269,13 @@ static fracas_err lose(fracas_results *results, entry *row)
     results->missing[row->point]++;
     for (size_t n = 0; n < results->nnamed; n++)
         if (results->named[n] == id) return FRACAS_OK;
-    int64_t *more = realloc(results->named, (results->nnamed + 1) * sizeof *more);
-    if (!more) return fracas_no_memory("a note");
-    results->named = more;
+    TRY(fracas_grow(&results->named, sizeof *results->named, results->nnamed, &results->named_room,
+                    "a note"));
     results->named[results->nnamed++] = id;
-    char *why = strdup(fracas_message());
+    OWNED char *why = strdup(fracas_message());
     if (!why) return fracas_no_memory("a note");
-    fracas_err err = take_note(results,
-                               "segment %s is left out (`fracas verify` checks the study): %s",
-                               fracas_segments_name(results->segments, id), why);
-    free(why);
-    return err;
+    return take_note(results, "segment %s is left out (`fracas verify` checks the study): %s",
+                     fracas_segments_name(results->segments, id), why);
 }
 
 static fracas_err read_entry(fracas_results *results, const entry *row, unsigned parts,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Failed realizations planned again. */
-#include "campaigns/store/index/query.h"
+#include "campaigns/store/index/index.h"
 #include "campaigns/store/index/tables.h"
 #include "campaigns/store/upkeep.h"
 
@@ -21,14 +21,10 @@ static const char plan_again[] =
 static fracas_err run(fracas_index *index, const char *text, const fracas_hash *point,
                       int64_t *rows)
 {
-    sqlite3_stmt *statement;
-    fracas_err err = fracas_query_begin(index, text, &statement);
-    if (!err && point)
-        err = fracas_query_bind_hash(index, statement, 1, point); /* else it is NULL */
-    if (!err) err = fracas_query_do(index, statement);
-    *rows = err ? 0 : sqlite3_changes64(index->db);
-    sqlite3_finalize(statement);
-    return err;
+    TRY(fracas_sql_do(index, text,
+                      SQL_VALUES({.type = point ? SQLITE_BLOB : SQLITE_NULL, .hash = point})));
+    *rows = sqlite3_changes64(index->db);
+    return FRACAS_OK;
 }
 
 static fracas_err retry(fracas_index *index, const fracas_hash *point, int64_t *rows)

@@ -117,7 +117,7 @@ static fracas_err open_reader(fracas_segments *segments, const char *path)
 
 static fracas_err open_segment(fracas_segments *segments, size_t s)
 {
-    char *path;
+    OWNED char *path = NULL;
     TRY(fracas_disk_segment(segments->study, segments->segment[s].name, &path));
     fracas_err err = segments->checked[s]
                          ? FRACAS_OK
@@ -127,11 +127,9 @@ static fracas_err open_segment(fracas_segments *segments, size_t s)
     if (err) fracas_reader_close(segments->reader), segments->reader = NULL;
     segments->checked[s] = true;
     segments->bad[s] = err == FRACAS_DAMAGED;
-    if (segments->bad[s])
-        err = fracas_fail_within(
-            err, "to compute its realizations again, move %s away and run again", path);
-    free(path);
-    return err;
+    if (!segments->bad[s]) return err;
+    return fracas_fail_within(err, "to compute its realizations again, move %s away and run again",
+                              path);
 }
 
 fracas_reader *fracas_segments_reader(const fracas_segments *segments)

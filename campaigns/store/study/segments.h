@@ -16,6 +16,7 @@ FRACAS_MUST_USE fracas_err fracas_segments_create(const char *study, fracas_inde
                                                   const fracas_identity *identity,
                                                   fracas_segments **segments);
 void fracas_segments_destroy(fracas_segments *segments); /* NULL is allowed */
+FRACAS_OWNER(fracas_segments, fracas_segments_destroy)
 /* From now on segments are opened for their records alone (fracas_reader_open_records), with the
  * parts asked for. */
 void fracas_segments_only_records(fracas_segments *segments);

@@ -51,20 +51,17 @@ static fracas_err found(verification *v, const char *format, ...)
 /* Each row of a checking pragma is a problem, but "ok". */
 static fracas_err check_database(verification *v, const char *pragma)
 {
-    sqlite3_stmt *statement;
-    if (sqlite3_prepare_v2(v->index->db, pragma, -1, &statement, NULL) != SQLITE_OK)
-        return problem(v, fracas_index_error(v->index, "check"));
-    fracas_err err = FRACAS_OK;
-    int code;
-    while (!err && (code = sqlite3_step(statement)) == SQLITE_ROW) {
-        const char *text = (const char *)sqlite3_column_text(statement, 0);
+    OWN(sqlite3_stmt) s = NULL;
+    fracas_err err = fracas_sql_start(v->index, pragma, NULL, 0, &s);
+    for (bool more; !err;) {
+        err = fracas_sql_next(v->index, s, &more);
+        if (!err && !more) return FRACAS_OK;
+        const char *text = err ? NULL : (const char *)sqlite3_column_text(s, 0);
         if (text && strcmp(text, "ok") != 0)
-            err = found(v, "%s: %s: %s; `fracas reindex` makes it anew from the segments",
-                        v->index->path, pragma, text);
+            TRY(found(v, "%s: %s: %s; `fracas reindex` makes it anew from the segments",
+                      v->index->path, pragma, text));
     }
-    if (!err && code != SQLITE_DONE) err = problem(v, fracas_index_error(v->index, "check"));
-    sqlite3_finalize(statement);
-    return err;
+    return problem(v, err);
 }
 
 /* Rows that no run leaves in the index, each counted by a query. */
@@ -92,18 +89,12 @@ static const struct {
 static fracas_err check_consistency(verification *v)
 {
     for (size_t q = 0; q < FRACAS_COUNT(never); q++) {
-        sqlite3_stmt *statement;
-        if (sqlite3_prepare_v2(v->index->db, never[q].query, -1, &statement, NULL) != SQLITE_OK)
-            return problem(v, fracas_index_error(v->index, "check"));
-        const int code = sqlite3_step(statement);
-        const int64_t count = code == SQLITE_ROW ? sqlite3_column_int64(statement, 0) : 0;
-        fracas_err err = code == SQLITE_ROW ? FRACAS_OK
-                                            : problem(v, fracas_index_error(v->index, "check"));
+        int64_t count;
+        fracas_err err = fracas_sql_numbers(v->index, never[q].query, NULL, 0, &count, NULL);
+        if (err) return problem(v, err);
         if (count)
-            err = found(v, "%s: %" PRId64 " %s; `fracas reindex` makes it anew from the segments",
-                        v->index->path, count, never[q].what);
-        sqlite3_finalize(statement);
-        TRY(err);
+            TRY(found(v, "%s: %" PRId64 " %s; `fracas reindex` makes it anew from the segments",
+                      v->index->path, count, never[q].what));
     }
     return FRACAS_OK;
 }
@@ -163,17 +154,14 @@ static fracas_err note_file(void *context, const char *path, const char *name)
 
 static fracas_err note_leftovers(verification *v)
 {
-    char *folder;
+    OWNED char *folder = NULL;
     leftovers l = {.v = v};
     note_lock(v);
     TRY(problem(v, fracas_index_segments_by_name(v->index, &l.segment, &l.count)));
     fracas_err err = fracas_disk_join(v->study, "segments", &folder);
-    if (!err) {
-        err = fracas_disk_each(v->study, note_file, &l);
-        l.inner = true;
-        if (!err) err = fracas_disk_each(folder, note_file, &l);
-        free(folder);
-    }
+    if (!err) err = fracas_disk_each(v->study, note_file, &l);
+    l.inner = true;
+    if (!err) err = fracas_disk_each(folder, note_file, &l);
     fracas_index_segments_free(l.segment, l.count);
     return err;
 }
@@ -181,6 +169,13 @@ static fracas_err note_leftovers(verification *v)
 /* ---- segments against the index ---- */
 
 static fracas_err read_on(void *context, fracas_result *result)
+{
+    (void)context, (void)result;
+    return FRACAS_OK;
+}
+
+/* Its damage was reported with its segment or its row. */
+static fracas_err pass_damaged(void *context, const fracas_result *result)
 {
     (void)context, (void)result;
     return FRACAS_OK;
@@ -238,13 +233,6 @@ static fracas_err check_meshes(verification *v)
         fracas_stored_mesh_clear(&mesh);
     }
     return err;
-}
-
-/* Its damage was reported with its segment or its row. */
-static fracas_err pass_damaged(void *context, const fracas_result *result)
-{
-    (void)context, (void)result;
-    return FRACAS_OK;
 }
 
 /* The next row of study.h5 against the row that merge would write there. */
@@ -308,7 +296,7 @@ static bool same_rule(const fracas_decision *a, const fracas_decision *b)
 static fracas_err check_decisions_of(verification *v, size_t p, const fracas_decision *merged,
                                      size_t nmerged, size_t *next)
 {
-    fracas_decision *recorded;
+    OWNED fracas_decision *recorded = NULL;
     size_t count, same = 0, first = *next;
     const fracas_point_row *point = &fracas_reader_points(v->merged)->point[p];
     while (*next < nmerged && merged[*next].point == (int64_t)p) ++*next;
@@ -318,9 +306,7 @@ static fracas_err check_decisions_of(verification *v, size_t p, const fracas_dec
         recorded[d].point = (int64_t)p;
         same += fracas_decision_same(&recorded[d], &merged[first + d]);
     }
-    const bool extended = count > 0 && !same_rule(&recorded[0], &merged[first]);
-    free(recorded);
-    if (extended) return FRACAS_OK;
+    if (count > 0 && !same_rule(&recorded[0], &merged[first])) return FRACAS_OK;
     const fracas_decision *last = &merged[*next - 1];
     if (same == count && count == *next - first && last->stop && last->replicas == point->replicas)
         return FRACAS_OK;
@@ -332,19 +318,17 @@ static fracas_err check_decisions_of(verification *v, size_t p, const fracas_dec
 
 static fracas_err check_decisions(verification *v)
 {
-    fracas_decision *merged;
+    OWNED fracas_decision *merged = NULL;
     size_t count, next = 0;
     fracas_err err = fracas_reader_decisions(v->merged, &merged, &count);
     if (err) return problem(v, err);
-    for (size_t p = 0; !err && p < fracas_reader_points(v->merged)->npoints; p++)
-        err = problem(v, check_decisions_of(v, p, merged, count, &next));
-    if (!err && next != count)
-        err = found(v,
-                    "%s/study.h5: its decisions are not in plan order; remove it, and `fracas "
-                    "merge` writes it again",
-                    v->study);
-    free(merged);
-    return err;
+    for (size_t p = 0; p < fracas_reader_points(v->merged)->npoints; p++)
+        TRY(problem(v, check_decisions_of(v, p, merged, count, &next)));
+    if (next == count) return FRACAS_OK;
+    return found(v,
+                 "%s/study.h5: its decisions are not in plan order; remove it, and `fracas merge` "
+                 "writes it again",
+                 v->study);
 }
 
 /* When everything is computed, study.h5 must be there with all of it. */
@@ -401,18 +385,13 @@ static fracas_err check_merged_header(verification *v)
 
 static fracas_err open_merged(verification *v)
 {
-    char *path;
+    OWNED char *path = NULL;
     TRY(fracas_disk_join(v->study, "study.h5", &path));
-    fracas_err err = FRACAS_OK;
     v->there = access(path, F_OK) == 0;
-    if (!v->there && errno != ENOENT) err = fracas_disk_fail("open", path);
-    if (!err && v->there) {
-        err = check_merged_seal(v, path);
-        if (!err) err = fracas_reader_open(path, &v->merged);
-        err = problem(v, err);
-    }
-    free(path);
-    return err;
+    if (!v->there) return errno == ENOENT ? FRACAS_OK : fracas_disk_fail("open", path);
+    fracas_err err = check_merged_seal(v, path);
+    if (!err) err = fracas_reader_open(path, &v->merged);
+    return problem(v, err);
 }
 
 static fracas_err verify_index(verification *v)

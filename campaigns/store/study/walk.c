@@ -8,7 +8,6 @@
 /* Realizations read ahead, in the order of the walk. */
 typedef struct {
     fracas_visit *item;
-    fracas_visit **sorted; /* those with a record, by segment and row */
     size_t count, room;
 } window;
 
@@ -39,25 +38,12 @@ static fracas_err next_planned(void *context, fracas_visit *visit, bool *more)
 
 /* ---- the window ---- */
 
-static fracas_err window_grow(window *w)
-{
-    if (w->count < w->room) return FRACAS_OK;
-    const size_t room = w->room ? 2 * w->room : 256;
-    fracas_visit *item = realloc(w->item, room * sizeof *item);
-    if (item) w->item = item;
-    fracas_visit **sorted = item ? realloc(w->sorted, room * sizeof *sorted) : NULL;
-    if (!sorted) return fracas_no_memory("realizations read ahead");
-    w->sorted = sorted;
-    w->room = room;
-    return FRACAS_OK;
-}
-
 /* From row *row on as many as fit; *more: others follow. */
 static fracas_err window_fill(window *w, const fracas_segments *segments, const fracas_want *want,
                               size_t *row, bool *more)
 {
     for (uint64_t bytes = 0; bytes < WINDOW_BYTES;) {
-        TRY(window_grow(w));
+        TRY(fracas_grow(&w->item, sizeof *w->item, w->count, &w->room, "realizations read ahead"));
         fracas_visit *item = &w->item[w->count];
         *item = (fracas_visit){.result.row = *row};
         fracas_record_init(&item->result.record);
@@ -82,20 +68,22 @@ static int by_place(const void *a, const void *b)
 static fracas_err window_read(window *w, fracas_segments *segments, const fracas_want *want)
 {
     size_t n = 0;
+    OWNED fracas_visit **sorted = malloc((w->count + 1) * sizeof *sorted);
+    if (!sorted) return fracas_no_memory("realizations read ahead");
     for (size_t i = 0; i < w->count; i++) {
         if (!want->damaged)
             TRY(fracas_segments_check_failed(segments, &w->item[i].place,
                                              w->item[i].result.replica));
         if (w->item[i].place.status == FRACAS_DONE && !w->item[i].damaged)
-            w->sorted[n++] = &w->item[i];
+            sorted[n++] = &w->item[i];
     }
-    if (n) qsort(w->sorted, n, sizeof *w->sorted, by_place);
+    if (n) qsort(sorted, n, sizeof *sorted, by_place);
     for (size_t i = 0; i < n; i++) {
-        fracas_result *result = &w->sorted[i]->result;
-        fracas_err err = fracas_segments_record(segments, &w->sorted[i]->place,
+        fracas_result *result = &sorted[i]->result;
+        fracas_err err = fracas_segments_record(segments, &sorted[i]->place,
                                                 &want->table->point[result->point].hash,
                                                 result->replica, want->parts, &result->record);
-        w->sorted[i]->damaged = err == FRACAS_DAMAGED;
+        sorted[i]->damaged = err == FRACAS_DAMAGED;
         if (err == FRACAS_DAMAGED && want->damaged) err = want->damaged(want->context, result);
         TRY(err);
     }
@@ -110,7 +98,7 @@ static void window_empty(window *w)
 
 /* ---- the walk ---- */
 
-static fracas_err walk(fracas_segments *segments, const fracas_want *want)
+fracas_err fracas_study_each(fracas_segments *segments, const fracas_want *want)
 {
     window w = {0};
     size_t row = 0;
@@ -123,13 +111,7 @@ static fracas_err walk(fracas_segments *segments, const fracas_want *want)
         window_empty(&w);
     }
     free(w.item);
-    free(w.sorted);
     return err;
-}
-
-fracas_err fracas_study_each(fracas_segments *segments, const fracas_want *want)
-{
-    return walk(segments, want);
 }
 
 fracas_err fracas_study_each_planned(fracas_segments *segments, fracas_index *index,
@@ -139,6 +121,6 @@ fracas_err fracas_study_each_planned(fracas_segments *segments, fracas_index *in
     fracas_want all = *want;
     all.next = next_planned;
     all.source = &planned;
-    TRY(fracas_index_do(index, FRACAS_SQL_BEGIN_READING)); /* one lock for all its look-ups */
-    return fracas_index_end(index, walk(segments, &all));
+    TRY(fracas_index_begin_reading(index)); /* one lock for all its look-ups */
+    return fracas_index_end(index, fracas_study_each(segments, &all));
 }
