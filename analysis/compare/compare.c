@@ -180,7 +180,7 @@ static fracas_err compare_points(const fracas_analysis *a, const fracas_analysis
     const fracas_point_row *row_a = &a->table->point[point->a], *row_b = &b->table->point[point->b];
     const bool same = !memcmp(&row_a->hash, &row_b->hash, sizeof row_a->hash);
     point->paired = a->header.seed == b->header.seed && (same || options->common);
-    fracas_analysis_label(a, point->a, point->label, sizeof point->label);
+    point->label = fracas_analysis_label(a, point->a);
     fracas_match_differs(a->table, point->a, b->table, point->b, point->differs,
                          sizeof point->differs);
     gathered of;

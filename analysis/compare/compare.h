@@ -7,6 +7,7 @@
 #include "analysis/analysis.h"
 #include "analysis/data/estimate.h"
 #include "analysis/data/numbers.h"
+#include "analysis/summary/study.h"
 
 #define FRACAS_ONE_MORE(key, unit, doc) +1
 enum {
@@ -42,11 +43,11 @@ typedef struct {
 } fracas_compared_value;
 
 typedef struct {
-    size_t a, b;       /* the points */
-    char label[256];   /* for the point in A */
-    char differs[512]; /* "mesh.elements 2500 | 5000": the other parameters in which they differ;
-                          "": none */
-    bool paired;       /* realizations have the same random numbers, replica by replica */
+    size_t a, b;        /* the points */
+    fracas_label label; /* for the point in A */
+    char differs[512];  /* "mesh.elements 2500 | 5000": the other parameters in which they differ;
+                           "": none */
+    bool paired;        /* realizations have the same random numbers, replica by replica */
     int64_t used_a, used_b; /* realizations compared */
     fracas_compared_value
         value[FRACAS_COMPARED_VALUES]; /* a.n = b.n = 0 where the points have no such number */

@@ -105,14 +105,6 @@ static fracas_err match_values(const fracas_point_table *a, const fracas_point_t
     return err;
 }
 
-static void join(const char *const *path, size_t count, char *text, size_t size)
-{
-    size_t used = 0;
-    text[0] = '\0';
-    for (size_t i = 0; i < count && used < size; i++)
-        used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", path[i]);
-}
-
 static fracas_err match(const fracas_point_table *a, const fracas_point_table *b, char *by,
                         const char **path, bool *taken, size_t *partner, char *how, size_t size)
 {
@@ -124,7 +116,7 @@ static fracas_err match(const fracas_point_table *a, const fracas_point_table *b
     how[0] = '\0';
     if (left == 0) return FRACAS_OK;
     if (!by) count = columns_that_vary(a, b, path);
-    join(path, count, how, size);
+    for (size_t i = 0; i < count; i++) fracas_append(how, size, ", ", "%s", path[i]);
     if (count > 0) return match_values(a, b, path, count, how, partner, taken);
     if (a->npoints != 1 || b->npoints != 1) return FRACAS_OK;
     partner[0] = 0;
@@ -154,11 +146,11 @@ static void show(const fracas_value *value, char text[64])
 }
 
 /* Columns of `from` with a difference, or only those missing in `to`. */
-static size_t add_differences(const fracas_point_table *a, size_t p, const fracas_point_table *b,
-                              size_t q, bool second, char *text, size_t size, size_t used)
+static void add_differences(const fracas_point_table *a, size_t p, const fracas_point_table *b,
+                            size_t q, bool second, char *text, size_t size)
 {
     const fracas_point_table *from = second ? b : a;
-    for (size_t c = 0; c < from->ncolumns && used < size; c++) {
+    for (size_t c = 0; c < from->ncolumns; c++) {
         const char *path = from->column[c].path;
         if (!strncmp(path, "derived.", 8) ||
             (second && fracas_point_table_find(a, path) != SIZE_MAX))
@@ -168,16 +160,14 @@ static size_t add_differences(const fracas_point_table *a, size_t p, const fraca
         char here[64], there[64];
         show(&x, here);
         show(&y, there);
-        used += (size_t)snprintf(text + used, size - used, "%s%s %s | %s", used ? ", " : "", path,
-                                 here, there);
+        fracas_append(text, size, ", ", "%s %s | %s", path, here, there);
     }
-    return used;
 }
 
 void fracas_match_differs(const fracas_point_table *a, size_t p, const fracas_point_table *b,
                           size_t q, char *text, size_t size)
 {
     text[0] = '\0';
-    const size_t used = add_differences(a, p, b, q, false, text, size, 0);
-    add_differences(a, p, b, q, true, text, size, used);
+    add_differences(a, p, b, q, false, text, size);
+    add_differences(a, p, b, q, true, text, size);
 }

@@ -43,7 +43,7 @@ static void paint_value(const fracas_compared_value *value,
     for (size_t c = 0; c < NCOLUMNS; c++) cell[c] = fracas_result_table_cell(table, row, c);
     if (strcmp(quantity->unit, "1")) {
         prefix = fracas_prefix_for(means, 2);
-        snprintf(unit, sizeof unit, "%s%s", prefix.symbol, quantity->unit);
+        FRACAS_PRINT(unit, "%s%s", prefix.symbol, quantity->unit);
     }
     snprintf(cell[WHAT], FRACAS_CELL, "%s%s%s%s", quantity->key, *unit ? " [" : "", unit,
              *unit ? "]" : "");
@@ -62,7 +62,7 @@ static void print_head(const fracas_compared_point *point, FILE *out)
     fprintf(out,
             "\n%s%spoint %zu of A and %zu of B, %" PRId64 " and %" PRId64
             " realizations%s%s; p from %s%" PRId64 " assignments\n",
-            point->label, *point->label ? ": " : "", point->a, point->b, point->used_a,
+            point->label.text, *point->label.text ? ": " : "", point->a, point->b, point->used_a,
             point->used_b, point->paired ? ", paired by replica" : "",
             point->used_a && point->used_b ? "" : " (no test)", point->exact ? "all " : "",
             point->permutations);
@@ -97,10 +97,9 @@ static void print_alone(const char *which, const fracas_analysis *analysis, cons
                         size_t count, FILE *out)
 {
     for (size_t i = 0; i < count; i++) {
-        char label[256];
-        fracas_analysis_label(analysis, point[i], label, sizeof label);
-        fprintf(out, "only in %s: point %zu%s%s%s\n", which, point[i], *label ? " (" : "", label,
-                *label ? ")" : "");
+        const fracas_label label = fracas_analysis_label(analysis, point[i]);
+        fprintf(out, "only in %s: point %zu%s%s%s\n", which, point[i], *label.text ? " (" : "",
+                label.text, *label.text ? ")" : "");
     }
 }
 
@@ -200,7 +199,7 @@ static void write_study(fracas_json *json, const char *key, const fracas_analysi
 {
     char hash[FRACAS_HASH_HEX], seed[24];
     fracas_hash_hex(&analysis->header.campaign, hash);
-    snprintf(seed, sizeof seed, "%" PRIu64, analysis->header.seed);
+    FRACAS_PRINT(seed, "%" PRIu64, analysis->header.seed);
     fracas_json_object(json, key);
     fracas_json_text(json, "name", analysis->name);
     fracas_json_text(json, "campaign", hash);

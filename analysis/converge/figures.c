@@ -86,7 +86,7 @@ static fracas_err add_boxes(const subject *what, fracas_panel *panel)
     size_t n = 0;
     TRY(fracas_panel_add(panel, FRACAS_BOXES, BOX_LOOK,
                          fracas_convergence_rows_of(convergence, what->number), &series));
-    snprintf(series->name, sizeof series->name, "95 %% as it is");
+    FRACAS_PRINT(series->name, "95 %% as it is");
     for (size_t i = 0; i < convergence->nrows; i++) {
         const fracas_convergence_row *row = &convergence->row[i];
         const fracas_estimate *base = &row->value.a;
@@ -108,8 +108,8 @@ static fracas_err add_point(const subject *what, size_t point, bool open, fracas
     fracas_series *series;
     size_t n = 0;
     TRY(fracas_panel_add(panel, FRACAS_MARKS, (unsigned)point, convergence->nlevels, &series));
-    fracas_analysis_label(convergence->study, point, series->name, sizeof series->name);
-    if (!*series->name) snprintf(series->name, sizeof series->name, "refined");
+    const fracas_label label = fracas_analysis_label(convergence->study, point);
+    FRACAS_PRINT(series->name, "%.127s", *label.text ? label.text : "refined");
     series->open = open;
     for (size_t i = 0; i < convergence->nrows && n < convergence->nlevels; i++) {
         const fracas_convergence_row *row = &convergence->row[i];
@@ -141,7 +141,7 @@ static fracas_err add_tolerance(const subject *what, fracas_panel *panel, bool *
     for (int side = -1; side <= 1 && *shown; side += 2) {
         fracas_series *series;
         TRY(fracas_panel_add(panel, FRACAS_CURVE, TOLERANCE_LOOK, 2, &series));
-        if (side < 0) snprintf(series->name, sizeof series->name, "\u00b1 %g %%", tolerance);
+        if (side < 0) FRACAS_PRINT(series->name, "\u00b1 %g %%", tolerance);
         series->x[0] = 0.5;
         series->x[1] = (double)what->convergence->nlevels + 0.5;
         series->y[0] = series->y[1] = side * tolerance;
@@ -156,22 +156,21 @@ static void put_words(const subject *what, bool tolerance, fracas_chart *chart)
     char beyond[96] = "";
     for (size_t i = 0; i < convergence->nrows; i++)
         if (convergence->row[i].number == what->number) of[convergence->row[i].verdict]++;
-    snprintf(chart->file, sizeof chart->file, "converge-%s", what->number->key);
-    snprintf(chart->title, sizeof chart->title, "What refinement changes: %s", what->number->key);
+    FRACAS_PRINT(chart->file, "converge-%s", what->number->key);
+    FRACAS_PRINT(chart->title, "What refinement changes: %s", what->number->key);
     if (!what->relative)
-        snprintf(beyond, sizeof beyond,
-                 " As it is the mean is 0 at some point: no parts of it are shown.");
+        FRACAS_PRINT(beyond, " As it is the mean is 0 at some point: no parts of it are shown.");
     else if (!tolerance)
-        snprintf(beyond, sizeof beyond, " The tolerance of %g %% is far outside.",
-                 100 * convergence->tolerance);
-    snprintf(chart->caption, sizeof chart->caption,
-             "Change of the mean (%s) with half the element size (mesh), half the time step (step) "
-             "and interfaces twice as stiff (beta), bars: 95 %% interval of the change; boxes: "
-             "that of the number as it is. Filled: it differs, by p corrected for all numbers; "
-             "open: it need not. Moved: %zu, shifted: %zu, hold: %zu, unclear: %zu.%s",
-             what->number->doc, of[FRACAS_NUMBER_MOVED], of[FRACAS_NUMBER_SHIFTED],
-             of[FRACAS_NUMBER_HOLDS], of[FRACAS_NUMBER_UNCLEAR] + of[FRACAS_NUMBER_UNKNOWN],
-             beyond);
+        FRACAS_PRINT(beyond, " The tolerance of %g %% is far outside.",
+                     100 * convergence->tolerance);
+    FRACAS_PRINT(
+        chart->caption,
+        "Change of the mean (%s) with half the element size (mesh), half the time step (step) "
+        "and interfaces twice as stiff (beta), bars: 95 %% interval of the change; boxes: "
+        "that of the number as it is. Filled: it differs, by p corrected for all numbers; "
+        "open: it need not. Moved: %zu, shifted: %zu, hold: %zu, unclear: %zu.%s",
+        what->number->doc, of[FRACAS_NUMBER_MOVED], of[FRACAS_NUMBER_SHIFTED],
+        of[FRACAS_NUMBER_HOLDS], of[FRACAS_NUMBER_UNCLEAR] + of[FRACAS_NUMBER_UNKNOWN], beyond);
 }
 
 fracas_err fracas_convergence_figure(const fracas_convergence *convergence,
@@ -193,12 +192,11 @@ fracas_err fracas_convergence_figure(const fracas_convergence *convergence,
     TRY(add_tolerance(&what, panel, &tolerance));
     panel->x.name = convergence->level;
     panel->x.nnames = convergence->nlevels;
-    snprintf(panel->x.label, sizeof panel->x.label, "refined");
-    if (what.relative)
-        snprintf(panel->y.label, sizeof panel->y.label, "change of %s [%%]", number->key);
+    FRACAS_PRINT(panel->x.label, "refined");
+    if (what.relative) FRACAS_PRINT(panel->y.label, "change of %s [%%]", number->key);
     else
-        snprintf(panel->y.label, sizeof panel->y.label, "change of %s [%s%s]", number->key,
-                 what.prefix.sign, number->unit);
+        FRACAS_PRINT(panel->y.label, "change of %s [%s%s]", number->key, what.prefix.sign,
+                     number->unit);
     put_words(&what, tolerance, chart);
     return FRACAS_OK;
 }

@@ -26,19 +26,15 @@ static fracas_err add_note(fracas_convergence *convergence, const char *refineme
 /* "7 of 10 realizations ended ENERGY_DRIFT, 1 NONFINITE: judged from 2" */
 static void write_lost(const fracas_point_statistics *of, size_t judged, char *text, size_t size)
 {
-    size_t used = 0;
-    for (int o = FRACAS_NONFINITE; o <= FRACAS_FAILED && used < size; o++) {
-        if (of->outcome[o] == 0) continue;
-        if (used > 0)
-            used += (size_t)snprintf(text + used, size - used, ", %" PRId64 " %s", of->outcome[o],
-                                     fracas_outcome_name(o));
-        else
-            used = (size_t)snprintf(text, size, "%" PRId64 " of %" PRId64 " realizations ended %s",
-                                    of->outcome[o], of->realizations, fracas_outcome_name(o));
-    }
-    if (used >= size) return;
-    if (judged > 0) snprintf(text + used, size - used, ": judged from %zu", judged);
-    else snprintf(text + used, size - used, ": none is left, its numbers are unknown");
+    char first[64];
+    FRACAS_PRINT(first, " of %" PRId64 " realizations ended", of->realizations);
+    *text = '\0';
+    for (int o = FRACAS_NONFINITE; o <= FRACAS_FAILED; o++)
+        if (of->outcome[o] > 0)
+            fracas_append(text, size, ", ", "%" PRId64 "%s %s", of->outcome[o], *text ? "" : first,
+                          fracas_outcome_name(o));
+    if (judged > 0) fracas_append(text, size, "", ": judged from %zu", judged);
+    else fracas_append(text, size, "", ": none is left, its numbers are unknown");
 }
 
 fracas_err fracas_convergence_note_point(fracas_convergence *convergence, const char *refinement,
@@ -52,8 +48,8 @@ fracas_err fracas_convergence_note_point(fracas_convergence *convergence, const 
     }
     if (of->usable == 0 || of->outcome[FRACAS_INTACT] != of->usable) return FRACAS_OK;
     TRY(add_note(convergence, refinement, point, &note));
-    snprintf(
-        note->text, sizeof note->text,
+    FRACAS_PRINT(
+        note->text,
         "all %" PRId64
         " usable realizations end INTACT: nothing breaks, and nothing is judged of how it breaks",
         of->usable);
@@ -70,16 +66,15 @@ fracas_err fracas_convergence_note_study(fracas_convergence *convergence, const 
     free(warning);
     if (count == 0) return FRACAS_OK;
     TRY(add_note(convergence, refinement, SIZE_MAX, &note));
-    snprintf(note->text, sizeof note->text, "its report has %zu warning%s: fracas report %s", count,
-             count == 1 ? "" : "s", study);
+    FRACAS_PRINT(note->text, "its report has %zu warning%s: fracas report %s", count,
+                 count == 1 ? "" : "s", study);
     return FRACAS_OK;
 }
 
 void fracas_convergence_note_line(const fracas_convergence *convergence,
                                   const fracas_convergence_note *note, char *text, size_t size)
 {
-    char label[256] = "";
-    if (note->point != SIZE_MAX)
-        fracas_analysis_label(convergence->study, note->point, label, sizeof label);
-    snprintf(text, size, "%s%s%s: %s", note->refinement, *label ? ", " : "", label, note->text);
+    const fracas_label label = fracas_analysis_label(convergence->study, note->point);
+    snprintf(text, size, "%s%s%s: %s", note->refinement, *label.text ? ", " : "", label.text,
+             note->text);
 }

@@ -11,9 +11,7 @@
 
 static void put_line(void *out, const char *text)
 {
-    fputs("<li>", out);
-    fracas_markup_text(text, out);
-    fputs("</li>\n", out);
+    fracas_markup(out, "<li>%s</li>\n", text);
 }
 
 static fracas_err put_summary(fracas_page *page)
@@ -71,9 +69,9 @@ fracas_err fracas_convergence_write_page(const fracas_convergence *convergence, 
     fracas_page page = {
         .analysis = convergence->study, .folder = to, .of = convergence, .source = title};
     const size_t npoints = convergence->study->table->npoints;
-    snprintf(lead, sizeof lead,
-             "What refinement changes: %zu point%s, %zu numbers, tolerance %g %%", npoints,
-             npoints == 1 ? "" : "s", convergence->nrows, 100 * convergence->tolerance);
+    FRACAS_PRINT(lead, "What refinement changes: %zu point%s, %zu numbers, tolerance %g %%",
+                 npoints, npoints == 1 ? "" : "s", convergence->nrows,
+                 100 * convergence->tolerance);
     fracas_err err = mkdir(to, 0777) && errno != EEXIST
                          ? fracas_fail_system(errno, "cannot make the folder %s", to)
                          : FRACAS_OK;

@@ -55,20 +55,20 @@ static void conclude_replicas(const fracas_convergence *convergence, fracas_conv
     }
     if (unclear == 0) return;
     if (vague > 0)
-        snprintf(others, sizeof others,
-                 "%zu of the %zu unclear changes %s known no better than to 50 %% of the number",
-                 vague, unclear, vague == 1 ? "is" : "are");
+        FRACAS_PRINT(
+            others, "%zu of the %zu unclear changes %s known no better than to 50 %% of the number",
+            vague, unclear, vague == 1 ? "is" : "are");
     if (vague == unclear)
-        snprintf(text, sizeof text,
-                 "No change that is unclear is known better than to 50 %% of the number: how many "
-                 "replicas would tell cannot be said.");
+        FRACAS_PRINT(
+            text, "No change that is unclear is known better than to 50 %% of the number: how many "
+                  "replicas would tell cannot be said.");
     else if (vague > 0)
-        snprintf(text, sizeof text,
-                 "About %.0f replicas of each point would tell of %zu that are unclear; %s.",
-                 replicas, unclear - vague, others);
+        FRACAS_PRINT(text,
+                     "About %.0f replicas of each point would tell of %zu that are unclear; %s.",
+                     replicas, unclear - vague, others);
     else
-        snprintf(text, sizeof text,
-                 "About %.0f replicas of each point would tell of all that are unclear.", replicas);
+        FRACAS_PRINT(text, "About %.0f replicas of each point would tell of all that are unclear.",
+                     replicas);
     line(context, text);
 }
 
@@ -83,13 +83,13 @@ void fracas_convergence_conclude(const fracas_convergence *convergence,
         line(context, text);
     }
     for (size_t i = 0; i < convergence->nleft; i++) {
-        snprintf(text, sizeof text, "%s: %zu point%s left out: %s", convergence->left[i].refinement,
-                 convergence->left[i].points, convergence->left[i].points == 1 ? "" : "s",
-                 convergence->left[i].why);
+        FRACAS_PRINT(text, "%s: %zu point%s left out: %s", convergence->left[i].refinement,
+                     convergence->left[i].points, convergence->left[i].points == 1 ? "" : "s",
+                     convergence->left[i].why);
         line(context, text);
     }
     for (size_t i = 0; i < convergence->nnotes; i++) {
-        int used = snprintf(text, sizeof text, "warning: ");
+        int used = FRACAS_PRINT(text, "warning: ");
         fracas_convergence_note_line(convergence, &convergence->note[i], text + used,
                                      sizeof text - (size_t)used);
         line(context, text);
@@ -126,7 +126,8 @@ fracas_err fracas_convergence_print(const fracas_convergence *convergence, FILE 
 typedef struct {
     const char *refinement;
     size_t point;
-    char hash[FRACAS_HASH_HEX], label[256];
+    char hash[FRACAS_HASH_HEX];
+    fracas_label label;
     const char *number, *unit, *method, *verdict;
     fracas_compared_value value;
     double half_widths;
@@ -136,13 +137,13 @@ static printed print_of(const fracas_convergence *convergence, const fracas_conv
 {
     printed to = {.refinement = row->refinement,
                   .point = row->point,
+                  .label = fracas_analysis_label(convergence->study, row->point),
                   .number = row->number->key,
                   .unit = row->number->unit,
                   .method = row->paired ? "pairs" : "welch",
                   .verdict = fracas_number_verdict_name[row->verdict],
                   .value = row->value,
                   .half_widths = row->value.difference / row->value.a.half_width};
-    fracas_analysis_label(convergence->study, row->point, to.label, sizeof to.label);
     fracas_hash_hex(&convergence->study->table->point[row->point].hash, to.hash);
     return to;
 }

@@ -54,7 +54,7 @@ static void fill_row(const fracas_convergence *convergence, size_t i, bool unico
     for (size_t c = 0; c < FRACAS_CONVERGENCE_COLUMNS; c++)
         cell[c] = fracas_result_table_cell(table, FRACAS_RESULT_TABLE_HEAD + i, c);
     snprintf(cell[0], FRACAS_CELL, "%s", row->refinement);
-    fracas_analysis_label(convergence->study, row->point, cell[1], FRACAS_CELL);
+    fracas_cell_label(convergence->study, row->point, NULL, cell[1]);
     if (pure) snprintf(cell[2], FRACAS_CELL, "%s", row->number->key);
     else
         snprintf(cell[2], FRACAS_CELL, "%s [%s%s]", row->number->key,

@@ -191,11 +191,11 @@ static bool takes_prefix(const char *unit)
 void fracas_columns_label(const fracas_point_table *table, const fracas_columns *columns,
                           size_t point, char *text, size_t size)
 {
-    size_t used = 0, present = 0;
+    size_t present = 0;
     text[0] = '\0';
     for (size_t i = 0; i < columns->count; i++)
         present += !is_absent(table, columns->column[i], point);
-    for (size_t i = 0; i < columns->count && used < size; i++) {
+    for (size_t i = 0; i < columns->count; i++) {
         const fracas_column *column = &table->column[columns->column[i]];
         const bool absent = is_absent(table, columns->column[i], point);
         if (absent && present > 0) continue;
@@ -206,8 +206,8 @@ void fracas_columns_label(const fracas_point_table *table, const fracas_columns 
         fracas_columns_value(table, columns->column[i], point, prefix.factor, value, sizeof value);
         bool unit = !column->text && !absent && strcmp(column->unit, "1");
         const char *name = fracas_columns_name(table, columns, i);
-        used += (size_t)snprintf(text + used, size - used, "%s%s %s%s%s%s", used ? ", " : "", name,
-                                 value, unit ? " " : "", prefix.symbol, unit ? column->unit : "");
+        fracas_append(text, size, ", ", "%s %s%s%s%s", name, value, unit ? " " : "", prefix.symbol,
+                      unit ? column->unit : "");
     }
 }
 
@@ -225,13 +225,11 @@ static bool differs(const fracas_point_table *table, size_t column)
 void fracas_columns_beside(const fracas_point_table *table, const fracas_columns *columns,
                            char *text, size_t size)
 {
-    size_t used = 0;
     text[0] = '\0';
-    for (size_t c = 0; c < table->ncolumns && used < size; c++) {
+    for (size_t c = 0; c < table->ncolumns; c++) {
         const char *path = table->column[c].path;
         bool known = !strncmp(path, "mesh.", 5) || !strncmp(path, "time.", 5) || rank_of(path) < 0;
         for (size_t i = 0; i < columns->count; i++) known = known || columns->column[i] == c;
-        if (!known && differs(table, c))
-            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", path);
+        if (!known && differs(table, c)) fracas_append(text, size, ", ", "%s", path);
     }
 }

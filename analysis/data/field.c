@@ -23,7 +23,7 @@ static void walk(const fracas_fields *fields, const fracas_field *object, const 
         fracas_field field = fields->field[i];
         char key[96], doc[320];
         if (object) {
-            snprintf(key, sizeof key, "%s%s%s", object->key, separator, field.key);
+            FRACAS_PRINT(key, "%s%s%s", object->key, separator, field.key);
             substitute(field.doc, object->doc, doc, sizeof doc);
             field.key = key;
             field.doc = doc;
@@ -176,15 +176,6 @@ static void visit_reference(void *out, const fracas_field *leaf)
     put_reference(leaf->key, type[leaf->type], leaf->unit, leaf->doc, out);
 }
 
-/* "`value`, `low`, `high`" */
-static void format_members(const fracas_fields *members, char *text, size_t size)
-{
-    size_t used = 0;
-    for (size_t i = 0; i < members->count && used < size; i++)
-        used += (size_t)snprintf(text + used, size - used, "%s`%s`", i ? ", " : "",
-                                 members->field[i].key);
-}
-
 void fracas_fields_reference(const fracas_fields *fields, bool nested, FILE *out)
 {
     char type[160];
@@ -196,7 +187,9 @@ void fracas_fields_reference(const fracas_fields *fields, bool nested, FILE *out
             visit_reference(out, field);
             continue;
         }
-        format_members(field->members, type, sizeof type);
+        *type = '\0'; /* "`value`, `low`, `high`" */
+        for (size_t m = 0; m < field->members->count; m++)
+            fracas_append(type, sizeof type, ", ", "`%s`", field->members->field[m].key);
         put_reference(field->key, type, field->unit, field->doc, out);
     }
 }

@@ -5,6 +5,7 @@
 #ifndef FRACAS_ANALYSIS_DATA_FIELD_H
 #define FRACAS_ANALYSIS_DATA_FIELD_H
 
+#include "analysis/data/text.h"
 #include "base/json.h"
 
 #include <stdbool.h>

@@ -35,9 +35,9 @@ void fracas_format_short(double value, char *text, size_t size)
         return;
     }
     char plain[64], exponent[64];
-    snprintf(plain, sizeof plain, "%.6g", value);
+    FRACAS_PRINT(plain, "%.6g", value);
     trim_exponent(plain);
-    snprintf(exponent, sizeof exponent, "%.5e", value);
+    FRACAS_PRINT(exponent, "%.5e", value);
     trim_exponent(exponent);
     trim_mantissa(exponent);
     snprintf(text, size, "%s", strlen(exponent) < strlen(plain) ? exponent : plain);
@@ -53,7 +53,7 @@ static int decimals_for(double value, int digits)
 {
     if (value == 0) return 0;
     char rounded[64];
-    snprintf(rounded, sizeof rounded, "%.*e", digits - 1, value);
+    FRACAS_PRINT(rounded, "%.*e", digits - 1, value);
     int decimals = digits - 1 - exponent_of(strtod(rounded, NULL));
     return decimals > 0 ? decimals : 0;
 }
@@ -110,7 +110,7 @@ void fracas_format_interval(double value, double low, double high, char *text, s
         return;
     }
     char rounded[64];
-    snprintf(rounded, sizeof rounded, "%.1e", half_width);
+    FRACAS_PRINT(rounded, "%.1e", half_width);
     const int place = exponent_of(strtod(rounded, NULL)) -
                       1; /* place of the last digit supported by the interval */
     const bool large = place > 0, small = value != 0 && fabs(value) < 1e-2;

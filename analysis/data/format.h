@@ -4,6 +4,7 @@
 #define FRACAS_ANALYSIS_DATA_FORMAT_H
 
 #include "analysis/data/estimate.h"
+#include "analysis/data/text.h"
 
 #include <stddef.h>
 

@@ -3,6 +3,8 @@
 
 #include "analysis/draw/tint.h"
 
+#include "analysis/data/text.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -194,9 +196,9 @@ static fracas_err draw_tints(const drawing *d, bool tinted)
 {
     for (int t = 0; t <= FRACAS_TINT_DUST; t++) {
         char class[16];
-        if (t == FRACAS_TINT_DUST) snprintf(class, sizeof class, "dust-fill");
-        else if (tinted) snprintf(class, sizeof class, "t%d", t);
-        else snprintf(class, sizeof class, "body");
+        if (t == FRACAS_TINT_DUST) FRACAS_PRINT(class, "dust-fill");
+        else if (tinted) FRACAS_PRINT(class, "t%d", t);
+        else FRACAS_PRINT(class, "body");
         TRY(fill(d, has_tint, t, "", class));
     }
     return FRACAS_OK;
@@ -208,11 +210,10 @@ static fracas_err draw_shades(const drawing *d)
 {
     char attributes[64];
     for (int k = 1; k <= d->darkest; k++) {
-        snprintf(attributes, sizeof attributes, " fill=\"%s\" fill-opacity=\"%.3f\"", night,
-                 1 - pow(1 - step, k));
+        FRACAS_PRINT(attributes, " fill=\"%s\" fill-opacity=\"%.3f\"", night, 1 - pow(1 - step, k));
         TRY(fill(d, has_base, k, attributes, "shade"));
     }
-    snprintf(attributes, sizeof attributes, " fill=\"%s\" fill-opacity=\"%g\"", night, step);
+    FRACAS_PRINT(attributes, " fill=\"%s\" fill-opacity=\"%g\"", night, step);
     for (int k = 1; k <= d->darkest; k++) TRY(fill(d, is_above, k, attributes, "shade"));
     return FRACAS_OK;
 }
@@ -240,7 +241,7 @@ static fracas_err draw_sides(const drawing *d, fracas_side what, const char *cla
                 err = add_side(&trail, facet, side);
     }
     char attributes[64];
-    snprintf(attributes, sizeof attributes, " stroke-width=\"%.1f\"", width * d->line);
+    FRACAS_PRINT(attributes, " stroke-width=\"%.1f\"", width * d->line);
     return draw(d, &trail, err, false, attributes, class);
 }
 

@@ -59,19 +59,6 @@ fracas_err fracas_panel_add(fracas_panel *panel, fracas_series_kind kind, unsign
     return FRACAS_OK;
 }
 
-void fracas_markup_text(const char *text, FILE *out)
-{
-    for (; *text; text++) {
-        switch (*text) {
-        case '&': fputs("&amp;", out); break;
-        case '<': fputs("&lt;", out); break;
-        case '>': fputs("&gt;", out); break;
-        case '"': fputs("&quot;", out); break;
-        default: putc(*text, out);
-        }
-    }
-}
-
 bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, size_t i)
 {
     const double x = series->x[i], y = series->y[i];

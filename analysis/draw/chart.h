@@ -3,6 +3,7 @@
 #ifndef FRACAS_ANALYSIS_DRAW_CHART_H
 #define FRACAS_ANALYSIS_DRAW_CHART_H
 
+#include "analysis/data/text.h"
 #include "base/err.h"
 
 #include <stdbool.h>
@@ -105,8 +106,5 @@ bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, 
 
 /* The name of a value on an axis with names; NULL on any other. */
 const char *fracas_axis_name(const fracas_axis *axis, double value);
-
-/* Writes text with &, <, > and " escaped. */
-void fracas_markup_text(const char *text, FILE *out);
 
 #endif

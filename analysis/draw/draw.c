@@ -63,7 +63,7 @@ static void fit_names(frame *f)
     for (size_t i = 0; i < f->panel.x.nnames && i < FRACAS_MAX_TICKS; i++) {
         fracas_tick *tick = &f->xtick[f->nxtick++];
         tick->value = (double)i + 1;
-        snprintf(tick->label, sizeof tick->label, "%s", f->panel.x.name[i]);
+        FRACAS_PRINT(tick->label, "%s", f->panel.x.name[i]);
     }
 }
 
@@ -107,8 +107,7 @@ static void draw_axes(const frame *f, double bottom)
                 major ? TICK : TICK / 2);
         if (!major) continue;
         fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", x, bottom + 20);
-        fracas_markup_text(f->xtick[i].label, f->out);
-        fputs("</text>\n", f->out);
+        fracas_markup(f->out, "%s</text>\n", f->xtick[i].label);
     }
     for (size_t i = 0; i < f->nytick; i++) {
         double y = fracas_scale_place(&f->y, f->ytick[i].value);
@@ -127,13 +126,11 @@ static void draw_axes(const frame *f, double bottom)
     if (*f->panel.x.label) {
         fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">",
                 (f->x.from + f->x.to) / 2, bottom + 43);
-        fracas_markup_text(f->panel.x.label, f->out);
-        fputs("</text>\n", f->out);
+        fracas_markup(f->out, "%s</text>\n", f->panel.x.label);
     }
     fprintf(f->out, "<text transform=\"translate(16 %.1f) rotate(-90)\" text-anchor=\"middle\">",
             (f->y.from + f->y.to) / 2);
-    fracas_markup_text(f->panel.y.label, f->out);
-    fputs("</text>\n", f->out);
+    fracas_markup(f->out, "%s</text>\n", f->panel.y.label);
 }
 
 static void draw_mark(unsigned look, double x, double y, FILE *out)
@@ -159,17 +156,12 @@ static void draw_title(const frame *f, const fracas_series *series, size_t i)
 {
     char x[32], y[32];
     const char *name = fracas_axis_name(&f->panel.x, series->x[i]);
-    if (name) snprintf(x, sizeof x, "%s", name);
+    if (name) FRACAS_PRINT(x, "%s", name);
     else fracas_format_digits(series->x[i], 4, x, sizeof x);
     fracas_format_digits(series->y[i], 4, y, sizeof y);
-    fputs("<title>", f->out);
-    fracas_markup_text(series->name, f->out);
+    fracas_markup(f->out, "<title>%s", series->name);
     fprintf(f->out, "%s", *series->name ? "; " : "");
-    fracas_markup_text(f->panel.x.label, f->out);
-    fputs(": ", f->out);
-    fracas_markup_text(x, f->out);
-    fputs("; ", f->out);
-    fracas_markup_text(f->panel.y.label, f->out);
+    fracas_markup(f->out, "%s: %s; %s", f->panel.x.label, x, f->panel.y.label);
     fprintf(f->out, ": %s", y);
     if (isfinite(series->low[i])) {
         fracas_format_digits(series->low[i], 4, x, sizeof x);
@@ -220,9 +212,7 @@ static void draw_line(const frame *f, const fracas_series *series)
         last_y = y;
     }
     if (!begun) return;
-    fputs("\"><title>", f->out);
-    fracas_markup_text(series->name, f->out);
-    fputs("</title></path>\n", f->out);
+    fracas_markup(f->out, "\"><title>%s</title></path>\n", series->name);
 }
 
 /* The areas of values begin to end - 1, all with a low and a high: along the lows, and back along
@@ -321,8 +311,7 @@ static void draw_entry(const frame *f, size_t s, double x, double y, double widt
         fprintf(f->out, LINE_START "M%.1f %.1fh24\"/>", dash_of(series->look), x, y);
     }
     fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\">", x + SWATCH, y + 5.2);
-    fracas_markup_text(series->name, f->out);
-    fputs("</text></g>\n", f->out);
+    fracas_markup(f->out, "%s</text></g>\n", series->name);
 }
 
 /* The series in the order of their entries: marks, then lines. Returns how many have a name. */
@@ -359,7 +348,7 @@ static double legend(const frame *f, bool draw)
     }
     if (named > LEGEND_MOST) {
         char text[32];
-        snprintf(text, sizeof text, "and %zu more", named - LEGEND_MOST);
+        FRACAS_PRINT(text, "and %zu more", named - LEGEND_MOST);
         if (x + character * (double)characters(text) > f->width) {
             x = f->x.from;
             y += LINE_HEIGHT;
@@ -413,9 +402,7 @@ void fracas_svg_begin(const char *title, int width, double height, bool standalo
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" viewBox=\"0 0 %d %.0f\"",
             width, height);
     if (standalone) fprintf(out, " width=\"%d\" height=\"%.0f\"", width, height);
-    fputs(" role=\"img\" aria-label=\"", out);
-    fracas_markup_text(title, out);
-    fputs("\">\n", out);
+    fracas_markup(out, " role=\"img\" aria-label=\"%s\">\n", title);
     if (standalone)
         fprintf(out, "<style>\n%s</style>\n<rect class=\"paper\" width=\"%d\" height=\"%.0f\"/>\n",
                 fracas_chart_style, width, height);
@@ -431,7 +418,7 @@ static void put_axis(const frame *f, const char *name, const fracas_scale *scale
             : scale->log ? "log"
                          : "linear",
             scale->low, scale->high, scale->from, scale->to, name);
-    fracas_markup_text(label, f->out);
+    fracas_markup(f->out, "%s", label);
     putc('"', f->out);
 }
 

@@ -75,25 +75,27 @@ static void with_unit(double value, const char *unit, char *text, size_t size)
 static void write_caption(const fracas_analysis *analysis, size_t point, fracas_picture *picture)
 {
     const fracas_ring_pattern *pattern = &picture->pattern;
-    char label[160], time[48], speed[48], factor[32], arrows[256] = "";
-    fracas_analysis_label(analysis, point, label, sizeof label);
+    char time[48], speed[48], factor[32], arrows[256] = "";
+    const fracas_label label = fracas_analysis_label(analysis, point);
     with_unit(pattern->time, "s", time, sizeof time);
     with_unit(picture->fastest, "m/s", speed, sizeof speed);
-    snprintf(factor, sizeof factor, "%.0f", picture->exaggeration);
-    snprintf(picture->file, sizeof picture->file, "pattern-point-%zu", point);
-    snprintf(picture->title, sizeof picture->title, "Crack pattern%s%s", *label ? ", " : "", label);
+    FRACAS_PRINT(factor, "%.0f", picture->exaggeration);
+    FRACAS_PRINT(picture->file, "pattern-point-%zu", point);
+    FRACAS_PRINT(picture->title, "Crack pattern%s%.159s", *label.text ? ", " : "", label.text);
     if (picture->arrows)
-        snprintf(arrows, sizeof arrows,
-                 "Arrows: velocity of the centre of mass beside the uniform expansion, the longest "
-                 "%s; none on dust. ",
-                 speed);
-    snprintf(picture->caption, sizeof picture->caption,
-             "Replica %lld, the first that ended FRAGMENTED; fragments: %zu, of these dust: %zu; "
-             "time: %s. Each fragment is where its centre of mass is, its displacement outward "
-             "drawn %s times as large; its own turning is not recorded and not drawn. %sDots: "
-             "dust. Dashes: the ring at its start.",
-             (long long)analysis->point[point].broken_replica, pattern->n, dust_of(pattern), time,
-             factor, arrows);
+        FRACAS_PRINT(
+            arrows,
+            "Arrows: velocity of the centre of mass beside the uniform expansion, the longest "
+            "%s; none on dust. ",
+            speed);
+    FRACAS_PRINT(
+        picture->caption,
+        "Replica %lld, the first that ended FRAGMENTED; fragments: %zu, of these dust: %zu; "
+        "time: %s. Each fragment is where its centre of mass is, its displacement outward "
+        "drawn %s times as large; its own turning is not recorded and not drawn. %sDots: "
+        "dust. Dashes: the ring at its start.",
+        (long long)analysis->point[point].broken_replica, pattern->n, dust_of(pattern), time,
+        factor, arrows);
 }
 
 fracas_err fracas_picture_create(const fracas_analysis *analysis, size_t point,
@@ -226,11 +228,10 @@ static void draw_words(const canvas *on)
     const fracas_picture *picture = on->picture;
     char line[3][96], time[48], factor[32];
     with_unit(picture->pattern.time, "s", time, sizeof time);
-    snprintf(factor, sizeof factor, "%.0f", picture->exaggeration);
-    snprintf(line[0], sizeof line[0], "%zu fragment%s", picture->pattern.n,
-             picture->pattern.n == 1 ? "" : "s");
-    snprintf(line[1], sizeof line[1], "at %s", time);
-    snprintf(line[2], sizeof line[2], "displacement \u00d7 %s", factor);
+    FRACAS_PRINT(factor, "%.0f", picture->exaggeration);
+    FRACAS_PRINT(line[0], "%zu fragment%s", picture->pattern.n, picture->pattern.n == 1 ? "" : "s");
+    FRACAS_PRINT(line[1], "at %s", time);
+    FRACAS_PRINT(line[2], "displacement \u00d7 %s", factor);
     for (int i = 0; i < 3; i++)
         fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n",
                 SIDE / 2.0, SIDE / 2.0 + (i - 1) * LINE_HEIGHT + 4.5, line[i]);

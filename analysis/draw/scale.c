@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/draw/scale.h"
 
+#include "analysis/data/text.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -70,13 +72,11 @@ static void power_label(int mantissa, int exponent, char *text, size_t size)
     static const char *const raised[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
                                          "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
     char digits[16];
-    snprintf(digits, sizeof digits, "%d", exponent);
-    size_t used = 0;
-    if (mantissa != 1) used += (size_t)snprintf(text, size, "%d\u00b7", mantissa);
-    used += (size_t)snprintf(text + used, size - used, "10");
-    for (const char *d = digits; *d && used < size; d++)
-        used += (size_t)snprintf(text + used, size - used, "%s",
-                                 *d == '-' ? "\u207b" : raised[*d - '0']);
+    FRACAS_PRINT(digits, "%d", exponent);
+    if (mantissa != 1) snprintf(text, size, "%d\u00b710", mantissa);
+    else snprintf(text, size, "10");
+    for (const char *d = digits; *d; d++)
+        fracas_append(text, size, "", "%s", *d == '-' ? "\u207b" : raised[*d - '0']);
 }
 
 static size_t log_ticks(const fracas_scale *scale, fracas_tick *tick)
@@ -96,7 +96,7 @@ static size_t log_ticks(const fracas_scale *scale, fracas_tick *tick)
             if (span > 8 && mantissa > 1) continue;
             char label[32] = "";
             if (decade || between) {
-                if (plain) snprintf(label, sizeof label, "%g", value);
+                if (plain) FRACAS_PRINT(label, "%g", value);
                 else power_label(mantissa, exponent, label, sizeof label);
             }
             add(tick, &count, value, label);
@@ -113,7 +113,7 @@ static size_t linear_ticks(const fracas_scale *scale, fracas_tick *tick)
     size_t count = 0;
     for (long k = first; k <= last; k++) {
         char label[32];
-        snprintf(label, sizeof label, "%.*f", decimals, (double)k * step);
+        FRACAS_PRINT(label, "%.*f", decimals, (double)k * step);
         add(tick, &count, (double)k * step, label);
     }
     return count;

@@ -170,7 +170,7 @@ static fracas_err draw_areas(const canvas *on)
     if (!on->tint) return fill(on, 0, "body");
     for (int t = 0; t < FRACAS_TINTS; t++) {
         char class[16];
-        snprintf(class, sizeof class, "t%d", t);
+        FRACAS_PRINT(class, "t%d", t);
         TRY(fill(on, t, class));
     }
     return fill(on, FRACAS_TINT_DUST, "dust-fill");
@@ -194,9 +194,9 @@ static void draw_words(const canvas *on)
     const double to = x + bar * 1e-3 * on->frame.scale;
     char time[48], dust[48] = "", apart[48] = "";
     fracas_surface_time_text(state->time, true, time, sizeof time);
-    if (state->ndust > 0) snprintf(dust, sizeof dust, " (dust: %zu)", state->ndust);
+    if (state->ndust > 0) FRACAS_PRINT(dust, " (dust: %zu)", state->ndust);
     if (on->picture->explode > 0)
-        snprintf(apart, sizeof apart, ", fragments apart: %g", on->picture->explode);
+        FRACAS_PRINT(apart, ", fragments apart: %g", on->picture->explode);
     fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\">%s: %zu fragment%s%s</text>\n", x, y - 5, time,
             state->nfragments, state->nfragments == 1 ? "" : "s", dust);
     fprintf(on->out, "<path class=\"ink\" d=\"M%.1f %.1fv8m0 -4H%.1fm0 -4v8\"/>\n", x, y + 6, to);

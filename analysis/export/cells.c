@@ -48,7 +48,7 @@ static fracas_prefix prefix_of(const fracas_table_column *column, const fracas_t
 void fracas_cell_label(const fracas_analysis *analysis, size_t point, const void *row, char *text)
 {
     (void)row;
-    fracas_analysis_label(analysis, point, text, FRACAS_CELL);
+    snprintf(text, FRACAS_CELL, "%.127s", fracas_analysis_label(analysis, point).text);
 }
 
 static void format_cell(const fracas_table_column *column, const fracas_table_rows *rows, size_t i,

@@ -32,7 +32,7 @@ fracas_err fracas_csv_file(const fracas_csv_table *table, const fracas_analysis 
 {
     char name[64];
     fracas_output_file output;
-    snprintf(name, sizeof name, "%s.csv", table->name);
+    FRACAS_PRINT(name, "%s.csv", table->name);
     TRY(fracas_output_open(folder, name, &output));
     return fracas_output_close(&output, fracas_csv_write(table, analysis, output.file));
 }

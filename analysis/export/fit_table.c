@@ -46,10 +46,10 @@ fracas_err fracas_fit_table_create(const fracas_analysis *analysis, const fracas
         for (int rank = 1; rank <= FRACAS_NFAMILIES; rank++) {
             const char *family = fracas_fits_ranked(fits, (int64_t)p, rank);
             if (!family || !fracas_family_find(family)) continue;
-            char *cell[NCOLUMNS], label[80];
+            char *cell[NCOLUMNS];
             for (size_t c = 0; c < NCOLUMNS; c++)
                 cell[c] = fracas_result_table_cell(table, line, c);
-            fracas_analysis_label(analysis, p, label, sizeof label);
+            const fracas_label label = fracas_analysis_label(analysis, p);
             const fracas_fits_row *delta = fracas_fits_find(fits, (int64_t)p, family, "delta_aicc");
             snprintf(cell[RANK], FRACAS_CELL, "%d", rank);
             if (delta) snprintf(cell[DELTA], FRACAS_CELL, "%.1f", delta->value);
@@ -59,7 +59,8 @@ fracas_err fracas_fit_table_create(const fracas_analysis *analysis, const fracas
             put_number(fits, (int64_t)p, family, "ad", 3, cell[AD]);
             fracas_fits_format_p(fracas_fits_find(fits, (int64_t)p, family, "ad_p"), cell[AD_P],
                                  FRACAS_CELL);
-            snprintf(cell[FAMILY], FRACAS_CELL, "%s%s%s", label, *label ? ": " : "", family);
+            snprintf(cell[FAMILY], FRACAS_CELL, "%.79s%s%s", label.text, *label.text ? ": " : "",
+                     family);
             fracas_fits_format_parameters(fits, (int64_t)p, fracas_family_find(family),
                                           cell[PARAMETERS], FRACAS_CELL);
             line++;

@@ -78,12 +78,12 @@ static fracas_err put_resource(fracas_json *json, const fracas_csv_table *table,
 {
     char name[64], digest[FRACAS_SHA256_HEX], hash[FRACAS_SHA256_HEX + 8], *path;
     uint64_t bytes;
-    snprintf(name, sizeof name, "%s.csv", table->name);
+    FRACAS_PRINT(name, "%s.csv", table->name);
     if (asprintf(&path, "%s/%s", folder, name) < 0) return fracas_no_memory("a path");
     const fracas_err err = fracas_sha256_of_file(path, digest, &bytes);
     free(path);
     TRY(err);
-    snprintf(hash, sizeof hash, "sha256:%s", digest);
+    FRACAS_PRINT(hash, "sha256:%s", digest);
     fracas_json_object(json, NULL);
     fracas_json_text(json, "profile", "tabular-data-resource");
     fracas_json_text(json, "name", table->name);
@@ -105,8 +105,8 @@ static void put_source(fracas_json *json, const fracas_analysis *analysis)
 {
     char hash[FRACAS_HASH_HEX], text[192], seed[24];
     fracas_hash_hex(&analysis->header.campaign, hash);
-    snprintf(seed, sizeof seed, "%" PRIu64, analysis->header.seed);
-    snprintf(text, sizeof text, "fracas-%s", hash);
+    FRACAS_PRINT(seed, "%" PRIu64, analysis->header.seed);
+    FRACAS_PRINT(text, "fracas-%s", hash);
     fracas_json_text(json, "profile", "tabular-data-package");
     fracas_json_text(json, "name", text);
     fracas_json_text(json, "title", "Fragments of a campaign of fracas");
@@ -115,8 +115,8 @@ static void put_source(fracas_json *json, const fracas_analysis *analysis)
         "Numbers in SI units to 15 digits; an empty field is a number that does not exist.");
     fracas_json_array(json, "sources");
     fracas_json_object(json, NULL);
-    snprintf(text, sizeof text, "study.h5 of fracas %s: campaign %s, seed %s",
-             analysis->header.version, hash, seed);
+    FRACAS_PRINT(text, "study.h5 of fracas %s: campaign %s, seed %s", analysis->header.version,
+                 hash, seed);
     fracas_json_text(json, "title", text);
     fracas_json_close_object(json);
     fracas_json_close_array(json);

@@ -10,7 +10,7 @@ static void visit_outcomes(fracas_field_visit *visit, void *context)
 {
     for (int o = 0; o < FRACAS_NOUTCOMES; o++) {
         char key[32];
-        snprintf(key, sizeof key, "outcome.%s", fracas_outcome_name(o));
+        FRACAS_PRINT(key, "outcome.%s", fracas_outcome_name(o));
         visit(context, &(fracas_field){key, FRACAS_FIELD_INTEGER, "1",
                                        "realizations of the point that ended so",
                                        offsetof(fracas_point_statistics, outcome[o])});

@@ -37,7 +37,7 @@ static void dataset_fields(const fracas_store_column *column, fracas_field_visit
     }
     for (size_t i = 0; i < column->width; i++) {
         char name[64];
-        snprintf(name, sizeof name, "%s_%c", last_part(column->path), "xyz"[i]);
+        FRACAS_PRINT(name, "%s_%c", last_part(column->path), "xyz"[i]);
         field.key = name;
         visit(context, &field);
     }

@@ -100,12 +100,12 @@ static void write_decision(fracas_json *json, const fracas_decision *last)
 static void write_point(fracas_json *json, const fracas_analysis *analysis, size_t p,
                         const fracas_fits *fits)
 {
-    char label[256], hash[FRACAS_HASH_HEX];
-    fracas_analysis_label(analysis, p, label, sizeof label);
+    char hash[FRACAS_HASH_HEX];
+    const fracas_label label = fracas_analysis_label(analysis, p);
     fracas_hash_hex(&analysis->table->point[p].hash, hash);
     const fracas_progress progress = fracas_analysis_progress_of(analysis, p);
     fracas_json_object(json, NULL);
-    fracas_json_text(json, "label", label);
+    fracas_json_text(json, "label", label.text);
     fracas_json_text(json, "hash", hash);
     fracas_json_integer(json, "replicas", analysis->table->point[p].replicas);
     fracas_fields_json_object(json, "progress", &fracas_progress_fields, &progress);
@@ -176,7 +176,7 @@ void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fi
 {
     char hash[FRACAS_HASH_HEX], seed[24];
     fracas_hash_hex(&analysis->header.campaign, hash);
-    snprintf(seed, sizeof seed, "%" PRIu64, analysis->header.seed);
+    FRACAS_PRINT(seed, "%" PRIu64, analysis->header.seed);
     const fracas_progress progress = fracas_analysis_progress(analysis);
     fracas_json json;
     fracas_json_begin(&json, out);

@@ -166,7 +166,7 @@ void fracas_summary_put_energies(fracas_json *json, const fracas_analysis *analy
         return;
     }
     const size_t last = bands->count - 1;
-    snprintf(file, sizeof file, "%s.csv", fracas_csv_table_energies.name);
+    FRACAS_PRINT(file, "%s.csv", fracas_csv_table_energies.name);
     fracas_json_object(json, "energies");
     fracas_json_text(json, "file", file);
     fracas_json_integer(json, "times", (int64_t)bands->count);

@@ -3,6 +3,7 @@
 
 #include "analysis/data/format.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -77,17 +78,15 @@ static bool any_mott(const fracas_analysis *analysis)
 static void outcomes_text(const fracas_analysis *analysis, size_t p, const void *row, char *text)
 {
     const fracas_point_statistics *statistics = row;
-    const size_t size = FRACAS_CELL;
     const fracas_progress progress = fracas_analysis_progress_of(analysis, p);
-    const long long to_come = (long long)(progress.planned - progress.done - progress.failed);
-    size_t used = 0;
-    snprintf(text, size, "-");
-    for (int o = 0; o < FRACAS_NOUTCOMES && used < size; o++)
+    const int64_t to_come = progress.planned - progress.done - progress.failed;
+    *text = '\0';
+    for (int o = 0; o < FRACAS_NOUTCOMES; o++)
         if (statistics->outcome[o] > 0)
-            used += (size_t)snprintf(text + used, size - used, "%s%lld %s", used ? ", " : "",
-                                     (long long)statistics->outcome[o], fracas_outcome_name(o));
-    if (to_come > 0 && used < size)
-        snprintf(text + used, size - used, "%s%lld not there", used ? ", " : "", to_come);
+            fracas_append(text, FRACAS_CELL, ", ", "%" PRId64 " %s", statistics->outcome[o],
+                          fracas_outcome_name(o));
+    if (to_come > 0) fracas_append(text, FRACAS_CELL, ", ", "%" PRId64 " not there", to_come);
+    if (!*text) snprintf(text, FRACAS_CELL, "-");
 }
 
 #define PLACE(member) offsetof(fracas_point_statistics, member)
@@ -207,10 +206,8 @@ static void print_warnings(const fracas_analysis *analysis, FILE *out)
         return;
     }
     for (size_t i = 0; i < count; i++) {
-        char label[256] = "";
-        if (warning[i].point != SIZE_MAX)
-            fracas_analysis_label(analysis, warning[i].point, label, sizeof label);
-        fprintf(out, "warning: %s%s%s\n", label, *label ? ": " : "", warning[i].text);
+        const fracas_label label = fracas_analysis_label(analysis, warning[i].point);
+        fprintf(out, "warning: %s%s%s\n", label.text, *label.text ? ": " : "", warning[i].text);
     }
     free(warning);
 }

@@ -47,10 +47,10 @@ static void put(rows *to, const char *quantity, const char *unit, const fracas_i
     if (!row) return;
     row->point = to->point;
     memcpy(row->hash, to->hash, sizeof row->hash);
-    snprintf(row->family, sizeof row->family, "%s", to->family);
-    snprintf(row->quantity, sizeof row->quantity, "%s", quantity);
-    snprintf(row->unit, sizeof row->unit, "%s", unit);
-    snprintf(row->note, sizeof row->note, "%s", note);
+    FRACAS_PRINT(row->family, "%s", to->family);
+    FRACAS_PRINT(row->quantity, "%s", quantity);
+    FRACAS_PRINT(row->unit, "%s", unit);
+    FRACAS_PRINT(row->note, "%s", note);
     for (char *at = row->note; (at = strchr(at, ',')); at++)
         *at = ';'; /* the file has commas between its fields alone */
     row->value = value->value;
@@ -89,10 +89,11 @@ static void put_whole(rows *to, const fracas_fit_sample *sample)
 {
     char note[160] = "";
     if (sample->whole > 0)
-        snprintf(note, sizeof note,
-                 "of %zu realizations are of one piece: the body; left out of the fits, which are "
-                 "of bodies that break; give this share with them or load harder",
-                 sample->whole + sample->nrealizations);
+        FRACAS_PRINT(
+            note,
+            "of %zu realizations are of one piece: the body; left out of the fits, which are "
+            "of bodies that break; give this share with them or load harder",
+            sample->whole + sample->nrealizations);
     put_number(to, "whole", "1", (double)sample->whole, 0, note);
 }
 
@@ -128,7 +129,7 @@ static void put_parameters(rows *to, const fracas_family *family, const fracas_f
         }
         put(to, parameter->name, parameter->length ? "m" : "1", &value, parameter->doc);
         char name[24];
-        snprintf(name, sizeof name, "%s/mean", parameter->name);
+        FRACAS_PRINT(name, "%s/mean", parameter->name);
         if (parameter->length)
             put(to, name, "1", &relative, "over the mean of the sizes above the cut");
     }
@@ -170,15 +171,14 @@ static void put_comparison(rows *to, const fracas_point_fits *fits)
                                                     fits->families[fits->best[1]]);
     char note[160];
     if (!isfinite(comparison->p))
-        snprintf(note, sizeof note, "%s and %s cannot be compared: too few realizations or refits",
-                 first, second);
+        FRACAS_PRINT(note, "%s and %s cannot be compared: too few realizations or refits", first,
+                     second);
     else if (comparison->nested)
-        snprintf(note, sizeof note, "%s is a special case of %s and %s",
-                 first_special ? first : second, first_special ? second : first,
-                 told ? "does not suffice" : "suffices");
+        FRACAS_PRINT(note, "%s is a special case of %s and %s", first_special ? first : second,
+                     first_special ? second : first, told ? "does not suffice" : "suffices");
     else
-        snprintf(note, sizeof note,
-                 told ? "%s is closer than %s" : "%s and %s cannot be told apart", first, second);
+        FRACAS_PRINT(note, told ? "%s is closer than %s" : "%s and %s cannot be told apart", first,
+                     second);
     to->family = "comparison";
     put_number(to, comparison->nested ? "likelihood_ratio" : "vuong", "1", comparison->statistic, 0,
                note);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/fit/likelihood.h"
 
+#include "analysis/data/text.h"
+
 #include <gsl/gsl_multimin.h>
 #include <math.h>
 #include <stdio.h>
@@ -295,7 +297,7 @@ void fracas_fit_of(const fracas_family *family, const fracas_fit_sample *sample,
         memcpy(best, x, sizeof best);
     }
     if (!isfinite(fit->log_likelihood)) {
-        snprintf(fit->why, sizeof fit->why, "no start of the search converged");
+        FRACAS_PRINT(fit->why, "no start of the search converged");
         return;
     }
     to_parameters(family, best, fit->parameter);

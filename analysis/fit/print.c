@@ -37,16 +37,15 @@ void fracas_fits_format_p(const fracas_fits_row *row, char *text, size_t size)
 void fracas_fits_format_parameters(const fracas_fits *fits, int64_t point,
                                    const fracas_family *family, char *text, size_t size)
 {
-    size_t used = 0;
     *text = '\0';
-    for (size_t i = 0; i < family->nparameters && used < size; i++) {
+    for (size_t i = 0; i < family->nparameters; i++) {
         char name[32], value[96];
-        snprintf(name, sizeof name, "%s%s", family->parameter[i].name,
-                 family->parameter[i].length ? "/mean" : "");
+        FRACAS_PRINT(name, "%s%s", family->parameter[i].name,
+                     family->parameter[i].length ? "/mean" : "");
         const fracas_fits_row *row = fracas_fits_find(fits, point, family->name, name);
         if (!row) continue;
         fracas_fits_format_interval(row, 1, value, sizeof value);
-        used += (size_t)snprintf(text + used, size - used, "%s%s %s", i ? "  " : "", name, value);
+        fracas_append(text, size, "  ", "%s %s", name, value);
     }
 }
 
@@ -73,7 +72,7 @@ static void print_family(const fracas_fits *fits, int64_t point, const fracas_fa
     char ks_p[16], ad_p[16], delta[24], parameters[320];
     fracas_fits_format_p(fracas_fits_find(fits, point, family->name, "ks_p"), ks_p, sizeof ks_p);
     fracas_fits_format_p(fracas_fits_find(fits, point, family->name, "ad_p"), ad_p, sizeof ad_p);
-    snprintf(delta, sizeof delta, "%.1f", value_of(fits, point, family->name, "delta_aicc"));
+    FRACAS_PRINT(delta, "%.1f", value_of(fits, point, family->name, "delta_aicc"));
     fprintf(out, "  %2d  %-18s %9s  %7.4f %7s  %9.4g %7s  ", rank, family->name, delta,
             value_of(fits, point, family->name, "ks"), ks_p,
             value_of(fits, point, family->name, "ad"), ad_p);
@@ -88,7 +87,7 @@ static void print_failed(const fracas_fits *fits, int64_t point, const fracas_fa
     const double delta = value_of(fits, point, family->name, "delta_aicc");
     char text[24] = "-";
     if (!row || row->value != 0) return;
-    if (isfinite(delta)) snprintf(text, sizeof text, "%.1f", delta);
+    if (isfinite(delta)) FRACAS_PRINT(text, "%.1f", delta);
     fprintf(out, "   -  %-18s %9s  no fit: %s\n", family->name, text, row->note);
 }
 
@@ -101,19 +100,19 @@ static void print_whole(const fracas_fits *fits, int64_t point, FILE *out)
 static void print_head(const fracas_fits *fits, const fracas_analysis *analysis, int64_t point,
                        FILE *out)
 {
-    char label[256], mean[32], unit[8];
-    fracas_analysis_label(analysis, (size_t)point, label, sizeof label);
+    char mean[32], unit[8];
+    const fracas_label label = fracas_analysis_label(analysis, (size_t)point);
     const fracas_fits_row *size = fracas_fits_find(fits, point, "data", "mean"),
                           *cv = fracas_fits_find(fits, point, "data", "cv");
     const fracas_prefix prefix = fracas_prefix_for(&size->value, 1);
-    snprintf(unit, sizeof unit, "%sm", prefix.symbol);
+    FRACAS_PRINT(unit, "%sm", prefix.symbol);
     fracas_format_digits(value_of(fits, point, "data", "cut") * prefix.factor, 4, mean,
                          sizeof mean);
     fprintf(out,
             "\npoint %lld%s%s: %.0f of %.0f fragments of %.0f realizations, those above %s %s; "
             "mean size ",
-            (long long)point, *label ? ", " : "", label, value_of(fits, point, "data", "above_cut"),
-            value_of(fits, point, "data", "fragments"),
+            (long long)point, *label.text ? ", " : "", label.text,
+            value_of(fits, point, "data", "above_cut"), value_of(fits, point, "data", "fragments"),
             value_of(fits, point, "data", "realizations"), mean, unit);
     print_interval(size, prefix.factor, out);
     fprintf(out, " %s, deviation/mean ", unit);
@@ -125,13 +124,13 @@ static void print_head(const fracas_fits *fits, const fracas_analysis *analysis,
 static void print_point(const fracas_fits *fits, const fracas_analysis *analysis, int64_t point,
                         FILE *out)
 {
-    char comparison[256], label[256];
+    char comparison[256];
     if (!(value_of(fits, point, "data", "above_cut") > 0)) {
-        fracas_analysis_label(analysis, (size_t)point, label, sizeof label);
+        const fracas_label label = fracas_analysis_label(analysis, (size_t)point);
         fprintf(out,
                 "\npoint %lld%s%s: no fragment of a body that came apart is above the cut: nothing "
                 "to fit\n",
-                (long long)point, *label ? ", " : "", label);
+                (long long)point, *label.text ? ", " : "", label.text);
         print_whole(fits, point, out);
         return;
     }

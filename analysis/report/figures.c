@@ -58,7 +58,7 @@ static fracas_err add_means(const rate_plot *plot, size_t first, unsigned look, 
     if (plot->others->count > 0)
         fracas_columns_label(analysis->table, plot->others, first, series->name,
                              sizeof series->name);
-    else snprintf(series->name, sizeof series->name, "mean, 95 %% interval");
+    else FRACAS_PRINT(series->name, "mean, 95 %% interval");
     series->n = 0;
     for (size_t p = first; p < analysis->table->npoints; p++) {
         const fracas_point_statistics *statistics = &analysis->point[p];
@@ -81,7 +81,7 @@ static fracas_err add_law(const rate_plot *plot, fracas_scaling_law_id law,
 {
     fracas_series *series;
     TRY(fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, &series));
-    snprintf(series->name, sizeof series->name, "%s", fracas_scaling_laws[law].name);
+    FRACAS_PRINT(series->name, "%s", fracas_scaling_laws[law].name);
     for (size_t i = 0; i < LAW_VALUES; i++) {
         double at = rate[0] / 2 * pow(4 * rate[1] / rate[0], (double)i / (LAW_VALUES - 1));
         series->x[i] = at;
@@ -190,7 +190,7 @@ static fracas_err add_crossovers(const rate_plot *plot, const double rate[2], fr
             series->x[v] = rate[0] / 2 * pow(4 * rate[1] / rate[0], (double)v / (LAW_VALUES - 1));
             series->y[v] = fracas_crossover_at(&list[i], series->x[v] * x_unit) / y_unit;
         }
-        if (!err && count == 1) snprintf(series->name, sizeof series->name, "fitted crossover");
+        if (!err && count == 1) FRACAS_PRINT(series->name, "fitted crossover");
     }
     free(list);
     return err;
@@ -246,14 +246,15 @@ static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bo
     char n[64];
     replicas_text(analysis, n, sizeof n);
     if (fracas_analysis_all_surfaces(analysis)) {
-        snprintf(chart->caption, sizeof chart->caption,
-                 "Mean over replicas (%s) of the mean square root of a fragment\u2019s area, dust "
-                 "included; bars: 95 %% interval of the mean (Student\u2019s t over replicas).",
-                 n);
+        FRACAS_PRINT(
+            chart->caption,
+            "Mean over replicas (%s) of the mean square root of a fragment\u2019s area, dust "
+            "included; bars: 95 %% interval of the mean (Student\u2019s t over replicas).",
+            n);
         return;
     }
-    snprintf(
-        chart->caption, sizeof chart->caption,
+    FRACAS_PRINT(
+        chart->caption,
         "%sMean over replicas (%s) of body length / fragments%s; bars: 95 %% interval of the "
         "mean (Student\u2019s t over replicas).%s A crossover fitted to the marks, where "
         "there is one, is a line in their colour, too.",
@@ -292,21 +293,16 @@ fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, 
     bool one_law = same_scales(&plot, ALL_SERIES), some_law = any_law(&plot);
     fracas_columns_clear(&others);
     TRY(err);
-    snprintf(chart->file, sizeof chart->file, "size-against-rate%s",
-             normalised ? "-normalised" : "");
-    snprintf(chart->title, sizeof chart->title, "%s",
-             normalised ? "Normalised mean fragment size against strain rate"
-                        : "Mean fragment size against strain rate");
+    FRACAS_PRINT(chart->file, "size-against-rate%s", normalised ? "-normalised" : "");
+    FRACAS_PRINT(chart->title, "%s",
+                 normalised ? "Normalised mean fragment size against strain rate"
+                            : "Mean fragment size against strain rate");
     caption_of_rate(analysis, normalised, one_law, some_law, chart);
     if (chart->npanels == 0) return FRACAS_OK;
-    snprintf(chart->panel[0].x.label, sizeof chart->panel[0].x.label, "%s",
-             normalised ? "strain rate \u03b5\u0307/\u03b5\u0307\u2080" : "strain rate [1/s]");
-    if (normalised)
-        snprintf(chart->panel[0].y.label, sizeof chart->panel[0].y.label,
-                 "mean fragment size s/s\u2080");
-    else
-        snprintf(chart->panel[0].y.label, sizeof chart->panel[0].y.label,
-                 "mean fragment size [%sm]", prefix.sign);
+    FRACAS_PRINT(chart->panel[0].x.label, "%s",
+                 normalised ? "strain rate \u03b5\u0307/\u03b5\u0307\u2080" : "strain rate [1/s]");
+    if (normalised) FRACAS_PRINT(chart->panel[0].y.label, "mean fragment size s/s\u2080");
+    else FRACAS_PRINT(chart->panel[0].y.label, "mean fragment size [%sm]", prefix.sign);
     return FRACAS_OK;
 }
 
@@ -340,13 +336,13 @@ static fracas_err add_sizes(const fracas_point_statistics *statistics, double un
 static void name_cumulative_axes(fracas_panel *panel)
 {
     panel->x.log = panel->y.log = true;
-    snprintf(panel->y.label, sizeof panel->y.label, "share of fragments \u2265 s");
+    FRACAS_PRINT(panel->y.label, "share of fragments \u2265 s");
 }
 
 fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_chart *chart)
 {
-    snprintf(chart->file, sizeof chart->file, "sizes");
-    snprintf(chart->title, sizeof chart->title, "Fragment sizes of all points");
+    FRACAS_PRINT(chart->file, "sizes");
+    FRACAS_PRINT(chart->title, "Fragment sizes of all points");
     size_t least = SIZE_MAX, most = 0;
     for (size_t p = 0; p < analysis->table->npoints; p++) {
         const size_t n = analysis->point[p].nfragments;
@@ -354,16 +350,17 @@ fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_
         if (n > most) most = n;
     }
     char n[64];
-    if (least < most) snprintf(n, sizeof n, "%zu to %zu", least, most);
-    else snprintf(n, sizeof n, "%zu", most);
-    snprintf(chart->caption, sizeof chart->caption,
-             "Share of the fragments that are at least of size s, over s / mean size of the "
-             "point\u2019s fragments; n = %s fragments a point, of all usable replicas together, "
-             "dust included.%s",
-             n,
-             fracas_analysis_any_surface(analysis)
-                 ? " The size of a piece of a surface is the square root of its area."
-                 : "");
+    if (least < most) FRACAS_PRINT(n, "%zu to %zu", least, most);
+    else FRACAS_PRINT(n, "%zu", most);
+    FRACAS_PRINT(
+        chart->caption,
+        "Share of the fragments that are at least of size s, over s / mean size of the "
+        "point\u2019s fragments; n = %s fragments a point, of all usable replicas together, "
+        "dust included.%s",
+        n,
+        fracas_analysis_any_surface(analysis)
+            ? " The size of a piece of a surface is the square root of its area."
+            : "");
     fracas_panel *panel = NULL;
     for (size_t p = 0; p < analysis->table->npoints; p++) {
         const fracas_point_statistics *statistics = &analysis->point[p];
@@ -372,22 +369,21 @@ fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_
         TRY(add_sizes(statistics, mean_of(statistics->fragment_size, statistics->nfragments),
                       (unsigned)p, panel));
         fracas_series *series = &panel->series[panel->nseries - 1];
-        fracas_analysis_label(analysis, p, series->name, sizeof series->name);
+        FRACAS_PRINT(series->name, "%.127s", fracas_analysis_label(analysis, p).text);
     }
     if (!panel) return FRACAS_OK;
     name_cumulative_axes(panel);
     chart->offers = FRACAS_AXES_SEMILOG | FRACAS_AXES_LINEAR;
-    snprintf(panel->x.label, sizeof panel->x.label, "fragment size s / mean size");
+    FRACAS_PRINT(panel->x.label, "fragment size s / mean size");
     return FRACAS_OK;
 }
 
 void fracas_figure_name(const fracas_analysis *analysis, size_t point, const char *file,
                         const char *title, fracas_chart *chart)
 {
-    char label[160];
-    fracas_analysis_label(analysis, point, label, sizeof label);
-    snprintf(chart->file, sizeof chart->file, "%s-point-%zu", file, point);
-    snprintf(chart->title, sizeof chart->title, "%s%s%s", title, *label ? ", " : "", label);
+    const fracas_label label = fracas_analysis_label(analysis, point);
+    FRACAS_PRINT(chart->file, "%s-point-%zu", file, point);
+    FRACAS_PRINT(chart->title, "%s%s%.159s", title, *label.text ? ", " : "", label.text);
 }
 
 fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
@@ -401,12 +397,12 @@ fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fr
     fracas_panel *panel = fracas_chart_add(chart, LOW);
     TRY(add_sizes(statistics, 1 / prefix.factor, (unsigned)point, panel));
     name_cumulative_axes(panel);
-    snprintf(panel->x.label, sizeof panel->x.label, "fragment size s [%sm]", prefix.sign);
+    FRACAS_PRINT(panel->x.label, "fragment size s [%sm]", prefix.sign);
     chart->offers = FRACAS_AXES_SEMILOG | FRACAS_AXES_LINEAR;
-    snprintf(chart->caption, sizeof chart->caption,
-             "Share of the fragments that are at least of size s: n = %zu fragments of %lld "
-             "replicas together, dust included.",
-             statistics->nfragments, (long long)statistics->usable);
+    FRACAS_PRINT(chart->caption,
+                 "Share of the fragments that are at least of size s: n = %zu fragments of %lld "
+                 "replicas together, dust included.",
+                 statistics->nfragments, (long long)statistics->usable);
     return FRACAS_OK;
 }
 
@@ -457,9 +453,9 @@ static fracas_err add_energy(const fracas_point_statistics *statistics, size_t w
     const char *key = which == RESIDUAL ? "|residual|" : fracas_energies[which].key;
     const int length = (int)strcspn(key,
                                     "_"); /* "dissipated_bending" is shown as dissipated, bending */
-    snprintf(series->name, sizeof series->name, "%.*s%s%s%s", length, key, key[length] ? ", " : "",
-             key[length] ? key + length + 1 : "",
-             which == 0 && kinetic_start(statistics) > 0 ? " - start" : "");
+    FRACAS_PRINT(series->name, "%.*s%s%s%s", length, key, key[length] ? ", " : "",
+                 key[length] ? key + length + 1 : "",
+                 which == 0 && kinetic_start(statistics) > 0 ? " - start" : "");
     for (size_t i = 0; i < statistics->nhistory; i++) {
         double value = energy(statistics, i, which) * energy_factor;
         series->x[i] = statistics->history[i].time * time_factor;
@@ -502,24 +498,24 @@ fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
     fracas_panel *lower = &chart->panel[1];
     lower->y.log = true;
     lower->y_floor = residual_floor * largest * joule.factor;
-    snprintf(lower->x.label, sizeof lower->x.label, "time [%ss]", time.sign);
+    FRACAS_PRINT(lower->x.label, "time [%ss]", time.sign);
     for (size_t p = 0; p < chart->npanels; p++)
-        snprintf(chart->panel[p].y.label, sizeof chart->panel[p].y.label, "energy [%sJ]",
-                 joule.sign);
+        FRACAS_PRINT(chart->panel[p].y.label, "energy [%sJ]", joule.sign);
     char residual[32],
         motion[128] =
             "Kinetic energy is that of the motion beside the imposed stretching, work likewise.";
     fracas_format_digits(statistics->residual, 2, residual, sizeof residual);
     if (kinetic_start(statistics) > 0)
-        snprintf(motion, sizeof motion, "Kinetic energy less the %.4g J that the %s starts with.",
-                 kinetic_start(statistics), statistics->surface ? "surface" : "ring");
+        FRACAS_PRINT(motion, "Kinetic energy less the %.4g J that the %s starts with.",
+                     kinetic_start(statistics), statistics->surface ? "surface" : "ring");
     else if (statistics->surface) motion[0] = '\0';
-    snprintf(chart->caption, sizeof chart->caption,
-             "Replica %lld of %lld, the one whose dissipated energy is the nearest to the mean. "
-             "%s%sBelow: |residual| of the energy balance; its largest value over all replicas is "
-             "%s of the dissipated energy.",
-             (long long)statistics->typical_replica, (long long)statistics->usable, motion,
-             *motion ? " " : "", residual);
+    FRACAS_PRINT(
+        chart->caption,
+        "Replica %lld of %lld, the one whose dissipated energy is the nearest to the mean. "
+        "%s%sBelow: |residual| of the energy balance; its largest value over all replicas is "
+        "%s of the dissipated energy.",
+        (long long)statistics->typical_replica, (long long)statistics->usable, motion,
+        *motion ? " " : "", residual);
     return FRACAS_OK;
 }
 

@@ -38,8 +38,8 @@ fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point, fr
         fracas_series *series;
         const double start = start_of(bands, e);
         TRY(fracas_panel_add(panel, FRACAS_BAND, (unsigned)e, bands->count, &series));
-        snprintf(series->name, sizeof series->name, "%s%s", fracas_energy_fields.field[e].key,
-                 start > 0 ? " - start" : "");
+        FRACAS_PRINT(series->name, "%s%s", fracas_energy_fields.field[e].key,
+                     start > 0 ? " - start" : "");
         for (size_t j = 0; j < bands->count; j++) {
             const fracas_band *band = &bands->energy[j][e];
             series->x[j] = bands->time[j] * time.factor;
@@ -48,17 +48,17 @@ fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point, fr
             series->high[j] = (band->high - start) * joule.factor;
         }
     }
-    snprintf(panel->x.label, sizeof panel->x.label, "time [%ss]", time.sign);
-    snprintf(panel->y.label, sizeof panel->y.label, "energy [%sJ]", joule.sign);
-    snprintf(chart->caption, sizeof chart->caption,
-             "Lines: means over n = %lld realizations; areas: %s. A realization that has ended "
-             "counts with what it had in the end%s.",
-             (long long)bands->realizations,
-             bands->extremes ? "from the least to the greatest"
-                             : "between the quantiles 5 % and 95 %",
-             bands->running[bands->count - 1] < bands->realizations
-                 ? "; at the last times some are still running"
-                 : "");
+    FRACAS_PRINT(panel->x.label, "time [%ss]", time.sign);
+    FRACAS_PRINT(panel->y.label, "energy [%sJ]", joule.sign);
+    FRACAS_PRINT(chart->caption,
+                 "Lines: means over n = %lld realizations; areas: %s. A realization that has ended "
+                 "counts with what it had in the end%s.",
+                 (long long)bands->realizations,
+                 bands->extremes ? "from the least to the greatest"
+                                 : "between the quantiles 5 % and 95 %",
+                 bands->running[bands->count - 1] < bands->realizations
+                     ? "; at the last times some are still running"
+                     : "");
     return FRACAS_OK;
 }
 
@@ -78,24 +78,23 @@ fracas_err fracas_figure_convergence(const fracas_analysis *analysis, size_t poi
         fracas_series *series;
         if (!(fabs(last) > 0) || !isfinite(last)) continue;
         TRY(fracas_panel_add(panel, FRACAS_CURVE, h, of->count, &series));
-        snprintf(series->name, sizeof series->name, "%s", fracas_headline_key[h]);
+        FRACAS_PRINT(series->name, "%s", fracas_headline_key[h]);
         for (size_t i = 0; i < of->count; i++) {
             series->x[i] = (double)of->row[i].replicas;
             series->y[i] = 100 * (of->row[i].number[h].value / last - 1);
         }
     }
     panel->x.log = true;
-    snprintf(panel->x.label, sizeof panel->x.label, "replicas");
-    snprintf(panel->y.label, sizeof panel->y.label, "change to all replicas [%%]");
+    FRACAS_PRINT(panel->x.label, "replicas");
+    FRACAS_PRINT(panel->y.label, "change to all replicas [%%]");
     const int64_t open = of->unconverged;
     char verdict[64] = "all are converged";
     if (open > 0)
-        snprintf(verdict, sizeof verdict, "%lld %s not converged", (long long)open,
-                 open > 1 ? "are" : "is");
-    snprintf(chart->caption, sizeof chart->caption,
-             "Headline numbers from the first so many replicas, against those of all %lld: %s "
-             "(half width at most 5 %%, and no drift between the halves).",
-             (long long)all->replicas, verdict);
+        FRACAS_PRINT(verdict, "%lld %s not converged", (long long)open, open > 1 ? "are" : "is");
+    FRACAS_PRINT(chart->caption,
+                 "Headline numbers from the first so many replicas, against those of all %lld: %s "
+                 "(half width at most 5 %%, and no drift between the halves).",
+                 (long long)all->replicas, verdict);
     return FRACAS_OK;
 }
 
@@ -117,7 +116,7 @@ static fracas_err add_above(const fracas_point_statistics *statistics, size_t n,
      * ends are known */
     const bool lattice = half > 0;
     TRY(fracas_panel_add(panel, lattice ? FRACAS_MARKS : FRACAS_STEPS, 0, *above, &series));
-    snprintf(series->name, sizeof series->name, "fragments");
+    FRACAS_PRINT(series->name, "fragments");
     for (size_t i = first; i < n; i++) {
         if (i > first && size[i] <= size[i - 1] * (1 + 1e-9))
             continue; /* the same number of elements */
@@ -150,7 +149,7 @@ static fracas_err add_family(const fracas_family *family, const double *paramete
     double below, at_cut;
     fracas_series *series;
     TRY(fracas_panel_add(panel, FRACAS_CURVE, look, CURVE_VALUES, &series));
-    snprintf(series->name, sizeof series->name, "%s", family->name);
+    FRACAS_PRINT(series->name, "%s", family->name);
     family->tails(parameter, cut, cut, &below, &at_cut);
     for (size_t i = 0; i < CURVE_VALUES; i++) {
         const double size = range[0] * pow(range[1] / range[0], (double)i / (CURVE_VALUES - 1));
@@ -193,17 +192,18 @@ fracas_err fracas_figure_fits(const fracas_analysis *analysis, const fracas_fits
     panel->x.log = panel->y.log = true;
     panel->y_floor = 0.3 / (double)above;
     chart->offers = FRACAS_AXES_SEMILOG | FRACAS_AXES_LINEAR;
-    snprintf(panel->x.label, sizeof panel->x.label, "fragment size s [%sm]", prefix.sign);
-    snprintf(panel->y.label, sizeof panel->y.label, "share of fragments \u2265 s");
-    snprintf(chart->caption, sizeof chart->caption,
-             "Of the n = %zu fragments larger than %.4g %sm, below which the mesh decides, of %lld "
-             "replicas together: the share that is at least of size s%s. Lines: the %d families of "
-             "least AICc, by maximum likelihood.",
-             above, cut->value * prefix.factor, prefix.sign,
-             (long long)statistics->usable - (whole ? (long long)whole->value : 0),
-             statistics->ensemble.lattice > 0
-                 ? ", at half an element from the sizes, which are whole numbers of elements"
-                 : "",
-             BEST);
+    FRACAS_PRINT(panel->x.label, "fragment size s [%sm]", prefix.sign);
+    FRACAS_PRINT(panel->y.label, "share of fragments \u2265 s");
+    FRACAS_PRINT(
+        chart->caption,
+        "Of the n = %zu fragments larger than %.4g %sm, below which the mesh decides, of %lld "
+        "replicas together: the share that is at least of size s%s. Lines: the %d families of "
+        "least AICc, by maximum likelihood.",
+        above, cut->value * prefix.factor, prefix.sign,
+        (long long)statistics->usable - (whole ? (long long)whole->value : 0),
+        statistics->ensemble.lattice > 0
+            ? ", at half an element from the sizes, which are whole numbers of elements"
+            : "",
+        BEST);
     return FRACAS_OK;
 }

@@ -35,18 +35,18 @@ static fracas_err write_section(fracas_page *page, const fracas_page_entry *sect
 
 static void put_head(const fracas_page *page, const char *title, const char *lead, FILE *out)
 {
-    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n"
-          "<link rel=\"icon\" href=\"data:,\"/>\n<title>",
-          out);
-    fracas_markup_text(title, out);
+    fracas_markup(out,
+                  "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+                  "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n"
+                  "<link rel=\"icon\" href=\"data:,\"/>\n<title>"
+                  "%s",
+                  title);
     fprintf(out, " \u00b7 fracas</title>\n<style>\n%s%s", fracas_chart_style, fracas_page_style);
     if (page->surfaces) fracas_surface_style(out);
-    fputs("</style>\n</head>\n<body>\n<header>\n<h1>", out);
-    fracas_markup_text(title, out);
-    fputs("</h1>\n<p class=\"lead\">", out);
-    fracas_markup_text(lead, out);
-    fputs("</p>\n</header>\n", out);
+    fracas_markup(
+        out,
+        "</style>\n</head>\n<body>\n<header>\n<h1>%s</h1>\n<p class=\"lead\">%s</p>\n</header>\n",
+        title, lead);
 }
 
 static void put_page(const fracas_page *page, const char *title, const char *lead,
@@ -117,8 +117,7 @@ static void say_what(const fracas_analysis *analysis, char *text, size_t size)
     }
     char failed[96] = ", none failed", partial[128] = "";
     if (unusable > 0)
-        snprintf(failed, sizeof failed, ", of these %" PRId64 " failed (not in any mean)",
-                 unusable);
+        FRACAS_PRINT(failed, ", of these %" PRId64 " failed (not in any mean)", unusable);
     const bool is_partial = fracas_analysis_partial(analysis, partial, sizeof partial);
     snprintf(text, size, "%zu point%s, %" PRId64 " realizations%s%s%s", analysis->table->npoints,
              analysis->table->npoints == 1 ? "" : "s", realizations, failed, is_partial ? "; " : "",

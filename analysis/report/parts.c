@@ -63,8 +63,8 @@ static void put_source(fracas_page *page)
 {
     char hash[FRACAS_HASH_HEX];
     fracas_hash_hex(&page->analysis->header.campaign, hash);
-    fputs(" <span class=\"source\">", page->out);
-    fracas_markup_text(page->source ? page->source : page->analysis->name, page->out);
+    fracas_markup(page->out, " <span class=\"source\">%s",
+                  page->source ? page->source : page->analysis->name);
     if (!page->source) fprintf(page->out, ", campaign %.12s", hash);
     fprintf(page->out, ", fracas %s.</span>", page->analysis->header.version);
 }
@@ -76,7 +76,7 @@ static void put_words(const char *text, FILE *out)
         const bool low = rest[0] == '_' && rest > text && isalpha((unsigned char)rest[1]) &&
                          !isalnum((unsigned char)rest[2]) && rest[2] != '_';
         if (low) fprintf(out, "<sub>%c</sub>", *++rest);
-        else fracas_markup_text((const char[]){*rest, '\0'}, out);
+        else fracas_markup(out, "%s", (const char[]){*rest, '\0'});
     }
 }
 
@@ -84,7 +84,7 @@ void fracas_page_figure_end(fracas_page *page, const char *title, const char *ca
                             const char *file, bool drawn, bool csv)
 {
     fprintf(page->out, "<figcaption><b>Figure %d.</b> ", ++page->figures);
-    fracas_markup_text(title, page->out);
+    fracas_markup(page->out, "%s", title);
     fputs(*caption ? ". " : ".", page->out);
     put_words(caption, page->out);
     put_source(page);
@@ -134,12 +134,12 @@ static fracas_err write_files(fracas_page *page, const fracas_chart *chart)
 {
     char name[FRACAS_DRAWING + 4];
     fracas_output_file output;
-    snprintf(name, sizeof name, "%s.svg", chart->file);
+    FRACAS_PRINT(name, "%s.svg", chart->file);
     TRY(fracas_output_open(page->folder, name, &output));
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", output.file);
     fracas_chart_write(chart, true, output.file);
     TRY(fracas_output_close(&output, FRACAS_OK));
-    snprintf(name, sizeof name, "%s.csv", chart->file);
+    FRACAS_PRINT(name, "%s.csv", chart->file);
     TRY(fracas_output_open(page->folder, name, &output));
     fracas_chart_csv(chart, output.file);
     TRY(fracas_output_close(&output, FRACAS_OK));
@@ -152,7 +152,7 @@ static void forget_files(const fracas_page *page, const char *name)
     static const char *const kind[] = {"svg", "pdf", "csv"};
     for (size_t k = 0; k < sizeof kind / sizeof *kind; k++) {
         char path[PATH_MAX];
-        if (snprintf(path, sizeof path, "%s/%s.%s", page->folder, name, kind[k]) < (int)sizeof path)
+        if (FRACAS_PRINT(path, "%s/%s.%s", page->folder, name, kind[k]) < (int)sizeof path)
             unlink(path);
     }
 }
@@ -178,20 +178,16 @@ static void put_cells(const fracas_result_table *table, FILE *out)
 {
     fputs("<thead><tr>", out);
     for (size_t c = 0; c < table->columns; c++) {
-        fputs("<th scope=\"col\">", out);
-        fracas_markup_text(fracas_result_table_cell(table, 0, c), out);
-        fputs("<small>", out);
+        fracas_markup(out, "<th scope=\"col\">%s<small>", fracas_result_table_cell(table, 0, c));
         const char *unit = fracas_result_table_cell(table, 1, c);
-        fracas_markup_text(*unit ? unit : "\u00a0", out); /* keeps the names on one line */
+        fracas_markup(out, "%s", *unit ? unit : "\u00a0"); /* keeps the names on one line */
         fputs("</small></th>", out);
     }
     fputs("</tr></thead>\n<tbody>\n", out);
     for (size_t r = FRACAS_RESULT_TABLE_HEAD; r < table->rows; r++) {
         fputs("<tr>", out);
         for (size_t c = 0; c < table->columns; c++) {
-            fputs("<td>", out);
-            fracas_markup_text(fracas_result_table_cell(table, r, c), out);
-            fputs("</td>", out);
+            fracas_markup(out, "<td>%s</td>", fracas_result_table_cell(table, r, c));
         }
         fputs("</tr>\n", out);
     }
@@ -204,7 +200,7 @@ fracas_err fracas_page_table(fracas_page *page, const char *id, const char *titl
 {
     if (!built && table->rows > FRACAS_RESULT_TABLE_HEAD) {
         fprintf(page->out, "<p class=\"title\"><b>Table %d.</b> ", ++page->tables);
-        fracas_markup_text(title, page->out);
+        fracas_markup(page->out, "%s", title);
         putc('.', page->out);
         put_source(page);
         fprintf(page->out,
@@ -216,7 +212,7 @@ fracas_err fracas_page_table(fracas_page *page, const char *id, const char *titl
         if (legend && legend[0]) {
             fputs("<p class=\"quiet\">", page->out);
             for (size_t i = 0; legend[i]; i++) {
-                fracas_markup_text(legend[i], page->out);
+                fracas_markup(page->out, "%s", legend[i]);
                 putc('\n', page->out);
             }
             fputs("</p>\n", page->out);

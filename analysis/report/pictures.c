@@ -109,10 +109,10 @@ static fracas_err save_pictures(const making *m, const fracas_broken_surface *su
     for (size_t k = 0; !err && k < count; k++) {
         char title[256], text[48], name[128];
         fracas_surface_time_text(time[k], true, text, sizeof text);
-        snprintf(title, sizeof title, "Point %zu, replica %" PRId64 " at %s", request->point,
-                 request->replica, text);
-        snprintf(name, sizeof name, "surface-point-%zu-replica-%" PRId64 "-%zu.svg", request->point,
-                 request->replica, k + 1);
+        FRACAS_PRINT(title, "Point %zu, replica %" PRId64 " at %s", request->point,
+                     request->replica, text);
+        FRACAS_PRINT(name, "surface-point-%zu-replica-%" PRId64 "-%zu.svg", request->point,
+                     request->replica, k + 1);
         const fracas_surface_picture picture = {
             title,         request->show,    FRACAS_SURFACE_WIDTH, true,
             request->view, request->explode, surface->thickness};
@@ -165,7 +165,7 @@ static fracas_err save_table(const making *m, const fracas_stored_mesh *mesh)
     fracas_output_file output;
     fracas_record record;
     fracas_err err = FRACAS_OK;
-    snprintf(name, sizeof name, "times-point-%zu.csv", m->request->point);
+    FRACAS_PRINT(name, "times-point-%zu.csv", m->request->point);
     TRY(fracas_output_open(m->folder, name, &output));
     fracas_record_init(&record);
     fputs("replica,outcome,first_onset,first_break,first_through,through_1_2,through_3_4,end_time,"

@@ -52,13 +52,13 @@ fracas_err fracas_section_sizes(fracas_page *page)
 static fracas_err write_pattern(fracas_page *page, const fracas_picture *picture)
 {
     char name[sizeof picture->file + 8];
-    snprintf(name, sizeof name, "%s.svg", picture->file);
+    FRACAS_PRINT(name, "%s.svg", picture->file);
     fracas_output_file output;
     TRY(fracas_output_open(page->folder, name, &output));
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", output.file);
     fracas_picture_write(picture, true, output.file);
     TRY(fracas_output_close(&output, FRACAS_OK));
-    snprintf(name, sizeof name, "%s.csv", picture->file);
+    FRACAS_PRINT(name, "%s.csv", picture->file);
     TRY(fracas_output_open(page->folder, name, &output));
     fracas_picture_csv(picture, output.file);
     TRY(fracas_output_close(&output, FRACAS_OK));
@@ -103,13 +103,9 @@ fracas_err fracas_section_convergence(fracas_page *page)
 
 static void put_of_point(const fracas_page *page, size_t p, const char *text)
 {
-    char label[256];
-    fracas_analysis_label(page->analysis, p, label, sizeof label);
-    fprintf(page->out, "<p>Point %zu%s", p, *label ? ", " : "");
-    fracas_markup_text(label, page->out);
-    fputs(": ", page->out);
-    fracas_markup_text(text, page->out);
-    fputs(".</p>\n", page->out);
+    const fracas_label label = fracas_analysis_label(page->analysis, p);
+    fprintf(page->out, "<p>Point %zu%s", p, *label.text ? ", " : "");
+    fracas_markup(page->out, "%s: %s.</p>\n", label.text, text);
 }
 
 /* Points where some realizations are of one piece, which the fits leave out. */
@@ -119,7 +115,7 @@ static void put_whole_bodies(const fracas_page *page)
         char text[256];
         const fracas_fits_row *whole = fracas_fits_find(page->fits, (int64_t)p, "data", "whole");
         if (!whole || !(whole->value > 0)) continue;
-        snprintf(text, sizeof text, "%.0f %s", whole->value, whole->note);
+        FRACAS_PRINT(text, "%.0f %s", whole->value, whole->note);
         put_of_point(page, p, text);
     }
 }

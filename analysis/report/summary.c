@@ -17,8 +17,7 @@
 static void put_term(FILE *out, const char *term, const char *value)
 {
     fprintf(out, "<dt>%s</dt><dd>", term);
-    fracas_markup_text(value, out);
-    fputs("</dd>\n", out);
+    fracas_markup(out, "%s</dd>\n", value);
 }
 
 /* True if the list "a, b" has this item. */
@@ -33,12 +32,10 @@ static bool listed(const char *list, const char *item)
 /* "nitsche, tied": the words of a column, each once; "" where no point has one. */
 static void words_of(const fracas_point_table *table, size_t c, char *text, size_t size)
 {
-    size_t used = 0;
     text[0] = '\0';
-    for (size_t p = 0; p < table->npoints && used < size; p++) {
+    for (size_t p = 0; p < table->npoints; p++) {
         const char *word = table->point[p].value[c].text;
-        if (*word && !listed(text, word))
-            used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "", word);
+        if (*word && !listed(text, word)) fracas_append(text, size, ", ", "%s", word);
     }
 }
 
@@ -79,12 +76,11 @@ static void put_parameters(const fracas_page *page, const char *term, const char
     char line[1024] = "";
     for (size_t c = 0; c < table->ncolumns; c++) {
         char text[192];
-        const size_t length = strlen(prefix), used = strlen(line);
+        const size_t length = strlen(prefix);
         if (strncmp(table->column[c].path, prefix, length)) continue;
         values_of(table, c, text, sizeof text);
         if (*text)
-            snprintf(line + used, sizeof line - used, "%s%s %s", used ? ", " : "",
-                     table->column[c].path + length, text);
+            fracas_append(line, sizeof line, ", ", "%s %s", table->column[c].path + length, text);
     }
     if (*line) put_term(page->out, term, line);
 }
@@ -100,11 +96,10 @@ static void put_replicas(const fracas_page *page)
     }
     char text[96];
     if (least >= most)
-        snprintf(text, sizeof text, "%zu of %" PRId64 " replicas each", analysis->table->npoints,
-                 most);
+        FRACAS_PRINT(text, "%zu of %" PRId64 " replicas each", analysis->table->npoints, most);
     else
-        snprintf(text, sizeof text, "%zu of %" PRId64 " to %" PRId64 " replicas",
-                 analysis->table->npoints, least, most);
+        FRACAS_PRINT(text, "%zu of %" PRId64 " to %" PRId64 " replicas", analysis->table->npoints,
+                     least, most);
     put_term(page->out, "points", text);
 }
 
@@ -129,9 +124,9 @@ static void put_campaign(const fracas_page *page)
         put_parameters(page, group[g].term, group[g].prefix);
     fracas_hash_hex(&header->campaign, text);
     put_term(page->out, "campaign", text);
-    snprintf(text, sizeof text, "%" PRIu64, header->seed);
+    FRACAS_PRINT(text, "%" PRIu64, header->seed);
     put_term(page->out, "seed", text);
-    snprintf(text, sizeof text, "fracas %s", header->version);
+    FRACAS_PRINT(text, "fracas %s", header->version);
     put_term(page->out, "program", text);
     fputs("</dl>\n", page->out);
 }
@@ -181,14 +176,14 @@ static fracas_err put_headlines(fracas_page *page)
     const bool all = analysis->table->npoints <= HEADLINES;
     fracas_result_table table = {0};
     const fracas_err built = make_headlines(analysis, &table);
-    snprintf(legend, sizeof legend,
-             "Means over n realizations with the half widths of their 95 %% intervals "
-             "(Student\u2019s t).%s%s%s",
-             fracas_analysis_any_surface(analysis)
-                 ? " Size of a piece of a surface: the square root of its area."
-                 : "",
-             table.columns > RATIO ? " ZMR: the law of Zhou, Molinari and Ramesh." : "",
-             all ? "" : " A selection of the points.");
+    FRACAS_PRINT(legend,
+                 "Means over n realizations with the half widths of their 95 %% intervals "
+                 "(Student\u2019s t).%s%s%s",
+                 fracas_analysis_any_surface(analysis)
+                     ? " Size of a piece of a surface: the square root of its area."
+                     : "",
+                 table.columns > RATIO ? " ZMR: the law of Zhou, Molinari and Ramesh." : "",
+                 all ? "" : " A selection of the points.");
     return fracas_page_table(page, "headline", "Headline numbers", false, &table,
                              (const char *const[]){legend, NULL}, built);
 }
@@ -257,13 +252,13 @@ static void put_precision(const fracas_page *page)
         worst = p;
     }
     if (worst == SIZE_MAX) return;
-    char label[256], value[32];
-    fracas_analysis_label(analysis, worst, label, sizeof label);
+    char value[32];
+    const fracas_label label = fracas_analysis_label(analysis, worst);
     fracas_format_digits(100 * part, 2, value, sizeof value);
     fprintf(page->out, "<p>The mean number of fragments is known to \u00b1 %s %% or better", value);
     if (analysis->table->npoints > 1) {
-        fputs(", of the points with two replicas or more (the least well: ", page->out);
-        fracas_markup_text(label, page->out);
+        fracas_markup(page->out, ", of the points with two replicas or more (the least well: %s",
+                      label.text);
         putc(')', page->out);
     }
     fputs(".</p>\n", page->out);
@@ -288,14 +283,10 @@ static fracas_err put_warnings(const fracas_page *page)
     } else {
         fputs("<ul class=\"warnings\" tabindex=\"0\">\n", page->out);
         for (size_t i = 0; i < count; i++) {
-            char label[256] = "";
-            if (warning[i].point != SIZE_MAX)
-                fracas_analysis_label(page->analysis, warning[i].point, label, sizeof label);
-            fputs("<li>", page->out);
-            fracas_markup_text(label, page->out);
-            fputs(*label ? ": " : "", page->out);
-            fracas_markup_text(warning[i].text, page->out);
-            fputs("</li>\n", page->out);
+            const fracas_label label = fracas_analysis_label(page->analysis, warning[i].point);
+            fracas_markup(page->out, "<li>%s", label.text);
+            fputs(*label.text ? ": " : "", page->out);
+            fracas_markup(page->out, "%s</li>\n", warning[i].text);
         }
         fputs("</ul>\n", page->out);
     }

@@ -83,12 +83,13 @@ static double explode_of(const fracas_stored_mesh *mesh)
 static fracas_err put_moment(const gallery *to, const fracas_broken_surface *surface, size_t p,
                              size_t k, double time)
 {
-    char label[160], title[256], moment[48], name[64], file[80];
+    char title[256], moment[48], name[64], file[80];
     fracas_surface_time_text(time, true, moment, sizeof moment);
-    fracas_analysis_label(to->page->analysis, p, label, sizeof label);
-    snprintf(title, sizeof title, "Broken surface at %s%s%s", moment, *label ? ": " : "", label);
-    snprintf(name, sizeof name, "surface-point-%zu-%zu", p, k + 1);
-    snprintf(file, sizeof file, "%s.svg", name);
+    const fracas_label label = fracas_analysis_label(to->page->analysis, p);
+    FRACAS_PRINT(title, "Broken surface at %s%s%.159s", moment, *label.text ? ": " : "",
+                 label.text);
+    FRACAS_PRINT(name, "surface-point-%zu-%zu", p, k + 1);
+    FRACAS_PRINT(file, "%s.svg", name);
     TRY(fracas_page_drew(to->page, name));
     fracas_surface_picture picture = {.title = title,
                                       .show = FRACAS_SHOW_FRAGMENTS,
@@ -116,24 +117,22 @@ static fracas_err write_caption(const fracas_broken_surface *surface, int64_t re
     TRY(fracas_surface_times_of(&surface->mesh, &surface->record, &times));
     const double at[] = {times.onset, times.broken, fmin(times.through[0], times.through[1])};
     const bool flat = fracas_surface_is_flat(&surface->mesh);
-    size_t used = (size_t)snprintf(
-        text, size, "Replica %lld, %s, at even times from the first onset to the end",
-        (long long)replica,
-        broken ? "the first that ended FRAGMENTED"
-               : "of typical dissipated energy, for none ended FRAGMENTED");
+    snprintf(text, size, "Replica %lld, %s, at even times from the first onset to the end",
+             (long long)replica,
+             broken ? "the first that ended FRAGMENTED"
+                    : "of typical dissipated energy, for none ended FRAGMENTED");
     for (int k = 0; k < (flat ? 3 : 2); k++) {
         char moment[48];
         fracas_surface_time_text(at[k], true, moment, sizeof moment);
-        used += (size_t)snprintf(text + used, size - used, "; %s: %s", what[k], moment);
+        fracas_append(text, size, "; ", "%s: %s", what[k], moment);
     }
-    used += (size_t)snprintf(text + used, size - used, ".%s",
-                             flat ? "" : " Seen from the direction (1, 1, 1)");
+    fracas_append(text, size, ".", "%s", flat ? "" : " Seen from the direction (1, 1, 1)");
     if (explode_of(&surface->mesh) > 0)
-        used += (size_t)snprintf(
-            text + used, size - used,
-            ", each fragment moved by %g of the way from the centroid of the surface to its own",
+        fracas_append(
+            text, size, ", ",
+            "each fragment moved by %g of the way from the centroid of the surface to its own",
             apart);
-    snprintf(text + used, size - used, "%s", flat ? "" : ".");
+    fracas_append(text, size, "", flat ? "" : ".");
     return FRACAS_OK;
 }
 
@@ -156,13 +155,13 @@ static void write_interfaces(const fracas_broken_surface *surface, FILE *out)
 static fracas_err put_row(gallery *to, const fracas_broken_surface *surface, size_t p,
                           int64_t replica, bool broken)
 {
-    char label[160], name[64], title[256], caption[640], file[80];
+    char name[64], title[256], caption[640], file[80];
     double time[FRACAS_MOMENTS];
     const size_t count = fracas_surface_moments(&surface->record, FRACAS_MOMENTS, time);
-    fracas_analysis_label(to->page->analysis, p, label, sizeof label);
-    snprintf(name, sizeof name, "surface-point-%zu", p);
-    snprintf(file, sizeof file, "%s.csv", name);
-    snprintf(title, sizeof title, "Broken surface%s%s", *label ? ", " : "", label);
+    const fracas_label label = fracas_analysis_label(to->page->analysis, p);
+    FRACAS_PRINT(name, "surface-point-%zu", p);
+    FRACAS_PRINT(file, "%s.csv", name);
+    FRACAS_PRINT(title, "Broken surface%s%.159s", *label.text ? ", " : "", label.text);
     TRY(write_caption(surface, replica, broken, caption, sizeof caption));
     fracas_page_figure(to->page, name, "row");
     fputs("<div class=\"small\">\n", to->page->out);

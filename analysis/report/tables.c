@@ -16,9 +16,7 @@ static void put_decisions(const fracas_page *page)
                   "id=\"decisions\">\n",
                   page->out);
         any = true;
-        fputs("<li>", page->out);
-        fracas_markup_text(text, page->out);
-        fputs("</li>\n", page->out);
+        fracas_markup(page->out, "<li>%s</li>\n", text);
     }
     if (any) fputs("</ul>\n", page->out);
 }
@@ -28,9 +26,7 @@ static void put_beside(const fracas_page *page)
 {
     char text[768];
     if (!fracas_result_table_beside(page->analysis, text, sizeof text)) return;
-    fputs("<p id=\"beside\">", page->out);
-    fracas_markup_text(text, page->out);
-    fputs("</p>\n", page->out);
+    fracas_markup(page->out, "<p id=\"beside\">%s</p>\n", text);
 }
 
 fracas_err fracas_section_results(fracas_page *page)

@@ -222,13 +222,12 @@ static fracas_err fit(fitter *of, int64_t resamples, uint64_t seed,
     double best[NPARAMETERS] = {0};
     const double chi2 = search(of, best);
     if (!isfinite(chi2)) {
-        snprintf(crossover->reason, sizeof crossover->reason, "the least squares did not converge");
+        FRACAS_PRINT(crossover->reason, "the least squares did not converge");
         return FRACAS_OK;
     }
     if (!(best[RATE] > of->x[0] && best[RATE] < of->x[of->n - 1])) {
-        snprintf(crossover->reason, sizeof crossover->reason,
-                 "no bend: the fitted crossover is %s rates",
-                 best[RATE] <= of->x[0] ? "below all" : "above all");
+        FRACAS_PRINT(crossover->reason, "no bend: the fitted crossover is %s rates",
+                     best[RATE] <= of->x[0] ? "below all" : "above all");
         return FRACAS_OK;
     }
     TRY(judge(of, best, chi2, crossover));
@@ -267,9 +266,8 @@ static fracas_err fit_taken(const fracas_size_series *series, int64_t resamples,
     const size_t rates = take(series, of);
     crossover->n = (int64_t)of->n;
     if (rates < FRACAS_CROSSOVER_RATES) {
-        snprintf(crossover->reason, sizeof crossover->reason,
-                 "%zu rate%s with a known standard error, %d are needed", rates,
-                 rates == 1 ? "" : "s", FRACAS_CROSSOVER_RATES);
+        FRACAS_PRINT(crossover->reason, "%zu rate%s with a known standard error, %d are needed",
+                     rates, rates == 1 ? "" : "s", FRACAS_CROSSOVER_RATES);
         return FRACAS_OK;
     }
     const gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
@@ -302,7 +300,7 @@ static fracas_err fit_series(const fracas_size_series *series, int64_t resamples
                                          .misfit = NAN,
                                          .pooled = NAN,
                                          .inflation = NAN};
-    snprintf(crossover->name, sizeof crossover->name, "%s", series->name);
+    FRACAS_PRINT(crossover->name, "%s", series->name);
     double *value = malloc((3 * series->n + 1) * sizeof *value);
     fitter of = {.mean = malloc((series->n + 1) * sizeof *of.mean),
                  .known = malloc((series->n + 1) * sizeof *of.known)};

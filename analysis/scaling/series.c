@@ -78,7 +78,7 @@ static fracas_err gather_all(const fracas_analysis *analysis, const fracas_colum
         TRY(gather(analysis, others, p, series));
         fracas_columns_label(analysis->table, others, p, series->name, sizeof series->name);
     }
-    if (*count == 1) snprintf(list->name, sizeof list->name, "all points");
+    if (*count == 1) FRACAS_PRINT(list->name, "all points");
     return FRACAS_OK;
 }
 

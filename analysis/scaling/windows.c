@@ -61,7 +61,7 @@ static void add_series(const fracas_size_series *series, fracas_size_window *lis
             .window = fracas_window_of(low, high)};
         if (low->whole || high->whole || !isfinite(made.window.slope))
             continue; /* the length of a body is no fragment size */
-        snprintf(made.name, sizeof made.name, "%s", series->name);
+        FRACAS_PRINT(made.name, "%s", series->name);
         list[(*count)++] = made;
     }
 }

@@ -187,16 +187,20 @@ bool fracas_analysis_partial(const fracas_analysis *analysis, char *text, size_t
     if (!fracas_results_partial(analysis->results)) return false;
     const fracas_progress all = fracas_analysis_progress(analysis);
     char failed[40] = "", missing[40] = "";
-    if (all.failed) snprintf(failed, sizeof failed, ", %lld FAILED", (long long)all.failed);
-    if (all.missing) snprintf(missing, sizeof missing, ", %lld missing", (long long)all.missing);
+    if (all.failed) FRACAS_PRINT(failed, ", %lld FAILED", (long long)all.failed);
+    if (all.missing) FRACAS_PRINT(missing, ", %lld missing", (long long)all.missing);
     snprintf(text, size, "partial: %lld of %lld realizations done%s%s", (long long)all.done,
              (long long)all.planned, failed, missing);
     return true;
 }
 
-void fracas_analysis_label(const fracas_analysis *analysis, size_t point, char *text, size_t size)
+fracas_label fracas_analysis_label(const fracas_analysis *analysis, size_t point)
 {
-    fracas_columns_label(analysis->table, &analysis->shown, point, text, size);
+    fracas_label label = {""};
+    if (point != SIZE_MAX)
+        fracas_columns_label(analysis->table, &analysis->shown, point, label.text,
+                             sizeof label.text);
+    return label;
 }
 
 const fracas_decision *fracas_analysis_decision(const fracas_analysis *analysis, size_t point)
@@ -215,16 +219,17 @@ bool fracas_analysis_decided(const fracas_analysis *analysis, size_t point, char
 {
     const fracas_decision *last = fracas_analysis_decision(analysis, point);
     if (!last) return false;
-    char label[256], found[32];
-    fracas_analysis_label(analysis, point, label, sizeof label);
+    char found[32];
+    const fracas_label label = fracas_analysis_label(analysis, point);
     fracas_format_beside(100 * fracas_decision_relative(last), 100 * last->relative_half_width,
                          found, sizeof found);
     snprintf(text, size,
              "%s%s%lld replicas in %lld round%s: half width of the %.4g %% interval of %s %s %%, "
              "%.3g %% asked for%s",
-             label, *label ? ": " : "", (long long)last->replicas, (long long)last->round + 1,
-             last->round ? "s" : "", 100 * last->confidence, fracas_analysis_quantity(last), found,
-             100 * last->relative_half_width, last->stop == 2 ? " (maximum)" : "");
+             label.text, *label.text ? ": " : "", (long long)last->replicas,
+             (long long)last->round + 1, last->round ? "s" : "", 100 * last->confidence,
+             fracas_analysis_quantity(last), found, 100 * last->relative_half_width,
+             last->stop == 2 ? " (maximum)" : "");
     return true;
 }
 

@@ -113,20 +113,17 @@ static void warn_of_convergence(const fracas_point_statistics *statistics, size_
         return;
     }
     char text[320] = "";
-    size_t used = 0;
-    for (int h = 0; h < FRACAS_NHEADLINES && used < sizeof text; h++) {
+    for (int h = 0; h < FRACAS_NHEADLINES; h++) {
         const fracas_settling *number = &all->number[h];
         if (of->converged[h] || !isfinite(number->value)) continue;
         char width[32];
         const double relative = 0.5 * (number->high - number->low) / fabs(number->value);
         fracas_format_digits(number->high > number->low ? 100 * relative : 0, 2, width,
                              sizeof width);
-        used += (size_t)snprintf(text + used, sizeof text - used, "%s%s to %s %%%s",
-                                 used ? ", " : "", fracas_headline_key[h], width,
-                                 fracas_replica_convergence_drifts(of, (fracas_headline)h)
-                                     ? " (drifts)"
-                                 : fracas_settling_alike(number) ? " (all alike)"
-                                                                 : "");
+        fracas_append(text, sizeof text, ", ", "%s to %s %%%s", fracas_headline_key[h], width,
+                      fracas_replica_convergence_drifts(of, (fracas_headline)h) ? " (drifts)"
+                      : fracas_settling_alike(number)                           ? " (all alike)"
+                                                                                : "");
     }
     warn(list, p, "unconverged with %lld replicas, known %s: raise replicas",
          (long long)all->replicas, text);
