@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/compare/compare.h"
 
-#include "analysis/compare/difference.h"
-#include "analysis/compare/match.h"
-#include "analysis/compare/permutation.h"
+#include "analysis/compare/methods.h"
 #include "analysis/summary/study.h"
 
 #include <gsl/gsl_sort.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/compare/difference.h"
+#include "analysis/compare/methods.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_sort.h>

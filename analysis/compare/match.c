@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/compare/match.h"
+#include "analysis/compare/methods.h"
 
 #include "analysis/data/format.h"
 

@@ -3,7 +3,7 @@
 #include "analysis/compare/compare.h"
 
 #include "analysis/summary/study.h"
-#include "analysis/export/table.h"
+#include "analysis/export/tables.h"
 #include "analysis/data/format.h"
 #include "base/json.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/compare/permutation.h"
+#include "analysis/compare/methods.h"
 
 #include <gsl/gsl_combination.h>
 #include <gsl/gsl_rng.h>

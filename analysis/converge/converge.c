@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/converge/rows.h"
 
-#include "analysis/compare/difference.h"
+#include "analysis/compare/methods.h"
 #include "base/param.h"
 
 #include <gsl/gsl_cdf.h>

@@ -1,16 +1,159 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A convergence as text, JSON and CSV. */
+/* Notes of a convergence on its realizations. */
 #include "analysis/converge/rows.h"
-
 #include "analysis/data/field.h"
+#include "analysis/data/format.h"
 #include "analysis/data/output.h"
+#include "analysis/export/tables.h"
 #include "base/json.h"
 #include "base/param.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
+#include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+static fracas_err add_note(fracas_convergence *convergence, const char *refinement, size_t point,
+                           fracas_convergence_note **note)
+{
+    if (convergence->nnotes == convergence->note_room) {
+        const size_t room = 2 * convergence->note_room + 8;
+        fracas_convergence_note *more = realloc(convergence->note, room * sizeof *more);
+        if (!more) return fracas_no_memory("the notes of the convergence");
+        convergence->note = more;
+        convergence->note_room = room;
+    }
+    *note = &convergence->note[convergence->nnotes++];
+    (*note)->refinement = refinement;
+    (*note)->point = point;
+    return FRACAS_OK;
+}
+
+/* "7 of 10 realizations ended ENERGY_DRIFT, 1 NONFINITE: judged from 2" */
+static void write_lost(const fracas_point_statistics *of, size_t judged, char *text, size_t size)
+{
+    char first[64];
+    FRACAS_PRINT(first, " of %" PRId64 " realizations ended", of->realizations);
+    *text = '\0';
+    for (int o = FRACAS_NONFINITE; o <= FRACAS_FAILED; o++)
+        if (of->outcome[o] > 0)
+            fracas_append(text, size, ", ", "%" PRId64 "%s %s", of->outcome[o], *text ? "" : first,
+                          fracas_outcome_name(o));
+    if (judged > 0) fracas_append(text, size, "", ": judged from %zu", judged);
+    else fracas_append(text, size, "", ": none is left, its numbers are unknown");
+}
+
+fracas_err fracas_convergence_note_point(fracas_convergence *convergence, const char *refinement,
+                                         size_t point, const fracas_point_statistics *of,
+                                         size_t judged)
+{
+    fracas_convergence_note *note;
+    if (of->usable < of->realizations) {
+        TRY(add_note(convergence, refinement, point, &note));
+        write_lost(of, judged, note->text, sizeof note->text);
+    }
+    if (of->usable == 0 || of->outcome[FRACAS_INTACT] != of->usable) return FRACAS_OK;
+    TRY(add_note(convergence, refinement, point, &note));
+    FRACAS_PRINT(
+        note->text,
+        "all %" PRId64
+        " usable realizations end INTACT: nothing breaks, and nothing is judged of how it breaks",
+        of->usable);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_convergence_note_study(fracas_convergence *convergence, const char *refinement,
+                                         const fracas_analysis *analysis, const char *study)
+{
+    fracas_convergence_note *note;
+    fracas_warning *warning;
+    size_t count;
+    TRY(fracas_analysis_warnings(analysis, &warning, &count));
+    free(warning);
+    if (count == 0) return FRACAS_OK;
+    TRY(add_note(convergence, refinement, SIZE_MAX, &note));
+    FRACAS_PRINT(note->text, "its report has %zu warning%s: fracas report %s", count,
+                 count == 1 ? "" : "s", study);
+    return FRACAS_OK;
+}
+
+void fracas_convergence_note_line(const fracas_convergence *convergence,
+                                  const fracas_convergence_note *note, char *text, size_t size)
+{
+    const fracas_label label = fracas_analysis_label(convergence->study, note->point);
+    snprintf(text, size, "%s%s%s: %s", note->refinement, *label.text ? ", " : "", label.text,
+             note->text);
+}
+
+/* One prefix for all values of a number. */
+static fracas_prefix prefix_of(const fracas_convergence *convergence,
+                               const fracas_compared_quantity *number)
+{
+    double ends[2] = {INFINITY, 0};
+    if (!strcmp(number->unit, "1")) return (fracas_prefix){1, "", ""};
+    for (size_t i = 0; i < convergence->nrows; i++) {
+        const fracas_convergence_row *row = &convergence->row[i];
+        if (row->number != number || !(row->value.a.mean > 0)) continue;
+        ends[0] = fmin(ends[0], row->value.a.mean);
+        ends[1] = fmax(ends[1], row->value.a.mean);
+    }
+    return fracas_prefix_for(ends, 2);
+}
+
+/* "+0.8 +- 2.0": in per cent of the number as it is. Round-off has no digits worth a reader's time.
+ */
+static void format_change(const fracas_compared_value *value, const char *sign, char *text,
+                          size_t size)
+{
+    const fracas_estimate change = {
+        .n = value->a.n,
+        .mean = 100 * value->relative,
+        .half_width = 50 * (value->relative_high - value->relative_low)};
+    char plain[FRACAS_CELL - 1];
+    if (fabs(change.mean) + change.half_width < 1e-3) {
+        snprintf(text, size, change.mean == 0 && change.half_width == 0 ? "0" : "below 0.001");
+        return;
+    }
+    fracas_format_estimate(&change, 1, sign, plain, sizeof plain);
+    snprintf(text, size, "%s%s", change.mean > 0 ? "+" : "", plain);
+}
+
+static void fill_row(const fracas_convergence *convergence, size_t i, bool unicode,
+                     const fracas_result_table *table)
+{
+    const fracas_convergence_row *row = &convergence->row[i];
+    const fracas_compared_value *value = &row->value;
+    const fracas_prefix prefix = prefix_of(convergence, row->number);
+    const bool pure = !strcmp(row->number->unit, "1");
+    const char *sign = unicode ? "\u00b1" : "+-";
+    char *cell[FRACAS_CONVERGENCE_COLUMNS];
+    for (size_t c = 0; c < FRACAS_CONVERGENCE_COLUMNS; c++)
+        cell[c] = fracas_result_table_cell(table, FRACAS_RESULT_TABLE_HEAD + i, c);
+    snprintf(cell[0], FRACAS_CELL, "%s", row->refinement);
+    fracas_cell_label(convergence->study, row->point, NULL, cell[1]);
+    if (pure) snprintf(cell[2], FRACAS_CELL, "%s", row->number->key);
+    else
+        snprintf(cell[2], FRACAS_CELL, "%s [%s%s]", row->number->key,
+                 unicode ? prefix.sign : prefix.symbol, row->number->unit);
+    fracas_format_estimate(&value->a, prefix.factor, sign, cell[3], FRACAS_CELL);
+    fracas_format_estimate(&value->b, prefix.factor, sign, cell[4], FRACAS_CELL);
+    format_change(value, sign, cell[5], FRACAS_CELL);
+    fracas_format_digits(value->difference / value->a.half_width, 2, cell[6], FRACAS_CELL);
+    snprintf(cell[7], FRACAS_CELL, "%s", fracas_number_verdict_name[row->verdict]);
+}
+
+fracas_err fracas_convergence_table_create(const fracas_convergence *convergence, bool unicode,
+                                           fracas_result_table *table)
+{
+    static const char *const head[FRACAS_CONVERGENCE_COLUMNS] = {
+        "", "point", "number", "as it is", "refined", "change [%]", "half widths", ""};
+    TRY(fracas_table_empty(convergence->nrows, FRACAS_CONVERGENCE_COLUMNS, head, table));
+    for (size_t i = 0; i < convergence->nrows; i++) fill_row(convergence, i, unicode, table);
+    return FRACAS_OK;
+}
 
 /* ---- text ---- */
 

@@ -7,7 +7,7 @@
 #include "analysis/converge/converge.h"
 #include "analysis/draw/chart.h"
 #include "analysis/summary/study.h"
-#include "analysis/export/table.h"
+#include "analysis/export/tables.h"
 
 typedef enum {
     FRACAS_NUMBER_MOVED,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/draw/body_picture.h"
 
-#include "analysis/draw/tint.h"
+#include "analysis/draw/facets.h"
 
 #include "analysis/data/text.h"
 

@@ -4,7 +4,7 @@
 #define FRACAS_ANALYSIS_DRAW_BODY_PICTURE_H
 
 #include "analysis/draw/facets.h"
-#include "analysis/draw/frame.h"
+#include "analysis/draw/trail.h"
 #include "analysis/draw/surface_picture.h"
 
 typedef struct {

@@ -2,7 +2,6 @@
 /* Charts as SVG. */
 #include "analysis/draw/chart.h"
 
-#include "analysis/draw/assets.h"
 #include "analysis/draw/scale.h"
 #include "analysis/data/format.h"
 

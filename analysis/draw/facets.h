@@ -68,4 +68,12 @@ void fracas_view_turn(const fracas_view *view, const double vector[3], double tu
  * edge on. */
 FRACAS_MUST_USE fracas_err fracas_facets_hide(fracas_facets *facets);
 
+enum { FRACAS_TINTS = 7, FRACAS_TINT_DUST = FRACAS_TINTS };
+
+/* *tint: one for each fragment, freed by the caller; FRACAS_TINT_DUST for dust. The largest
+ * fragment comes first; each gets the tint with the shortest common border, of several the one with
+ * the fewest elements so far. */
+FRACAS_MUST_USE fracas_err fracas_tint_fragments(const fracas_stored_mesh *mesh,
+                                                 const fracas_surface_state *state, uint8_t **tint);
+
 #endif

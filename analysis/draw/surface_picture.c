@@ -4,9 +4,8 @@
 #include "analysis/data/format.h"
 #include "analysis/draw/body_picture.h"
 #include "analysis/draw/chart.h"
-#include "analysis/draw/frame.h"
-#include "analysis/draw/tint.h"
 #include "analysis/draw/trail.h"
+#include "analysis/draw/facets.h"
 
 #include <math.h>
 #include <stdlib.h>

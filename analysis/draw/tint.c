@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/draw/tint.h"
+#include "analysis/draw/facets.h"
 
 #include <stdlib.h>
 

@@ -35,4 +35,21 @@ void fracas_trail_clear(fracas_trail *trail);
 FRACAS_MUST_USE fracas_err fracas_trail_write(const fracas_trail *trail, const fracas_spot *spot,
                                               bool closed, const char *class, FILE *out);
 
+enum { FRACAS_FRAME_MARGIN = 8, FRACAS_FRAME_UNITS = 10 }; /* pixels; units of a drawing a pixel */
+
+typedef struct {
+    double scale;         /* pixels a metre */
+    double width, height; /* extent of the drawing, pixels */
+    double left;          /* pixels */
+    double corner[2];     /* m: its least coordinate to the right, its largest one upward */
+} fracas_frame;
+
+/* The range from least to largest [m, right and up] fills the width of the picture [pixels], or 1.3
+ * times the width upward. */
+void fracas_frame_fit(const double least[2], const double largest[2], int width,
+                      fracas_frame *frame);
+
+/* Where a point is: its first two coordinates. */
+fracas_spot fracas_frame_place(const fracas_frame *frame, const double *at);
+
 #endif

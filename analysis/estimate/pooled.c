@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/estimate/pooled.h"
 
-#include "analysis/estimate/quantiles.h"
-
 #include <math.h>
 #include <stdlib.h>
 

@@ -4,9 +4,9 @@
 #ifndef FRACAS_ANALYSIS_ESTIMATE_POOLED_H
 #define FRACAS_ANALYSIS_ESTIMATE_POOLED_H
 
-#include "analysis/estimate/bootstrap.h"
-#include "analysis/estimate/halves.h"
 #include "analysis/data/ensemble.h"
+#include "analysis/estimate/bootstrap.h"
+#include "analysis/data/estimate.h"
 #include "base/err.h"
 
 enum { FRACAS_NQUANTILES = 5 };
@@ -62,5 +62,10 @@ FRACAS_MUST_USE fracas_err fracas_pooled_first(const fracas_ensemble *ensemble, 
  * (fracas_jackknife). */
 FRACAS_MUST_USE fracas_err fracas_pooled_part(const fracas_ensemble *ensemble, size_t begin,
                                               size_t end, fracas_part part[FRACAS_NPOOLED]);
+
+/* Fills the quantiles of pooled->all, and of the fragments above `cut` those of pooled->above
+ * (estimators.16). */
+FRACAS_MUST_USE fracas_err fracas_quantiles_of(const fracas_ensemble *ensemble, double cut,
+                                               uint64_t seed, fracas_pooled *pooled);
 
 #endif

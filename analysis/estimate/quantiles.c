@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/estimate/quantiles.h"
+#include "analysis/estimate/pooled.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/export/cells.h"
+#include "analysis/export/tables.h"
 
 #include "analysis/data/format.h"
 

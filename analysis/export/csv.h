@@ -9,6 +9,8 @@
 
 enum { FRACAS_TABLE_KEY = 3 };
 
+enum { FRACAS_TABLE_PARTS = 3 };
+
 typedef struct fracas_csv_table {
     const char *name; /* for the file, before ".csv" */
     const char *doc;  /* meaning of a line */
@@ -16,9 +18,14 @@ typedef struct fracas_csv_table {
         *key[FRACAS_TABLE_KEY]; /* columns that identify a line, the first NULL behind them */
     const struct fracas_csv_table
         *parent; /* NULL, or the table that the first columns refer to, by its whole key */
-    void (*fields)(const fracas_analysis *analysis, fracas_field_visit *visit, void *context);
-    fracas_err (*rows)(const fracas_analysis *analysis,
-                       FILE *out); /* reads the study again, in its order, where it must */
+    const fracas_fields *columns[FRACAS_TABLE_PARTS]; /* one after the other, NULL behind them */
+    void (*fields)(const struct fracas_csv_table *table, const fracas_analysis *analysis,
+                   fracas_field_visit *visit, void *context); /* without `columns` */
+    fracas_err (*rows)(const struct fracas_csv_table *table, const fracas_analysis *analysis,
+                       FILE *out);   /* reads the study again, in its order, where it must */
+    int set;                         /* fracas_set_name of a table of records, ... */
+    unsigned parts;                  /* ... the part of a result to read for it, ... */
+    const char *number, *number_doc; /* ... and the column of its place there; NULL: none */
 } fracas_csv_table;
 
 /* A line a point: index and hash, every parameter, every statistic (the keys of the JSON summary),
@@ -32,6 +39,10 @@ extern const fracas_csv_table fracas_csv_table_points, fracas_csv_table_realizat
  * through all points of a series, or window, between two rates. */
 extern const fracas_csv_table fracas_csv_table_energies, fracas_csv_table_convergence,
     fracas_csv_table_slopes;
+
+/* Every column. */
+void fracas_csv_fields(const fracas_csv_table *table, const fracas_analysis *analysis,
+                       fracas_field_visit *visit, void *context);
 
 /* The head and the lines of a table; equal bytes for equal study.h5. The error is of reading the
  * study: the caller looks at `out`. */

@@ -52,7 +52,7 @@ static void put_schema(fracas_json *json, const fracas_csv_table *table,
 {
     fracas_json_object(json, "schema");
     fracas_json_array(json, "fields");
-    table->fields(analysis, put_field, json);
+    fracas_csv_fields(table, analysis, put_field, json);
     fracas_json_close_array(json);
     fracas_json_array(json, "missingValues");
     fracas_json_text(json, NULL, "");

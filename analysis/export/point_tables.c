@@ -1,9 +1,49 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Statistics of each point: points.csv, a column a number, and statistics.csv, a line a number. */
+#include "analysis/data/output.h"
 #include "analysis/export/csv.h"
 
 #include <inttypes.h>
 #include <stdio.h>
+
+typedef struct {
+    FILE *out;
+    bool first;
+} head;
+
+static void put_name(void *context, const fracas_field *field)
+{
+    head *of = context;
+    if (!of->first) putc(',', of->out);
+    of->first = false;
+    fracas_csv_text(field->key, of->out);
+}
+
+void fracas_csv_fields(const fracas_csv_table *table, const fracas_analysis *analysis,
+                       fracas_field_visit *visit, void *context)
+{
+    if (table->fields) table->fields(table, analysis, visit, context);
+    for (size_t i = 0; i < FRACAS_TABLE_PARTS && table->columns[i]; i++)
+        fracas_fields_walk(table->columns[i], ".", visit, context);
+}
+
+fracas_err fracas_csv_write(const fracas_csv_table *table, const fracas_analysis *analysis,
+                            FILE *out)
+{
+    head of = {out, true};
+    fracas_csv_fields(table, analysis, put_name, &of);
+    putc('\n', out);
+    return table->rows(table, analysis, out);
+}
+
+fracas_err fracas_csv_file(const fracas_csv_table *table, const fracas_analysis *analysis,
+                           const char *folder)
+{
+    char name[64];
+    fracas_output_file output;
+    FRACAS_PRINT(name, "%s.csv", table->name);
+    TRY(fracas_output_open(folder, name, &output));
+    return fracas_output_close(&output, fracas_csv_write(table, analysis, output.file));
+}
 
 /* Descriptor of "outcome.FAILED", a number of the point's realizations. */
 static void visit_outcomes(fracas_field_visit *visit, void *context)
@@ -23,8 +63,10 @@ static void visit_statistics(fracas_field_visit *visit, void *context)
     visit_outcomes(visit, context);
 }
 
-static void point_fields(const fracas_analysis *analysis, fracas_field_visit *visit, void *context)
+static void point_fields(const fracas_csv_table *of, const fracas_analysis *analysis,
+                         fracas_field_visit *visit, void *context)
 {
+    (void)of;
     static const fracas_field lead[] = {
         {"point", FRACAS_FIELD_INDEX, "1",
          "number of the point, from 0: its row in /point of study.h5"},
@@ -58,8 +100,9 @@ static void put_cell(void *context, const fracas_field *leaf)
     fracas_field_csv(leaf, to->statistics, to->out);
 }
 
-static fracas_err point_rows(const fracas_analysis *analysis, FILE *out)
+static fracas_err point_rows(const fracas_csv_table *of, const fracas_analysis *analysis, FILE *out)
 {
+    (void)of;
     const fracas_point_table *table = analysis->table;
     for (size_t p = 0; p < table->npoints; p++) {
         char hash[FRACAS_HASH_HEX];
@@ -89,19 +132,13 @@ const fracas_csv_table fracas_csv_table_points = {
     .rows = point_rows,
 };
 
-static void statistic_fields(const fracas_analysis *analysis, fracas_field_visit *visit,
-                             void *context)
-{
-    static const fracas_field field[] = {
-        {"point", FRACAS_FIELD_INDEX, "1", "number of the point, from 0"},
-        {"key", FRACAS_FIELD_TEXT, "", "which number: a column of points.csv"},
-        {"value", FRACAS_FIELD_NUMBER, "", "its value, in the unit beside it"},
-        {"unit", FRACAS_FIELD_TEXT, "", "its unit as UDUNITS-2 reads it, 1 of a pure number"},
-    };
-    static const fracas_fields fields = FRACAS_FIELDS(field);
-    (void)analysis;
-    fracas_fields_walk(&fields, ".", visit, context);
-}
+static const fracas_field statistic_field[] = {
+    {"point", FRACAS_FIELD_INDEX, "1", "number of the point, from 0"},
+    {"key", FRACAS_FIELD_TEXT, "", "which number: a column of points.csv"},
+    {"value", FRACAS_FIELD_NUMBER, "", "its value, in the unit beside it"},
+    {"unit", FRACAS_FIELD_TEXT, "", "its unit as UDUNITS-2 reads it, 1 of a pure number"},
+};
+static const fracas_fields statistic_fields = FRACAS_FIELDS(statistic_field);
 
 static void put_line(void *context, const fracas_field *leaf)
 {
@@ -111,8 +148,10 @@ static void put_line(void *context, const fracas_field *leaf)
     fprintf(to->out, ",%s\n", leaf->unit);
 }
 
-static fracas_err statistic_rows(const fracas_analysis *analysis, FILE *out)
+static fracas_err statistic_rows(const fracas_csv_table *of, const fracas_analysis *analysis,
+                                 FILE *out)
 {
+    (void)of;
     for (size_t p = 0; p < analysis->table->npoints; p++)
         visit_statistics(put_line, &(destination){&analysis->point[p], p, out});
     return FRACAS_OK;
@@ -123,6 +162,6 @@ const fracas_csv_table fracas_csv_table_statistics = {
     .doc = "A line a statistic of a point: the same numbers as in points.csv, with their units",
     .key = {"point", "key"},
     .parent = &fracas_csv_table_points,
-    .fields = statistic_fields,
+    .columns = {&statistic_fields},
     .rows = statistic_rows,
 };

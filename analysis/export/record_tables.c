@@ -46,22 +46,21 @@ static void dataset_fields(const fracas_store_column *column, fracas_field_visit
 /* A line begins with the first columns of /realization: of which one it is. */
 enum { PLACE = 3 }; /* point, replica, outcome */
 
-static void place_fields(const char *number, const char *doc, fracas_field_visit *visit,
-                         void *context)
+static void record_fields(const fracas_csv_table *table, const fracas_analysis *analysis,
+                          fracas_field_visit *visit, void *context)
 {
-    for (size_t c = 0; c < PLACE; c++)
+    (void)analysis;
+    for (size_t c = 0; c < PLACE && table->number; c++)
         dataset_fields(&fracas_store_sets[FRACAS_SET_REALIZATION].column[c], visit, context);
-    visit(context, &(fracas_field){number, FRACAS_FIELD_INTEGER, "1", doc});
-}
-
-static void put_place(const fracas_result *result, FILE *out)
-{
-    fprintf(out, "%zu,%" PRId64 ",%s", result->point, result->replica,
-            fracas_outcome_name(result->record.outcome));
+    if (table->number)
+        visit(context,
+              &(fracas_field){table->number, FRACAS_FIELD_INTEGER, "1", table->number_doc});
+    for (size_t c = 0; c < fracas_store_sets[table->set].ncolumns; c++)
+        dataset_fields(&fracas_store_sets[table->set].column[c], visit, context);
 }
 
 /* The values of a row of a set from column `first` on, and the end of the line. */
-static void put_values(fracas_set_name set, size_t first, const void *row, FILE *out)
+static void put_values(int set, size_t first, const void *row, FILE *out)
 {
     for (size_t c = first; c < fracas_store_sets[set].ncolumns; c++) {
         const fracas_store_column *column = &fracas_store_sets[set].column[c];
@@ -77,44 +76,37 @@ static void put_values(fracas_set_name set, size_t first, const void *row, FILE 
 }
 
 typedef struct {
-    void (*put)(const fracas_result *result, FILE *out);
+    const fracas_csv_table *table;
     FILE *out;
 } record_printer;
 
-static fracas_err print_one(void *context, fracas_result *result)
+static fracas_err print_rows(void *context, fracas_result *result)
 {
-    const record_printer *printer = context;
-    printer->put(result, printer->out);
+    const record_printer *to = context;
+    const fracas_record *record = &result->record;
+    const fracas_stored_realization whole = {(int64_t)result->point, result->replica, *record};
+    const bool fragments = to->table->set == FRACAS_SET_FRAGMENT, numbered = to->table->number;
+    const char *row = !numbered   ? (const void *)&whole
+                      : fragments ? (const void *)record->fragment
+                                  : (const void *)record->history;
+    const size_t size = fragments ? sizeof *record->fragment : sizeof *record->history,
+                 count = !numbered   ? 1
+                         : fragments ? record->nfragment
+                                     : record->nhistory;
+    for (size_t i = 0; i < count; i++) {
+        fprintf(to->out, "%zu,%" PRId64 ",%s", result->point, result->replica,
+                fracas_outcome_name(record->outcome));
+        if (numbered) fprintf(to->out, ",%zu", i);
+        put_values(to->table->set, numbered ? 0 : PLACE, row + i * size, to->out);
+    }
     return FRACAS_OK;
 }
 
-static fracas_err put_records(const fracas_analysis *analysis, unsigned parts,
-                              void (*put)(const fracas_result *result, FILE *out), FILE *out)
+static fracas_err record_rows(const fracas_csv_table *table, const fracas_analysis *analysis,
+                              FILE *out)
 {
-    record_printer printer = {put, out};
-    return fracas_results_walk(analysis->results, parts, print_one, &printer);
-}
-
-/* ---- realizations ---- */
-
-static void realization_fields(const fracas_analysis *analysis, fracas_field_visit *visit,
-                               void *context)
-{
-    (void)analysis;
-    for (size_t c = 0; c < fracas_store_sets[FRACAS_SET_REALIZATION].ncolumns; c++)
-        dataset_fields(&fracas_store_sets[FRACAS_SET_REALIZATION].column[c], visit, context);
-}
-
-static void put_realization(const fracas_result *result, FILE *out)
-{
-    const fracas_stored_realization row = {(int64_t)result->point, result->replica, result->record};
-    put_place(result, out);
-    put_values(FRACAS_SET_REALIZATION, PLACE, &row, out);
-}
-
-static fracas_err realization_rows(const fracas_analysis *analysis, FILE *out)
-{
-    return put_records(analysis, 0, put_realization, out);
+    record_printer printer = {table, out};
+    return fracas_results_walk(analysis->results, table->parts, print_rows, &printer);
 }
 
 const fracas_csv_table fracas_csv_table_realizations = {
@@ -122,77 +114,31 @@ const fracas_csv_table fracas_csv_table_realizations = {
     .doc = "A line a realization, whatever its outcome: how it ended, and its energies",
     .key = {"point", "replica"},
     .parent = &fracas_csv_table_points,
-    .fields = realization_fields,
-    .rows = realization_rows,
+    .fields = record_fields,
+    .rows = record_rows,
+    .set = FRACAS_SET_REALIZATION,
 };
-
-/* ---- fragments ---- */
-
-static void fragment_fields(const fracas_analysis *analysis, fracas_field_visit *visit,
-                            void *context)
-{
-    (void)analysis;
-    place_fields("fragment", "number of the fragment in its realization, from 0", visit, context);
-    for (size_t c = 0; c < fracas_store_sets[FRACAS_SET_FRAGMENT].ncolumns; c++)
-        dataset_fields(&fracas_store_sets[FRACAS_SET_FRAGMENT].column[c], visit, context);
-}
-
-static void put_fragments(const fracas_result *result, FILE *out)
-{
-    const fracas_record *record = &result->record;
-    for (size_t i = 0; i < record->nfragment; i++) {
-        put_place(result, out);
-        fprintf(out, ",%zu", i);
-        put_values(FRACAS_SET_FRAGMENT, 0, &record->fragment[i], out);
-    }
-}
-
-static fracas_err fragment_rows(const fracas_analysis *analysis, FILE *out)
-{
-    return put_records(analysis, FRACAS_READ_FRAGMENTS, put_fragments, out);
-}
-
 const fracas_csv_table fracas_csv_table_fragments = {
     .name = "fragments",
     .doc = "A line a fragment at the end of its realization, dust included",
     .key = {"point", "replica", "fragment"},
     .parent = &fracas_csv_table_realizations,
-    .fields = fragment_fields,
-    .rows = fragment_rows,
+    .fields = record_fields,
+    .rows = record_rows,
+    .set = FRACAS_SET_FRAGMENT,
+    .parts = FRACAS_READ_FRAGMENTS,
+    .number = "fragment",
+    .number_doc = "number of the fragment in its realization, from 0",
 };
-
-/* ---- histories ---- */
-
-static void history_fields(const fracas_analysis *analysis, fracas_field_visit *visit,
-                           void *context)
-{
-    (void)analysis;
-    place_fields("row", "number of the moment in the history of its realization, from 0", visit,
-                 context);
-    for (size_t c = 0; c < fracas_store_sets[FRACAS_SET_HISTORY].ncolumns; c++)
-        dataset_fields(&fracas_store_sets[FRACAS_SET_HISTORY].column[c], visit, context);
-}
-
-static void put_history(const fracas_result *result, FILE *out)
-{
-    const fracas_record *record = &result->record;
-    for (size_t i = 0; i < record->nhistory; i++) {
-        put_place(result, out);
-        fprintf(out, ",%zu", i);
-        put_values(FRACAS_SET_HISTORY, 0, &record->history[i], out);
-    }
-}
-
-static fracas_err history_rows(const fracas_analysis *analysis, FILE *out)
-{
-    return put_records(analysis, FRACAS_READ_HISTORY, put_history, out);
-}
-
 const fracas_csv_table fracas_csv_table_histories = {
     .name = "histories",
     .doc = "A line a moment of a realization that its history keeps",
     .key = {"point", "replica", "row"},
     .parent = &fracas_csv_table_realizations,
-    .fields = history_fields,
-    .rows = history_rows,
+    .fields = record_fields,
+    .rows = record_rows,
+    .set = FRACAS_SET_HISTORY,
+    .parts = FRACAS_READ_HISTORY,
+    .number = "row",
+    .number_doc = "number of the moment in the history of its realization, from 0",
 };

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/fit/compare.h"
+#include "analysis/fit/point.h"
 
-#include "analysis/fit/draw.h"
-#include "analysis/fit/goodness.h"
+#include "analysis/fit/sample.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/report/figures.h"
 
-#include "analysis/scaling/crossover.h"
+#include "analysis/scaling/scaling.h"
 #include "analysis/data/format.h"
 
 #include <math.h>

@@ -5,9 +5,7 @@
 #include "analysis/export/csv.h"
 #include "analysis/data/output.h"
 #include "analysis/export/summary.h"
-#include "analysis/draw/assets.h"
-#include "analysis/report/pdf.h"
-#include "analysis/report/surfaces.h"
+#include "analysis/draw/chart.h"
 #include "base/param.h"
 
 #include <errno.h>

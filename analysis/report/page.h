@@ -7,10 +7,11 @@
 #ifndef FRACAS_ANALYSIS_REPORT_PAGE_H
 #define FRACAS_ANALYSIS_REPORT_PAGE_H
 
-#include "analysis/fit/fits.h"
 #include "analysis/draw/chart.h"
+#include "analysis/draw/surface_picture.h"
+#include "analysis/export/tables.h"
+#include "analysis/fit/fits.h"
 #include "analysis/summary/study.h"
-#include "analysis/export/table.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -88,5 +89,43 @@ fracas_page_section fracas_section_rate, fracas_section_sizes, fracas_section_pa
     fracas_section_convergence; /* sections.c */
 fracas_page_section fracas_section_results, fracas_section_slopes, fracas_section_motion,
     fracas_section_files; /* tables.c */
+
+/* False in a program built without librsvg: then there are no PDFs, and the page says nothing of
+ * them. */
+extern const bool fracas_pdf_made;
+
+/* Every name[i].svg of the folder as name[i].pdf, vectors, one page of its size (96 pixels an
+ * inch), without a date. Drawn by a child process, because the library ends its process when memory
+ * is short, and keeps its allocations. FRACAS_ENVIRONMENT, naming the file, if it cannot. */
+FRACAS_MUST_USE fracas_err fracas_pdf_write(const char *folder, char (*name)[FRACAS_DRAWING],
+                                            size_t count);
+
+/* The surface of a point, and its interfaces in a realization. */
+typedef struct {
+    fracas_stored_mesh mesh;
+    fracas_record record; /* with its interfaces */
+    double thickness;     /* m; 0 if the point has none */
+} fracas_broken_surface;
+
+/* The realization in row `row` of the study. Cleared by the caller, after an error too. */
+FRACAS_MUST_USE fracas_err fracas_broken_surface_read(fracas_results *results, size_t point,
+                                                      size_t row, fracas_broken_surface *surface);
+void fracas_broken_surface_clear(fracas_broken_surface *surface);
+
+/* Writes a picture at a time into a file of its own. */
+FRACAS_MUST_USE fracas_err fracas_broken_surface_save(const fracas_broken_surface *surface,
+                                                      double time,
+                                                      const fracas_surface_picture *picture,
+                                                      const char *folder, const char *name);
+
+/* True if some point of the study has a mesh. */
+FRACAS_MUST_USE fracas_err fracas_surfaces_any(const fracas_analysis *analysis, bool *any);
+
+/* The section of the page, nothing without surfaces. A partial study has no meshes: the section
+ * says that they come. Else one realization of every point, the first FRAGMENTED or the typical
+ * one, at FRACAS_MOMENTS times; a figure a point, each picture also as a file of the folder, with a
+ * CSV of the times at which each interface cracked and broke. After some 1.5 million drawn elements
+ * it only says how to get the others. */
+FRACAS_MUST_USE fracas_err fracas_surfaces_put(fracas_page *page);
 
 #endif

@@ -3,7 +3,6 @@
 #include "analysis/report/page.h"
 
 #include "analysis/data/output.h"
-#include "analysis/report/pdf.h"
 
 #include <ctype.h>
 #include <limits.h>

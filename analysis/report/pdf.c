@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/report/pdf.h"
+#include "analysis/report/page.h"
 
 #ifdef FRACAS_PDF
 

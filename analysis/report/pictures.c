@@ -3,7 +3,7 @@
  * a point. */
 #include "analysis/data/field.h"
 #include "analysis/data/output.h"
-#include "analysis/report/surfaces.h"
+#include "analysis/report/page.h"
 
 #include <errno.h>
 #include <inttypes.h>

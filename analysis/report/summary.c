@@ -2,8 +2,7 @@
 /* The first section: campaign, results, warnings. */
 #include "analysis/report/page.h"
 
-#include "analysis/scaling/crossover.h"
-#include "analysis/scaling/slope.h"
+#include "analysis/scaling/scaling.h"
 #include "analysis/data/format.h"
 
 #include <inttypes.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/report/surfaces.h"
+#include "analysis/report/page.h"
 
 #include "analysis/data/field.h"
 #include "analysis/data/output.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/scaling/series.h"
+#include "analysis/scaling/scaling.h"
 
 #include "analysis/summary/study.h"
 

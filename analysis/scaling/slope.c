@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/scaling/slope.h"
+#include "analysis/scaling/scaling.h"
 
-#include "analysis/scaling/series.h"
 #include "analysis/summary/study.h"
 
 #include <gsl/gsl_cdf.h>

@@ -3,9 +3,7 @@
  * small where something does, points find their partners. Realizations are correlated within, as
  * real ones are. */
 #include "analysis/compare/compare.h"
-#include "analysis/compare/difference.h"
-#include "analysis/compare/match.h"
-#include "analysis/compare/permutation.h"
+#include "analysis/compare/methods.h"
 #include "analysis/summary/study.h"
 #include "tests/support/test.h"
 

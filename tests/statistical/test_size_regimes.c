@@ -2,8 +2,7 @@
 /* ctest-labels: ci */
 /* Slopes between rates and the crossover of mean size: known exponents are found, 95 % intervals
  * hold them as often as they should, and what cannot be fitted says why. */
-#include "analysis/scaling/crossover.h"
-#include "analysis/scaling/windows.h"
+#include "analysis/scaling/scaling.h"
 #include "analysis/data/estimate.h"
 #include "tests/support/test.h"
 

@@ -5,8 +5,7 @@
 #ifndef FRACAS_TESTS_SUPPORT_FEW_REPLICAS_H
 #define FRACAS_TESTS_SUPPORT_FEW_REPLICAS_H
 
-#include "analysis/scaling/crossover.h"
-#include "analysis/scaling/slope.h"
+#include "analysis/scaling/scaling.h"
 #include "analysis/data/estimate.h"
 #include "base/param.h"
 #include "tests/support/test.h"

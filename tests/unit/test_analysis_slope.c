@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The slope of a line and its interval: exact lines, GSL, the interval's coverage, errors that
  * points share, and which points of a study count. */
-#include "analysis/scaling/slope.h"
+#include "analysis/scaling/scaling.h"
 #include "analysis/summary/study.h"
 #include "tests/support/test.h"
 

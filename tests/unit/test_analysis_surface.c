@@ -4,7 +4,7 @@
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 
-#include "analysis/draw/tint.h"
+#include "analysis/draw/facets.h"
 #include "analysis/draw/surface_picture.h"
 #include "base/hash.h"
 #include "tests/support/test.h"

@@ -3,8 +3,8 @@
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 #include "analysis/report/figures.h"
-#include "analysis/scaling/slope.h"
-#include "analysis/export/table.h"
+#include "analysis/scaling/scaling.h"
+#include "analysis/export/tables.h"
 #include "tests/support/test.h"
 
 enum { NPOINTS = 4 };

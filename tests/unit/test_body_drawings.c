@@ -3,8 +3,8 @@
  * bytes. Spheres and octants of 1 m, broken along the borders of Voronoi cells. */
 #include "tests/support/body.h"
 
-#include "analysis/draw/frame.h"
-#include "analysis/draw/tint.h"
+#include "analysis/draw/trail.h"
+#include "analysis/draw/facets.h"
 #include "tests/support/test.h"
 
 static char *draw(const body *b, const fracas_view *view, double explode, double thickness,

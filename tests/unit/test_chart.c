@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Charts: what their CSV says, what their drawings have, and drawings as PDF. */
 #include "analysis/draw/chart.h"
-#include "analysis/report/pdf.h"
+#include "analysis/report/page.h"
 #include "base/param.h"
 #include "tests/support/test.h"
 

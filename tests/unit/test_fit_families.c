@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Families of size distributions: density, distribution and quantiles are those of one law, what is
  * drawn from it is fitted again, and what cannot be fitted is said. */
-#include "analysis/fit/goodness.h"
+#include "analysis/fit/point.h"
 #include "tests/support/fit_sample.h"
 #include "tests/support/test.h"
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables of text for a terminal and for the page, made by descriptors of their columns. */
-#ifndef FRACAS_ANALYSIS_EXPORT_CELLS_H
-#define FRACAS_ANALYSIS_EXPORT_CELLS_H
+#ifndef FRACAS_ANALYSIS_EXPORT_TABLES_H
+#define FRACAS_ANALYSIS_EXPORT_TABLES_H
 
+#include "analysis/fit/fits.h"
 #include "analysis/summary/study.h"
 
 enum { FRACAS_CELL = 128, FRACAS_RESULT_TABLE_HEAD = 2 };
@@ -74,5 +75,46 @@ void fracas_table_print(const fracas_result_table *table, const char *indent, un
 
 /* Label of a point, as a format. */
 void fracas_cell_label(const fracas_analysis *analysis, size_t point, const void *row, char *text);
+
+/* A row a point. The last column is text, the others numbers.
+`unicode`: with a plus-minus and a micro sign, else ASCII. */
+FRACAS_MUST_USE fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unicode,
+                                                      fracas_result_table *table);
+
+/* Meaning of the columns of the study's table, a line each; ends with NULL. */
+const char *const *fracas_result_table_legend(const fracas_analysis *analysis);
+
+/* "Points differ in material.young, too: points.csv has ...": parameters missing in the table;
+ * false if there are none. */
+bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, size_t size);
+
+/* A row for all points and for each series with a slope, with the exponents of Mott and Grady; no
+ * row, only the head, for a study without enough points. */
+FRACAS_MUST_USE fracas_err fracas_slope_table_create(const fracas_analysis *analysis, bool unicode,
+                                                     fracas_result_table *table);
+
+/* A row for every two neighbouring rates of a series. */
+FRACAS_MUST_USE fracas_err fracas_window_table_create(const fracas_analysis *analysis, bool unicode,
+                                                      fracas_result_table *table);
+
+/* A row a series: its crossover, or why there is none. */
+FRACAS_MUST_USE fracas_err fracas_crossover_table_create(const fracas_analysis *analysis,
+                                                         bool unicode, fracas_result_table *table);
+
+/* A row a ring: mean velocity outward, its scatter, rms velocity along the ring, mean |angular
+ * velocity|. */
+FRACAS_MUST_USE fracas_err fracas_motion_table_create(const fracas_analysis *analysis, bool unicode,
+                                                      fracas_result_table *table);
+
+/* A row a fitted family of a point, by rank: distances, their p-values, parameters. */
+FRACAS_MUST_USE fracas_err fracas_fit_table_create(const fracas_analysis *analysis,
+                                                   const fracas_fits *fits, bool unicode,
+                                                   fracas_result_table *table);
+
+/* Meaning of the columns, a line each; ends with NULL. */
+extern const char *const fracas_fit_table_legend[];
+extern const char *const fracas_slope_table_legend[], *const fracas_window_table_legend[],
+                                                          *const fracas_crossover_table_legend[],
+                                                              *const fracas_motion_table_legend[];
 
 #endif
