@@ -29,13 +29,8 @@ static const fracas_kind *const directions[] = {&fracas_along_x, &fracas_along_y
                                                 &fracas_along_radius};
 
 static const fracas_param params[] = {
-    {.name = "per",
-     .type = FRACAS_CHOICE,
-     .unit = "1",
-     .doc = "what has a strength of its own; none is interface",
-     .choices = places,
-     .nchoices = FRACAS_COUNT(places),
-     .offset = offsetof(fracas_strength, per),
+    {FRACAS_ONE_OF("per", places, offsetof(fracas_strength, per),
+                   "what has a strength of its own; none is interface"),
      .optional = true},
     {.name = "factor",
      .type = FRACAS_ATTACHMENT,
@@ -45,13 +40,8 @@ static const fracas_param params[] = {
             "twice is a jump",
      .offset = offsetof(fracas_strength, factor),
      .optional = true},
-    {.name = "factor_along",
-     .type = FRACAS_CHOICE,
-     .unit = "1",
-     .doc = "which coordinate those of the file `factor` are",
-     .choices = directions,
-     .nchoices = FRACAS_COUNT(directions),
-     .offset = offsetof(fracas_strength, factor_along),
+    {FRACAS_ONE_OF("factor_along", directions, offsetof(fracas_strength, factor_along),
+                   "which coordinate those of the file `factor` are"),
      .optional = true},
     {"reference_volume", FRACAS_REAL, "m3",
      "volume of a specimen that has the strengths that are given: an interface has those of the "
@@ -62,14 +52,10 @@ static const fracas_param params[] = {
      "area of a specimen, in place of its volume: an interface counts by its own area",
      FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, reference_area),
      .optional = true},
-    {.name = "covariance",
-     .type = FRACAS_CHOICE,
-     .unit = "1",
-     .doc = "how strengths at a distance d are alike, through a Gaussian field of this covariance; "
-            "without it they are independent",
-     .offset = offsetof(fracas_strength, covariance),
-     .choices = covariances,
-     .nchoices = FRACAS_COUNT(covariances),
+    {FRACAS_ONE_OF(
+         "covariance", covariances, offsetof(fracas_strength, covariance),
+         "how strengths at a distance d are alike, through a Gaussian field of this covariance; "
+         "without it they are independent"),
      .optional = true},
     {.name = "correlation_length",
      .type = FRACAS_REAL,
@@ -99,12 +85,10 @@ const fracas_section fracas_strength_section = {
     .name = "strength",
     .doc = "How strong interfaces are",
     .selector = "distribution",
-    .kinds = distributions,
-    .nkinds = FRACAS_COUNT(distributions),
+    FRACAS_KINDS(distributions),
     .kind_offset = offsetof(fracas_strength, distribution),
     .hashed = true,
-    .params = params,
-    .nparams = FRACAS_COUNT(params),
+    FRACAS_PARAMS(params),
     .check = check_section,
 };
 

@@ -185,8 +185,7 @@ const fracas_section fracas_uncertain_section = {
     .name = "parameters",
     .doc = "What is not known exactly",
     .selector = "distribution",
-    .kinds = distributions,
-    .nkinds = FRACAS_COUNT(distributions),
+    FRACAS_KINDS(distributions),
     .kind_offset = offsetof(fracas_uncertain, kind),
 };
 

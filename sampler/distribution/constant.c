@@ -23,8 +23,7 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_constant = {
     .kind = {.name = "constant",
              .doc = "the same strength for every interface",
-             .params = params,
-             .nparams = FRACAS_COUNT(params)},
+             FRACAS_PARAMS(params)},
     .quantile = constant_quantile,
     .moments = constant_moments,
 };

@@ -39,15 +39,10 @@ static fracas_err refuse(const fracas_lines *lines, const char *found, const cha
 /* The next line; *found is false at the end of the file. */
 FRACAS_MUST_USE static fracas_err next_row(fracas_lines *lines, row *next, bool *found)
 {
-    char field[FRACAS_FIELD] = "";
-    *found = fracas_lines_next(lines);
+    char field[FRACAS_FIELD];
+    *found = fracas_lines_next_row(lines);
     if (!*found) return FRACAS_OK;
     fracas_lines_field(lines, field);
-    if (lines->first && fracas_lines_is_heading(field)) {
-        *found = fracas_lines_next(lines);
-        if (!*found) return FRACAS_OK;
-        fracas_lines_field(lines, field);
-    }
     if (fracas_number_read(field, &next->strength) ||
         !(next->strength > 0.0 && next->strength < INFINITY))
         return refuse(lines, field, "a strength in Pa, a number greater than 0, without a unit");
@@ -274,19 +269,15 @@ static const fracas_param params[] = {
             "empty lines and lines that start with # are skipped",
      .fallback = FRACAS_REQUIRED,
      .offset = offsetof(fracas_strength, file)},
-    {.name = "interpolation",
-     .type = FRACAS_CHOICE,
-     .unit = "1",
-     .doc = "what lies between two strengths of the file",
-     .choices = interpolations,
-     .nchoices = FRACAS_COUNT(interpolations),
-     .offset = offsetof(fracas_strength, interpolation)},
+    {
+        FRACAS_ONE_OF("interpolation", interpolations, offsetof(fracas_strength, interpolation),
+                      "what lies between two strengths of the file"),
+    },
 };
 const fracas_distribution fracas_empirical = {
     .kind = {.name = "empirical",
              .doc = "drawn from measured strengths, or from a table of their distribution function",
-             .params = params,
-             .nparams = FRACAS_COUNT(params)},
+             FRACAS_PARAMS(params)},
     .quantile = empirical_quantile,
     .moments = empirical_moments,
     .init = empirical_init,

@@ -50,8 +50,7 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_file_distribution = {
     .kind = {.name = "file",
              .doc = "strengths of all interfaces from a file, the same for every replica",
-             .params = params,
-             .nparams = FRACAS_COUNT(params)},
+             FRACAS_PARAMS(params)},
     .quantile = fracas_given_quantile,
     .moments = fracas_given_moments,
     .init = fracas_given_init,

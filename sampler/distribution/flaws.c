@@ -66,8 +66,7 @@ const fracas_distribution fracas_flaws = {
     .kind = {.name = "flaws",
              .doc = "weakest flaw in the volume of an interface; flaws at random in the body, "
                     "their strengths by a power law",
-             .params = params,
-             .nparams = FRACAS_COUNT(params)},
+             FRACAS_PARAMS(params)},
     .quantile = flaws_quantile,
     .moments = flaws_moments,
     .tail = flaws_tail,

@@ -53,8 +53,7 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_gamma_distribution = {
     .kind = {.name = "gamma",
              .doc = "gamma: mean shape scale, variance shape scale^2",
-             .params = params,
-             .nparams = FRACAS_COUNT(params)},
+             FRACAS_PARAMS(params)},
     .quantile = gamma_quantile,
     .moments = gamma_moments,
     .init = gamma_init,

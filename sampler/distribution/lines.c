@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/distribution/lines.h"
 
+#include "base/units.h"
+
+#include <inttypes.h>
 #include <string.h>
 #include <strings.h>
 
@@ -60,6 +63,29 @@ void fracas_lines_field(fracas_lines *lines, char field[FRACAS_FIELD])
     if (stop < lines->stop && *stop == ',') stop++;
     while (stop < lines->stop && is_blank(*stop)) stop++;
     lines->start = stop;
+}
+
+fracas_err fracas_lines_number(fracas_lines *lines, const char *name, const char *form,
+                               double *value)
+{
+    char field[FRACAS_FIELD];
+    fracas_lines_field(lines, field);
+    if (!fracas_number_read(field, value)) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "%s:%" PRId64 ": found %s%s%s as %s; a line begins with %s, numbers without "
+                       "units after commas or blanks",
+                       lines->file->path, lines->line, *field ? "`" : "nothing", field,
+                       *field ? "`" : "", name, form);
+}
+
+bool fracas_lines_next_row(fracas_lines *lines)
+{
+    char field[FRACAS_FIELD];
+    if (!fracas_lines_next(lines)) return false;
+    if (!lines->first) return true;
+    fracas_lines ahead = *lines;
+    fracas_lines_field(&ahead, field);
+    return !fracas_lines_is_heading(field) || fracas_lines_next(lines);
 }
 
 bool fracas_lines_is_heading(const char *field)

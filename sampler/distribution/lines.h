@@ -24,11 +24,17 @@ fracas_lines fracas_lines_begin(const fracas_attachment *file);
 
 /* False at the end of the file. */
 bool fracas_lines_next(fracas_lines *lines);
+/* The same, without a first line whose first field is a heading. */
+bool fracas_lines_next_row(fracas_lines *lines);
 
 /* The line's last field; the next from its start. Fields end at a comma or a blank. "" if there is
  * none, or if it holds bytes that no text has. */
 void fracas_lines_last_field(const fracas_lines *lines, char field[FRACAS_FIELD]);
 void fracas_lines_field(fracas_lines *lines, char field[FRACAS_FIELD]);
+/* The next field as a number. FRACAS_USAGE if it is none: "... as `name`; a line begins with
+ * `form`". */
+FRACAS_MUST_USE fracas_err fracas_lines_number(fracas_lines *lines, const char *name,
+                                               const char *form, double *value);
 
 /* Headings are words. A mistyped number is no heading, nor is a number that C writes as a word. */
 bool fracas_lines_is_heading(const char *field);

@@ -54,8 +54,7 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_lognormal = {
     .kind = {.name = "lognormal",
              .doc = "logarithm normally distributed: median exp(sigma z)",
-             .params = params,
-             .nparams = FRACAS_COUNT(params)},
+             FRACAS_PARAMS(params)},
     .quantile = lognormal_quantile,
     .moments = lognormal_moments,
     .init = lognormal_init,

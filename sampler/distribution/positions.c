@@ -2,16 +2,14 @@
 /* Strengths given by position: each interface takes the line of a file at its own place. Lines are
  * sorted into the cells of a grid with about as many cells as interfaces, so each interface looks
  * at a few lines. The order of the lines does not matter. */
-#include "base/units.h"
 #include "sampler/distribution/distribution.h"
 #include "sampler/distribution/given.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 
-#define NEAR                                                                                      \
-    1e-3 /* share of the interfaces' spacing: a line within this distance of an interface lies on \
-            it */
+#define NEAR 1e-3 /* share of the interfaces' spacing; a line so near to an interface lies on it \
+                   */
 #define NONE UINT32_MAX
 
 /* A line of the file. */
@@ -23,31 +21,15 @@ typedef struct {
     uint32_t interface; /* the line at its place, or NONE */
 } place;
 
-FRACAS_MUST_USE static fracas_err read_number(fracas_lines *lines, const char *what, double *value,
-                                              bool *heading)
-{
-    char field[FRACAS_FIELD];
-    fracas_lines_field(lines, field);
-    if (heading && (*heading = lines->first && fracas_lines_is_heading(field))) return FRACAS_OK;
-    if (!fracas_number_read(field, value)) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE,
-                       "%s:%" PRId64 ": found %s%s%s as %s; a line begins with x [m], y [m], "
-                       "strength [Pa], numbers without units after commas or blanks",
-                       lines->file->path, lines->line, *field ? "`" : "nothing", field,
-                       *field ? "`" : "", what);
-}
-
 /* The next place, without its cell; *found is false at the end of the file. */
 FRACAS_MUST_USE static fracas_err next_place(fracas_lines *lines, place *p, bool *found)
 {
-    bool heading = true;
-    while (heading) {
-        *found = fracas_lines_next(lines);
-        if (!*found) return FRACAS_OK;
-        TRY(read_number(lines, "x", &p->x[0], &heading));
-    }
-    TRY(read_number(lines, "y", &p->x[1], NULL));
-    TRY(read_number(lines, "strength", &p->strength, NULL));
+    static const char form[] = "x [m], y [m], strength [Pa]";
+    *found = fracas_lines_next_row(lines);
+    if (!*found) return FRACAS_OK;
+    TRY(fracas_lines_number(lines, "x", form, &p->x[0]));
+    TRY(fracas_lines_number(lines, "y", form, &p->x[1]));
+    TRY(fracas_lines_number(lines, "strength", form, &p->strength));
     p->line = lines->line;
     p->next = p->interface = NONE;
     if (p->strength > 0) return FRACAS_OK;
@@ -250,8 +232,7 @@ const fracas_distribution fracas_positions = {
     .kind = {.name = "positions",
              .doc = "strengths of all interfaces from a file, found by where they are, the same "
                     "for every replica",
-             .params = params,
-             .nparams = FRACAS_COUNT(params)},
+             FRACAS_PARAMS(params)},
     .quantile = fracas_given_quantile,
     .moments = fracas_given_moments,
     .init = fracas_given_init,

@@ -127,8 +127,7 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_normal = {
     .kind = {.name = "normal",
              .doc = "normal, cut off at 0: strengths are positive",
-             .params = params,
-             .nparams = FRACAS_COUNT(params)},
+             FRACAS_PARAMS(params)},
     .quantile = normal_quantile,
     .moments = normal_moments,
     .init = normal_init,

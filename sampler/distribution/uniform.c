@@ -60,8 +60,7 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_uniform = {
     .kind = {.name = "uniform",
              .doc = "every strength between two bounds equally likely",
-             .params = params,
-             .nparams = FRACAS_COUNT(params)},
+             FRACAS_PARAMS(params)},
     .quantile = uniform_quantile,
     .moments = uniform_moments,
     .init = uniform_init,

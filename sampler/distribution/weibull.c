@@ -86,8 +86,7 @@ static const fracas_param params[] = {
 const fracas_distribution fracas_weibull = {
     .kind = {.name = "weibull",
              .doc = "weakest of many flaws: minimum + scale (-ln(1 - u))^(1/shape)",
-             .params = params,
-             .nparams = FRACAS_COUNT(params)},
+             FRACAS_PARAMS(params)},
     .quantile = weibull_quantile,
     .moments = weibull_moments,
     .tail = weibull_tail,

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/field/grading.h"
 
-#include "base/units.h"
 #include "sampler/distribution/lines.h"
 
 #include <inttypes.h>
@@ -19,31 +18,14 @@ typedef struct {
     size_t count;
 } profile;
 
-FRACAS_MUST_USE static fracas_err read_number(fracas_lines *lines, const char *what, double *value)
-{
-    char field[FRACAS_FIELD];
-    fracas_lines_field(lines, field);
-    if (!fracas_number_read(field, value)) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE,
-                       "%s:%" PRId64 ": found %s%s%s as %s; a line begins with a coordinate [m] "
-                       "and a factor, numbers without units after commas or blanks",
-                       lines->file->path, lines->line, *field ? "`" : "nothing", field,
-                       *field ? "`" : "", what);
-}
-
 /* The next place; *found is false at the end of the file. */
 FRACAS_MUST_USE static fracas_err next_place(fracas_lines *lines, place *p, bool *found)
 {
-    *found = fracas_lines_next(lines);
-    if (*found && lines->first) {
-        fracas_lines ahead = *lines;
-        char field[FRACAS_FIELD];
-        fracas_lines_field(&ahead, field);
-        if (fracas_lines_is_heading(field)) *found = fracas_lines_next(lines);
-    }
+    static const char form[] = "a coordinate [m] and a factor";
+    *found = fracas_lines_next_row(lines);
     if (!*found) return FRACAS_OK;
-    TRY(read_number(lines, "coordinate", &p->at));
-    TRY(read_number(lines, "factor", &p->factor));
+    TRY(fracas_lines_number(lines, "coordinate", form, &p->at));
+    TRY(fracas_lines_number(lines, "factor", form, &p->factor));
     if (p->factor > 0) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": a factor of %g; it must be greater than 0",
                        lines->file->path, lines->line, p->factor);
