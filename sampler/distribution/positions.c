@@ -8,9 +8,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
-#define NEAR                                                                            \
-    1e-3 /* share of the interfaces' spacing; a line so near to an interface lies on it \
-          */
+#define NEAR 1e-3 /* by the interfaces' spacing: a line so near to an interface lies on it */
 #define NONE UINT32_MAX
 
 /* A line of the file. */
