@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What follows from a point's parameters without a model. */
+/* Values that follow from a point's parameters without a model. */
 #include "engine/spec.h"
 
 #define LANES 1 /* plain numbers */

@@ -46,7 +46,7 @@ typedef struct {
     int fields[2]; /* surfaces: values of a point, without and with friction */
     /* Chains. */
     double (*contact)(const fracas_cohesive *); /* stiffness of contact by E/h; NULL: at most 1 */
-    bool contact_by_strength; /* that stiffness grows with the strength  (cohesive.9) */
+    bool contact_by_strength; /* contact stiffens with the strength  (cohesive.9) */
     /* Constant of an interface, from its stiffness K [Pa/m], G_c [J/m2] and sigma_c [Pa]; NULL: 0.
      */
     double (*constant)(double stiffness, double energy, double strength);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A cohesive law at an interface that only opens, in series with the flux of a chain, over lanes.
- */
+/* A cohesive law at an interface that opens only, in series with a chain's flux, over lanes. */
 #ifndef FRACAS_ENGINE_COHESIVE_LINE_H
 #define FRACAS_ENGINE_COHESIVE_LINE_H
 

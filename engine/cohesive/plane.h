@@ -38,7 +38,7 @@ typedef struct {
 
 typedef struct {
     vd t_n, t_t;        /* traction T [Pa] */
-    vd s_n, s_t;        /* what the flux carries of the jump [m]; 0 once it is left */
+    vd s_n, s_t;        /* the flux's part of the jump [m]; 0 once it is left */
     vd flux, stored;    /* energies of the flux, and in openings and contact [J/m2] */
     vd dissipated;      /* G_c D [J/m2] */
     vd created, rubbed; /* in this step: energy put in by an onset or break, energy dissipated by

@@ -32,7 +32,7 @@ typedef struct {
 /* Traits of a loading. Functions are NULL for bodies without this loading. */
 typedef struct {
     double (*rate)(const fracas_spec *spec); /* strain rate at the start [1/s]; NULL: none */
-    fracas_ring_drive (*ring)(const fracas_spec *spec, double t); /* of a bar: stress alone */
+    fracas_ring_drive (*ring)(const fracas_spec *spec, double t); /* bar: stress alone */
     /* Prescribed to nodes at this radius [m], those of a polygon around the ring's circle. */
     fracas_ring_motion (*motion)(const fracas_spec *spec, double radius);
     double (*path)(const fracas_spec *spec, double t); /* circumferential, ring [m]; NULL: 0 */

@@ -10,8 +10,8 @@
 
 /* Traits of a shape. */
 typedef struct {
-    double (*length)(const fracas_geometry *); /* of the whole chain [m]; NULL of surfaces */
-    double (*period)(const fracas_geometry *); /* of a bar, 0 where its ends are held; NULL: 0 */
+    double (*length)(const fracas_geometry *); /* whole chain [m]; NULL: a surface */
+    double (*period)(const fracas_geometry *); /* bar, 0 where its ends are held; NULL: 0 */
     /* Makes the mesh of a surface; NULL of chains. */
     fracas_err (*make)(const fracas_geometry *, const fracas_surface_fineness *,
                        const fracas_surface **);

@@ -10,7 +10,7 @@
 
 #include "engine/formulation/chain/ring_kinematics.h"
 
-/* What the first pass finds: links that reach their strength, and those in the critical zones. */
+/* Results of the first pass: links that reach their strength, and those in the critical zones. */
 typedef struct {
     vmask qualifies, opening, compressed;
 } stershic_watch;
@@ -71,8 +71,8 @@ LANES_FUNCTION vd stershic_traction(const ring_context *c, vd q, vd *damage, vd 
     return rigid_link_law(q, damage, sigma_c, *delta_c, c->spring);
 }
 
-/* Looks at one interface: does it qualify, is it in a critical zone  (ring.14)? What its elements
- * pull it apart with is that along n, so that a link that opens does open. */
+/* Looks at one interface: does it qualify, is it in a critical zone  (ring.14)? Only the
+ * component along n of its elements' pull counts, so that a link that qualifies does open. */
 LANES_FUNCTION void stershic_look(const ring_context *c, size_t e, const ring_element *left,
                                   const ring_element *right, stershic_watch *watch)
 {

@@ -20,7 +20,7 @@ enum {
     RING_DAMAGE = RING_V_RIGHT + 2, /* delta_max/delta_c of the interface */
     RING_STRENGTH,                  /* sigma_c [Pa] */
     RING_LAW,                  /* nitsche: K delta_c - sigma_c [Pa]; stershic: a ring_link_state */
-    RING_FIELDS,               /* of nitsche */
+    RING_FIELDS,               /* nitsche's */
     RING_STRESS = RING_FIELDS, /* stershic: stress of the element [Pa] */
     RING_STRAIN, /* stershic: eps_d, largest strain since both its links are barred; -1: not barred
                   */
@@ -48,11 +48,11 @@ typedef struct {
     int steep; /* stershic: closing links on steep secants refine the time step too */
     ring_drive drive;
     int circumferential; /* direction of the drive; else radial */
-    double level, rate;  /* of the drive: level + rate t is the velocity held [m/s], or the force on
+    double level, rate;  /* drive: level + rate t is the velocity held [m/s], or the force on
                             a node per area [Pa] */
 } fracas_ring_constants;
 
-/* Of vertex e: cosine and sine of its angle; of the middle of element e: the same. */
+/* Cosine and sine of the angle of vertex e, and of the middle of element e. */
 enum { RING_COS, RING_SIN, RING_COS_MIDDLE, RING_SIN_MIDDLE, RING_TABLE };
 
 /* Advances the lanes first .. first + lanes - 1 of the step. */

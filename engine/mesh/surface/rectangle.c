@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-#define LEG                                                                                  \
-    0.93060485910209960 /* of half a square by the edge of an equilateral triangle as large: \
+#define LEG                                                                                      \
+    0.93060485910209960 /* leg of half a square by the edge of an equilateral triangle as large: \
                            sqrt(sqrt(3)/2) */
 
 static void fill(fracas_surface_draft *draft, double width, double height, size_t nx, size_t ny)
