@@ -58,9 +58,8 @@ typedef struct {
 static fracas_err read_source(void *context)
 {
     const source *from = context;
-    fracas_campaign *campaign = NULL;
+    OWNED(fracas_campaign) *campaign = NULL;
     fracas_err err = fracas_campaign_read_with(from->units, from->path, &campaign);
-    fracas_campaign_destroy(campaign);
     return err;
 }
 
@@ -132,12 +131,11 @@ static fracas_err print_plan(void *context)
 
 static void test_use(void **state)
 {
-    fracas_campaign *campaign = read_replaced("", sweep);
+    OWNED(fracas_campaign) *campaign = read_replaced("", sweep);
     fail_each(write_and_compare, campaign, LONG_MAX);
     /* The plan repeats short batches until the clock has seen enough: all of it would take a
      * minute. */
     fail_each(print_plan, campaign, 40);
-    fracas_campaign_destroy(campaign);
 }
 
 static fracas_err count_cost(void *context)

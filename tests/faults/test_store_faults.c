@@ -125,7 +125,7 @@ static reading read_all(const char *path)
                same_points(fracas_reader_points(reader)) &&
                same_header(fracas_reader_header(reader));
         for (size_t i = 0; !err && same && i < ALL; i++) {
-            fracas_record wanted, found;
+            CLEARED(fracas_record) wanted, found;
             size_t point;
             int64_t replica;
             fracas_record_init(&found);
@@ -135,8 +135,6 @@ static reading read_all(const char *path)
             if (!err)
                 same = point == i / REPLICAS && replica == (int64_t)(i % REPLICAS) &&
                        sample_equal(&wanted, &found);
-            fracas_record_clear(&wanted);
-            fracas_record_clear(&found);
         }
     }
     fracas_reader_close(reader);
@@ -589,12 +587,11 @@ static void segments_are_whole_or_not_there(void **state)
         OK(fracas_reader_open(sample_path(folder, entry->d_name), &reader));
         assert_int_equal(fracas_reader_realizations(reader), 40);
         for (size_t row = 0; row < 40; row++) {
-            fracas_record record;
+            CLEARED(fracas_record) record;
             size_t point;
             int64_t replica;
             fracas_record_init(&record);
             OK(fracas_reader_record(reader, row, FRACAS_READ_ALL, &point, &replica, &record));
-            fracas_record_clear(&record);
         }
         fracas_reader_close(reader);
         whole++;

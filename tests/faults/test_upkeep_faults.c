@@ -379,11 +379,10 @@ static void try_every_call(const trial *t)
 static void count_outcomes(size_t point, int64_t first, int64_t end, trial *t)
 {
     for (int64_t r = first; r < end; r++) {
-        fracas_record record;
+        CLEARED(fracas_record) record;
         sample_record(point, r, MOST, &record);
         if (record.outcome == FRACAS_FAILED) t->failed++;
         else t->done++;
-        fracas_record_clear(&record);
     }
     t->planned = ALL - t->done - t->failed;
 }

@@ -59,13 +59,12 @@ static fracas_spec spec_of(const variant *v, int64_t divisions, double rate, dou
 static void run(const fracas_model *model, uint64_t first, size_t count, int width, fracas_isa isa,
                 fracas_record *record)
 {
-    fracas_batch *batch = batch_with(
+    OWNED(fracas_batch) *batch = batch_with(
         model, count,
         (fracas_batch_options){.history = 20, .interfaces = true, .width = width, .isa = isa});
     for (size_t l = 0; l < count; l++) bar_draw(batch, l, 0.3, first + l);
     for (size_t l = 0; l < count; l++) fracas_record_init(&record[l]);
     OK(fracas_batch_run(batch, record));
-    fracas_batch_destroy(batch);
 }
 
 /* Replicas first to first + count - 1 in every place they can have in such a batch. */
@@ -83,7 +82,7 @@ static void check_batch(const fracas_model *model, const fracas_record alone[8],
 static void a_lane_is_its_run_alone(void **unused)
 {
     for (int v = 0; v < VARIANTS; v++) {
-        fracas_model *model = distorted_model(
+        OWNED(fracas_model) *model = distorted_model(
             spec_of(&variants[v], variants[v].order == 1 ? 10 : 6, 3e4, 4e-7), DISTORTION, 3);
         fracas_record alone[8];
         int64_t fewest = INT64_MAX, most = 0, cracked = 0;
@@ -111,7 +110,6 @@ static void a_lane_is_its_run_alone(void **unused)
         check_batch(model, alone, 5, 3, 8,
                     FRACAS_ISA_BEST); /* another place, and lanes that repeat the first */
         for (size_t r = 0; r < 8; r++) fracas_record_clear(&alone[r]);
-        fracas_model_destroy(model);
     }
 }
 
@@ -128,9 +126,10 @@ static void a_lane_is_its_run_alone(void **unused)
 static void momenta_are_kept_to_round_off(void **unused)
 {
     for (int v = 0; v < VARIANTS; v++) {
-        fracas_model *model = distorted_model(spec_of(&variants[v], 6, 3e4, 4e-7), DISTORTION, 3);
-        fracas_batch *batch = lane_of(model, 0.3, 1, 0);
-        fracas_record record;
+        OWNED(fracas_model) *model = distorted_model(spec_of(&variants[v], 6, 3e4, 4e-7),
+                                                     DISTORTION, 3);
+        OWNED(fracas_batch) *batch = lane_of(model, 0.3, 1, 0);
+        CLEARED(fracas_record) record;
         fracas_record_init(&record);
         OK(fracas_batch_begin(batch));
         const double spin = 2e4,
@@ -172,9 +171,6 @@ static void momenta_are_kept_to_round_off(void **unused)
             assert_true(fabs(record.momentum[i] - before.momentum[i]) < 1e-12 * before.scale);
         }
         assert_true(fabs(moment - after.moment_moved) < 1e-12 * arm * after.scale);
-        fracas_record_clear(&record);
-        fracas_batch_destroy(batch);
-        fracas_model_destroy(model);
     }
 }
 
@@ -185,9 +181,10 @@ static void a_body_that_turns_has_that_spin(void **unused)
 {
     uint64_t state = 7;
     for (int v = 0; v < VARIANTS; v++) {
-        fracas_model *model = distorted_model(spec_of(&variants[v], 6, 0, 4e-7), DISTORTION, 3);
-        fracas_batch *batch = lane_of(model, 0.3, 1, 0);
-        fracas_record record;
+        OWNED(fracas_model) *model = distorted_model(spec_of(&variants[v], 6, 0, 4e-7), DISTORTION,
+                                                     3);
+        OWNED(fracas_batch) *batch = lane_of(model, 0.3, 1, 0);
+        CLEARED(fracas_record) record;
         fracas_record_init(&record);
         OK(fracas_batch_begin(batch));
         const double spin = v % 2 ? 2e4 : -3e4, drift[2] = {20, -35};
@@ -208,9 +205,6 @@ static void a_body_that_turns_has_that_spin(void **unused)
         const fracas_fragment *whole = &record.fragment[0];
         assert_true(fabs(whole->spin[2] / spin - 1) < 1e-12 && whole->spin[0] == 0 &&
                     whole->spin[1] == 0);
-        fracas_record_clear(&record);
-        fracas_batch_destroy(batch);
-        fracas_model_destroy(model);
     }
 }
 
@@ -266,7 +260,7 @@ static double residual_of(int which, double safety, double *created, double *wor
 {
     fracas_spec spec = ledger_spec(which);
     spec.time.safety = which == RUBBING ? safety / 5 : safety; /* cohesive.md */
-    fracas_model *model = distorted_model(spec, DISTORTION, 3);
+    OWNED(fracas_model) *model = distorted_model(spec, DISTORTION, 3);
     fracas_record record[4];
     double residual = 0;
     run(model, 0, 4, 4, FRACAS_ISA_BEST, record);
@@ -280,7 +274,6 @@ static double residual_of(int which, double safety, double *created, double *wor
         *broken += record[l].broken;
         fracas_record_clear(&record[l]);
     }
-    fracas_model_destroy(model);
     return residual;
 }
 
@@ -339,8 +332,8 @@ static fracas_model *moved_model(const fracas_model *model, bool mirrored)
     static const size_t turned_round[6] = {0, 2, 1, 5, 4, 3};
     fracas_surface s = *model->surface;
     double(*node)[3] = malloc(s.nnodes * sizeof *node);
-    uint32_t *element = malloc(s.nelements * s.corners * sizeof *element);
-    fracas_surface_border *border = malloc(s.nborders * sizeof *border);
+    FREED uint32_t *element = malloc(s.nelements * s.corners * sizeof *element);
+    FREED fracas_surface_border *border = malloc(s.nborders * sizeof *border);
     assert_true(node && element && border);
     for (size_t n = 0; n < s.nnodes; n++) move(mirrored, s.node[n], node[n]);
     for (size_t e = 0; e < s.nelements; e++)
@@ -367,8 +360,6 @@ static fracas_model *moved_model(const fracas_model *model, bool mirrored)
     fracas_model *moved = distorted_model(spec, 0, 0);
     free(file.bytes);
     free(node);
-    free(element);
-    free(border);
     return moved;
 }
 
@@ -406,11 +397,11 @@ static void check_moved(const variant *v, bool mirrored)
     fracas_spec spec = spec_of(v, v->order == 1 ? 8 : 5, 4e4, 4e-7);
     spec.loading.ratio = 0.5;
     if (v->law != &fracas_law_nitsche.kind) spec.time.safety = 0.1;
-    fracas_model *model = distorted_model(spec, DISTORTION, 3),
-                 *moved = moved_model(model, mirrored);
+    OWNED(fracas_model) *model = distorted_model(spec, DISTORTION, 3),
+                        *moved = moved_model(model, mirrored);
     size_t *image = images_of(model, moved, mirrored), stride;
     moved->time_step = model->time_step; /* Lanczos' iteration starts from numbers of unknowns */
-    fracas_batch *a = lane_of(model, 0.3, 2, 0), *b = lane_of(moved, 0.3, 2, 0);
+    OWNED(fracas_batch) *a = lane_of(model, 0.3, 2, 0), *b = lane_of(moved, 0.3, 2, 0);
     const double *from = fracas_batch_strength(a, 0, &stride);
     double *to = fracas_batch_strength(b, 0, &stride);
     for (size_t k = 0; k < strengths_of(model); k++) to[image[k] * stride] = from[k * stride];
@@ -450,10 +441,6 @@ static void check_moved(const variant *v, bool mirrored)
     assert_true(record[0].fragments == record[1].fragments && record[0].broken > 10);
     assert_true(early < 1e-13 && late < 1e-10 && times < 1e-10);
     for (int k = 0; k < 2; k++) fracas_record_clear(&record[k]);
-    fracas_batch_destroy(a);
-    fracas_batch_destroy(b);
-    fracas_model_destroy(model);
-    fracas_model_destroy(moved);
     free(image);
 }
 

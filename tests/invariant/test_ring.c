@@ -386,8 +386,8 @@ typedef struct {
 
 static ledger_figures broken_up_ledger(const fracas_spec *spec)
 {
-    fracas_model *model;
-    fracas_batch *batch;
+    OWNED(fracas_model) *model;
+    OWNED(fracas_batch) *batch;
     fracas_record record[8];
     ledger_figures f = {0, 0, 0, 0};
     OK(fracas_model_create(spec, &model));
@@ -406,8 +406,6 @@ static ledger_figures broken_up_ledger(const fracas_spec *spec)
         f.fragments += (double)record[l].fragments / 8;
         fracas_record_clear(&record[l]);
     }
-    fracas_batch_destroy(batch);
-    fracas_model_destroy(model);
     return f;
 }
 

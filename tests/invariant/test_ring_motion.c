@@ -332,7 +332,7 @@ static fracas_model *lane_model(int kind)
 static void run_lanes(const fracas_model *model, uint64_t first, size_t count,
                       const fracas_batch_options *options, size_t poisoned, fracas_record *record)
 {
-    fracas_batch *batch;
+    OWNED(fracas_batch) *batch;
     OK(fracas_batch_create(model, count, options, &batch));
     for (size_t l = 0; l < count; l++) {
         bar_draw(batch, l, 0.05, first + l);
@@ -346,7 +346,6 @@ static void run_lanes(const fracas_model *model, uint64_t first, size_t count,
     }
     for (size_t running = count; running > 0;) OK(fracas_batch_step(batch, record, &running));
     if (poisoned < count) assert_int_equal(record[poisoned].outcome, FRACAS_NONFINITE);
-    fracas_batch_destroy(batch);
 }
 
 static void assert_same(const fracas_record *a, const fracas_record *b)

@@ -63,7 +63,7 @@ static double distortion_of(const variant *v)
 static void run(const fracas_model *model, uint64_t first, size_t count, int width, fracas_isa isa,
                 fracas_record *record)
 {
-    fracas_batch *batch = batch_with(
+    OWNED(fracas_batch) *batch = batch_with(
         model, count,
         (fracas_batch_options){.history = 20, .interfaces = true, .width = width, .isa = isa});
     for (size_t l = 0; l < count; l++) {
@@ -73,7 +73,6 @@ static void run(const fracas_model *model, uint64_t first, size_t count, int wid
         fracas_record_init(&record[l]);
     }
     OK(fracas_batch_run(batch, record));
-    fracas_batch_destroy(batch);
 }
 
 /* Replicas first to first + count - 1 in every place they can have in such a batch. */
@@ -92,7 +91,7 @@ static void a_lane_is_its_run_alone(void **unused)
 {
     for (int v = 0; v < VARIANTS; v++) {
         const fracas_spec spec = spec_of(&variants[v]);
-        fracas_model *model = distorted_model(spec, distortion_of(&variants[v]), 3);
+        OWNED(fracas_model) *model = distorted_model(spec, distortion_of(&variants[v]), 3);
         fracas_record alone[8];
         int64_t most = 0, cracked = 0, least = INT64_MAX;
         for (size_t r = 0; r < 8; r++) {
@@ -120,7 +119,6 @@ static void a_lane_is_its_run_alone(void **unused)
         check_batch(model, alone, 5, 3, 8,
                     FRACAS_ISA_BEST); /* another place, and lanes that repeat the first */
         for (size_t r = 0; r < 8; r++) fracas_record_clear(&alone[r]);
-        fracas_model_destroy(model);
     }
 }
 
@@ -164,9 +162,9 @@ static void momenta_are_kept_to_round_off(void **unused)
         spec.geometry.part = &fracas_part_whole;
         if (variants[v].part == &fracas_part_octant) spec.mesh.divisions = 2;
         if (spec.geometry.shape == &fracas_shape_sphere) spec.loading.rate = v < 4 ? 1e6 : 1e5;
-        fracas_model *model = distorted_model(spec, distortion_of(&variants[v]), 3);
-        fracas_batch *batch = lane_of(model, 0.3, 1);
-        fracas_record record;
+        OWNED(fracas_model) *model = distorted_model(spec, distortion_of(&variants[v]), 3);
+        OWNED(fracas_batch) *batch = lane_of(model, 0.3, 1);
+        CLEARED(fracas_record) record;
         fracas_record_init(&record);
         OK(fracas_batch_begin(batch));
         const double spin[3] = {0.5 * spec.loading.rate, -0.7 * spec.loading.rate,
@@ -199,9 +197,6 @@ static void momenta_are_kept_to_round_off(void **unused)
             assert_true(fabs(after.moment[i]) > 1e-3 * after.turned);
             assert_true(fabs(record.momentum[i] - before.momentum[i]) < 1e-11 * before.size);
         }
-        fracas_record_clear(&record);
-        fracas_batch_destroy(batch);
-        fracas_model_destroy(model);
     }
 }
 
@@ -213,7 +208,7 @@ static double residual_of(fracas_spec spec, double distortion, double safety, do
                           int64_t *broken)
 {
     spec.time.safety = safety;
-    fracas_model *model = distorted_model(spec, distortion, 3);
+    OWNED(fracas_model) *model = distorted_model(spec, distortion, 3);
     fracas_record record[4];
     double residual = 0;
     run(model, 4, 3, 4, FRACAS_ISA_BEST, record);
@@ -230,7 +225,6 @@ static double residual_of(fracas_spec spec, double distortion, double safety, do
         assert_true(record[l].dissipated_bending < record[l].dissipated);
         fracas_record_clear(&record[l]);
     }
-    fracas_model_destroy(model);
     return residual;
 }
 
@@ -299,7 +293,7 @@ static void a_sphere_cracks_when_its_stress_says_so(void **unused)
                 asin(sigma * (1 - m->poisson) * w /
                      (m->young * (thin + h / (2 * radius)) * spec.loading.rate)) /
                 w;
-            fracas_model *model = distorted_model(spec, 0, 0);
+            OWNED(fracas_model) *model = distorted_model(spec, 0, 0);
             error[finer] = 0;
             for (size_t weak = model->interfaces / 8; weak < model->interfaces;
                  weak += model->interfaces / 4) {
@@ -318,7 +312,6 @@ static void a_sphere_cracks_when_its_stress_says_so(void **unused)
             print_message("%s of %zu elements: onset at %.3f ns within %.1e\n",
                           part ? "octant" : "sphere", model->elements, 1e9 * expected,
                           error[finer]);
-            fracas_model_destroy(model);
         }
         assert_true(error[2] < 0.5 * error[1] && error[1] < error[0] &&
                     error[2] < (part ? 0.01 : 0.03));

@@ -11,6 +11,9 @@
 #include <gsl/gsl_cdf.h>
 #include <inttypes.h>
 
+OWNS(fracas_covariance)
+OWNS(fracas_field)
+
 #define ALPHA 1e-6
 
 enum { N = FRACAS_DENSE_SITES + 100, LINE = 80, REALIZATIONS = 3000, WATCHED = 8 };
@@ -40,14 +43,13 @@ static fracas_stream stream(uint64_t replica)
 
 static double of_covariance(const fracas_strength *strength, size_t i, size_t j, double period)
 {
-    fracas_covariance *covariance;
+    OWNED(fracas_covariance) *covariance;
     double d2 = 0;
     for (int a = 0; a < 3; a++)
         d2 += (position[i][a] - position[j][a]) * (position[i][a] - position[j][a]);
     OK(fracas_covariance_create(strength, &covariance));
     const double rho = fracas_covariance_at(
         covariance, period > 0 ? period / M_PI * fabs(sin(M_PI * sqrt(d2) / period)) : sqrt(d2));
-    fracas_covariance_destroy(covariance);
     return rho;
 }
 
@@ -67,7 +69,7 @@ static void assert_correlated(double product, double rho, double error)
 
 static void check_covariances(const fracas_strength *strength, size_t n, double period)
 {
-    fracas_field *field = field_over(strength, n, 1, period);
+    OWNED(fracas_field) *field = field_over(strength, n, 1, period);
     double product[WATCHED][WATCHED] = {{0}};
     size_t site[WATCHED];
     for (size_t a = 0; a < WATCHED; a++)
@@ -83,7 +85,6 @@ static void check_covariances(const fracas_strength *strength, size_t n, double 
         for (size_t b = 0; b <= a; b++)
             assert_correlated(product[a][b], of_covariance(strength, site[a], site[b], period),
                               fracas_field_error(field));
-    fracas_field_destroy(field);
 }
 
 static void samples_have_the_covariance(void **state)
@@ -137,7 +138,7 @@ static void each_strength_follows_its_law(void **state)
     laws[1].own[1] = 4; /* 40 in 1e-9 m3: all but e^-40 below the maximum */
     sites_scattered(N, position);
     for (size_t law = 0; law < 2; law++) {
-        fracas_field *field = field_over(&laws[law], N, 1, 0);
+        OWNED(fracas_field) *field = field_over(&laws[law], N, 1, 0);
         for (uint64_t r = 0; r < REALIZATIONS; r++) {
             const fracas_stream named = stream(r);
             OK(fracas_field_sample(field, &named, 1, sigma_c));
@@ -150,7 +151,6 @@ static void each_strength_follows_its_law(void **state)
             }
         }
         for (size_t a = 0; a < WATCHED; a++) assert_uniform(u[law][a], REALIZATIONS);
-        fracas_field_destroy(field);
     }
 }
 
@@ -180,8 +180,8 @@ static void a_strength_depends_on_its_name_alone(void **state)
         if (body == 0) sites_on_line(n, 1, position);
         else if (body == 1) sites_on_circle(n, 1, position);
         else sites_scattered(N, position);
-        fracas_field *first = field_over(&strength, n, 1, 0),
-                     *second = field_over(&strength, n, 1, 0);
+        OWNED(fracas_field) *first = field_over(&strength, n, 1, 0),
+                            *second = field_over(&strength, n, 1, 0);
         uint64_t of[3];
         for (uint64_t r = 0; r < 3; r++) {
             const fracas_stream named = stream(r);
@@ -197,8 +197,6 @@ static void a_strength_depends_on_its_name_alone(void **state)
         assert_true(of[0] != of[1] && of[1] != of[2]);
         print_message("body %d: 0x%" PRIx64 "\n", body, of[0]);
         assert_true(of[0] == expected[body]);
-        fracas_field_destroy(first);
-        fracas_field_destroy(second);
     }
 }
 

@@ -29,7 +29,7 @@ static double sum(const fracas_probability *p)
 static double mean_square(int type, size_t n, function *f)
 {
     static const uint64_t names[PARAMETERS] = {1, 2};
-    fracas_probability *p = malloc(n * PARAMETERS * sizeof *p);
+    FREED fracas_probability *p = malloc(n * PARAMETERS * sizeof *p);
     double total = 0.0;
     if (!p) abort();
     for (uint64_t seed = 0; seed < SEEDS; seed++) {
@@ -39,7 +39,6 @@ static double mean_square(int type, size_t n, function *f)
         for (size_t i = 0; i < n; i++) mean += f(p + i * PARAMETERS) / (double)n;
         total += mean * mean / SEEDS;
     }
-    free(p);
     return total;
 }
 

@@ -79,8 +79,8 @@ static void nested_families(void **state)
         synthetic what = truth[0];
         what.how = (dependence)how;
         for (size_t r = 0; r < REPETITIONS; r++) {
-            fracas_ensemble ensemble;
-            fracas_fit_sample sample;
+            CLEARED(fracas_ensemble) ensemble;
+            CLEARED(fracas_fit_sample) sample;
             fracas_fit fit[2];
             fracas_fit_comparison comparison;
             OK(synthetic_ensemble(&what, random, &ensemble));
@@ -89,8 +89,6 @@ static void nested_families(void **state)
             OK(fracas_fit_compare(&sample, family, fit, RESAMPLES, r, &comparison));
             assert_true(comparison.nested && comparison.statistic > -1e-3);
             p[r] = comparison.p;
-            fracas_fit_sample_clear(&sample);
-            fracas_ensemble_clear(&ensemble);
         }
         const double distance = fit_distance(p, REPETITIONS);
         print_message("likelihood ratio, dependence %d: distance from uniform * sqrt(n) %.2f\n",

@@ -9,6 +9,8 @@
 
 #include <unistd.h>
 
+OWNS(fracas_campaign)
+
 /* A complete campaign without a sweep; tests replace parts of it. */
 static const char plain_campaign[] = "name: test\n"                  /* 1 */
                                      "seed: 7\n"                     /* 2 */
@@ -112,9 +114,8 @@ static inline fracas_campaign *read_text(const char *text)
 /* The plain campaign with `find` replaced by `put`. */
 static inline fracas_campaign *read_replaced(const char *find, const char *put)
 {
-    char *text = replace(plain_campaign, find, put);
+    FREED char *text = replace(plain_campaign, find, put);
     fracas_campaign *campaign = read_text(text);
-    free(text);
     return campaign;
 }
 

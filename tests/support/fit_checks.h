@@ -46,8 +46,8 @@ static inline fit_check fit_check_of(const synthetic *what, size_t repetitions, 
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(random, seed);
     for (size_t r = 0; r < repetitions; r++) {
-        fracas_ensemble ensemble;
-        fracas_point_fits fits;
+        CLEARED(fracas_ensemble) ensemble;
+        CLEARED(fracas_point_fits) fits;
         OK(synthetic_ensemble(what, random, &ensemble));
         OK(fracas_point_fits_of(&ensemble, &what->family, 1, resamples, seed + r, &fits));
         const fracas_family_fit *fit = &fits.family[0];
@@ -64,8 +64,6 @@ static inline fit_check fit_check_of(const synthetic *what, size_t repetitions, 
             p[repetitions + found.n++] = fit->goodness.ad_p;
             found.rejected += fit->goodness.ks_p <= 0.05;
         }
-        fracas_point_fits_clear(&fits);
-        fracas_ensemble_clear(&ensemble);
     }
     const double n = (double)found.n;
     for (size_t i = 0; i < np; i++) {

@@ -9,7 +9,7 @@ int test_run(const char *names, size_t count, const CMUnitTestFunction *test,
              CMFixtureFunction tear_down)
 {
     struct CMUnitTest *tests = calloc(count, sizeof *tests);
-    char *copy = strdup(names);
+    FREED char *copy = strdup(names);
     if (!tests || !copy) return 1;
     char *next = copy;
     for (size_t t = 0; t < count; t++) {
@@ -17,7 +17,6 @@ int test_run(const char *names, size_t count, const CMUnitTestFunction *test,
         tests[t].name += strspn(tests[t].name, " ");
     }
     const int failed = _cmocka_run_group_tests("tests", tests, count, begin, end);
-    free(copy);
     free(tests);
     return failed;
 }

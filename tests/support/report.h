@@ -11,6 +11,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+OWNS(fracas_analysis)
+
 /* The record of a realization, a function of these alone. */
 typedef void report_record(const void *context, size_t point, int64_t replica,
                            fracas_record *record);
@@ -26,23 +28,21 @@ static inline void report_write_index(const char *folder, const fracas_point_tab
     OK(fracas_index_plan(index, table));
     size_t count = 0, all = 0;
     for (size_t p = 0; p < table->npoints; p++) all += (size_t)table->point[p].replicas;
-    fracas_segment_row *row = calloc(all, sizeof *row);
+    FREED fracas_segment_row *row = calloc(all, sizeof *row);
     assert_non_null(row);
     for (size_t p = 0; p < table->npoints; p++) {
         for (int64_t replica = 0; replica < table->point[p].replicas; replica++) {
-            fracas_record record;
+            CLEARED(fracas_record) record;
             make(context, p, replica, &record);
             row[count] = (fracas_segment_row){.point = table->point[p].hash,
                                               .replica = replica,
                                               .row = (int64_t)count,
                                               .summary = fracas_summary_of(&record)};
             count++;
-            fracas_record_clear(&record);
         }
     }
     OK(fracas_index_commit(index, "one.h5", seal, row, count, "{}"));
     fracas_index_close(index);
-    free(row);
 }
 
 /* Makes the folder and writes study.h5 and index.sqlite of every realization of the table into it.
@@ -58,10 +58,9 @@ static inline void report_write_study(const char *folder, const fracas_file_head
     OK(fracas_writer_create(path, header, table, &writer));
     for (size_t p = 0; p < table->npoints; p++) {
         for (int64_t replica = 0; replica < table->point[p].replicas; replica++) {
-            fracas_record record;
+            CLEARED(fracas_record) record;
             make(context, p, replica, &record);
             OK(fracas_writer_append(writer, p, replica, &record));
-            fracas_record_clear(&record);
         }
     }
     fracas_file_seal seal;
@@ -72,7 +71,7 @@ static inline void report_write_study(const char *folder, const fracas_file_head
 /* table.txt, summary.json, report/ and export/ into the study's folder. */
 static inline void report_analyse(const char *folder)
 {
-    fracas_analysis *analysis;
+    OWNED(fracas_analysis) *analysis;
     OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
     char path[640];
     snprintf(path, sizeof path, "%s/table.txt", folder);
@@ -88,7 +87,6 @@ static inline void report_analyse(const char *folder)
     OK(fracas_report_write(analysis, folder));
     snprintf(path, sizeof path, "%s/export", folder);
     OK(fracas_export_write(analysis, path, true));
-    fracas_analysis_destroy(analysis);
 }
 
 /* The temporary folder of the test. With FRACAS_KEEP set in the environment it is kept, for a look

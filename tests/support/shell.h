@@ -153,9 +153,9 @@ static inline fracas_model *grid_model(const fracas_spec *spec, const shell_grid
     assert_non_null(at);
     assert_non_null(node);
     grid_places(g, at);
-    uint32_t *element = grid_elements(g, at);
+    FREED uint32_t *element = grid_elements(g, at);
     size_t ntags;
-    fracas_surface_tag *tag = grid_tags(g, &ntags);
+    FREED fracas_surface_tag *tag = grid_tags(g, &ntags);
     for (size_t n = 0; n < nodes; n++) g->map(g->how, at[n][0], at[n][1], node[n]);
     const fracas_surface_arrays arrays = {.order = 2,
                                           .nnodes = nodes,
@@ -168,8 +168,6 @@ static inline fracas_model *grid_model(const fracas_spec *spec, const shell_grid
     OK(fracas_surface_assemble(&arrays, &surface));
     fracas_model *model = shell_of(*spec, surface);
     fracas_surface_destroy(surface);
-    free(tag);
-    free(element);
     free(node);
     free(at);
     return model;

@@ -133,14 +133,13 @@ static inline void evaluate(fracas_batch *batch, const double *u, shell_answer *
 static inline void look_at(fracas_batch *batch, const double *u, shell_answer *answer)
 {
     const size_t bytes = batch->model->formulation->state_size(batch->model) * sizeof(double);
-    double *kept = malloc(bytes);
+    FREED double *kept = malloc(bytes);
     assert_non_null(kept);
     memcpy(kept, batch->step.state, bytes);
     const fracas_step step = batch->step;
     evaluate(batch, u, answer);
     batch->step = step;
     memcpy(batch->step.state, kept, bytes);
-    free(kept);
 }
 
 /* ---- kinematics, from the nodes ---- */

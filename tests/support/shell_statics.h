@@ -72,9 +72,9 @@ static inline void number_free(shell_statics *s, size_t pin)
 static inline double *stiffness_blocks(shell_statics *s, uint32_t (*next)[4], const uint8_t *count)
 {
     const size_t size = SHELL_UNKNOWNS, elements = s->model->elements;
-    double *block = vector_of(elements * 4 * size * size), *u = vector_of(s->n),
-           *f = vector_of(s->n);
-    int *of = malloc(elements * sizeof *of);
+    double *block = vector_of(elements * 4 * size * size);
+    FREED double *u = vector_of(s->n), *f = vector_of(s->n);
+    FREED int *of = malloc(elements * sizeof *of);
     assert_non_null(of);
     fracas_surface_operator *op = open_operator(s->model);
     const int colours = colour(s->model->surface, next, count, of);
@@ -92,9 +92,6 @@ static inline double *stiffness_blocks(shell_statics *s, uint32_t (*next)[4], co
             }
         }
     fracas_surface_operator_close(op);
-    free(of);
-    free(u);
-    free(f);
     return block;
 }
 
@@ -111,7 +108,7 @@ static inline void fill_matrix(shell_statics *s)
 {
     const size_t elements = s->model->elements, size = SHELL_UNKNOWNS;
     uint32_t(*next)[4] = malloc(elements * sizeof *next);
-    uint8_t *count = malloc(elements);
+    FREED uint8_t *count = malloc(elements);
     assert_non_null(next);
     assert_non_null(count);
     list_neighbours(s->model->surface, next, count);
@@ -138,7 +135,6 @@ static inline void fill_matrix(shell_statics *s)
     cholmod_free_triplet(&t, &s->common);
     free(block);
     free(next);
-    free(count);
 }
 
 static inline shell_statics *statics_open_pinned(const fracas_model *model, size_t pin)

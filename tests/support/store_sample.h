@@ -159,12 +159,10 @@ static inline bool sample_equal(const fracas_record *a, const fracas_record *b)
 {
     size_t size = fracas_record_packed_size(a);
     if (size != fracas_record_packed_size(b)) return false;
-    char *bytes_a = malloc(size), *bytes_b = malloc(size);
+    FREED char *bytes_a = malloc(size), *bytes_b = malloc(size);
     fracas_record_pack(a, bytes_a);
     fracas_record_pack(b, bytes_b);
     bool equal = memcmp(bytes_a, bytes_b, size) == 0;
-    free(bytes_a);
-    free(bytes_b);
     return equal;
 }
 
@@ -280,12 +278,11 @@ static inline void sample_segment(const char *study, const char *name,
     fracas_writer_own_seal(writer);
     OK(fracas_writer_provenance(writer, SAMPLE_PROVENANCE));
     for (size_t i = 0; i < count; i++) {
-        fracas_record record;
+        CLEARED(fracas_record) record;
         sample_record(what[i].point, what[i].replica, most, &record);
         row[i] = (fracas_segment_row){table->point[what[i].point].hash, what[i].replica, (int64_t)i,
                                       fracas_summary_of(&record)};
         OK(fracas_writer_append(writer, what[i].point, what[i].replica, &record));
-        fracas_record_clear(&record);
     }
     OK(fracas_writer_finish(writer, false, seal));
 }

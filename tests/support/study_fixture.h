@@ -137,13 +137,12 @@ static inline void verify_finds(int64_t wanted, const char *part)
 /* Its report must contain `part`. */
 static inline void recover_says(const char *part)
 {
-    char *report = NULL;
+    FREED char *report = NULL;
     fracas_file_header header = sample_header();
     OK(fracas_study_recover(study, index_, &header, &table, &report));
     if (!report || !strstr(report, part))
         fail_msg("no \"%s\" in the report:\n%s", part, report ? report : "");
     if (!*part) assert_string_equal(report, "");
-    free(report);
 }
 
 static inline void flip_byte(const char *path, size_t at)

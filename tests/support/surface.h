@@ -8,6 +8,8 @@
 #include "engine/mesh/surface/surface.h"
 #include "tests/support/test.h"
 
+OWNS(fracas_checksum)
+
 /* The numbers 2^-32 k, 0 <= k < 2^32, spread at random. */
 static inline double next_share(uint64_t *x)
 {
@@ -29,7 +31,7 @@ static inline uint32_t corner_of(const fracas_surface *s, size_t element, size_t
  * the same nodes. */
 static inline void check_edges(const fracas_surface *s)
 {
-    uint8_t *seen = calloc(3 * s->nelements, 1);
+    FREED uint8_t *seen = calloc(3 * s->nelements, 1);
     assert_non_null(seen);
     for (size_t i = 0; i < s->ninterfaces; i++) {
         const fracas_surface_interface *f = &s->interface[i];
@@ -56,13 +58,12 @@ static inline void check_edges(const fracas_surface *s)
         assert_int_equal(seen[3 * f->element + f->edge]++, 0);
     }
     for (size_t i = 0; i < 3 * s->nelements; i++) assert_int_equal(seen[i], 1);
-    free(seen);
 }
 
 /* Everything in a surface, as one number: the same on every machine. */
 static inline uint64_t checksum_of(const fracas_surface *s)
 {
-    fracas_checksum *sum;
+    OWNED(fracas_checksum) *sum;
     OK(fracas_checksum_create(&sum));
     fracas_checksum_add(sum, s->node, s->nnodes * sizeof *s->node);
     fracas_checksum_add(sum, s->element, s->nelements * s->corners * sizeof *s->element);
@@ -70,7 +71,6 @@ static inline uint64_t checksum_of(const fracas_surface *s)
     fracas_checksum_add(sum, s->border, s->nborders * sizeof *s->border);
     fracas_checksum_add(sum, s->given, s->nelements * sizeof *s->given);
     const uint64_t value = fracas_checksum_end(sum);
-    fracas_checksum_destroy(sum);
     return value;
 }
 

@@ -46,14 +46,14 @@ static void file_that_is_not_there(void **state)
 
 static void page_shows_every_key(void **state)
 {
-    char *wanted;
+    FREED char *wanted;
     size_t size;
     FILE *out = open_memstream(&wanted, &size);
     fracas_analysis_reference(out);
     fclose(out);
     static const char begin[] = "<!-- generated: fracas reference --statistics -->\n\n",
                       end[] = "\n<!-- end of generated -->\n";
-    char *page = report_contents(FRACAS_SOURCE_DIR, "docs/formats/summary.md");
+    FREED char *page = report_contents(FRACAS_SOURCE_DIR, "docs/formats/summary.md");
     const char *shown = strstr(page, begin);
     assert_non_null(shown);
     shown += strlen(begin);
@@ -64,8 +64,6 @@ static void page_shows_every_key(void **state)
                 wanted);
     assert_memory_equal(shown, wanted, size);
     assert_string_equal(shown + size, end);
-    free(page);
-    free(wanted);
 }
 
 TESTS_ALL(report_make_root, report_remove_root, digests_are_those_of_sha256sum,

@@ -202,13 +202,12 @@ static void names_come_before_their_numbers(void **state)
                                 {{.real = NAN, .text = ""}, {.real = NAN, .text = "rigid-link"}}};
     fracas_point_row point[] = {{.value = value[0]}, {.value = value[1]}};
     fracas_point_table table = {.ncolumns = 2, .column = column, .npoints = 2, .point = point};
-    fracas_columns columns;
+    CLEARED(fracas_columns) columns;
     char label[64];
     OK(fracas_columns_create(&table, &columns));
     assert_int_equal(columns.count, 1);
     fracas_columns_label(&table, &columns, 1, label, sizeof label);
     assert_string_equal(label, "law rigid-link");
-    fracas_columns_clear(&columns);
 }
 
 /* A point is called by what it has: what only other loads have is left out, with its unit and its
@@ -268,7 +267,7 @@ static void statistics_of_records(void **state)
     fracas_value length = {.real = 0.06, .text = ""};
     fracas_point_row point = {.value = &length};
     fracas_point_table table = {.ncolumns = 1, .column = column, .npoints = 1, .point = &point};
-    fracas_point_statistics statistics;
+    CLEARED(fracas_point_statistics) statistics;
     fracas_point_statistics_init(&table, 0, &statistics);
     assert_true(isnan(statistics.law[FRACAS_LAW_ZMR])); /* no material in the table */
     const int64_t outcome[] = {FRACAS_FRAGMENTED, FRACAS_NONFINITE, FRACAS_INTACT,
@@ -315,7 +314,6 @@ static void statistics_of_records(void **state)
     assert_true(statistics.elements == 18.0 / 7 && statistics.dust_share == 2.0 / 7);
     assert_int_equal(statistics.typical_replica, 3); /* |4 - 3| < |5 - 3| */
     assert_int_equal(statistics.typical_row, 13);
-    fracas_point_statistics_clear(&statistics);
 }
 
 /* Just within every limit: no warning; just beyond every limit, and with every unusable outcome:

@@ -96,7 +96,7 @@ static void pattern_of_uniform_expansion(void **state)
     expanded_ring(radius, push, 120, share, N, fragment);
     fragment[3].dust = 1;
     fracas_record record = {.nfragment = N, .fragment = fragment, .end_time = 2e-6};
-    fracas_ring_pattern pattern;
+    CLEARED(fracas_ring_pattern) pattern;
     OK(fracas_ring_pattern_create(&record, radius, &pattern));
     assert_int_equal(pattern.n, N);
     assert_true(pattern.time == 2e-6 && fabs(pattern.expansion - 120) < 1e-11);
@@ -124,7 +124,6 @@ static void pattern_of_uniform_expansion(void **state)
     assert_true(fracas_picture_exaggeration(&pattern) == 1);
     for (size_t i = 0; i < N; i++) pattern.piece[i].displacement = -0.01 * radius;
     assert_true(fracas_picture_exaggeration(&pattern) == 1);
-    fracas_ring_pattern_clear(&pattern);
 }
 
 /* ---- a study of rings ---- */
@@ -282,8 +281,8 @@ static void report_of_rings(void **state)
                                  .complete = true};
     report_write_study(folder, &header, &made.table, make_record, NULL);
     report_analyse(folder);
-    char *table = report_contents(folder, "table.txt"),
-         *page = report_contents(folder, "report/index.html");
+    FREED char *table = report_contents(folder, "table.txt"),
+               *page = report_contents(folder, "report/index.html");
     assert_non_null(strstr(table, "radius  radial  strain rate"));
     assert_non_null(strstr(table, "  [mm]   [m/s]        [1/s]"));
     assert_non_null(strstr(table, "     8      25         3125"));
@@ -293,8 +292,6 @@ static void report_of_rings(void **state)
     assert_null(strstr(page, "pattern-point-0.svg"));
     assert_non_null(strstr(page, "radius 8 mm"));
     report_check(folder);
-    free(table);
-    free(page);
 }
 
 /* ---- columns ---- */
@@ -413,7 +410,7 @@ static void laws_of_mixed_series(void **state)
             point[p].scales.modulus = p % 2 ? table[i].odd_modulus : table[i].even_modulus;
             point[p].scales.size = 1e-4 + (p % 2 ? table[i].odd : table[i].even) * (double)p;
         }
-        fracas_chart chart;
+        CLEARED(fracas_chart) chart;
         fracas_chart_init(&chart);
         OK(fracas_figure_rate(&analysis, false, &chart));
         size_t curves = 0;
@@ -421,7 +418,6 @@ static void laws_of_mixed_series(void **state)
             curves += chart.panel[0].series[s].kind == FRACAS_CURVE;
         assert_int_equal(curves, table[i].curves);
         assert_non_null(strstr(chart.caption, table[i].caption));
-        fracas_chart_clear(&chart);
     }
     fracas_columns_clear(&analysis.shown);
 }
@@ -462,7 +458,7 @@ static void scales_of_critical_opening(void **state)
         "310 MPa}\n"
         "loading: {type: initial-velocity, radial: 80 m/s}\ntime: {end: 100 ns}\nreplicas: 1\n"
         "sweep:\n  - cohesive: [{critical_opening: 0.6 um}, {fracture_energy: 90 J/m2}]\n";
-    fracas_campaign *campaign = read_text(text);
+    OWNED(fracas_campaign) *campaign = read_text(text);
     fracas_point_statistics opening, energy;
     fracas_point_statistics_init(&campaign->table, 0, &opening);
     fracas_point_statistics_init(&campaign->table, 1, &energy);
@@ -473,7 +469,6 @@ static void scales_of_critical_opening(void **state)
     assert_true(isnan(opening.law[FRACAS_LAW_MOTT]) &&
                 opening.without_mott); /* of uniform strengths */
     assert_true(fabs(energy.scales.size / (275e9 * 90 / 9e16) - 1) < 1e-13);
-    fracas_campaign_destroy(campaign);
 }
 
 TESTS_ALL(report_make_root, report_remove_root, scales_of_critical_opening, arcs,

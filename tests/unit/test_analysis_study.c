@@ -260,11 +260,10 @@ static void report_that_cannot_be_written(void **state)
     FILE *file = fopen(blocker, "w"); /* where the folder should be */
     assert_non_null(file);
     fclose(file);
-    fracas_analysis *analysis;
+    OWNED(fracas_analysis) *analysis;
     OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
     assert_int_equal(fracas_report_write(analysis, folder), FRACAS_ENVIRONMENT);
     assert_non_null(strstr(fracas_message(), "blocked/report"));
-    fracas_analysis_destroy(analysis);
 }
 
 TESTS_ALL(report_make_root, report_remove_root, table_of_a_sweep, table_of_awkward_points,

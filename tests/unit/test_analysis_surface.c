@@ -33,7 +33,7 @@ static void crack_across(const grid_shape *shape, const fracas_stored_mesh *mesh
 static void assert_state(const fracas_stored_mesh *mesh, const fracas_record *record, double time,
                          size_t fragments, size_t cracked, size_t broken)
 {
-    fracas_surface_state state;
+    CLEARED(fracas_surface_state) state;
     OK(fracas_surface_state_create(mesh, record, time, &state));
     assert_int_equal(state.nfragments, fragments);
     assert_int_equal(state.ncracked, cracked);
@@ -41,15 +41,14 @@ static void assert_state(const fracas_stored_mesh *mesh, const fracas_record *re
     size_t sum = 0;
     for (size_t f = 0; f < state.nfragments; f++) sum += state.elements[f];
     assert_int_equal(sum, mesh->nelements);
-    fracas_surface_state_clear(&state);
 }
 
 /* A vertical cut at column 2 makes pieces of 2 by 4 and 4 by 4 squares; one along row 1 then 4 of
  * them. */
 static void a_plate_is_cut_in_two_and_in_four(void **state)
 {
-    fracas_stored_mesh mesh;
-    fracas_record record;
+    CLEARED(fracas_stored_mesh) mesh;
+    CLEARED(fracas_record) record;
     fracas_surface_state now;
     fracas_surface_times times;
     grid_make(&plate, &mesh);
@@ -79,8 +78,6 @@ static void a_plate_is_cut_in_two_and_in_four(void **state)
     assert_true(times.onset == 9.5 && times.broken == 10);
     assert_true(times.through[1] == 13); /* bottom to top */
     assert_true(times.through[0] == 25); /* left to right */
-    fracas_record_clear(&record);
-    fracas_stored_mesh_clear(&mesh);
 }
 
 /* One element cut out, or two that are neighbours: dust. Three are none. Elements 0 and 1 are a
@@ -93,9 +90,9 @@ static void small_pieces_are_dust(void **state)
     } expected[] = {
         {1, 2, 1}, {1 | 2, 2, 1}, {1 | 2 | 4, 3, 2}, {1 | 2 | 8, 2, 0}, {1 | 2 | 4 | 8, 2, 0}};
     for (size_t k = 0; k < sizeof expected / sizeof *expected; k++) {
-        fracas_stored_mesh mesh;
-        fracas_record record;
-        fracas_surface_state now;
+        CLEARED(fracas_stored_mesh) mesh;
+        CLEARED(fracas_record) record;
+        CLEARED(fracas_surface_state) now;
         grid_make(&plate, &mesh);
         grid_record(&mesh, 1, &record);
         for (size_t i = 0; i < mesh.ninterfaces; i++) {
@@ -108,9 +105,6 @@ static void small_pieces_are_dust(void **state)
         OK(fracas_surface_state_create(&mesh, &record, 1, &now));
         assert_int_equal(now.nfragments, expected[k].fragments);
         assert_int_equal(now.ndust, expected[k].dust);
-        fracas_surface_state_clear(&now);
-        fracas_record_clear(&record);
-        fracas_stored_mesh_clear(&mesh);
     }
 }
 
@@ -119,8 +113,8 @@ static void small_pieces_are_dust(void **state)
 static void a_ring_cracks_through(void **state)
 {
     static const int64_t width[2] = {1, 2}, nowhere[2] = {1, 7};
-    fracas_stored_mesh mesh;
-    fracas_record record;
+    CLEARED(fracas_stored_mesh) mesh;
+    CLEARED(fracas_record) record;
     double time;
     grid_make(&ring, &mesh);
     assert_null(fracas_stored_mesh_fault(&mesh));
@@ -144,16 +138,14 @@ static void a_ring_cracks_through(void **state)
     record.ninterface--;
     sample_fails(fracas_surface_through(&mesh, &record, width, &time), FRACAS_DAMAGED,
                  "has 95 interfaces, the mesh of its point 96");
-    fracas_record_clear(&record);
-    fracas_stored_mesh_clear(&mesh);
 }
 
 /* A plate whose left and lower edge meet in a corner: every crack from there would reach both. */
 static void edges_that_meet_have_no_width(void **state)
 {
     static const int64_t corner[2] = {1, 3};
-    fracas_stored_mesh mesh;
-    fracas_record record;
+    CLEARED(fracas_stored_mesh) mesh;
+    CLEARED(fracas_record) record;
     double time;
     grid_make(&plate, &mesh);
     grid_record(&mesh, 100, &record);
@@ -161,8 +153,6 @@ static void edges_that_meet_have_no_width(void **state)
     crack_across(&plate, &mesh, &record, 1, 0, 6, 20);
     OK(fracas_surface_through(&mesh, &record, corner, &time));
     assert_true(isnan(time));
-    fracas_record_clear(&record);
-    fracas_stored_mesh_clear(&mesh);
 }
 
 /* Against a second algorithm: at every break time, walk from the inner edge over all interfaces
@@ -199,8 +189,8 @@ static void crack_through_against_a_walk(void **state)
     uint64_t random = 11;
     size_t through = 0;
     for (int round = 0; round < 60; round++) {
-        fracas_stored_mesh mesh;
-        fracas_record record;
+        CLEARED(fracas_stored_mesh) mesh;
+        CLEARED(fracas_record) record;
         double found, least = NAN;
         grid_make(round % 2 ? &plate : &ring, &mesh);
         grid_record(&mesh, 100, &record);
@@ -212,8 +202,6 @@ static void crack_through_against_a_walk(void **state)
         OK(fracas_surface_through(&mesh, &record, width, &found));
         assert_true(isnan(least) ? isnan(found) : found == least);
         through += !isnan(found);
-        fracas_record_clear(&record);
-        fracas_stored_mesh_clear(&mesh);
     }
     assert_true(through > 10 && through < 60); /* both happen */
 }
@@ -285,13 +273,12 @@ static char *draw(const fracas_stored_mesh *mesh, const fracas_record *record, d
 {
     char *text;
     size_t size;
-    fracas_surface_state now;
+    CLEARED(fracas_surface_state) now;
     FILE *out = open_memstream(&text, &size);
     OK(fracas_surface_state_create(mesh, record, time, &now));
     const fracas_surface_picture picture = {"a & b", show, 800, true};
     OK(fracas_surface_picture_write(mesh, &now, &picture, out));
     fclose(out);
-    fracas_surface_state_clear(&now);
     return text;
 }
 
@@ -309,8 +296,8 @@ static path_measures measure(const char *svg, const char *class)
  * outline, of which there are 30 at most: 0.02. */
 static void fragments_are_filled(void **state)
 {
-    fracas_stored_mesh mesh;
-    fracas_record record;
+    CLEARED(fracas_stored_mesh) mesh;
+    CLEARED(fracas_record) record;
     const double square = 7840.0 / 6 * 7840.0 / 6;
     grid_make(&plate, &mesh);
     grid_record(&mesh, 100, &record);
@@ -355,8 +342,6 @@ static void fragments_are_filled(void **state)
         assert_true(fabs(measure(svg, "mesh").moment[i] - moment[i]) <
                     0.5 * (double)mesh.ninterfaces);
     free(svg);
-    fracas_record_clear(&record);
-    fracas_stored_mesh_clear(&mesh);
 }
 
 /* A polygon with 12 sides from radius 2 to 5, in 784 pixels from -5 to 5 both ways: area 12/2
@@ -364,25 +349,22 @@ static void fragments_are_filled(void **state)
  * sides, 45 m long altogether. */
 static void holes_stay_holes(void **state)
 {
-    fracas_stored_mesh mesh;
-    fracas_record record;
+    CLEARED(fracas_stored_mesh) mesh;
+    CLEARED(fracas_record) record;
     grid_make(&ring, &mesh);
     grid_record(&mesh, 100, &record);
-    char *svg = draw(&mesh, &record, 1, FRACAS_SHOW_CRACKS);
+    FREED char *svg = draw(&mesh, &record, 1, FRACAS_SHOW_CRACKS);
     assert_true(fabs(measure(svg, "body").area / (784.0 * 784.0) - 63) < 0.05);
     assert_int_equal(measure(svg, "body").lines, 2);
     assert_null(strstr(svg, "class=\"t0\""));
-    free(svg);
-    fracas_record_clear(&record);
-    fracas_stored_mesh_clear(&mesh);
 }
 
 /* Middles that lie in the middle change nothing; one that is 0.1 m to the right makes its edge a
  * parabola, in both fragments beside it, and what is left of it by 2/3 of 0.1 squares larger. */
 static void curved_edges_are_curved(void **state)
 {
-    fracas_stored_mesh straight, curved;
-    fracas_record record;
+    CLEARED(fracas_stored_mesh) straight, curved;
+    CLEARED(fracas_record) record;
     grid_shape shape = plate;
     grid_make(&shape, &straight);
     shape.middles = true;
@@ -409,9 +391,6 @@ static void curved_edges_are_curved(void **state)
     assert_true(fabs(measure(b, "t1").area / square - (8 + 0.2 / 3)) < 0.01);
     free(a);
     free(b);
-    fracas_record_clear(&record);
-    fracas_stored_mesh_clear(&straight);
-    fracas_stored_mesh_clear(&curved);
 }
 
 /* The bytes of flat pictures, after their style, are those of the first ones: of whole numbers all
@@ -421,8 +400,8 @@ static void flat_pictures_stay_as_they_are(void **state)
     static const uint64_t expected[] = {0xa0103701084ef84c, 0xe576ce8a4a7738b5, 0x3c7ad3191731f98a};
     uint64_t random = 3;
     const grid_shape curved = {.nx = 12, .ny = 3, .rolled = true, .middles = true};
-    fracas_stored_mesh mesh;
-    fracas_record record;
+    CLEARED(fracas_stored_mesh) mesh;
+    CLEARED(fracas_record) record;
     grid_make(&curved, &mesh);
     grid_record(&mesh, 100, &record);
     for (size_t i = 0; i < mesh.ninterfaces; i++) {
@@ -433,14 +412,11 @@ static void flat_pictures_stay_as_they_are(void **state)
             record.interface[i].break_time = record.interface[i].onset_time + 5;
     }
     for (int show = FRACAS_SHOW_CRACKS; show <= FRACAS_SHOW_MESH; show++) {
-        char *svg = draw(&mesh, &record, 60, (fracas_surface_show)show);
+        FREED char *svg = draw(&mesh, &record, 60, (fracas_surface_show)show);
         const char *drawing = strstr(svg, "</style>");
         assert_non_null(drawing);
         assert_int_equal(fracas_checksum_of(drawing, strlen(drawing)), expected[show]);
-        free(svg);
     }
-    fracas_record_clear(&record);
-    fracas_stored_mesh_clear(&mesh);
 }
 
 /* Neighbours differ, whatever breaks: planar graphs need no more than four tints, and there are
@@ -449,12 +425,12 @@ static void neighbours_have_different_tints(void **state)
 {
     uint64_t random = 5;
     const grid_shape large = {.nx = 30, .ny = 20};
-    fracas_stored_mesh mesh;
+    CLEARED(fracas_stored_mesh) mesh;
     fracas_record record;
     grid_make(&large, &mesh);
     for (int round = 0; round < 20; round++) {
-        fracas_surface_state now;
-        uint8_t *tint;
+        CLEARED(fracas_surface_state) now;
+        FREED uint8_t *tint;
         grid_record(&mesh, 1, &record);
         for (size_t i = 0; i < mesh.ninterfaces; i++)
             if (sample_bits(&random) % 100 < 55) record.interface[i].break_time = 0.5;
@@ -468,11 +444,8 @@ static void neighbours_have_different_tints(void **state)
                            b = now.fragment[mesh.interface[i].element[1]];
             if (a != b && tint[a] != FRACAS_TINT_DUST) assert_int_not_equal(tint[a], tint[b]);
         }
-        free(tint);
-        fracas_surface_state_clear(&now);
         fracas_record_clear(&record);
     }
-    fracas_stored_mesh_clear(&mesh);
 }
 
 /* Of 30 000 elements, everything broken: the largest picture that such a mesh makes. */
@@ -480,8 +453,8 @@ static void pictures_stay_small(void **state)
 {
     uint64_t random = 7;
     const grid_shape huge = {.nx = 150, .ny = 100};
-    fracas_stored_mesh mesh;
-    fracas_record record;
+    CLEARED(fracas_stored_mesh) mesh;
+    CLEARED(fracas_record) record;
     grid_make(&huge, &mesh);
     grid_record(&mesh, 1, &record);
     for (size_t i = 0; i < mesh.ninterfaces; i++) record.interface[i].break_time = 0.1;
@@ -493,8 +466,6 @@ static void pictures_stay_small(void **state)
     svg = draw(&mesh, &record, 1, FRACAS_SHOW_FRAGMENTS);
     assert_true(strlen(svg) < 1000000);
     free(svg);
-    fracas_record_clear(&record);
-    fracas_stored_mesh_clear(&mesh);
 }
 
 TESTS(a_plate_is_cut_in_two_and_in_four, small_pieces_are_dust, a_ring_cracks_through,

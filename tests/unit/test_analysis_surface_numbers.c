@@ -70,17 +70,16 @@ static void make_analysis(size_t bars, size_t bent, fracas_point_statistics poin
 /* The names of the table's columns in a row, as "rate n fail ...". */
 static void names_of(const fracas_analysis *analysis, char names[512])
 {
-    fracas_result_table table;
+    CLEARED(fracas_result_table) table;
     OK(fracas_result_table_create(analysis, false, &table));
     names[0] = '\0';
     for (size_t c = 0; c < table.columns; c++)
         strcat(strcat(names, fracas_result_table_cell(&table, 0, c)), " ");
-    fracas_result_table_clear(&table);
 }
 
 static size_t curves_of(const fracas_analysis *analysis, bool normalised, size_t *marks)
 {
-    fracas_chart chart;
+    CLEARED(fracas_chart) chart;
     size_t curves = 0;
     *marks = 0;
     fracas_chart_init(&chart);
@@ -90,7 +89,6 @@ static size_t curves_of(const fracas_analysis *analysis, bool normalised, size_t
         curves += curve;
         *marks += curve ? 0 : chart.panel[0].series[s].n;
     }
-    fracas_chart_clear(&chart);
     return curves;
 }
 
@@ -145,12 +143,11 @@ static void surfaces_have_no_laws_of_one_dimension(void **state)
 static void cell_says(const fracas_analysis *analysis, size_t row, const char *name,
                       const char *wanted)
 {
-    fracas_result_table table;
+    CLEARED(fracas_result_table) table;
     size_t c = 0;
     OK(fracas_result_table_create(analysis, false, &table));
     while (strcmp(fracas_result_table_cell(&table, 0, c), name)) assert_true(++c < table.columns);
     assert_string_equal(fracas_result_table_cell(&table, row, c), wanted);
-    fracas_result_table_clear(&table);
 }
 
 /* Of three and of two fragments with 169 J and 3 J each: means 422.5 J and 7.5 J, a ratio of

@@ -17,6 +17,8 @@
 #include <time.h>
 #include <unistd.h>
 
+OWNS(fracas_model)
+
 /* ---- strengths of a file ---- */
 
 static const fracas_kind *kind_named(const char *name)
@@ -221,7 +223,7 @@ static void test_many_places(void **state)
 {
     enum { SIDE = 200, N = SIDE * SIDE, LINE = 64 };
     double(*position)[3] = calloc(N, sizeof *position), *got = calloc(N, sizeof *got);
-    char *text = malloc((size_t)N * LINE);
+    FREED char *text = malloc((size_t)N * LINE);
     assert_true(position && got && text);
     for (int body = 0; body < 2; body++) {
         for (uint64_t i = 0; i < N; i++) {
@@ -248,7 +250,6 @@ static void test_many_places(void **state)
     }
     free(position);
     free(got);
-    free(text);
 }
 
 /* ---- campaigns with files, in a folder of their own ---- */
@@ -273,10 +274,8 @@ static const char uniform[] = "  distribution: uniform\n  minimum: 299 MPa\n  ma
  * (line 26 + new lines). */
 static fracas_err read_with(const char *strength, const char *end, fracas_campaign **campaign)
 {
-    char *text = replace(plain_campaign, uniform, strength), *whole = replace(text, "", end);
+    FREED char *text = replace(plain_campaign, uniform, strength), *whole = replace(text, "", end);
     put("c.yaml", whole);
-    free(text);
-    free(whole);
     return fracas_campaign_read(in_folder("c.yaml"), campaign);
 }
 
@@ -358,10 +357,12 @@ static void test_identity(void **state)
     put("s.csv", "strength\n300e6\n1,301e6\n");
     put("t.csv", "strength\n300e6\n1,301e6\n");
     put("u.csv", "strength\n300e6\n1,302e6\n");
-    fracas_campaign *one = good(FROM_FILE "s.csv\n", ""), *same = good(FROM_FILE "t.csv\n", "");
-    fracas_campaign *other = good(uniform, "sweep:\n  - strength: [{distribution: file, file: "
-                                           "u.csv}, {distribution: file, file: t.csv}]\n"
-                                           "  - loading.rate: [1e4, 2e4]\n");
+    OWNED(fracas_campaign) *one = good(FROM_FILE "s.csv\n", ""),
+                           *same = good(FROM_FILE "t.csv\n", "");
+    OWNED(fracas_campaign) *other = good(uniform,
+                                         "sweep:\n  - strength: [{distribution: file, file: "
+                                         "u.csv}, {distribution: file, file: t.csv}]\n"
+                                         "  - loading.rate: [1e4, 2e4]\n");
     const size_t column = fracas_point_table_find(&one->table, "strength.file");
     assert_int_not_equal(column, SIZE_MAX);
     assert_true(one->table.column[column].text);
@@ -377,9 +378,6 @@ static void test_identity(void **state)
     assert_string_equal(one->point[0].strength.file->path, "s.csv");
     OK(fracas_campaign_extends(other, one));
     assert_int_equal(fracas_campaign_extends(one, other), FRACAS_DAMAGED);
-    fracas_campaign_destroy(one);
-    fracas_campaign_destroy(same);
-    fracas_campaign_destroy(other);
 }
 
 static void write_campaign(const fracas_campaign *campaign, const char *path)
@@ -396,7 +394,7 @@ static void test_round_trip(void **state)
 {
     put("s.csv", "300e6\n");
     put("t.csv", "301e6\n");
-    fracas_campaign *campaign = good(
+    OWNED(fracas_campaign) *campaign = good(
         uniform, "sweep:\n  - strength: [{distribution: file, file: s.csv}, {distribution: file, "
                  "file: t.csv}, {distribution: constant, value: 5}]\n");
     assert_int_equal(mkdir(in_folder("study"), 0777), 0);
@@ -426,7 +424,6 @@ static void test_round_trip(void **state)
     put(name, "302e6\n");
     assert_int_equal(fracas_campaign_read(in_folder("study/campaign.yaml"), &back), FRACAS_USAGE);
     assert_non_null(strstr(fracas_message(), "is damaged: its content has the digest"));
-    fracas_campaign_destroy(campaign);
 }
 
 /* ---- the forecast ---- */
@@ -530,7 +527,7 @@ static void test_positions_of_a_surface(void **state)
     put("c.yaml", by_position);
     fracas_campaign *campaign;
     if (fracas_campaign_read(in_folder("c.yaml"), &campaign)) fail_msg("%s", fracas_message());
-    fracas_model *model = model_of(campaign, x);
+    OWNED(fracas_model) *model = model_of(campaign, x);
     assert_int_equal(fracas_model_interfaces(model), 8);
     int sides = 0, diagonals = 0;
     for (int i = 7; i >= 0; i--) { /* middles of sides are at (0, +-0.5), (+-0.5, 0) mm, of
@@ -563,7 +560,6 @@ static void test_positions_of_a_surface(void **state)
     assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
     assert_non_null(strstr(fracas_message(), "p.csv, interface 0 at x = "));
     fracas_campaign_destroy(campaign);
-    fracas_model_destroy(model);
 }
 
 /* ---- the mesh's noise ---- */
@@ -571,7 +567,7 @@ static void test_positions_of_a_surface(void **state)
 static void test_noise(void **state)
 {
     enum { N = 1000 };
-    fracas_campaign *campaign = read_replaced(
+    OWNED(fracas_campaign) *campaign = read_replaced(
         "", "sweep:\n  - mesh: [{elements: 50, spacing: perturbed, amplitude: 0.2}, {elements: "
             "200000, spacing: perturbed, amplitude: 0.2}]\n");
     double noise[N], begin[10], sum = 0;
@@ -593,7 +589,6 @@ static void test_noise(void **state)
     OK(fracas_forecast_all(campaign, 1, forecast)); /* which times a shorter mesh of the second */
     assert_int_equal(forecast[1].elements, 200000);
     assert_null(campaign->point[0].spec.mesh.noise);
-    fracas_campaign_destroy(campaign);
 }
 
 TESTS_ALL(make_folder, remove_folder, test_values, test_bad_values, test_errors, test_empirical,

@@ -19,7 +19,7 @@ static void an_error_carries_its_message_up(void **unused)
     assert_string_equal(fracas_message(), "value 7");
     assert_int_equal(fracas_fail_within(FRACAS_USAGE, "file %s", "a.yaml"), FRACAS_USAGE);
     assert_string_equal(fracas_message(), "file a.yaml: value 7");
-    char *huge = malloc(5000);
+    FREED char *huge = malloc(5000);
     assert_non_null(huge);
     memset(huge, 'x', 4999);
     huge[4999] = 0;
@@ -27,7 +27,6 @@ static void an_error_carries_its_message_up(void **unused)
     assert_int_equal(strlen(fracas_message()), 1023);
     assert_int_equal(fracas_fail_within(FRACAS_BUG, "within"), FRACAS_BUG);
     assert_int_equal(strlen(fracas_message()), 1023);
-    free(huge);
 }
 
 /* XXH3-128 of no bytes and of "abc", as xxhsum -H2 prints them. */
@@ -52,7 +51,7 @@ static void hashes_are_xxh3(void **unused)
 
 static void json_is_well_formed(void **unused)
 {
-    char *text = NULL;
+    FREED char *text = NULL;
     size_t size;
     FILE *out = open_memstream(&text, &size);
     fracas_json json;
@@ -74,7 +73,6 @@ static void json_is_well_formed(void **unused)
     assert_string_equal(text, "{\n  \"a \\\"b\\\"\\u000a\": \"\\\\\",\n  \"list\": [\n    "
                               "0.10000000000000001,\n    null,\n    -3\n  ],\n"
                               "  \"empty\": {},\n  \"yes\": true,\n  \"none\": null\n}\n");
-    free(text);
 }
 
 static void parameters_reach_their_place(void **unused)

@@ -64,7 +64,7 @@ static void test_points(void **state)
     const fracas_uncertain rate = {.kind = kind("log-uniform"), .minimum = 1e3, .maximum = 1e5};
     const fracas_uncertain elements = {.kind = kind("uniform"), .minimum = 50.5, .maximum = 950.5};
     for (size_t t = 0; t < FRACAS_COUNT(types); t++) {
-        fracas_campaign *campaign = read_design(types[t], YOUNG ENERGY RATE ELEMENTS TIED);
+        OWNED(fracas_campaign) *campaign = read_design(types[t], YOUNG ENERGY RATE ELEMENTS TIED);
         const fracas_design design = {fracas_design_types[t], 7, 9, 4, name, tied};
         fracas_probability p[36];
         OK(fracas_design_fill(&design, p));
@@ -81,13 +81,12 @@ static void test_points(void **state)
                              lround(fracas_uncertain_quantile(&elements, p[4 * i + 3])));
             assert_true(spec->material.young >= 365e9 && spec->material.density == 2750);
         }
-        fracas_campaign_destroy(campaign);
     }
 }
 
 static void test_shipped(void **state)
 {
-    fracas_campaign *campaign;
+    OWNED(fracas_campaign) *campaign;
     OK(fracas_campaign_read(FRACAS_SOURCE_DIR "/campaigns/examples/bar-uncertain.yaml", &campaign));
     assert_int_equal(campaign->npoints, 64);
     assert_true(campaign->common_random_numbers);
@@ -95,15 +94,14 @@ static void test_shipped(void **state)
     for (size_t c = 0; c < campaign->table.ncolumns; c++)
         varied += fracas_point_table_varies(&campaign->table, c);
     assert_int_equal(varied, 5);
-    fracas_campaign_destroy(campaign);
 }
 
 /* Two designs and a list: the last axis runs fastest, and each design is as it is alone. */
 static void test_product(void **state)
 {
-    fracas_campaign *young = read_design("sobol\n      points: 3", YOUNG),
-                    *rate = read_design("random\n      points: 2", RATE);
-    fracas_campaign *both = read_design(
+    OWNED(fracas_campaign) *young = read_design("sobol\n      points: 3", YOUNG),
+                           *rate = read_design("random\n      points: 2", RATE);
+    OWNED(fracas_campaign) *both = read_design(
         "sobol\n      points: 3",
         YOUNG "  - design:\n      type: random\n      points: 2\n      parameters:\n" RATE
               "  - mesh.elements: [10, 20]\n");
@@ -113,16 +111,13 @@ static void test_product(void **state)
         assert_true(both->point[p].spec.loading.rate == rate->point[p / 2 % 2].spec.loading.rate);
         assert_int_equal(both->point[p].spec.mesh.elements, p % 2 ? 20 : 10);
     }
-    fracas_campaign_destroy(young);
-    fracas_campaign_destroy(rate);
-    fracas_campaign_destroy(both);
 }
 
 /* A design in which two distributions of strength share a key: the drawn value is for the kind that
  * the point has. */
 static void test_drawn_with_kind(void **state)
 {
-    fracas_campaign *campaign = read_design(
+    OWNED(fracas_campaign) *campaign = read_design(
         "random\n      points: 3",
         "        strength.shape: {distribution: uniform, minimum: 5, maximum: 9}\n"
         "  - strength: [{distribution: weibull, scale: 300 MPa}, {distribution: gamma, scale: 30 "
@@ -131,7 +126,6 @@ static void test_drawn_with_kind(void **state)
     for (size_t p = 0; p < 6; p++)
         assert_true(campaign->point[p].strength.shape >= 5 &&
                     campaign->point[p].strength.shape <= 9);
-    fracas_campaign_destroy(campaign);
 }
 
 static void test_extension(void **state)
@@ -154,16 +148,14 @@ static void test_extension(void **state)
          {"material.young is 3", "in the study (its point 0)"}},
     };
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
-        fracas_campaign *before = read_design(table[i].before, YOUNG),
-                        *now = read_design(table[i].after, YOUNG);
+        OWNED(fracas_campaign) *before = read_design(table[i].before, YOUNG),
+                               *now = read_design(table[i].after, YOUNG);
         const fracas_err err = fracas_campaign_extends(now, before);
         if (err != (table[i].words[0] ? FRACAS_DAMAGED : FRACAS_OK))
             fail_msg("%s: %d %s", table[i].after, err, fracas_message());
         for (int w = 0; w < 3 && table[i].words[w]; w++)
             if (!strstr(fracas_message(), table[i].words[w]))
                 fail_msg("no \"%s\" in: %s", table[i].words[w], fracas_message());
-        fracas_campaign_destroy(before);
-        fracas_campaign_destroy(now);
     }
 }
 
@@ -172,7 +164,7 @@ static void test_extension(void **state)
 static void test_hashes(void **state)
 {
     char sweep[1200];
-    fracas_campaign *drawn = read_design("latin-hypercube\n      points: 4", YOUNG ELEMENTS);
+    OWNED(fracas_campaign) *drawn = read_design("latin-hypercube\n      points: 4", YOUNG ELEMENTS);
     int used = snprintf(sweep, sizeof sweep, "sweep:\n  - cases:\n");
     for (size_t p = 0; p < 4; p++) {
         const fracas_spec *spec = &drawn->point[p].spec;
@@ -180,12 +172,10 @@ static void test_hashes(void **state)
                          "    - {material.young: %.15g, mesh.elements: %d}\n", spec->material.young,
                          (int)spec->mesh.elements);
     }
-    fracas_campaign *written = read_replaced("", sweep);
+    OWNED(fracas_campaign) *written = read_replaced("", sweep);
     assert_true(fracas_hash_equal(&drawn->hash, &written->hash));
     for (size_t p = 0; p < 4; p++)
         assert_true(fracas_hash_equal(&drawn->point[p].hash, &written->point[p].hash));
-    fracas_campaign_destroy(drawn);
-    fracas_campaign_destroy(written);
 }
 
 /* ---- random_numbers ---- */
@@ -201,10 +191,10 @@ static bool same_stream(const fracas_campaign *campaign, size_t p, size_t q, uin
  * default. */
 static void test_common_random_numbers(void **state)
 {
-    fracas_campaign *plain = read_replaced("", "sweep:\n  - loading.rate: [1e3, 2e3]\n");
-    fracas_campaign *said = read_replaced(
+    OWNED(fracas_campaign) *plain = read_replaced("", "sweep:\n  - loading.rate: [1e3, 2e3]\n");
+    OWNED(fracas_campaign) *said = read_replaced(
         "", "random_numbers: independent\nsweep:\n  - loading.rate: [1e3, 2e3]\n");
-    fracas_campaign *common = read_replaced(
+    OWNED(fracas_campaign) *common = read_replaced(
         "", "random_numbers: common\nsweep:\n  - loading.rate: [1e3, 2e3]\n");
     assert_false(plain->common_random_numbers || said->common_random_numbers);
     assert_true(common->common_random_numbers);
@@ -221,19 +211,15 @@ static void test_common_random_numbers(void **state)
     assert_memory_equal(noise[0], noise[1], sizeof noise[0]);
     for (size_t p = 0; p < 2; p++) fracas_point_mesh_noise(plain, p, 10, noise[p]);
     assert_memory_not_equal(noise[0], noise[1], sizeof noise[0]);
-    fracas_campaign_destroy(plain);
-    fracas_campaign_destroy(said);
-    fracas_campaign_destroy(common);
 }
 
 /* By xxhsum -H2 of what docs/formats/campaign-file.md says, not by this program. */
 static void test_common_hash(void **state)
 {
     char hex[FRACAS_HASH_HEX];
-    fracas_campaign *common = read_replaced("", "random_numbers: common\n");
+    OWNED(fracas_campaign) *common = read_replaced("", "random_numbers: common\n");
     fracas_hash_hex(&common->hash, hex);
     assert_string_equal(hex, "e2446cf15144b9e2154645bd5c8473e0");
-    fracas_campaign_destroy(common);
 }
 
 static void test_random_numbers_errors(void **state)

@@ -28,7 +28,7 @@ static void check_hex(const fracas_hash *hash, const char *expected)
 static void test_example(void **state)
 {
     static const double rate[] = {1e3, 1e4, 1e5, 1e6};
-    fracas_campaign *campaign;
+    OWNED(fracas_campaign) *campaign;
     assert_int_equal(fracas_campaign_read(
                          FRACAS_SOURCE_DIR "/campaigns/examples/bar-rate-sweep.yaml", &campaign),
                      0);
@@ -42,13 +42,12 @@ static void test_example(void **state)
         assert_string_equal(point->strength.distribution->name, "uniform");
         assert_true(point->replicas >= 32);
     }
-    fracas_campaign_destroy(campaign);
     fracas_campaign_destroy(NULL);
 }
 
 static void test_plain(void **state)
 {
-    fracas_campaign *campaign = read_text(plain_campaign);
+    OWNED(fracas_campaign) *campaign = read_text(plain_campaign);
     const fracas_spec *spec = &campaign->point[0].spec;
     assert_int_equal(campaign->npoints, 1);
     assert_int_equal(campaign->seed, 7);
@@ -63,7 +62,6 @@ static void test_plain(void **state)
     assert_string_equal(spec->loading.type->name, "imposed-rate");
     assert_true(campaign->point[0].strength.minimum == 299e6 &&
                 campaign->point[0].strength.maximum == 301e6);
-    fracas_campaign_destroy(campaign);
 }
 
 static char *read_whole(const char *path)
@@ -91,10 +89,8 @@ static void test_windows(void **state)
         text[used++] = *c;
     }
     text[used] = '\0';
-    fracas_campaign *plain = read_text(plain_campaign), *windows = read_text(text);
+    OWNED(fracas_campaign) *plain = read_text(plain_campaign), *windows = read_text(text);
     assert_true(fracas_hash_equal(&plain->hash, &windows->hash));
-    fracas_campaign_destroy(windows);
-    fracas_campaign_destroy(plain);
 }
 
 static void test_golden_hash(void **state)
@@ -108,16 +104,14 @@ static void test_golden_hash(void **state)
         "distribution=uniform\n"
         "strength.maximum=301000000\nstrength.minimum=299000000\ntime.end=5e-07\ntime.quiet=1e-07\n"
         "time.quiet_fraction=0.001\ntime.safety=0.25\ntime.stop=settled\n";
-    fracas_campaign *campaign = read_text(plain_campaign);
+    OWNED(fracas_campaign) *campaign = read_text(plain_campaign);
     fracas_hash hash = fracas_hash_of(text, strlen(text));
     assert_true(fracas_hash_equal(&campaign->point[0].hash, &hash));
     check_hex(&hash, "53c7ff3de3ea0c8cbde3f25ea63fc3a1");
     check_hex(&campaign->hash, "dd4f4934fd1c1021f03785f89cec1baa");
-    char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md");
+    FREED char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md");
     assert_non_null(strstr(page, "# 53c7ff3de3ea0c8cbde3f25ea63fc3a1\n"));
     assert_non_null(strstr(page, "# dd4f4934fd1c1021f03785f89cec1baa\n"));
-    free(page);
-    fracas_campaign_destroy(campaign);
 }
 
 /* What is and what is not part of a point's and of a campaign's identity. */
@@ -150,31 +144,29 @@ static void test_hashes(void **state)
         {"stop: settled\n  end: 500 ns\n  quiet: 100 ns", "stop: time\n  end: 500 ns", false,
          false},
     };
-    fracas_campaign *plain = read_text(plain_campaign);
+    OWNED(fracas_campaign) *plain = read_text(plain_campaign);
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
-        fracas_campaign *other = read_replaced(table[i].find, table[i].put);
+        OWNED(fracas_campaign) *other = read_replaced(table[i].find, table[i].put);
         bool same_point = fracas_hash_equal(&plain->point[0].hash, &other->point[0].hash);
         bool same_campaign = fracas_hash_equal(&plain->hash, &other->hash);
         if (same_point != table[i].same_point || same_campaign != table[i].same_campaign)
             fail_msg("%s: point %s, campaign %s", table[i].put, same_point ? "same" : "differs",
                      same_campaign ? "same" : "differs");
-        fracas_campaign_destroy(other);
     }
-    fracas_campaign_destroy(plain);
 }
 
 /* ---- sweeps ---- */
 
 static void test_product(void **state)
 {
-    fracas_campaign *campaign = read_replaced("", "sweep:\n  - loading.rate: [1e3 1/s, 1e4]\n"
-                                                  "  - material.young: [1 GPa, 2 GPa, 3 GPa]\n");
+    OWNED(fracas_campaign) *campaign = read_replaced("",
+                                                     "sweep:\n  - loading.rate: [1e3 1/s, 1e4]\n"
+                                                     "  - material.young: [1 GPa, 2 GPa, 3 GPa]\n");
     assert_int_equal(campaign->npoints, 6);
     for (size_t p = 0; p < 6; p++) { /* the last axis is the fastest */
         assert_true(campaign->point[p].spec.loading.rate == (p < 3 ? 1e3 : 1e4));
         assert_true(campaign->point[p].spec.material.young == 1e9 * (double)(p % 3 + 1));
     }
-    fracas_campaign_destroy(campaign);
 }
 
 static void test_ranges(void **state)
@@ -199,11 +191,11 @@ static void test_ranges(void **state)
 
 static void test_zip(void **state)
 {
-    fracas_campaign *campaign = read_replaced("",
-                                              "sweep:\n  - zip:\n      loading.rate: [1, 2, 3]\n   "
-                                              "   mesh.elements: {from: 10, to: 30, points: 3}\n"
-                                              "      strength: [{minimum: 1 MPa}, {distribution: "
-                                              "constant, value: 5 MPa}, {maximum: 400 MPa}]\n");
+    OWNED(fracas_campaign) *campaign = read_replaced(
+        "", "sweep:\n  - zip:\n      loading.rate: [1, 2, 3]\n   "
+            "   mesh.elements: {from: 10, to: 30, points: 3}\n"
+            "      strength: [{minimum: 1 MPa}, {distribution: "
+            "constant, value: 5 MPa}, {maximum: 400 MPa}]\n");
     assert_int_equal(campaign->npoints, 3);
     for (size_t p = 0; p < 3; p++) {
         assert_true(campaign->point[p].spec.loading.rate == (double)(p + 1));
@@ -215,12 +207,11 @@ static void test_zip(void **state)
     assert_true(campaign->point[1].strength.value == 5e6);
     assert_true(campaign->point[2].strength.minimum == 299e6 &&
                 campaign->point[2].strength.maximum == 400e6);
-    fracas_campaign_destroy(campaign);
 }
 
 static void test_cases(void **state)
 {
-    fracas_campaign *campaign = read_replaced(
+    OWNED(fracas_campaign) *campaign = read_replaced(
         "",
         "sweep:\n  - cases:\n      - name: soft\n        material: {young: 1 GPa}\n        "
         "loading.rate: 5\n"
@@ -239,14 +230,13 @@ static void test_cases(void **state)
         assert_int_equal(spec->mesh.elements, p / 2 == 2 ? 7 : 100);
         assert_true(spec->time.safety == (p % 2 ? 0.1 : 0.25));
     }
-    fracas_campaign_destroy(campaign);
 }
 
 /* A swept kind drops the base's keys of the old kind, even one of the same name (`minimum`), and
  * keeps common ones. */
 static void test_changed_kind(void **state)
 {
-    fracas_campaign *campaign = read_replaced(
+    OWNED(fracas_campaign) *campaign = read_replaced(
         "", "sweep:\n  - strength: [{}, {distribution: weibull, scale: 300 MPa, shape: 10}]\n"
             "  - cohesive.law: [nitsche, rigid-link]\n");
     assert_int_equal(campaign->npoints, 4);
@@ -259,20 +249,18 @@ static void test_changed_kind(void **state)
         assert_true(p % 2 == 0 ? beta == 4 : isnan(beta));
         assert_true(campaign->point[p].spec.cohesive.fracture_energy == 100);
     }
-    fracas_campaign_destroy(campaign);
 }
 
 /* A key that all kinds have stays when the kind is swept, though each has a range of its own for
  * it. */
 static void test_key_of_all_kinds(void **state)
 {
-    fracas_campaign *campaign = read_replaced("",
-                                              "sweep:\n  - cohesive.law: [nitsche, rigid-link]\n");
+    OWNED(fracas_campaign) *campaign = read_replaced(
+        "", "sweep:\n  - cohesive.law: [nitsche, rigid-link]\n");
     for (size_t p = 0; p < 2; p++)
         assert_true(real(campaign, p, "cohesive.fracture_energy") == 100);
     assert_true(real(campaign, 0, "cohesive.beta") == 4 &&
                 isnan(real(campaign, 1, "cohesive.beta")));
-    fracas_campaign_destroy(campaign);
 }
 
 /* A value that is a name: swept, and by default the first one. */
@@ -302,22 +290,17 @@ static void test_supplied_by_sweep(void **state)
 {
     static const char strength[] =
         "strength:\n  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n";
-    char *text = replace(plain_campaign, strength, "");
-    char *bare = replace(text, "loading:\n  rate: 1e4 1/s\n", "");
-    char *swept = replace(bare, "replicas: 3\n", "");
-    char *full = replace(
+    FREED char *text = replace(plain_campaign, strength, "");
+    FREED char *bare = replace(text, "loading:\n  rate: 1e4 1/s\n", "");
+    FREED char *swept = replace(bare, "replicas: 3\n", "");
+    FREED char *full = replace(
         swept, "",
         "sweep:\n  - loading.rate: [1e3, 1e4]\n"
         "  - cases: [{replicas: 1, strength: {distribution: constant, value: 3 MPa}}]\n");
-    fracas_campaign *campaign = read_text(full);
+    OWNED(fracas_campaign) *campaign = read_text(full);
     assert_int_equal(campaign->npoints, 2);
     assert_int_equal(campaign->point[1].replicas, 1);
     assert_true(campaign->point[1].strength.value == 3e6);
-    fracas_campaign_destroy(campaign);
-    free(text);
-    free(bare);
-    free(swept);
-    free(full);
 }
 
 /* ---- the table ---- */
@@ -326,7 +309,7 @@ static void test_table(void **state)
 {
     static const char sweep[] =
         "sweep:\n  - strength: [{}, {distribution: constant, value: 5 MPa}]\n";
-    fracas_campaign *campaign = read_replaced("", sweep);
+    OWNED(fracas_campaign) *campaign = read_replaced("", sweep);
     const fracas_point_table *table = &campaign->table;
     static const char *const paths[] = {"cohesive.beta",
                                         "cohesive.fracture_energy",
@@ -389,13 +372,12 @@ static void test_table(void **state)
     assert_string_equal(table->column[fracas_point_table_find(table, "material.young")].unit, "Pa");
     for (size_t p = 0; p < 2; p++)
         assert_true(fracas_hash_equal(&table->point[p].hash, &campaign->point[p].hash));
-    fracas_campaign_destroy(campaign);
 }
 
 /* (scaling-laws.8), (scaling-laws.9): the shape by lgamma, which no code of ours uses. */
 static void test_modulus(void **state)
 {
-    fracas_campaign *campaign = read_replaced(
+    OWNED(fracas_campaign) *campaign = read_replaced(
         "", "sweep:\n  - strength: [{distribution: weibull, scale: 400 MPa, shape: 10}, "
             "{distribution: weibull, minimum: 100 MPa, mean: 300 MPa, deviation: 50 MPa}, "
             "{distribution: flaws, flaw_density: 1e15, minimum: 100 MPa, maximum: 400 MPa, "
@@ -410,7 +392,6 @@ static void test_modulus(void **state)
                          (3 * real(campaign, 2, mean) / (real(campaign, 2, mean) - 100e6)) -
                      1) < 1e-13);
     assert_true(isnan(real(campaign, 3, modulus))); /* most interfaces have no flaw */
-    fracas_campaign_destroy(campaign);
 }
 
 /* Powers of two, so that quotients are exact. */
@@ -518,10 +499,10 @@ static void test_round_trip(void **state)
          "log-uniform, minimum: 1e3, maximum: 1e5}}}\n"),
     };
     for (size_t i = 0; i < FRACAS_COUNT(sweeps); i++) {
-        fracas_campaign *campaign = read_replaced("", sweeps[i]);
-        char *text = write_text(campaign);
-        fracas_campaign *back = read_text(text);
-        char *again = write_text(back);
+        OWNED(fracas_campaign) *campaign = read_replaced("", sweeps[i]);
+        FREED char *text = write_text(campaign);
+        OWNED(fracas_campaign) *back = read_text(text);
+        FREED char *again = write_text(back);
         assert_string_equal(text, again);
         assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
         assert_string_equal(campaign->name, back->name);
@@ -536,10 +517,6 @@ static void test_round_trip(void **state)
                                 sizeof(fracas_strength));
         }
         OK(fracas_campaign_extends(campaign, back));
-        fracas_campaign_destroy(campaign);
-        fracas_campaign_destroy(back);
-        free(text);
-        free(again);
     }
 }
 
@@ -560,27 +537,24 @@ static void test_largest_round_trip(void **state)
     }
     char *text = replace(sweep, "cohesive.beta: {from: 17, to: 99000",
                          "cohesive.beta: {from: 17, to: 9900");
-    fracas_campaign *campaign = read_replaced("", text);
+    OWNED(fracas_campaign) *campaign = read_replaced("", text);
     free(text);
     text = write_text(campaign);
-    fracas_campaign *back = read_text(text);
+    OWNED(fracas_campaign) *back = read_text(text);
     assert_int_equal(back->npoints, 10000);
     assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
     free(text);
-    fracas_campaign_destroy(campaign);
-    fracas_campaign_destroy(back);
 }
 
 /* A file that cannot be written is said. */
 static void test_write_fails(void **state)
 {
-    fracas_campaign *campaign = read_text(plain_campaign);
+    OWNED(fracas_campaign) *campaign = read_text(plain_campaign);
     FILE *full = fopen("/dev/full", "w");
     assert_non_null(full);
     assert_int_equal(fracas_campaign_write(campaign, full), FRACAS_ENVIRONMENT);
     assert_non_null(strstr(fracas_message(), "No space left"));
     fclose(full);
-    fracas_campaign_destroy(campaign);
 }
 
 /* ---- extending ---- */
@@ -615,29 +589,25 @@ static void test_extends(void **state)
          "stop: time\n  end: 500 ns",
          {"time.quiet is 1e-07 s", "but nothing"}},
     };
-    char *text = replace(plain_campaign, "", "sweep:\n  - loading.rate: [1e3, 1e4]\n");
-    fracas_campaign *before = read_text(text);
+    FREED char *text = replace(plain_campaign, "", "sweep:\n  - loading.rate: [1e3, 1e4]\n");
+    OWNED(fracas_campaign) *before = read_text(text);
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
-        char *changed = replace(text, table[i].find, table[i].put);
-        fracas_campaign *now = read_text(changed);
+        FREED char *changed = replace(text, table[i].find, table[i].put);
+        OWNED(fracas_campaign) *now = read_text(changed);
         fracas_err err = fracas_campaign_extends(now, before);
         if (err != (table[i].words[0] ? FRACAS_DAMAGED : FRACAS_OK))
             fail_msg("%s: %d %s", table[i].put, err, fracas_message());
         for (int w = 0; w < 3 && table[i].words[w]; w++)
             if (!strstr(fracas_message(), table[i].words[w]))
                 fail_msg("no \"%s\" in: %s", table[i].words[w], fracas_message());
-        fracas_campaign_destroy(now);
-        free(changed);
     }
-    fracas_campaign_destroy(before);
-    free(text);
 }
 
 /* ---- the reference page ---- */
 
 static void test_reference_page(void **state)
 {
-    char *text = NULL;
+    FREED char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
@@ -645,13 +615,11 @@ static void test_reference_page(void **state)
     assert_int_equal(fclose(out), 0);
     const char *keep = getenv("FRACAS_WRITE_REFERENCE");
     if (keep) write_bytes(keep, text, size);
-    char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file-keys.md");
+    FREED char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file-keys.md");
     if (strcmp(page, text) != 0)
         fail_msg(
             "docs/formats/campaign-file-keys.md is not what the tables say; run this test with "
             "FRACAS_WRITE_REFERENCE=docs/formats/campaign-file-keys.md and commit the page");
-    free(page);
-    free(text);
 }
 
 TESTS(test_example, test_plain, test_windows, test_golden_hash, test_hashes, test_product,

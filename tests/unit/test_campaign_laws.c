@@ -7,6 +7,9 @@
 #include "campaigns/plan/point_model.h"
 #include "tests/support/test.h"
 
+OWNS(fracas_field)
+OWNS(fracas_model)
+
 static const char uniform[] = "  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n";
 
 static size_t column(const fracas_campaign *campaign, const char *path)
@@ -23,8 +26,8 @@ static double real(const fracas_campaign *campaign, size_t point, const char *pa
 /* What is not given has no column, and so no trace in a hash; what is given has. */
 static void test_what_is_given_counts(void **state)
 {
-    fracas_campaign *plain = read_text(plain_campaign);
-    fracas_campaign *moments = read_replaced(
+    OWNED(fracas_campaign) *plain = read_text(plain_campaign);
+    OWNED(fracas_campaign) *moments = read_replaced(
         uniform, "  distribution: uniform\n  mean: 300 MPa\n  deviation: 0.5 MPa\n");
     assert_int_equal(column(plain, "strength.mean"), SIZE_MAX);
     assert_int_equal(column(plain, "strength.reference_volume"), SIZE_MAX);
@@ -33,8 +36,6 @@ static void test_what_is_given_counts(void **state)
                 real(moments, 0, "strength.deviation") == 0.5e6);
     assert_true(fabs(real(moments, 0, "derived.strength_mean") - 300e6) < 1e-6);
     assert_false(fracas_hash_equal(&plain->point[0].hash, &moments->point[0].hash));
-    fracas_campaign_destroy(plain);
-    fracas_campaign_destroy(moments);
 }
 
 /* Laws of one mean and deviation: each draws with its own, and a parameter of a sweep is put in the
@@ -72,26 +73,23 @@ static void test_field_has_the_size_effect(void **state)
     static const char sweep[] =
         "sweep:\n  - strength: [{distribution: weibull, scale: 300 MPa, shape: 8}, {distribution: "
         "weibull, scale: 300 MPa, shape: 8, reference_volume: 1 mm3}]\n";
-    fracas_campaign *campaign = read_replaced("", sweep);
+    OWNED(fracas_campaign) *campaign = read_replaced("", sweep);
     const double expected = pow(2.0, 1.0 / 8.0);
     assert_true(fabs(real(campaign, 1, "derived.strength_mean") /
                          real(campaign, 0, "derived.strength_mean") / expected -
                      1) < 1e-13);
     double drawn[2][100];
     for (size_t p = 0; p < 2; p++) {
-        fracas_model *model;
-        fracas_field *field;
+        OWNED(fracas_model) *model;
+        OWNED(fracas_field) *field;
         const fracas_stream stream = {.seed = 5, .purpose = FRACAS_PURPOSE_STRENGTH};
         OK(fracas_model_create(&campaign->point[p].spec, &model));
         OK(fracas_model_field(model, &campaign->point[p].strength, &field));
         assert_int_equal(fracas_field_size(field), 100);
         OK(fracas_field_sample(field, &stream, 1, drawn[p]));
-        fracas_field_destroy(field);
-        fracas_model_destroy(model);
     }
     for (int i = 0; i < 100; i++)
         assert_true(fabs(drawn[1][i] / drawn[0][i] / expected - 1) < 1e-13);
-    fracas_campaign_destroy(campaign);
 }
 
 TESTS(test_what_is_given_counts, test_sweeps_of_moments, test_field_has_the_size_effect)

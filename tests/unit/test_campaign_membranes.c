@@ -12,6 +12,10 @@
 #include "engine/mesh/make.h"
 #include "tests/support/test.h"
 
+OWNS(fracas_batch)
+OWNS(fracas_model)
+OWNS(fracas_units)
+
 static const char membrane_campaign[] =
     "name: test\n"                                                /* 1 */
     "seed: 7\n"                                                   /* 2 */
@@ -29,9 +33,8 @@ static const char membrane_campaign[] =
 
 static fracas_campaign *read_membrane(const char *find, const char *put)
 {
-    char *text = replace(membrane_campaign, find, put);
+    FREED char *text = replace(membrane_campaign, find, put);
     fracas_campaign *campaign = read_text(text);
-    free(text);
     return campaign;
 }
 
@@ -92,20 +95,18 @@ static void test_plate(void **state)
 
 static void test_annulus(void **state)
 {
-    fracas_campaign *campaign = read_membrane(
+    OWNED(fracas_campaign) *campaign = read_membrane(
         "geometry: {width: 10 mm, height: 5 mm, ",
         "geometry: {shape: annulus, inner: 5 mm, outer: 10 mm, outer_edge: held, ");
     const fracas_geometry *geometry = &campaign->point[0].spec.geometry;
     assert_true(geometry->inner == 0.005 && geometry->outer == 0.01 && geometry->thickness == 1e-4);
     assert_ptr_equal(geometry->edge[1], &fracas_edge_free);
     assert_ptr_equal(geometry->edge[2], &fracas_edge_held);
-    fracas_model *model = model_of(campaign, 0);
+    OWNED(fracas_model) *model = model_of(campaign, 0);
     fracas_surface_measures all;
     fracas_surface_measure(fracas_model_surface(model), &all);
     assert_true(fabs(all.area / (M_PI * 75e-6) - 1) <
                 0.02); /* of 4 layers: chords cut some 1 % off */
-    fracas_model_destroy(model);
-    fracas_campaign_destroy(campaign);
 }
 
 /* Two triangles, the lower of which has an edge in group 2. */
@@ -123,10 +124,9 @@ static char *file_campaign(const char *path, const char *strength)
              path);
     char *text = replace(membrane_campaign,
                          "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\n", geometry);
-    char *meshed = replace(text, "  divisions: 4\n", "  spacing: given\n");
+    FREED char *meshed = replace(text, "  divisions: 4\n", "  spacing: given\n");
     free(text);
     text = replace(meshed, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n", strength);
-    free(meshed);
     return text;
 }
 
@@ -162,7 +162,7 @@ static void test_page_example(void **state)
 {
     FILE *in = fopen(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md", "r");
     assert_non_null(in);
-    char *page = calloc(1, 1 << 16);
+    FREED char *page = calloc(1, 1 << 16);
     assert_non_null(page);
     assert_true(fread(page, 1, (1 << 16) - 1, in) > 0);
     fclose(in);
@@ -172,21 +172,15 @@ static void test_page_example(void **state)
     *end = '\0';
     char *found = replace(begin, "plate.msh",
                           FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order2-msh41-text.msh");
-    char *shown = replace(found, "edge_1: held, edge_2: held",
-                          "edges: held"); /* that mesh has no such groups */
+    FREED char *shown = replace(found, "edge_1: held, edge_2: held", "edges: held");
     free(found);
-    char *text = replace(
+    FREED char *text = replace(
         membrane_campaign,
         "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\nmesh:\n  divisions: 4\n",
         shown);
-    fracas_campaign *campaign = read_text(text);
-    fracas_model *model = model_of(campaign, 0);
+    OWNED(fracas_campaign) *campaign = read_text(text);
+    OWNED(fracas_model) *model = model_of(campaign, 0);
     assert_int_equal(fracas_model_surface(model)->order, 2);
-    fracas_model_destroy(model);
-    fracas_campaign_destroy(campaign);
-    free(shown);
-    free(text);
-    free(page);
 }
 
 /* A file that is no mesh is found out when it is used: by a plan, or where strengths depend on the
@@ -219,7 +213,7 @@ static void test_no_mesh(void **state)
  * squares cut in two. */
 static void test_mean_strength(void **state)
 {
-    fracas_campaign *campaign = read_membrane(
+    OWNED(fracas_campaign) *campaign = read_membrane(
         "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}",
         "strength: {distribution: flaws, flaw_density: 1e11 1/m3, minimum: 100 MPa, maximum: 400 "
         "MPa, exponent: 2}\n"
@@ -233,16 +227,15 @@ static void test_mean_strength(void **state)
     }
     assert_true(at(campaign, 0, "derived.strength_mean")->real >
                 at(campaign, 2, "derived.strength_mean")->real);
-    fracas_campaign_destroy(campaign);
 }
 
 /* ---- keys of some models only ---- */
 
 static void check_round_trip(const fracas_campaign *campaign)
 {
-    char *text = write_text(campaign);
-    fracas_campaign *back = read_text(text);
-    char *again = write_text(back);
+    FREED char *text = write_text(campaign);
+    OWNED(fracas_campaign) *back = read_text(text);
+    FREED char *again = write_text(back);
     assert_string_equal(text, again);
     assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
     assert_int_equal(campaign->npoints, back->npoints);
@@ -251,9 +244,6 @@ static void check_round_trip(const fracas_campaign *campaign)
         assert_memory_equal(&campaign->point[p].spec, &back->point[p].spec, sizeof(fracas_spec));
     }
     OK(fracas_campaign_extends(campaign, back));
-    fracas_campaign_destroy(back);
-    free(text);
-    free(again);
 }
 
 /* A bar and a membrane of one material: what only the membrane has is the membrane's, and the bar
@@ -267,16 +257,16 @@ static void test_swept_model(void **state)
     free(text);
     text = replace(sliding, "  quiet: 100 ns\n", "  quiet: 100 ns\n  integrator: hulbert-chung\n");
     free(sliding);
-    char *swept = replace(
+    FREED char *swept = replace(
         text, "",
         "sweep:\n  - cases:\n      - {name: bar}\n      - {name: plate, model: membrane, time: "
         "{stop: time}, geometry: {shape: plate, width: 1, height: 1, thickness: 1}, mesh: "
         "{divisions: 2}, loading: {type: expansion, rate: 1e4}}\n");
     free(text);
     /* `model: bar` in the file, or no model: the same points */
-    char *unnamed = replace(swept, "model: bar\n", "");
-    fracas_campaign *campaign = read_text(swept), *same = read_text(unnamed),
-                    *alone = read_text(plain_campaign);
+    FREED char *unnamed = replace(swept, "model: bar\n", "");
+    OWNED(fracas_campaign) *campaign = read_text(swept), *same = read_text(unnamed),
+                           *alone = read_text(plain_campaign);
     assert_true(fracas_hash_equal(&campaign->hash, &same->hash));
     assert_true(fracas_hash_equal(&campaign->point[0].hash, &alone->point[0].hash));
     assert_true(isnan(at(campaign, 0, "material.poisson")->real) &&
@@ -290,11 +280,6 @@ static void test_swept_model(void **state)
     for (size_t c = 0; c < alone->table.ncolumns; c++) /* none of a bar's own is new */
         assert_null(strstr(alone->table.column[c].path, "poisson"));
     check_round_trip(campaign);
-    fracas_campaign_destroy(campaign);
-    fracas_campaign_destroy(same);
-    fracas_campaign_destroy(alone);
-    free(swept);
-    free(unnamed);
 }
 
 /* Keys that all kinds of a membrane have stay when its kind changes: a law's beta and friction, a
@@ -352,11 +337,11 @@ static void test_refused(void **state)
         {"cohesive:\n", "cohesive:\n  law: rigid-link\n",
          ":9:8: ", "`law`: rigid-link cannot be combined with model membrane"},
     };
-    fracas_units *units;
+    OWNED(fracas_units) *units;
     OK(fracas_units_create(&units));
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
         char path[40];
-        char *text = replace(membrane_campaign, table[i].find, table[i].put);
+        FREED char *text = replace(membrane_campaign, table[i].find, table[i].put);
         fracas_campaign *campaign = NULL;
         make_path(path);
         write_bytes(path, text, strlen(text));
@@ -366,9 +351,7 @@ static void test_refused(void **state)
             !strstr(message, table[i].words))
             fail_msg("%s, not %s%s", message, table[i].place, table[i].words);
         unlink(path);
-        free(text);
     }
-    fracas_units_destroy(units);
 }
 
 /* ---- the mesh ---- */
@@ -392,8 +375,8 @@ static void test_perturbed(void **state)
     static const char mesh[] =
         "  divisions: 4\n  amplitude: 0.3\nsweep:\n  - loading.rate: [1e4, 2e4]\n";
     fracas_campaign *campaign = read_membrane("  divisions: 4\n", mesh);
-    char *text = replace(membrane_campaign, "  divisions: 4\n", mesh),
-         *reseeded = replace(text, "seed: 7", "seed: 8");
+    FREED char *text = replace(membrane_campaign, "  divisions: 4\n", mesh),
+               *reseeded = replace(text, "seed: 7", "seed: 8");
     fracas_campaign *again = read_text(text), *other = read_text(reseeded),
                     *regular = read_membrane("", "");
     fracas_model *first = model_of(campaign, 0), *same = model_of(again, 0),
@@ -412,8 +395,6 @@ static void test_perturbed(void **state)
     for (size_t m = 0; m < FRACAS_COUNT(models); m++) fracas_model_destroy(models[m]);
     fracas_campaign *const campaigns[] = {campaign, again, other, regular};
     for (size_t c = 0; c < FRACAS_COUNT(campaigns); c++) fracas_campaign_destroy(campaigns[c]);
-    free(text);
-    free(reseeded);
 }
 
 /* ---- plans ---- */
@@ -436,22 +417,18 @@ static void test_plan_of_fields(void **state)
                  "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2, covariance: matern, "
                  "correlation_length: %s}",
                  table[i].length);
-        fracas_campaign *campaign = read_membrane(strength, section);
-        char *text = plan_text(campaign, 1, false);
+        OWNED(fracas_campaign) *campaign = read_membrane(strength, section);
+        FREED char *text = plan_text(campaign, 1, false);
         if (table[i].words) assert_non_null(strstr(text, table[i].words));
         else assert_null(strstr(text, "correlation_length"));
         assert_null(strstr(text, "size effect"));
-        free(text);
-        fracas_campaign_destroy(campaign);
     }
-    fracas_campaign *campaign = read_membrane(
+    OWNED(fracas_campaign) *campaign = read_membrane(
         strength, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2, covariance: matern, "
                   "correlation_length: 2e-3, reference_volume: 1e-3 mm3}");
-    char *text = plan_text(campaign, 1, false);
+    FREED char *text = plan_text(campaign, 1, false);
     assert_non_null(strstr(
         text, "strengths are correlated, and their size effect is that of independent flaws"));
-    free(text);
-    fracas_campaign_destroy(campaign);
 }
 
 /* A regular plate of strength 300 MPa cracks along lines; with E rate t/(1 - nu) = 493 MPa it does
@@ -484,9 +461,9 @@ static void test_plan(void **state)
     assert_non_null(strstr(text, "\"elements\": 64"));
     free(text);
     fracas_campaign_destroy(campaign);
-    char *constant = replace(membrane_campaign, strength,
-                             "strength: {distribution: constant, value: 300 MPa}");
-    char *moved = replace(constant, "  divisions: 4\n", "  size: 1 mm\n  amplitude: 0.2\n");
+    FREED char *constant = replace(membrane_campaign, strength,
+                                   "strength: {distribution: constant, value: 300 MPa}");
+    FREED char *moved = replace(constant, "  divisions: 4\n", "  size: 1 mm\n  amplitude: 0.2\n");
     campaign = read_text(moved);
     text = plan_text(campaign, 1, false);
     assert_null(strstr(text, "follow its lines"));
@@ -499,29 +476,25 @@ static void test_plan(void **state)
     assert_non_null(strstr(text, "until time.end the stress stays below 49.3 MPa"));
     free(text);
     fracas_campaign_destroy(campaign);
-    free(constant);
-    free(moved);
 }
 
 /* Rows of interfaces take what they take, 6 x 84 more numbers than there are none. */
 static void test_bytes(void **state)
 {
-    fracas_campaign *without = read_membrane("", ""),
-                    *with = read_membrane("", "output: {interfaces: true}\n");
+    OWNED(fracas_campaign) *without = read_membrane("", ""),
+                           *with = read_membrane("", "output: {interfaces: true}\n");
     fracas_forecast a, b;
     OK(fracas_forecast_all(without, 1, &a));
     OK(fracas_forecast_all(with, 1, &b));
     assert_true(b.bytes - a.bytes == 2.0 * 84 * sizeof(fracas_interface_row));
     assert_true(a.speed > 0 && a.time == 64.0 * (double)a.steps * 2 / a.speed);
-    fracas_campaign_destroy(without);
-    fracas_campaign_destroy(with);
 }
 
 /* Runs one realization in which every interface has this strength; true if any cracks. */
 static bool cracks(const fracas_model *model, double strength)
 {
-    fracas_batch *batch;
-    fracas_record record;
+    OWNED(fracas_batch) *batch;
+    CLEARED(fracas_record) record;
     const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
     OK(fracas_batch_create(model, 1, &options, &batch));
     size_t stride;
@@ -530,8 +503,6 @@ static bool cracks(const fracas_model *model, double strength)
     fracas_record_init(&record);
     if (fracas_batch_run(batch, &record)) fail_msg("%s", fracas_message());
     const bool cracked = record.cracked > 0;
-    fracas_record_clear(&record);
-    fracas_batch_destroy(batch);
     return cracked;
 }
 
@@ -561,27 +532,21 @@ static void test_bound(void **state)
                      table[i].loading, times[t]);
             snprintf(law, sizeof law, "  fracture_energy: 1e9\n  coupling: %s\n",
                      table[i].coupling);
-            char *loaded = replace(membrane_campaign,
-                                   "loading: {rate: 1e4 1/s}\ntime: {end: 0.1 us}\n", text);
-            char *lawful = replace(loaded, "  fracture_energy: 150 J/m2\n", law),
-                 *square = replace(lawful, "height: 5 mm", "height: 10 mm");
-            char *fine = replace(square, "divisions: 4", "divisions: 12\n  amplitude: 0.2");
-            fracas_campaign *campaign = read_text(fine);
+            FREED char *loaded = replace(membrane_campaign,
+                                         "loading: {rate: 1e4 1/s}\ntime: {end: 0.1 us}\n", text);
+            FREED char *lawful = replace(loaded, "  fracture_energy: 150 J/m2\n", law),
+                       *square = replace(lawful, "height: 5 mm", "height: 10 mm");
+            FREED char *fine = replace(square, "divisions: 4", "divisions: 12\n  amplitude: 0.2");
+            OWNED(fracas_campaign) *campaign = read_text(fine);
             fracas_forecast forecast;
             OK(fracas_forecast_make(campaign, 0, &forecast));
             assert_true(fabs(forecast.bound / (370e9 * 1e4 * times[t] * table[i].stress) - 1) <
                         1e-12);
-            fracas_model *model = model_of(campaign, 0);
+            OWNED(fracas_model) *model = model_of(campaign, 0);
             if (cracks(model, 1.05 * forecast.bound))
                 fail_msg("%s until %g: above", table[i].loading, times[t]);
             if (t == 0 && i < 4 && !cracks(model, 0.9 * forecast.bound))
                 fail_msg("%s: below", table[i].loading);
-            fracas_model_destroy(model);
-            fracas_campaign_destroy(campaign);
-            free(loaded);
-            free(lawful);
-            free(square);
-            free(fine);
         }
 }
 
@@ -607,16 +572,13 @@ static void test_steps_that_pass_strengths(void **state)
         snprintf(strength, sizeof strength,
                  "strength: {distribution: uniform, minimum: 300 MPa, maximum: %.17g}",
                  300e6 + table[i].widths * forecast.step_stress);
-        char *lawful = replace(membrane_campaign, "cohesive:\n", law);
-        char *strong = replace(lawful, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}",
-                               strength);
+        FREED char *lawful = replace(membrane_campaign, "cohesive:\n", law);
+        FREED char *strong = replace(
+            lawful, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}", strength);
         campaign = read_text(strong);
-        char *text = plan_text(campaign, 1, false);
+        FREED char *text = plan_text(campaign, 1, false);
         assert_true((strstr(text, "interfaces that a step passes together") != NULL) ==
                     table[i].warned);
-        free(text);
-        free(strong);
-        free(lawful);
         fracas_campaign_destroy(campaign);
     }
 }
@@ -639,19 +601,17 @@ static void test_bounds_of_others(void **state)
         {"rate: 1e4 1/s", "type: centrifugal, speed: 1e5 rad/s", 370e9 * 0.5e10 * 1e-14 / 0.75},
     };
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
-        fracas_campaign *campaign = read_membrane(table[i].find, table[i].put);
+        OWNED(fracas_campaign) *campaign = read_membrane(table[i].find, table[i].put);
         fracas_forecast forecast;
         OK(fracas_forecast_make(campaign, 0, &forecast));
         if (!(forecast.bound == table[i].bound ||
               fabs(forecast.bound / table[i].bound - 1) < 1e-12))
             fail_msg("%s: %g", table[i].put, forecast.bound);
-        fracas_campaign_destroy(campaign);
     }
-    fracas_campaign *still = read_membrane("rate: 1e4 1/s", "rate: 1e4 1/s, start: rest");
+    OWNED(fracas_campaign) *still = read_membrane("rate: 1e4 1/s", "rate: 1e4 1/s, start: rest");
     fracas_forecast forecast;
     assert_int_equal(fracas_forecast_make(still, 0, &forecast), FRACAS_USAGE);
     assert_non_null(strstr(fracas_message(), "nothing would ever move"));
-    fracas_campaign_destroy(still);
 }
 
 TESTS(test_plate, test_annulus, test_file, test_page_example, test_no_mesh, test_mean_strength,

@@ -9,6 +9,8 @@
 
 #include <time.h>
 
+OWNS(fracas_model)
+
 static const char sweep[] =
     "sweep:\n  - loading.rate: [1e3, 1e4]\n  - strength.maximum: [300 MPa, 301 MPa]\n";
 
@@ -19,22 +21,20 @@ static void expect(const char *text, const char *part)
 
 static void test_cost(void **state)
 {
-    fracas_campaign *campaign = read_text(plain_campaign);
-    fracas_model *model;
+    OWNED(fracas_campaign) *campaign = read_text(plain_campaign);
+    OWNED(fracas_model) *model;
     double cost = 0;
     OK(fracas_model_create(&campaign->point[0].spec, &model));
     OK(fracas_plan_cost(campaign, 0, &cost, NULL));
     assert_true(cost == 100.0 * (double)fracas_model_steps(model)); /* whole numbers: exact */
     assert_true(fracas_model_steps(model) > 1);
-    fracas_model_destroy(model);
-    fracas_campaign_destroy(campaign);
 }
 
 /* Rows end at the same column, as every cell is right-aligned. */
 static void test_text(void **state)
 {
-    fracas_campaign *campaign = read_replaced("", sweep);
-    char *text = plan_text(campaign, 2, false);
+    OWNED(fracas_campaign) *campaign = read_replaced("", sweep);
+    FREED char *text = plan_text(campaign, 2, false);
     expect(text, "Campaign test: 4 points, 12 realizations\n");
     expect(text, "for 2 processes");
     const char *head = strstr(
@@ -47,14 +47,12 @@ static void test_text(void **state)
         if (row == 1) assert_memory_equal(head, "                1/s                Pa", 37);
         if (row == 6) assert_memory_equal(head, "total", 5);
     }
-    free(text);
-    fracas_campaign_destroy(campaign);
 }
 
 static void test_json(void **state)
 {
-    fracas_campaign *campaign = read_replaced("", sweep);
-    char *text = plan_text(campaign, 2, true);
+    OWNED(fracas_campaign) *campaign = read_replaced("", sweep);
+    FREED char *text = plan_text(campaign, 2, true);
     expect(text, "\"points\": 4,");
     expect(text, "\"realizations\": 12");
     expect(text, "\"loading.rate\": 10000");
@@ -66,22 +64,20 @@ static void test_json(void **state)
              3 * (offsetof(fracas_record, nfragment) + 5 * sizeof(fracas_fragment) +
                   14 * sizeof(fracas_history_row)));
     expect(text, bytes);
-    free(text);
-    fracas_campaign_destroy(campaign);
 }
 
 /* Points that run, but tell little: elements longer than a softening zone, strengths without
  * scatter. */
 static void test_warnings(void **state)
 {
-    fracas_campaign *campaign = read_replaced(
+    OWNED(fracas_campaign) *campaign = read_replaced(
         "", "sweep:\n  - mesh.elements: [100, 1000]\n"
             "  - strength: [{distribution: constant, value: 300 MPa}, {distribution: uniform, "
             "minimum: 299 MPa, maximum: 301 MPa}]\n");
     double length = campaign->point[0].spec.geometry.length,
            softening = 275e9 * 100 / (300e6 * 300e6);
     bool coarse = length / 100 / softening > 0.5;
-    char *text = plan_text(campaign, 2, false), *json = plan_text(campaign, 2, true);
+    FREED char *text = plan_text(campaign, 2, false), *json = plan_text(campaign, 2, true);
     for (int p = 0; p < 4; p++) {
         char uniform[64], long_elements[64];
         snprintf(uniform, sizeof uniform, "point %d: all interfaces are equally strong", p);
@@ -91,9 +87,6 @@ static void test_warnings(void **state)
         assert_int_equal(strstr(json, uniform) != NULL, p % 2 == 0);
     }
     assert_true(coarse);
-    free(text);
-    free(json);
-    fracas_campaign_destroy(campaign);
 }
 
 /* A ring of 10 mm with this load, 1000 elements. `more`: further keys of the case, each after a
@@ -111,11 +104,10 @@ static fracas_campaign *read_ring(const char *loading, const char *more)
 
 static double bound_of(const char *loading)
 {
-    fracas_campaign *campaign = read_ring(loading, "");
+    OWNED(fracas_campaign) *campaign = read_ring(loading, "");
     fracas_forecast forecast;
     if (fracas_forecast_make(campaign, 0, &forecast)) fail_msg("%s", fracas_message());
     assert_true(campaign->point[0].spec.time.end == 500e-9);
-    fracas_campaign_destroy(campaign);
     return forecast.bound;
 }
 
@@ -204,20 +196,18 @@ static void test_warnings_of_rings(void **state)
          4 | 64},
     };
     for (size_t i = 0; i < sizeof rings / sizeof *rings; i++) {
-        fracas_campaign *campaign = read_ring(rings[i].loading, rings[i].more);
-        char *text = plan_text(campaign, 2, false);
+        OWNED(fracas_campaign) *campaign = read_ring(rings[i].loading, rings[i].more);
+        FREED char *text = plan_text(campaign, 2, false);
         for (unsigned w = 0; w < sizeof says / sizeof *says; w++)
             if ((strstr(text, says[w]) != NULL) != (rings[i].expected >> w & 1))
                 fail_msg("ring %zu, \"%s\":\n%s", i, says[w], text);
-        free(text);
-        fracas_campaign_destroy(campaign);
     }
 }
 
 /* A heavy tail is refused for the strongest interface it will draw, not for its mean. */
 static void test_heavy_tail(void **state)
 {
-    fracas_campaign *campaign = read_replaced(
+    OWNED(fracas_campaign) *campaign = read_replaced(
         "", "sweep:\n  - strength: [{distribution: weibull, scale: 30 MPa, shape: 0.5}]\n");
     fracas_model *model;
     OK(fracas_model_create(&campaign->point[0].spec, &model));
@@ -229,7 +219,6 @@ static void test_heavy_tail(void **state)
     assert_int_equal(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE);
     expect(fracas_message(), "point 0: the strongest of ");
     expect(fracas_message(), "raise mesh.elements above");
-    fracas_campaign_destroy(campaign);
 }
 
 /* Flaws are rarest in the smallest interface: on a graded mesh it is that one, here the last, whose
@@ -237,7 +226,7 @@ static void test_heavy_tail(void **state)
  * bear 255 MPa. */
 static void test_flaws_of_small_elements(void **state)
 {
-    fracas_campaign *campaign = read_replaced(
+    OWNED(fracas_campaign) *campaign = read_replaced(
         "", "sweep:\n  - cases:\n"
             "      - {name: small, mesh: {spacing: graded, ratio: 0.001}, strength: {distribution: "
             "flaws, flaw_density: 1e11 1/m3, minimum: 100 MPa, maximum: 400 MPa, exponent: 2}}\n");
@@ -250,20 +239,18 @@ static void test_flaws_of_small_elements(void **state)
     double cost;
     assert_int_equal(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE);
     expect(fracas_message(), "point 0: the strongest of ");
-    fracas_campaign_destroy(campaign);
 }
 
 /* What the engine refuses is refused here, with the point. */
 static void test_refused(void **state)
 {
-    fracas_campaign *campaign = read_replaced(
+    OWNED(fracas_campaign) *campaign = read_replaced(
         "", "sweep:\n  - cohesive.fracture_energy: [100, 1e-9]\n");
     FILE *out = fopen("/dev/null", "w");
     assert_non_null(out);
     assert_int_equal(fracas_plan_print(campaign, 1, out, false), FRACAS_USAGE);
     expect(fracas_message(), "point 1: ");
     fclose(out);
-    fracas_campaign_destroy(campaign);
 }
 
 static fracas_campaign *refined_ring(const char *refinement)
@@ -285,17 +272,14 @@ static fracas_campaign *refined_ring(const char *refinement)
  * it takes a tenth of a second (a second with sanitizers). */
 static void test_refined(void **state)
 {
-    fracas_campaign *campaign = refined_ring("1e-4");
+    OWNED(fracas_campaign) *campaign = refined_ring("1e-4");
     const clock_t before = clock(); /* of the processor */
-    char *text = plan_text(campaign, 2, false);
+    FREED char *text = plan_text(campaign, 2, false);
     assert_true((double)(clock() - before) < 5.0 * CLOCKS_PER_SEC);
-    fracas_model *model;
+    OWNED(fracas_model) *model;
     OK(fracas_model_create(&campaign->point[0].spec, &model));
     const double base = 15e-6 / fracas_model_time_step(model);
     assert_true(fabs((double)fracas_model_steps(model) - 1e8 * base) <= 1.0); /* rounded up */
-    fracas_model_destroy(model);
-    free(text);
-    fracas_campaign_destroy(campaign);
 }
 
 /* More steps than can be taken, or counted, are refused. */
@@ -304,24 +288,22 @@ static void test_refined_too_far(void **state)
     static const char *const refinements[] = {"5e-5", "1e-10", "1e-154",
                                               "1e-300"}; /* 9.5e3/25e-10 = 3.8e12, ... infinity */
     for (size_t r = 0; r < FRACAS_COUNT(refinements); r++) {
-        fracas_campaign *campaign = refined_ring(refinements[r]);
+        OWNED(fracas_campaign) *campaign = refined_ring(refinements[r]);
         fracas_model *model = NULL;
         assert_int_equal(fracas_model_create(&campaign->point[0].spec, &model), FRACAS_USAGE);
         assert_null(model);
         expect(fracas_message(), "1e+12 are allowed: raise cohesive.refinement");
-        fracas_campaign_destroy(campaign);
     }
 }
 
 static void test_write_fails(void **state)
 {
-    fracas_campaign *campaign = read_text(plain_campaign);
+    OWNED(fracas_campaign) *campaign = read_text(plain_campaign);
     FILE *full = fopen("/dev/full", "w");
     assert_non_null(full);
     assert_int_equal(fracas_plan_print(campaign, 1, full, true), FRACAS_ENVIRONMENT);
     expect(fracas_message(), "No space left");
     fclose(full);
-    fracas_campaign_destroy(campaign);
 }
 
 TESTS(test_cost, test_text, test_json, test_warnings, test_heavy_tail, test_flaws_of_small_elements,

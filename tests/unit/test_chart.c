@@ -96,7 +96,7 @@ static char *written(void (*write)(const fracas_chart *chart, FILE *out))
 
 static void the_csv_has_what_is_drawn(void **state)
 {
-    char *text = written(fracas_chart_csv);
+    FREED char *text = written(fracas_chart_csv);
     assert_string_equal(text,
                         "panel,series,kind,\"rate [1/s]\",\"size [mm] | energy [J]\",low,high\n"
                         "1,\"\",curve,1,1,,\n"
@@ -108,7 +108,6 @@ static void the_csv_has_what_is_drawn(void **state)
                         "2,\"band\",band,2,2,,4\n"
                         "2,\"band\",band,3,2,1,4\n"
                         "2,\"band\",band,4,2,1,4\n");
-    free(text);
 }
 
 static size_t count_of(const char *text, const char *part)
@@ -135,7 +134,8 @@ static void write_file(const fracas_chart *chart, FILE *out)
 
 static void drawings_have_marks_bands_and_keys(void **state)
 {
-    char *page = written(write_page), *linear = written(write_linear), *file = written(write_file);
+    FREED char *page = written(write_page), *linear = written(write_linear),
+               *file = written(write_file);
     assert_int_equal(count_of(page, "class=\"mark\""), 2);
     assert_int_equal(count_of(page, "class=\"bar\""), 1);
     assert_int_equal(count_of(page, "class=\"area\""),
@@ -153,9 +153,6 @@ static void drawings_have_marks_bands_and_keys(void **state)
     assert_non_null(strstr(file, ".c5{color:#56B4E9}"));
     assert_null(strstr(file, "data-"));
     assert_null(strstr(file, "class=\"hit\""));
-    free(page);
-    free(linear);
-    free(file);
 }
 
 /* Where the tick of a name is, pixels. */
@@ -169,8 +166,8 @@ static double place_of(const char *drawing, const char *name)
 
 static void an_axis_may_have_names(void **state)
 {
-    char *page = written_of(make_names, write_page),
-         *table = written_of(make_names, fracas_chart_csv);
+    FREED char *page = written_of(make_names, write_page),
+               *table = written_of(make_names, fracas_chart_csv);
     assert_string_equal(table, "panel,series,kind,\"refined\",\"change [%]\",low,high\n"
                                "1,\"as it is\",box,\"mesh\",0,-1,1\n"
                                "1,\"as it is\",box,\"<beta>\",0,,1\n"
@@ -196,8 +193,6 @@ static void an_axis_may_have_names(void **state)
     const char *mark = strstr(page, "class=\"mark open\" d=\"M");
     assert_true(fabs(strtod(mark + strlen("class=\"mark open\" d=\"M"), NULL) -
                      (beta + 0.2 * (beta - mesh))) < 0.2); /* each to 0.05 pixels */
-    free(page);
-    free(table);
 }
 
 /* ---- PDF ---- */

@@ -15,6 +15,11 @@
 #include <gsl/gsl_sf_bessel.h>
 #include <gsl/gsl_sf_gamma.h>
 
+OWNS(fracas_circulant)
+OWNS(fracas_correlation)
+OWNS(fracas_covariance)
+OWNS(fracas_sparse_factor)
+
 /* What a product of some hundred roundings may be wrong by. */
 #define ROUNDED 1e-12
 
@@ -51,7 +56,7 @@ static void covariances_are_those_of_gsl(void **state)
     double worst = 0;
     for (size_t s = 0; s < sizeof smoothness / sizeof *smoothness; s++) {
         const fracas_strength strength = correlated(&fracas_covariance_matern, 3e-3, smoothness[s]);
-        fracas_covariance *covariance = covariance_of(&strength);
+        OWNED(fracas_covariance) *covariance = covariance_of(&strength);
         double before = 1;
         assert_true(fracas_covariance_at(covariance, 0) == 1);
         for (double d = 3e-9; d < 3; d *= 1.013) {
@@ -62,16 +67,14 @@ static void covariances_are_those_of_gsl(void **state)
         }
         assert_true(fracas_covariance_at(covariance, 1e-40) > 1 - 1e-5 &&
                     fracas_covariance_at(covariance, 1e40) == 0);
-        fracas_covariance_destroy(covariance);
     }
     const fracas_kind *const others[] = {&fracas_covariance_exponential,
                                          &fracas_covariance_gaussian};
     for (size_t k = 0; k < 2; k++) {
         const fracas_strength strength = correlated(others[k], 3e-3, NAN);
-        fracas_covariance *covariance = covariance_of(&strength);
+        OWNED(fracas_covariance) *covariance = covariance_of(&strength);
         for (double d = 3e-9; d < 3; d *= 1.1)
             worst = fmax(worst, fabs(fracas_covariance_at(covariance, d) - exact(&strength, d)));
-        fracas_covariance_destroy(covariance);
     }
     print_message("covariances: %.2e\n", worst);
     assert_true(worst < 1e-13);
@@ -110,23 +113,21 @@ static void only_strengths_that_are_drawn_are_correlated(void **state)
 static double *factor_of(const fracas_correlation *correlation, size_t n)
 {
     const size_t count = fracas_correlation_normals(correlation);
-    double *a = calloc(n * count + 1, sizeof *a), *w = calloc(count + 1, sizeof *w),
-           *z = calloc(n + 1, sizeof *z);
+    double *a = calloc(n * count + 1, sizeof *a);
+    FREED double *w = calloc(count + 1, sizeof *w), *z = calloc(n + 1, sizeof *z);
     for (size_t k = 0; k < count; k++) {
         w[k] = 1;
         OK(fracas_correlation_apply(correlation, w, z));
         w[k] = 0;
         for (size_t i = 0; i < n; i++) a[i * count + k] = z[i];
     }
-    free(w);
-    free(z);
     return a;
 }
 
 /* The largest error of A A^T; distances are those of the circle where there is a period. */
 static double error_of(const fracas_strength *strength, size_t n, double period, const char *what)
 {
-    fracas_correlation *correlation;
+    OWNED(fracas_correlation) *correlation;
     OK(fracas_correlation_create(strength, n, SITES, period, &correlation));
     const size_t count = fracas_correlation_normals(correlation);
     double *a = factor_of(correlation, n), worst = 0;
@@ -142,7 +143,6 @@ static double error_of(const fracas_strength *strength, size_t n, double period,
     if (worst >= ROUNDED)
         print_message("%s, %zu sites, %zu normals: %.1e\n", what, n, count, worst);
     assert_true(fracas_correlation_error(correlation) < ROUNDED);
-    fracas_correlation_destroy(correlation);
     free(a);
     return worst;
 }
@@ -172,10 +172,9 @@ static void few_sites_have_the_covariance(void **state)
 static size_t normals_of(size_t n, const fracas_kind *kind, double length)
 {
     const fracas_strength strength = correlated(kind, length, NAN);
-    fracas_correlation *correlation;
+    OWNED(fracas_correlation) *correlation;
     OK(fracas_correlation_create(&strength, n, SITES, 0, &correlation));
     const size_t count = fracas_correlation_normals(correlation);
-    fracas_correlation_destroy(correlation);
     return count;
 }
 
@@ -249,8 +248,8 @@ static void no_circle_is_long_enough(void **state)
 {
     enum { N = 1200, WAVES = 60 };
     const fracas_strength strength = correlated(&fracas_covariance_gaussian, 1.6e4, NAN);
-    fracas_covariance *covariance = covariance_of(&strength);
-    fracas_circulant *circulant;
+    OWNED(fracas_covariance) *covariance = covariance_of(&strength);
+    OWNED(fracas_circulant) *circulant;
     OK(fracas_circulant_line(covariance, N, 1.0, &circulant));
     const size_t size = fracas_circulant_normals(circulant);
     assert_int_equal(size, 1 << 17); /* no larger one is tried */
@@ -270,18 +269,15 @@ static void no_circle_is_long_enough(void **state)
     assert_true(lacks > -ROUNDED && lacks < 0.25 * stated &&
                 fabs(worst - stated) < lacks + ROUNDED);
     free(w);
-    fracas_circulant_destroy(circulant);
-    fracas_covariance_destroy(covariance);
 }
 
 /* ---- many sites ---- */
 
 static fracas_sparse_factor *sparse_of(const fracas_strength *strength, size_t n)
 {
-    fracas_covariance *covariance = covariance_of(strength);
+    OWNED(fracas_covariance) *covariance = covariance_of(strength);
     fracas_sparse_factor *factor;
     OK(fracas_sparse_factor_create(covariance, n, SITES, &factor));
-    fracas_covariance_destroy(covariance);
     return factor;
 }
 
@@ -325,7 +321,7 @@ static void errors_are_stated(void **state)
                                                     cases[c].smoothness);
         double of_variance;
         sites_scattered(N, sites);
-        fracas_sparse_factor *factor = sparse_of(&strength, N);
+        OWNED(fracas_sparse_factor) *factor = sparse_of(&strength, N);
         const double stated = fracas_sparse_factor_error(factor),
                      worst = error_of_pairs(&strength, factor, N, cases[c].step, &of_variance);
         print_message("%s, length %g: error %.2e, stated %.2e, of a variance %.1e\n",
@@ -334,7 +330,6 @@ static void errors_are_stated(void **state)
                     (cases[c].step > 1 || stated <= worst + ROUNDED) &&
                     worst <= cases[c].most + ROUNDED);
         assert_true(of_variance < ROUNDED);
-        fracas_sparse_factor_destroy(factor);
     }
 }
 
@@ -345,7 +340,7 @@ static void correlations_are_those_of_the_factor(void **state)
     const fracas_strength strength = correlated(&fracas_covariance_matern, 0.1, NAN);
     static double w[N], z[N], rho[ROWS][N], product[ROWS][N];
     sites_scattered(N, sites);
-    fracas_sparse_factor *factor = sparse_of(&strength, N);
+    OWNED(fracas_sparse_factor) *factor = sparse_of(&strength, N);
     for (size_t k = 0; k < N; k++) {
         w[k] = 1;
         OK(fracas_sparse_factor_apply(factor, w, z));
@@ -357,7 +352,6 @@ static void correlations_are_those_of_the_factor(void **state)
         OK(fracas_sparse_factor_correlation(factor, r * N / ROWS, rho[r]));
         for (size_t i = 0; i < N; i++) assert_true(fabs(rho[r][i] - product[r][i]) < ROUNDED);
     }
-    fracas_sparse_factor_destroy(factor);
 }
 
 /* On a line, values of an exponential covariance given those at the next site on either side depend
@@ -372,11 +366,10 @@ static void markov_fields_are_exact(void **state)
             sites[i][0] = fmod((double)(i / copies) * 0.6180339887498949, 1.0);
             sites[i][1] = sites[i][2] = 0;
         }
-        fracas_sparse_factor *factor = sparse_of(&strength, LINE);
+        OWNED(fracas_sparse_factor) *factor = sparse_of(&strength, LINE);
         const double worst = error_of_pairs(&strength, factor, LINE, 10, &of_variance);
         print_message("sites on a line: %.1e\n", worst);
         assert_true(worst < 1e-11 && of_variance < ROUNDED);
-        fracas_sparse_factor_destroy(factor);
     }
 }
 
@@ -389,12 +382,11 @@ static void sites_may_be_at_one_place(void **state)
     sites_scattered(N, sites);
     for (size_t i = 0; i < N; i++) /* a cluster of COPIES, and the rest by twos */
         for (int a = 0; a < 3; a++) sites[i][a] = sites[i < COPIES ? 0 : i / 2 * 2][a];
-    fracas_sparse_factor *factor = sparse_of(&strength, N);
+    OWNED(fracas_sparse_factor) *factor = sparse_of(&strength, N);
     const double stated = fracas_sparse_factor_error(factor),
                  worst = error_of_pairs(&strength, factor, N, 10, &of_variance);
     print_message("sites at one place: %.1e, stated %.1e\n", worst, stated);
     assert_true(worst <= 5e-3 && worst <= 1.5 * stated + ROUNDED && of_variance < ROUNDED);
-    fracas_sparse_factor_destroy(factor);
 }
 
 /* ---- the order ---- */

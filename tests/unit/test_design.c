@@ -57,14 +57,13 @@ static void test_names(void **state)
 /* Philox's u with purpose 3, use 0, the parameter's name as replica and the point as site. */
 static void test_random_is_the_stream(void **state)
 {
-    fracas_probability *p = fill(RANDOM, 50, 4, NULL);
+    FREED fracas_probability *p = fill(RANDOM, 50, 4, NULL);
     for (size_t i = 0; i < 50; i++)
         for (size_t j = 0; j < 4; j++) {
             const fracas_stream stream = {.seed = SEED, .purpose = 3, .replica = names[j]};
             assert_true(p[i * 4 + j].below == fracas_stream_uniform(&stream, i));
             assert_true(p[i * 4 + j].above == 1.0 - p[i * 4 + j].below);
         }
-    free(p);
 }
 
 /* GSL's sequence after the origin, plus the shift, modulo 1; the largest number of parameters too.
@@ -75,7 +74,7 @@ static void test_sobol_is_gsl_shifted(void **state)
     uint64_t many[D];
     for (size_t j = 0; j < D; j++) many[j] = 100 + j;
     const fracas_design design = {fracas_design_types[SOBOL], SEED, N, D, many, NULL};
-    fracas_probability *p = room_for(N * D, sizeof *p);
+    FREED fracas_probability *p = room_for(N * D, sizeof *p);
     OK(fracas_design_fill(&design, p));
     gsl_qrng *qrng = gsl_qrng_alloc(gsl_qrng_sobol, D);
     double x[D] = {0.0};
@@ -92,7 +91,6 @@ static void test_sobol_is_gsl_shifted(void **state)
         }
     }
     gsl_qrng_free(qrng);
-    free(p);
 }
 
 /* Bits that gcc and clang gave on CPUs with and without FMA. */
@@ -103,11 +101,10 @@ static void test_golden_bits(void **state)
                                               {0x475c24d0617679c7, 0x457fc82db5f4f573}};
     for (int type = 0; type < TYPES; type++)
         for (int tied = 0; tied < 2; tied++) {
-            fracas_probability *p = fill(type, 300, 3, tied ? three_tied : NULL);
+            FREED fracas_probability *p = fill(type, 300, 3, tied ? three_tied : NULL);
             const uint64_t sum = fracas_checksum_of(p, 900 * sizeof *p);
             if (sum != golden[type][tied])
                 fail_msg("type %d, tied %d: 0x%016" PRIx64, type, tied, sum);
-            free(p);
         }
 }
 
@@ -117,11 +114,9 @@ static void test_prefix(void **state)
 {
     for (int type = 0; type < TYPES; type++)
         for (int tied = 0; tied < 2; tied++) {
-            fracas_probability *few = fill(type, 16, 3, tied ? three_tied : NULL),
-                               *many = fill(type, 100, 3, tied ? three_tied : NULL);
+            FREED fracas_probability *few = fill(type, 16, 3, tied ? three_tied : NULL),
+                                     *many = fill(type, 100, 3, tied ? three_tied : NULL);
             assert_true((memcmp(few, many, 48 * sizeof *few) == 0) == (type != LATIN_HYPERCUBE));
-            free(few);
-            free(many);
         }
 }
 
@@ -132,10 +127,10 @@ static void test_other_parameters(void **state)
     const double two_tied[4] = {1.0, 0.6, 0.6, 1.0};
     const uint64_t turned[3] = {names[2], names[0], names[1]};
     for (int type = 0; type < TYPES; type++) {
-        fracas_probability *three = fill(type, 30, 3, three_tied),
-                           *two = fill(type, 30, 2, two_tied);
-        fracas_probability *free_of_ties = fill(type, 30, 3, NULL),
-                           *other = room_for(90, sizeof *other);
+        FREED fracas_probability *three = fill(type, 30, 3, three_tied),
+                                 *two = fill(type, 30, 2, two_tied);
+        FREED fracas_probability *free_of_ties = fill(type, 30, 3, NULL),
+                                 *other = room_for(90, sizeof *other);
         const fracas_design design = {fracas_design_types[type], SEED, 30, 3, turned, NULL};
         int kept = 0;
         OK(fracas_design_fill(&design, other));
@@ -151,10 +146,6 @@ static void test_other_parameters(void **state)
                         ? kept < 5
                         : kept ==
                               30); /* the first points of a Sobol sequence are on the diagonal */
-        free(three);
-        free(two);
-        free(free_of_ties);
-        free(other);
     }
 }
 
@@ -164,15 +155,13 @@ static void test_untied_stays(void **state)
 {
     const double tied[9] = {1.0, 0.6, 0.0, 0.6, 1.0, 0.0, 0.0, 0.0, 1.0};
     for (int type = 0; type < TYPES; type++) {
-        fracas_probability *p = fill(type, 30, 3, tied), *q = fill(type, 30, 3, NULL);
+        FREED fracas_probability *p = fill(type, 30, 3, tied), *q = fill(type, 30, 3, NULL);
         int moved = 0;
         for (size_t i = 0; i < 30; i++) {
             assert_true(same(&p[3 * i], &q[3 * i]) && same(&p[3 * i + 2], &q[3 * i + 2]));
             moved += !same(&p[3 * i + 1], &q[3 * i + 1]);
         }
         assert_true(moved > 20); /* a few keep their rank */
-        free(p);
-        free(q);
     }
 }
 
@@ -192,8 +181,8 @@ static void test_strata(void **state)
     for (size_t c = 0; c < FRACAS_COUNT(counts); c++)
         for (int tied = 0; tied < 2; tied++) {
             const size_t n = counts[c];
-            fracas_probability *p = fill(LATIN_HYPERCUBE, n, 3, tied ? three_tied : NULL),
-                               *column = room_for(n, sizeof *column);
+            FREED fracas_probability *p = fill(LATIN_HYPERCUBE, n, 3, tied ? three_tied : NULL),
+                                     *column = room_for(n, sizeof *column);
             for (size_t j = 0; j < 3; j++) {
                 double inside = 0.0;
                 for (size_t i = 0; i < n; i++) column[i] = p[3 * i + j];
@@ -209,8 +198,6 @@ static void test_strata(void **state)
                 /* mean of n uniform numbers: +- 4.9/sqrt(12 n) at alpha 1e-6 */
                 if (n == 1000) assert_true(fabs(inside / 1000.0 - 0.5) < 4.9 / sqrt(12000.0));
             }
-            free(p);
-            free(column);
         }
 }
 
@@ -218,8 +205,8 @@ static void test_strata(void **state)
  * number of its own. */
 static void test_order_of_latin_hypercube(void **state)
 {
-    fracas_probability *p = fill(LATIN_HYPERCUBE, 64, 3, three_tied),
-                       *q = fill(RANDOM, 64, 3, three_tied);
+    FREED fracas_probability *p = fill(LATIN_HYPERCUBE, 64, 3, three_tied),
+                             *q = fill(RANDOM, 64, 3, three_tied);
     for (size_t a = 0; a < 64; a++)
         for (size_t b = 0; b < 64; b++)
             for (size_t j = 0; j < 3; j++)
@@ -232,8 +219,6 @@ static void test_order_of_latin_hypercube(void **state)
                           64.0; /* 64: the division is exact, and k + v loses at most 2^-47 */
         assert_true(fabs(at - floor(at) - fracas_stream_uniform(&jitter, i)) <= 0x1p-47);
     }
-    free(p);
-    free(q);
 }
 
 /* ---- correlation ---- */
@@ -297,7 +282,7 @@ static void test_correlation(void **state)
     enum { N = 16384 };
     for (int type = 0; type < TYPES; type++)
         for (int tied = 0; tied < 2; tied++) {
-            fracas_probability *p = fill(type, N, 3, tied ? three_tied : NULL);
+            FREED fracas_probability *p = fill(type, N, 3, tied ? three_tied : NULL);
             for (size_t a = 0; a < 3; a++)
                 for (size_t b = 0; b < a; b++) {
                     const double rho = tied ? three_tied[3 * a + b] : 0.0,
@@ -306,7 +291,6 @@ static void test_correlation(void **state)
                         fail_msg("type %d: correlation of %zu and %zu is %g, expected %g", type, a,
                                  b, r, rho);
                 }
-            free(p);
         }
 }
 
@@ -315,7 +299,8 @@ static void test_correlation(void **state)
 static void test_margins(void **state)
 {
     enum { N = 16384 };
-    fracas_probability *p = fill(RANDOM, N, 3, three_tied), *column = room_for(N, sizeof *column);
+    FREED fracas_probability *p = fill(RANDOM, N, 3, three_tied),
+                             *column = room_for(N, sizeof *column);
     for (size_t j = 0; j < 3; j++) {
         double distance = 0.0;
         for (size_t i = 0; i < N; i++) column[i] = p[3 * i + j];
@@ -328,8 +313,6 @@ static void test_margins(void **state)
         }
         assert_true(sqrt(N) * distance < 2.70);
     }
-    free(p);
-    free(column);
 }
 
 /* ---- distributions ---- */

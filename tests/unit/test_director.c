@@ -93,10 +93,9 @@ static void end(void)
 
 static void hear(size_t from, fracas_packet_kind kind, const void *body, size_t size)
 {
-    fracas_packet *message;
+    FREED fracas_packet *message;
     OK(fracas_packet_create(kind, body, size, &message));
     fracas_director_receive(director, from, message);
-    free(message);
 }
 
 static void ready(void)

@@ -46,7 +46,7 @@ static void make_four(double lattice, fracas_ensemble *ensemble)
 /* 7 of sum 19 and squares 71; 1 1 2 2 3 4 6 in order, whose sums are 2 6 9 13 19. */
 static void sizes_by_number_and_by_mass(void **state)
 {
-    fracas_ensemble ensemble;
+    CLEARED(fracas_ensemble) ensemble;
     fracas_pooled pooled;
     make_four(0, &ensemble);
     OK(fracas_pooled_of(&ensemble, 1, &pooled));
@@ -62,7 +62,6 @@ static void sizes_by_number_and_by_mass(void **state)
                     pooled.all.quantile[q].high >= quantile[q]);
     }
     assert_true(pooled.all.mean.low < 19.0 / 7 && pooled.all.mean.high > 19.0 / 7);
-    fracas_ensemble_clear(&ensemble);
 }
 
 /* On a lattice of step 1 the cut is 1.5: 2 2 3 4 6 are above it, of sum 17 and squares 69. Share q
@@ -70,7 +69,7 @@ static void sizes_by_number_and_by_mass(void **state)
  * numbers count from there. */
 static void sizes_on_a_lattice_and_above_the_cut(void **state)
 {
-    fracas_ensemble ensemble;
+    CLEARED(fracas_ensemble) ensemble;
     fracas_pooled pooled;
     make_four(1, &ensemble);
     ensemble.size[3] = nextafter(2, 3); /* as roundings have it: the same size */
@@ -91,14 +90,13 @@ static void sizes_on_a_lattice_and_above_the_cut(void **state)
     assert_near(pooled.above.variation.value, sqrt(69.0 / 5 - 17.0 * 17 / 25) * 5 / 17);
     assert_near(pooled.unresolved.value, 2.0 / 7);
     assert_near(pooled.unresolved_mass.value, 2.0 / 19);
-    fracas_ensemble_clear(&ensemble);
 }
 
 /* Within: (2 + 2)/(7 - 4). Among: 3 (2 - 19/7)^2 + 2 (3 - 19/7)^2 + (1 - 19/7)^2 + (6 - 19/7)^2 =
  * 108/7 over 3. m0 = (7 - 15/7)/3 = 34/21. */
 static void variance_of_unequal_groups(void **state)
 {
-    fracas_ensemble ensemble;
+    CLEARED(fracas_ensemble) ensemble;
     fracas_pooled pooled;
     make_four(0, &ensemble);
     OK(fracas_pooled_of(&ensemble, 1, &pooled));
@@ -108,7 +106,6 @@ static void variance_of_unequal_groups(void **state)
     assert_near(pooled.variance.intraclass.value, 30.0 / 47);
     assert_near(pooled.variance.design_effect.value, 1 + 13.0 / 21 * 30 / 47);
     assert_near(pooled.variance.effective, 7 / (1 + 13.0 / 21 * 30 / 47));
-    fracas_ensemble_clear(&ensemble);
 }
 
 /* Equal means: the least intraclass correlation, -1/(m0 - 1), and no design effect. Of none and of
@@ -116,7 +113,7 @@ static void variance_of_unequal_groups(void **state)
 static void estimates_at_their_ends(void **state)
 {
     const fracas_replica_values value = {0};
-    fracas_ensemble ensemble;
+    CLEARED(fracas_ensemble) ensemble;
     fracas_pooled pooled;
     fracas_replica_convergence convergence;
     fracas_ensemble_init(&ensemble, 0);
@@ -134,7 +131,6 @@ static void estimates_at_their_ends(void **state)
     assert_true(pooled.variance.intraclass.value == -1 && pooled.variance.design_effect.value == 0);
     assert_true(pooled.all.mean.low == 2 && pooled.all.mean.high == 2);
     assert_int_equal(pooled.all.mean.resamples, 2000);
-    fracas_ensemble_clear(&ensemble);
 }
 
 /* Of 40 replicas: counts alternate about 100; sizes about 1 in the first half and 1.1 in the
@@ -144,7 +140,7 @@ static void estimates_at_their_ends(void **state)
  * all replicas have alike is converged. */
 static void numbers_that_settle_and_others(void **state)
 {
-    fracas_ensemble ensemble;
+    CLEARED(fracas_ensemble) ensemble;
     fracas_replica_convergence of;
     fracas_ensemble_init(&ensemble, 0);
     for (int i = 0; i < 40; i++) {
@@ -204,7 +200,6 @@ static void numbers_that_settle_and_others(void **state)
     assert_true(warnings == 1 && strstr(warning->text, "one usable replica cannot say"));
     free(warning);
     fracas_replica_convergence_clear(&point.convergence);
-    fracas_ensemble_clear(&ensemble);
 }
 
 /* ---- energies over time ---- */
@@ -241,10 +236,9 @@ static void read_bands(int64_t replicas, fracas_bands *bands)
     fracas_bands_collector collector;
     OK(fracas_bands_begin(INTERVALS, INTERVALS, (size_t)replicas, bands, &collector));
     for (int64_t replica = 0; replica < replicas; replica++) {
-        fracas_record record;
+        CLEARED(fracas_record) record;
         make_history(replica, &record);
         fracas_bands_add(&collector, &record);
-        fracas_record_clear(&record);
     }
     fracas_bands_end(&collector);
 }
@@ -252,7 +246,7 @@ static void read_bands(int64_t replicas, fracas_bands *bands)
 /* 0 to 29: mean 14.5, quantiles at 1.45 and 27.55 of the order. */
 static void band_of_many(void **state)
 {
-    fracas_bands bands;
+    CLEARED(fracas_bands) bands;
     read_bands(MOST, &bands);
     assert_int_equal(bands.count, 4); /* all have ended before 4 */
     assert_int_equal(bands.realizations, MOST);
@@ -272,19 +266,17 @@ static void band_of_many(void **state)
         assert_near(dissipated->low, j < 3 ? (double)j : 2);
         assert_near(dissipated->high, (double)j);
     }
-    fracas_bands_clear(&bands);
 }
 
 /* Kinetic 0, 7, 14. */
 static void band_of_few(void **state)
 {
-    fracas_bands bands;
+    CLEARED(fracas_bands) bands;
     read_bands(3, &bands);
     assert_true(bands.extremes && bands.count == 4 && bands.running[3] == 2);
     assert_near(bands.energy[2][FRACAS_BAND_kinetic].mean, 7);
     assert_near(bands.energy[2][FRACAS_BAND_kinetic].low, 0);
     assert_near(bands.energy[2][FRACAS_BAND_kinetic].high, 14);
-    fracas_bands_clear(&bands);
 }
 
 TESTS(sizes_by_number_and_by_mass, sizes_on_a_lattice_and_above_the_cut, variance_of_unequal_groups,

@@ -7,6 +7,8 @@
 #include <float.h>
 #include <gsl/gsl_sf_bessel.h>
 
+OWNS(fracas_fft)
+
 enum { LONGEST = 1000 };
 
 /* Numbers that are alike in no way, in [-1, 1). */
@@ -27,7 +29,7 @@ static void transforms_are_the_sums(void **state)
     static double x[LONGEST][2];
     for (size_t l = 0; l < sizeof lengths / sizeof *lengths; l++) {
         const size_t n = lengths[l];
-        fracas_fft *fft;
+        OWNED(fracas_fft) *fft;
         double norm2 = 0.0, worst = 0.0;
         OK(fracas_fft_create(n, &fft));
         for (size_t k = 0; k < n; k++) {
@@ -50,7 +52,6 @@ static void transforms_are_the_sums(void **state)
                              sqrt((double)n);
         print_message("%zu numbers: %.2e, bound %.2e\n", n, worst, bound);
         assert_true(worst <= bound);
-        fracas_fft_destroy(fft);
     }
     fracas_fft_destroy(NULL);
 }

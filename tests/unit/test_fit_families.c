@@ -121,8 +121,8 @@ static void fits_recover_the_truth(void **state)
         what.lattice = (double)(i % 2);
         what.realizations = 100;
         what.fragments = 100;
-        fracas_ensemble ensemble;
-        fracas_fit_sample sample;
+        CLEARED(fracas_ensemble) ensemble;
+        CLEARED(fracas_fit_sample) sample;
         fracas_fit fit;
         double truth[FRACAS_FAMILY_PARAMETERS];
         OK(synthetic_ensemble(&what, random, &ensemble));
@@ -138,8 +138,6 @@ static void fits_recover_the_truth(void **state)
                       what.family->name, what.lattice, sample.ncells, gain);
         assert_true(gain > -1e-6 &&
                     gain < gsl_cdf_chisq_Qinv(1e-6, (double)what.family->nparameters));
-        fracas_fit_sample_clear(&sample);
-        fracas_ensemble_clear(&ensemble);
     }
     gsl_rng_free(random);
 }
@@ -299,8 +297,8 @@ static void whole_bodies_are_left_out(void **state)
 static void sizes_that_are_nearly_alike(void **state)
 {
     enum { REALIZATIONS = 40, PIECES = 50 };
-    fracas_ensemble ensemble;
-    fracas_fit_sample sample;
+    CLEARED(fracas_ensemble) ensemble;
+    CLEARED(fracas_fit_sample) sample;
     uint32_t weight[REALIZATIONS] = {2};
     double size[PIECES], mean, cv;
     fracas_ensemble_init(&ensemble, 0);
@@ -310,8 +308,6 @@ static void sizes_that_are_nearly_alike(void **state)
     assert_true(fabs(sample.mean - 1) < 2e-15 && fabs(sample.cv / 1e-6 - 1) < 2e-9);
     fracas_fit_sample_moments(&sample, weight, &mean, &cv);
     assert_true(fabs(mean - 1) < 2e-15 && fabs(cv / 1e-6 - 1) < 2e-9);
-    fracas_fit_sample_clear(&sample);
-    fracas_ensemble_clear(&ensemble);
 }
 
 /* Every fragment is carried, each realization keeps as many, and together they have the law: cells

@@ -10,6 +10,8 @@
 
 #include <gsl/gsl_errno.h>
 
+OWNS(fracas_fits)
+
 enum { NPOINTS = 4, NCOLUMNS = 8, RESAMPLES = 99 };
 
 static const fracas_column column[NCOLUMNS] = {
@@ -95,12 +97,11 @@ static void write_study(const char *folder, int64_t replicas)
 
 static fracas_fits *fit(const char *folder, size_t point, FILE *out)
 {
-    fracas_analysis *analysis;
+    OWNED(fracas_analysis) *analysis;
     fracas_fits *fits = NULL;
     OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
     OK(fracas_fits_create(analysis, point, RESAMPLES, &fits));
     if (out) fracas_fits_print(fits, analysis, out);
-    fracas_analysis_destroy(analysis);
     return fits;
 }
 
@@ -139,7 +140,7 @@ static void fits_of_a_study(void **state)
     snprintf(folder, sizeof folder, "%s/one", report_root);
     write_study(folder, 40);
     FILE *out = open_memstream(&text, &size);
-    fracas_fits *fits = fit(folder, SIZE_MAX, out), *read = NULL;
+    OWNED(fracas_fits) *fits = fit(folder, SIZE_MAX, out), *read = NULL;
     fclose(out);
     print_message("%s", text);
     assert_non_null(strstr(text, "shifted-rayleigh"));
@@ -170,18 +171,15 @@ static void fits_of_a_study(void **state)
     assert_string_equal(read->campaign, fits->campaign);
     assert_int_equal(read->realizations, 40 + 1 + 40 + 2);
     same_rows(fits, read);
-    fracas_fits_destroy(read);
-    fracas_fits_destroy(fits);
 }
 
 /* Rows that are kept of what was fitted in `folder`, in a study of so many replicas. */
 static size_t keep(const char *folder, const char *other, size_t *stale, fracas_fits **fits)
 {
-    fracas_analysis *analysis;
+    OWNED(fracas_analysis) *analysis;
     OK(fracas_fits_read(folder, fits));
     OK(fracas_analysis_create(other, NULL, NULL, &analysis));
     fracas_fits_keep(*fits, analysis, stale);
-    fracas_analysis_destroy(analysis);
     return (*fits)->n;
 }
 
@@ -234,7 +232,7 @@ static void one_point(void **state)
     char folder[320];
     snprintf(folder, sizeof folder, "%s/two", report_root);
     write_study(folder, 12);
-    fracas_analysis *analysis;
+    OWNED(fracas_analysis) *analysis;
     fracas_fits *all = fit(folder, SIZE_MAX, NULL), *one = fit(folder, 0, NULL);
     assert_true(one->n < all->n && one->row[one->n - 1].point == 0);
     OK(fracas_fits_complete(one, all));
@@ -243,7 +241,6 @@ static void one_point(void **state)
     OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
     assert_int_equal(fracas_fits_create(analysis, NPOINTS, RESAMPLES, &one), FRACAS_USAGE);
     assert_non_null(strstr(fracas_message(), "point 4: the study has points 0 to 3"));
-    fracas_analysis_destroy(analysis);
     fracas_fits_destroy(all);
 }
 

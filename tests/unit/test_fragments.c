@@ -57,13 +57,12 @@ static void add_node(fracas_fragment_sums *sums, double mass, vector centre, vec
 
 static fracas_fragment only(const fracas_fragment_sums *sums)
 {
-    fracas_record record;
+    CLEARED(fracas_record) record;
     fracas_record_init(&record);
     record.fragments_dust = 0;
     OK(fracas_fragments_take(sums, 1, 2, &record));
     assert_true(record.nfragment == 1 && record.fragments == 1);
     const fracas_fragment f = record.fragment[0];
-    fracas_record_clear(&record);
     return f;
 }
 
@@ -258,7 +257,7 @@ static void momenta_are_those_of_the_nodes(void **unused)
         momentum = plus(momentum, mass, v);
         moment = plus(moment, mass, turned(x, v));
     }
-    fracas_record record;
+    CLEARED(fracas_record) record;
     fracas_record_init(&record);
     OK(fracas_fragments_take(sums, COUNT, 2, &record));
     assert_int_equal(record.nfragment, COUNT);
@@ -278,7 +277,6 @@ static void momenta_are_those_of_the_nodes(void **unused)
     assert_true(off(record.momentum, momentum) < 1e-14 && off(whole.at, momentum) < 1e-14 &&
                 off(about.at, moment) < 1e-14);
     assert_true(length(momentum) > 0.1 && length(moment) > 0.1);
-    fracas_record_clear(&record);
 }
 
 /* What is no number stays none. */

@@ -13,6 +13,10 @@
 #include "tests/support/strengths.h"
 #include "tests/support/test.h"
 
+OWNS(fracas_batch)
+OWNS(fracas_field)
+OWNS(fracas_model)
+
 /* ---- the factor ---- */
 
 static const fracas_kind *distribution(const char *name)
@@ -193,21 +197,17 @@ static void keys_go_together(void **state)
     bad(BAR("distribution: positions, file: s.csv, per: gauss-point"),
         "but the distribution `positions` gives one");
     bad(BAR(CONSTANT ", per: point"), "unknown per `point`; per can be: interface, gauss-point");
-    fracas_campaign *campaign = good(BAR(CONSTANT)),
-                    *same = good(BAR(CONSTANT ", per: gauss-point")),
-                    *graded = good(BAR(CONSTANT ", factor: f.csv, factor_along: radius"));
+    OWNED(fracas_campaign) *campaign = good(BAR(CONSTANT)),
+                           *same = good(BAR(CONSTANT ", per: gauss-point")),
+                           *graded = good(BAR(CONSTANT ", factor: f.csv, factor_along: radius"));
     assert_false(fracas_hash_equal(&campaign->point[0].hash, &same->point[0].hash));
     assert_false(fracas_hash_equal(&campaign->point[0].hash, &graded->point[0].hash));
     assert_null(campaign->point[0].strength.per);
     assert_true(fracas_strength_is_per_point(&same->point[0].strength) &&
                 !fracas_strength_is_per_point(&graded->point[0].strength));
-    fracas_model *model;
+    OWNED(fracas_model) *model;
     if (fracas_point_model_create(same, 0, &model)) fail_msg("%s", fracas_message());
     assert_int_equal(fracas_model_strengths_per_interface(model), 1);
-    fracas_model_destroy(model);
-    fracas_campaign_destroy(campaign);
-    fracas_campaign_destroy(same);
-    fracas_campaign_destroy(graded);
 }
 
 /* Strengths are least at x = 30 mm, the right end of element 59: its interface opens first, when E
@@ -216,10 +216,10 @@ static void a_bar_opens_where_its_factor_is_least(void **state)
 {
     enum { WEAK = 59 };
     put("f.csv", "x [m], factor\n0, 1.3\n0.03, 0.9\n0.05, 1.2\n");
-    fracas_campaign *campaign = good(BAR(CONSTANT ", factor: f.csv, factor_along: x"));
-    fracas_model *model;
-    fracas_field *field;
-    fracas_batch *batch;
+    OWNED(fracas_campaign) *campaign = good(BAR(CONSTANT ", factor: f.csv, factor_along: x"));
+    OWNED(fracas_model) *model;
+    OWNED(fracas_field) *field;
+    OWNED(fracas_batch) *batch;
     size_t stride;
     assert_int_equal(fracas_point_model_create(campaign, 0, &model), 0);
     assert_int_equal(fracas_model_field(model, &campaign->point[0].strength, &field), 0);
@@ -231,16 +231,11 @@ static void a_bar_opens_where_its_factor_is_least(void **state)
     assert_int_equal(fracas_field_sample(field, &(fracas_stream){0}, stride, sigma_c), 0);
     assert_true(fabs(sigma_c[WEAK * stride] / 270e6 - 1) < 1e-15 &&
                 fabs(sigma_c[29 * stride] / 330e6 - 1) < 1e-15); /* x = 15 mm: 1.1 */
-    fracas_record record;
+    CLEARED(fracas_record) record;
     fracas_record_init(&record);
     assert_int_equal(fracas_batch_run(batch, &record), 0);
     assert_true(record.cracked > 0 && record.onset_time == record.interface[WEAK].onset_time);
     assert_true(fabs(record.onset_time / (270e6 / (275e9 * 1e4)) - 1) < 1e-12);
-    fracas_record_clear(&record);
-    fracas_batch_destroy(batch);
-    fracas_field_destroy(field);
-    fracas_model_destroy(model);
-    fracas_campaign_destroy(campaign);
 }
 
 /* ---- the forecast ---- */
@@ -248,9 +243,8 @@ static void a_bar_opens_where_its_factor_is_least(void **state)
 static fracas_forecast forecast_of(const char *text)
 {
     fracas_forecast forecast;
-    fracas_campaign *campaign = good(text);
+    OWNED(fracas_campaign) *campaign = good(text);
     if (fracas_forecast_make(campaign, 0, &forecast)) fail_msg("%s", fracas_message());
-    fracas_campaign_destroy(campaign);
     return forecast;
 }
 
@@ -267,14 +261,13 @@ static void a_forecast_knows_the_factor(void **state)
     assert_true(plain.uniform && twice.uniform && !one.uniform);
     assert_true(plain.mean == 300e6 && twice.mean == 600e6 && fabs(one.mean / 303e6 - 1) < 1e-14);
     assert_true(fabs(twice.coarseness / plain.coarseness - 4) < 1e-12);
-    fracas_campaign *campaign = good(BAR(CONSTANT ", factor: large.csv, factor_along: x"));
+    OWNED(fracas_campaign) *campaign = good(BAR(CONSTANT ", factor: large.csv, factor_along: x"));
     fracas_forecast forecast;
     assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
     assert_non_null(
         strstr(fracas_message(), "the strongest of 100 interfaces (all replicas together)"));
     const size_t column = fracas_point_table_find(&campaign->table, "derived.strength_mean");
     assert_true(campaign->table.point[0].value[column].real == 300e6); /* of the law */
-    fracas_campaign_destroy(campaign);
 }
 
 /* ---- Gauss points ---- */
@@ -293,8 +286,8 @@ static void a_forecast_knows_the_factor(void **state)
  * stands for. */
 static void check_points(const char *text, size_t points)
 {
-    fracas_campaign *campaign = good(text);
-    fracas_sample sample;
+    OWNED(fracas_campaign) *campaign = good(text);
+    CLEARED(fracas_sample) sample;
     if (fracas_sample_draw(campaign, 0, 4, &sample)) fail_msg("%s", fracas_message());
     const fracas_stream stream = fracas_point_stream(campaign, 0, FRACAS_PURPOSE_STRENGTH, 4);
     assert_int_equal(fracas_model_strengths_per_interface(sample.model), points);
@@ -309,8 +302,6 @@ static void check_points(const char *text, size_t points)
                                                                        extent,
                                                                        fracas_probability_of(u)));
         }
-    fracas_sample_clear(&sample);
-    fracas_campaign_destroy(campaign);
 }
 
 static void each_gauss_point_has_its_own(void **state)
@@ -321,10 +312,10 @@ static void each_gauss_point_has_its_own(void **state)
                  3);
     check_points(SURFACE("shell", "shape: sphere, radius: 2 mm", "divisions: 2", FLAWS), 3);
     put("f.csv", "0,1\n0,2\n");
-    fracas_campaign *campaign = good(
+    OWNED(fracas_campaign) *campaign = good(
         SURFACE("membrane", "width: 2 mm, height: 1 mm", "divisions: 3",
                 CONSTANT ", per: gauss-point, factor: f.csv, factor_along: x"));
-    fracas_sample sample;
+    CLEARED(fracas_sample) sample;
     if (fracas_sample_draw(campaign, 0, 0, &sample)) fail_msg("%s", fracas_message());
     size_t right = 0;
     for (size_t k = 0; k < sample.n; k++) {
@@ -332,8 +323,6 @@ static void each_gauss_point_has_its_own(void **state)
         right += sample.position[k][0] >= 0;
     }
     assert_true(right > 0 && right < sample.n);
-    fracas_sample_clear(&sample);
-    fracas_campaign_destroy(campaign);
 }
 
 /* All strengths of a point count where the strongest is looked for. */
@@ -347,12 +336,11 @@ static void a_forecast_counts_gauss_points(void **state)
     static const char *const words[] = {"the strongest of 8 interfaces",
                                         "the strongest of 16 Gauss points"};
     for (int t = 0; t < 2; t++) {
-        fracas_campaign *campaign = good(text[t]);
+        OWNED(fracas_campaign) *campaign = good(text[t]);
         fracas_forecast forecast;
         assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
         if (!strstr(fracas_message(), words[t]))
             fail_msg("no \"%s\" in: %s", words[t], fracas_message());
-        fracas_campaign_destroy(campaign);
     }
 }
 

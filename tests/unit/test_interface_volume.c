@@ -35,14 +35,13 @@ static void interfaces_share_the_body(void **unused)
 {
     for (int64_t elements = 2; elements < 2000; elements *= 3) {
         fracas_spec spec = bar_reference(elements, 1e4, 1e-6);
-        fracas_model *model;
+        OWNED(fracas_model) *model;
         OK(fracas_model_create(&spec, &model));
         const size_t n = fracas_model_interfaces(model);
         double sum = 0.0;
         for (size_t i = 0; i < n; i++) sum += fracas_model_interface_volume(model, i);
         assert_true(fabs(sum - 5e-8) <= 5e-8 * 0x1p-53 * (double)(n + 5));
         assert_near(mean_of(&spec), fracas_model_interface_volume(model, n / 2));
-        fracas_model_destroy(model);
     }
 }
 
@@ -56,7 +55,7 @@ static void interfaces_share_the_body_on_any_mesh(void **unused)
         if (i % 2) bar_perturb(&spec, 0.45, 1, noise);
         else bar_grade(&spec, 100);
         if (i / 2) spec.geometry.ends = &fracas_ends_held;
-        fracas_model *model;
+        OWNED(fracas_model) *model;
         OK(fracas_model_create(&spec, &model));
         const size_t n = fracas_model_interfaces(model);
         const double *h = model->table;
@@ -70,7 +69,6 @@ static void interfaces_share_the_body_on_any_mesh(void **unused)
         assert_true(fabs(h[0] / h[150] - 1) > 0.01); /* they are different */
         /* a rounding for each length, as much again for their sum, and one for each volume */
         assert_true(fabs(sum - body) <= 5e-8 * 0x1p-53 * (3 * 300 + 5));
-        fracas_model_destroy(model);
     }
 }
 

@@ -53,11 +53,10 @@ static void published_moments_are_the_published_shapes(void **state)
     for (size_t k = 0; k < FRACAS_COUNT(published); k++) {
         const fracas_strength given = law_by_moments("weibull", published[k].minimum,
                                                      published[k].mean, published[k].deviation);
-        fracas_strength ready;
+        CLEARED(fracas_strength) ready;
         OK(fracas_strength_init(&given, &ready));
         assert_close(ready.shape, published[k].shape, 5e-4);
         assert_close(ready.scale, published[k].scale, 5e-4);
-        fracas_strength_clear(&ready);
     }
 }
 
@@ -85,7 +84,7 @@ static void moments_come_back(void **state)
     for (size_t k = 0; k < FRACAS_COUNT(given); k++) {
         const double mean = given[k].mean, deviation = given[k].ratio * mean;
         const fracas_strength law = law_by_moments(given[k].law, given[k].minimum, mean, deviation);
-        fracas_strength ready;
+        CLEARED(fracas_strength) ready;
         OK(fracas_strength_check(&law));
         OK(fracas_strength_init(&law, &ready));
         assert_close(fracas_strength_mean(&ready, one), mean, 1e-12);
@@ -95,7 +94,6 @@ static void moments_come_back(void **state)
         assert_true(fracas_strength_quantile(&law, one, p) ==
                     fracas_strength_quantile(&ready, one, p));
         assert_true(fracas_strength_deviation(&law, one) == fracas_strength_deviation(&ready, one));
-        fracas_strength_clear(&ready);
     }
 }
 

@@ -78,13 +78,12 @@ static void check_values(const char *file, const fracas_campaign *plain, fracas_
 static void check_file(const fracas_campaign *campaign)
 {
     char path[200];
-    fracas_campaign *again;
+    OWNED(fracas_campaign) *again;
     if (fracas_campaign_keep(campaign, folder, "fine.yaml")) fail_msg("%s", fracas_message());
     snprintf(path, sizeof path, "%s/fine.yaml", folder);
     if (fracas_campaign_read(path, &again)) fail_msg("%s", fracas_message());
     assert_true(fracas_hash_equal(&again->hash, &campaign->hash));
     assert_string_equal(again->name, campaign->name);
-    fracas_campaign_destroy(again);
 }
 
 /* Elements of the first point: two for one along a line, four for one on a surface. There a number
@@ -139,7 +138,7 @@ static void check_left(const char *name, fracas_refinement what, const fracas_re
 /* The same campaign on meshes of triangles that are made in no time. */
 static void coarsen(const char *file, char path[200])
 {
-    fracas_campaign *campaign;
+    OWNED(fracas_campaign) *campaign;
     if (fracas_campaign_read(file, &campaign)) fail_msg("%s", fracas_message());
     for (size_t p = 0; p < campaign->npoints; p++) {
         campaign->point[p].spec.mesh.size *= 3;
@@ -148,7 +147,6 @@ static void coarsen(const char *file, char path[200])
     }
     OK(fracas_campaign_keep(campaign, folder, "coarse.yaml"));
     snprintf(path, 200, "%s/coarse.yaml", folder);
-    fracas_campaign_destroy(campaign);
 }
 
 static void check_example(const char *example)

@@ -34,10 +34,9 @@ static fracas_err note(void *context, size_t to, const fracas_packet *message)
 
 static void hear(size_t from, fracas_packet_kind kind, const void *body, size_t size)
 {
-    fracas_packet *message;
+    FREED fracas_packet *message;
     OK(fracas_packet_create(kind, body, size, &message));
     fracas_director_receive(director, from, message);
-    free(message);
 }
 
 static void ready(size_t from)

@@ -16,10 +16,9 @@ static fracas_campaign *make(const char *replicas)
 {
     char line[300];
     snprintf(line, sizeof line, "replicas: %s", replicas);
-    char *fixed = replace(plain_campaign, "replicas: 3", line), *text = replace(fixed, "", rule);
+    FREED char *fixed = replace(plain_campaign, "replicas: 3", line),
+               *text = replace(fixed, "", rule);
     fracas_campaign *made = read_text(text);
-    free(text);
-    free(fixed);
     return made;
 }
 
@@ -115,12 +114,11 @@ static void rounds_go_on_until_they_are_narrow(void **state)
     assert_int_equal(decision[2].stop, FRACAS_AT_MAXIMUM);
     free(decision);
     OK(fracas_rounds_check(campaign, index_));
-    fracas_rounds again; /* the same from the index alone */
+    CLEARED(fracas_rounds) again;
     OK(fracas_rounds_init(&again, campaign, index_));
     assert_int_equal(again.open, 0);
     assert_int_equal(again.point[0].replicas, 8);
     assert_int_equal(again.point[1].replicas, 24);
-    fracas_rounds_clear(&again);
 }
 
 /* Three that ended badly and one without a record are in the round, but not in the mean. */
@@ -205,11 +203,11 @@ static void a_decision_that_does_not_follow_is_damage(void **state)
 /* Another rule takes up the realizations, not the decisions. */
 static void a_stronger_rule_decides_again(void **state)
 {
-    fracas_decision *decision;
-    fracas_rounds again;
+    FREED fracas_decision *decision;
+    CLEARED(fracas_rounds) again;
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
-    fracas_campaign *now = make(
+    OWNED(fracas_campaign) *now = make(
         "{minimum: 8, maximum: 100, until: {quantity: dissipated, relative-half-width: 0.01}}");
     OK(fracas_index_plan(index_, &now->table));
     OK(fracas_rounds_init(&again, now, index_));
@@ -217,9 +215,6 @@ static void a_stronger_rule_decides_again(void **state)
     look(0, &decision, 1);
     assert_int_equal(decision[0].stop, FRACAS_GO_ON);
     assert_int_equal(decision[0].maximum, 100);
-    free(decision);
-    fracas_rounds_clear(&again);
-    fracas_campaign_destroy(now);
 }
 
 static void mean_size_by_hand(void **state)
@@ -233,7 +228,7 @@ static void mean_size_by_hand(void **state)
 /* A larger maximum alone goes on where the smaller one ended. */
 static void a_larger_maximum_goes_on(void **state)
 {
-    fracas_rounds again;
+    CLEARED(fracas_rounds) again;
     commit(0, 0, 7, 0.5, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
     commit(0, 8, 15, 0.5, FRACAS_FRAGMENTED);
@@ -241,15 +236,13 @@ static void a_larger_maximum_goes_on(void **state)
     commit(0, 16, 23, 0.5, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
     assert_int_equal(rounds.open, 1); /* 0.216 is more than 0.1, but 24 is the maximum */
-    fracas_campaign *now = make(
+    OWNED(fracas_campaign) *now = make(
         "{minimum: 8, maximum: 25, until: {quantity: dissipated, relative-half-width: 0.1}}");
     OK(fracas_index_plan(index_, &now->table));
     OK(fracas_rounds_init(&again, now, index_));
     assert_int_equal(again.open, 2);
     assert_int_equal(again.point[0].replicas, 25);
     assert_int_equal(rows_of(0), 25);
-    fracas_rounds_clear(&again);
-    fracas_campaign_destroy(now);
 }
 
 /* Each quantity is its own column: fragments 5, size 0.01, dissipated 1 in the mean. */
@@ -260,19 +253,16 @@ static void a_rule_looks_at_its_quantity(void **state)
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
     for (int q = 0; q < 3; q++) {
         char text[200];
-        fracas_decision *decision;
-        fracas_rounds again;
+        FREED fracas_decision *decision;
+        CLEARED(fracas_rounds) again;
         snprintf(text, sizeof text,
                  "{minimum: 8, maximum: 24, until: {quantity: %s, relative-half-width: 0.2}}",
                  quantity[q]);
-        fracas_campaign *now = make(text);
+        OWNED(fracas_campaign) *now = make(text);
         OK(fracas_rounds_init(&again, now, index_));
         look(0, &decision, 1);
         assert_int_equal(decision[0].quantity, q);
         assert_true(fabs(decision[0].mean / mean[q] - 1) < 1e-15);
-        free(decision);
-        fracas_rounds_clear(&again);
-        fracas_campaign_destroy(now);
     }
 }
 
@@ -317,7 +307,7 @@ static void points_of_a_segment_are_decided_together(void **state)
     look(0, &decision, 0);
     free(decision);
     tampered("DROP TRIGGER refuse");
-    fracas_rounds again; /* as the next run finds it */
+    CLEARED(fracas_rounds) again;
     OK(fracas_rounds_init(&again, campaign, index_));
     look(0, &decision, 1);
     free(decision);
@@ -328,7 +318,6 @@ static void points_of_a_segment_are_decided_together(void **state)
     free(decision);
     assert_int_equal(again.point[0].replicas, 8);
     assert_int_equal(again.point[1].replicas, 24);
-    fracas_rounds_clear(&again);
 }
 
 #define ROUND(name) cmocka_unit_test_setup_teardown(name, begin, end)

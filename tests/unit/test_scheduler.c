@@ -4,23 +4,24 @@
 #include "tests/support/leases.h"
 #include "tests/support/test.h"
 
+OWNS(fracas_scheduler)
+
 /* ---- sizes and order ---- */
 
 static void one_batch_while_nothing_is_measured(void **state)
 {
-    fracas_scheduler *scheduler = create(POINTS, MANY, 3);
+    OWNED(fracas_scheduler) *scheduler = create(POINTS, MANY, 3);
     fracas_lease lease;
     for (size_t i = 0; i < 6; i++) {
         assert_true(next(scheduler, i / 2, 0, &lease));
         assert_lease(&lease, 1, 8 * (int64_t)i, 8);
     }
-    fracas_scheduler_destroy(scheduler);
 }
 
 /* Time per realization: of the point where it was measured, else in proportion to its cost. */
 static void sizes_are_by_measured_cost(void **state)
 {
-    fracas_scheduler *scheduler = create(POINTS, MANY, 1);
+    OWNED(fracas_scheduler) *scheduler = create(POINTS, MANY, 1);
     fracas_lease lease;
     assert_true(next(scheduler, 0, 0, &lease));
     computed(scheduler, 0, &lease, 0.08); /* 0.01 s each: 100 in 1 s */
@@ -45,7 +46,6 @@ static void sizes_are_by_measured_cost(void **state)
     assert_true(next(scheduler, 0, 0, &lease));
     assert_int_equal(lease.point, 2);
     assert_true(lease.count == 8); /* 7.3 in 1 s, but a batch is not divided */
-    fracas_scheduler_destroy(scheduler);
 }
 
 /* Towards the end: at most what is left / (2 workers), never less than a batch but for the last
@@ -53,7 +53,7 @@ static void sizes_are_by_measured_cost(void **state)
 static void sizes_shrink_with_what_is_left(void **state)
 {
     enum { WORKERS = 5 };
-    fracas_scheduler *scheduler = create(1, 4000, WORKERS);
+    OWNED(fracas_scheduler) *scheduler = create(1, 4000, WORKERS);
     fracas_lease lease;
     assert_true(next(scheduler, 0, 0, &lease));
     computed(scheduler, 0, &lease, 8e-6); /* 1e6 in 1 s: time is no bound */
@@ -66,7 +66,6 @@ static void sizes_shrink_with_what_is_left(void **state)
         computed(scheduler, worker, &lease, 1e-6 * (double)lease.count);
     }
     assert_counts(scheduler, 0, 4000, 0);
-    fracas_scheduler_destroy(scheduler);
 }
 
 /* Which workers share the last ones: those that will be free soon enough to be of use, not those
@@ -74,7 +73,7 @@ static void sizes_shrink_with_what_is_left(void **state)
 static void the_last_ones_are_shared_with_who_is_free_soon(void **state)
 {
     for (int late = 0; late < 2; late++) {
-        fracas_scheduler *scheduler = create(1, 56, 4);
+        OWNED(fracas_scheduler) *scheduler = create(1, 56, 4);
         fracas_lease lease[4], last;
         for (size_t worker = 0; worker < 4; worker++) {
             assert_true(next(scheduler, worker, 0, &lease[worker]));
@@ -91,13 +90,12 @@ static void the_last_ones_are_shared_with_who_is_free_soon(void **state)
          */
         assert_true(next(scheduler, 0, late ? 4 : 3.9, &last));
         assert_int_equal(last.count, late ? 6 : 8);
-        fracas_scheduler_destroy(scheduler);
     }
 }
 
 static void a_lease_has_a_largest_size(void **state)
 {
-    fracas_scheduler *scheduler = create(1, 100000, 1);
+    OWNED(fracas_scheduler) *scheduler = create(1, 100000, 1);
     fracas_lease lease;
     assert_true(next(scheduler, 0, 0, &lease));
     computed(scheduler, 0, &lease, 0); /* no time at all */
@@ -106,16 +104,15 @@ static void a_lease_has_a_largest_size(void **state)
         assert_int_equal(lease.count, FRACAS_LEASE_MAX);
         computed(scheduler, 0, &lease, 0);
     }
-    fracas_scheduler_destroy(scheduler);
 }
 
 static void no_lease_time_means_one_batch(void **state)
 {
-    fracas_index_row *row = rows(1, 100);
+    FREED fracas_index_row *row = rows(1, 100);
     fracas_scheduler_options options = options_for(1);
     options.seconds = 0;
     options.width = 4;
-    fracas_scheduler *scheduler = create_with(row, 100, &options);
+    OWNED(fracas_scheduler) *scheduler = create_with(row, 100, &options);
     fracas_lease lease;
     for (int i = 0; i < 25; i++) {
         assert_true(next(scheduler, 0, 0, &lease));
@@ -123,13 +120,11 @@ static void no_lease_time_means_one_batch(void **state)
         computed(scheduler, 0, &lease, 1e-6);
     }
     assert_false(next(scheduler, 0, 0, &lease));
-    fracas_scheduler_destroy(scheduler);
-    free(row);
 }
 
 static void the_longest_go_first(void **state)
 {
-    fracas_index_row *row = rows(POINTS, 11);
+    FREED fracas_index_row *row = rows(POINTS, 11);
     fracas_scheduler_options options = options_for(1);
     options.seconds = 0;
     /* By cost, until point 2 turns out to be faster than point 0 is predicted to be, and point 0
@@ -137,7 +132,7 @@ static void the_longest_go_first(void **state)
     static const size_t point[2][6] = {{1, 1, 2, 2, 0, 0}, {1, 1, 2, 0, 2, 0}};
     static const double seconds[2][POINTS] = {{1e-5, 1e-3, 1e-4}, {1e-9, 1e-3, 1e-6}};
     for (int slow = 0; slow < 2; slow++) {
-        fracas_scheduler *scheduler = create_with(row, POINTS * 11, &options);
+        OWNED(fracas_scheduler) *scheduler = create_with(row, POINTS * 11, &options);
         bool begun[POINTS] = {false};
         fracas_lease lease;
         for (size_t i = 0; i < 6; i++) {
@@ -150,9 +145,7 @@ static void the_longest_go_first(void **state)
         assert_counts(scheduler, 0, POINTS * 11, 0);
         fracas_scheduler_durable(scheduler, 0);
         assert_counts(scheduler, POINTS * 11, 0, 0);
-        fracas_scheduler_destroy(scheduler);
     }
-    free(row);
 }
 
 /* Points on which more depends go before longer ones, measured or not, the longest of them first.
@@ -161,24 +154,22 @@ static void some_points_go_first(void **state)
 {
     static const bool first[POINTS] = {true, false, true};
     static const size_t point[] = {2, 2, 0, 0, 1, 1};
-    fracas_index_row *row = rows(POINTS, 11);
+    FREED fracas_index_row *row = rows(POINTS, 11);
     fracas_scheduler_options options = options_for(1);
     options.seconds = 0;
     options.first = first;
-    fracas_scheduler *scheduler = create_with(row, POINTS * 11, &options);
+    OWNED(fracas_scheduler) *scheduler = create_with(row, POINTS * 11, &options);
     for (size_t i = 0; i < 6; i++) {
         fracas_lease lease;
         assert_true(next(scheduler, 0, 0, &lease));
         assert_lease(&lease, point[i], i % 2 ? 8 : 0, i % 2 ? 3 : 8);
         computed(scheduler, 0, &lease, cost[point[i]]);
     }
-    fracas_scheduler_destroy(scheduler);
-    free(row);
 }
 
 static void one_lease_ahead_until_the_last_ones(void **state)
 {
-    fracas_scheduler *scheduler = create(POINTS, 11, 2);
+    OWNED(fracas_scheduler) *scheduler = create(POINTS, 11, 2);
     fracas_lease lease, other;
     assert_true(next(scheduler, 0, 0, &lease));
     assert_true(next(scheduler, 0, 0, &lease)); /* one ahead */
@@ -189,12 +180,11 @@ static void one_lease_ahead_until_the_last_ones(void **state)
     assert_true(fracas_scheduler_idles(scheduler, 1));
     assert_true(next(scheduler, 1, 0, &lease));
     assert_false(fracas_scheduler_idles(scheduler, 1));
-    fracas_scheduler_destroy(scheduler);
 }
 
 static void what_comes_next_is_predicted(void **state)
 {
-    fracas_scheduler *scheduler = create(1, 1000, 1);
+    OWNED(fracas_scheduler) *scheduler = create(1, 1000, 1);
     fracas_lease lease, ahead;
     assert_true(isnan(fracas_scheduler_predicted(scheduler, 0, 5)));
     assert_true(next(scheduler, 0, 5, &lease));
@@ -210,13 +200,12 @@ static void what_comes_next_is_predicted(void **state)
     OK(fracas_scheduler_computed(scheduler, 0, lease.id, 21, 8));
     assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 22), 7 + 8,
                        1e-9); /* the one ahead has run for 1 s */
-    fracas_scheduler_destroy(scheduler);
 }
 
 /* The last ones of a plan: what waits again counts too, and when nothing waits, what is held. */
 static void what_waits_again_is_predicted(void **state)
 {
-    fracas_scheduler *scheduler = create(1, 30, 2);
+    OWNED(fracas_scheduler) *scheduler = create(1, 30, 2);
     fracas_lease first, second;
     assert_true(next(scheduler, 0, 0, &first));
     assert_true(next(scheduler, 1, 0, &second));
@@ -233,13 +222,12 @@ static void what_waits_again_is_predicted(void **state)
     assert_true(next(scheduler, 1, 3, &second));
     assert_int_equal(second.count, 6);
     assert_float_equal(fracas_scheduler_predicted(scheduler, 1, 3.25), 5.75, 1e-9);
-    fracas_scheduler_destroy(scheduler);
 }
 
 /* s that a lease may take: as the options say, or 600 s and 50 times its prediction. */
 static void a_lease_has_a_time_limit(void **state)
 {
-    fracas_index_row *row = rows(POINTS, 100);
+    FREED fracas_index_row *row = rows(POINTS, 100);
     fracas_scheduler_options options = options_for(1);
     fracas_scheduler *scheduler = create_with(row, POINTS * 100, &options);
     fracas_lease lease;
@@ -255,17 +243,16 @@ static void a_lease_has_a_time_limit(void **state)
     assert_true(next(scheduler, 0, 0, &lease));
     assert_float_equal(lease.limit, 7, 0);
     fracas_scheduler_destroy(scheduler);
-    free(row);
 }
 
 static void a_shuffle_changes_order_and_sizes(void **state)
 {
-    fracas_index_row *row = rows(POINTS, 11);
+    FREED fracas_index_row *row = rows(POINTS, 11);
     fracas_scheduler_options options = options_for(1);
-    fracas_scheduler *plain = create_with(row, POINTS * 11, &options);
+    OWNED(fracas_scheduler) *plain = create_with(row, POINTS * 11, &options);
     options.shuffle = true;
-    fracas_scheduler *shuffled = create_with(row, POINTS * 11, &options),
-                     *again = create_with(row, POINTS * 11, &options);
+    OWNED(fracas_scheduler) *shuffled = create_with(row, POINTS * 11, &options),
+                            *again = create_with(row, POINTS * 11, &options);
     bool point = false, size = false, order = false;
     size_t left = POINTS * 11;
     while (left > 0) {
@@ -285,10 +272,6 @@ static void a_shuffle_changes_order_and_sizes(void **state)
     }
     assert_true(point && size && order);
     assert_counts(shuffled, 0, POINTS * 11, 0);
-    fracas_scheduler_destroy(plain);
-    fracas_scheduler_destroy(shuffled);
-    fracas_scheduler_destroy(again);
-    free(row);
 }
 
 /* ---- the plan ---- */
@@ -297,7 +280,7 @@ static void a_shuffle_changes_order_and_sizes(void **state)
 static void rows_are_added(void **state)
 {
     fracas_index_row more[6];
-    fracas_scheduler *scheduler = create(1, 11, 1);
+    OWNED(fracas_scheduler) *scheduler = create(1, 11, 1);
     for (size_t i = 0; i < 6; i++)
         more[i] = (fracas_index_row){.point = i < 3 ? 2 : 1, .replica = (int64_t)(20 + i % 3)};
     more[1].status = FRACAS_DONE; /* computed before its round came */
@@ -327,19 +310,18 @@ static void rows_are_added(void **state)
     assert_false(fracas_scheduler_computed_all(scheduler));
     assert_true(next(scheduler, 0, 0, &lease));
     assert_lease(&lease, 0, 11, 6);
-    fracas_scheduler_destroy(scheduler);
 }
 
 static void rows_may_need_nothing(void **state)
 {
-    fracas_index_row *row = rows(POINTS, 11);
+    FREED fracas_index_row *row = rows(POINTS, 11);
     for (size_t i = 0; i < POINTS * 11; i++) row[i].status = FRACAS_DONE;
     row[3].status = FRACAS_FAILED_ROW;
     row[7].status = FRACAS_QUARANTINED;
     for (size_t i = 4; i <= 6; i++) row[i].status = FRACAS_PLANNED;
     row[5].attempts = 2;
     const fracas_scheduler_options options = options_for(1);
-    fracas_scheduler *scheduler = create_with(row, POINTS * 11, &options);
+    OWNED(fracas_scheduler) *scheduler = create_with(row, POINTS * 11, &options);
     assert_counts(scheduler, POINTS * 11 - 5, 0, 2);
     /* The one that failed before is leased alone, and first. */
     fracas_lease lease;
@@ -354,8 +336,6 @@ static void rows_may_need_nothing(void **state)
     computed(scheduler, 0, &lease, 1);
     assert_true(fracas_scheduler_computed_all(scheduler));
     assert_counts(scheduler, POINTS * 11 - 5, 2, 3);
-    fracas_scheduler_destroy(scheduler);
-    free(row);
 }
 
 TESTS(one_batch_while_nothing_is_measured, sizes_are_by_measured_cost,

@@ -7,6 +7,8 @@
 #include <malloc.h>
 #include <time.h>
 
+OWNS(fracas_scheduler)
+
 static bool next(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease)
 {
     bool given;
@@ -81,7 +83,7 @@ static void assert_counts(const fracas_scheduler *scheduler, int64_t done, int64
 static void an_overdue_lease_goes_to_an_idle_worker(void **state)
 {
     fracas_lease first, second, copy;
-    fracas_scheduler *scheduler = create_late(&first, &second);
+    OWNED(fracas_scheduler) *scheduler = create_late(&first, &second);
     assert_counts(scheduler, 8, 0, 0);
     assert_false(any(scheduler, 2, 9, &copy));
     assert_false(any(scheduler, 2, 32, &copy)); /* 4 times 8 s */
@@ -106,7 +108,6 @@ static void an_overdue_lease_goes_to_an_idle_worker(void **state)
     OK(fracas_scheduler_computed(scheduler, 0, first.id, 1000, 1000));
     fracas_scheduler_durable(scheduler, 0);
     assert_counts(scheduler, 24, 0, 8);
-    fracas_scheduler_destroy(scheduler);
 }
 
 /* 10 s at least; of a lease ahead from when it was given, and from when it began when the one
@@ -117,7 +118,7 @@ static void short_leases_are_overdue_after_10_s(void **state)
     fracas_index_row row[ROWS];
     for (size_t i = 0; i < ROWS; i++) row[i] = (fracas_index_row){.replica = (int64_t)i};
     const fracas_scheduler_options options = {.cost = flat, .npoints = 1, .workers = 2, .width = 8};
-    fracas_scheduler *scheduler;
+    OWNED(fracas_scheduler) *scheduler;
     fracas_lease first, ahead, other;
     OK(fracas_scheduler_create(row, ROWS, &options, &scheduler));
     assert_true(next(scheduler, 0, 0, &first) && next(scheduler, 0, 0, &ahead));
@@ -136,7 +137,6 @@ static void short_leases_are_overdue_after_10_s(void **state)
     assert_false(any(scheduler, 1, 15, &other)); /* 10 s after it began */
     copy_of(scheduler, 1, 21, 0, &other);
     assert_int_equal(other.id, ahead.id);
-    fracas_scheduler_destroy(scheduler);
 }
 
 /* What a worker has computed and does not make durable is computed by another as well: 5 s after a
@@ -144,7 +144,7 @@ static void short_leases_are_overdue_after_10_s(void **state)
 static void a_lease_that_stays_in_memory_is_overdue(void **state)
 {
     fracas_lease first, second, copy;
-    fracas_scheduler *scheduler = create_late(&first, &second);
+    OWNED(fracas_scheduler) *scheduler = create_late(&first, &second);
     OK(fracas_scheduler_computed(scheduler, 1, second.id, 8, 8));
     fracas_scheduler_durable(scheduler, 1);
     OK(fracas_scheduler_computed(scheduler, 0, first.id, 10, 8));
@@ -161,7 +161,6 @@ static void a_lease_that_stays_in_memory_is_overdue(void **state)
     assert_counts(scheduler, 24, 0, 0);
     fracas_scheduler_durable(scheduler, 0);
     assert_counts(scheduler, 24, 0, 8);
-    fracas_scheduler_destroy(scheduler);
 }
 
 /* Where the original and the copy of a lease may be lost, and in what order. */
@@ -181,7 +180,7 @@ static void a_loss_at_any_stage_loses_nothing(void **state)
 {
     for (int course = 0; course < NEVENTS * NEVENTS * NEVENTS * NEVENTS; course++) {
         fracas_lease first, second, copy;
-        fracas_scheduler *scheduler = create_late(&first, &second);
+        OWNED(fracas_scheduler) *scheduler = create_late(&first, &second);
         OK(fracas_scheduler_computed(scheduler, 1, second.id, 9, 8));
         fracas_scheduler_durable(scheduler, 1);
         copy_of(scheduler, 2, 50, 0, &copy);
@@ -213,7 +212,6 @@ static void a_loss_at_any_stage_loses_nothing(void **state)
                 break;
             }
         }
-        fracas_scheduler_destroy(scheduler);
     }
 }
 
@@ -419,7 +417,7 @@ static void any_course_of_events(void **state)
     static const double cost[POINTS] = {1, 3, 2, 5, 4};
     int64_t failed = 0, duplicates = 0;
     for (unsigned seed = 1; seed <= SEEDS; seed++) {
-        world *w = calloc(1, sizeof *w);
+        FREED world *w = calloc(1, sizeof *w);
         assert_non_null(w);
         w->dice = seed;
         w->width = seed % 3 ? 8 : 3;
@@ -448,7 +446,6 @@ static void any_course_of_events(void **state)
         failed += fracas_scheduler_count(w->scheduler).failed;
         duplicates += w->duplicates;
         fracas_scheduler_destroy(w->scheduler);
-        free(w);
     }
     print_message("%lld failed for good, %lld duplicates\n", (long long)failed,
                   (long long)duplicates);
@@ -462,8 +459,8 @@ static void any_course_of_events(void **state)
 static double run_million(size_t npoints, size_t *bytes)
 {
     enum { MILLION = 1000000, MANY = 64 };
-    fracas_index_row *row = malloc(MILLION * sizeof *row);
-    double *cost = malloc(npoints * sizeof *cost);
+    FREED fracas_index_row *row = malloc(MILLION * sizeof *row);
+    FREED double *cost = malloc(npoints * sizeof *cost);
     assert_true(row && cost);
     for (size_t i = 0; i < MILLION; i++)
         row[i] = (fracas_index_row){.point = i * npoints / MILLION, .replica = (int64_t)i};
@@ -492,8 +489,6 @@ static double run_million(size_t npoints, size_t *bytes)
     assert_int_equal(fracas_scheduler_count(scheduler).done, MILLION);
     fracas_scheduler_destroy(scheduler);
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &b);
-    free(cost);
-    free(row);
     return (double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec);
 }
 

@@ -3,6 +3,8 @@
 #include "tests/support/leases.h"
 #include "tests/support/test.h"
 
+OWNS(fracas_scheduler)
+
 /* A lease of `count` of one point for one worker, measured so that it is one lease. */
 static fracas_scheduler *create_large(size_t count, fracas_lease *lease)
 {
@@ -27,7 +29,7 @@ static void a_failed_batch_is_bisected(void **state)
     enum { COUNT = 24, KEPT = 8, BAD = 13 };
     fracas_lease lease;
     bool final;
-    fracas_scheduler *scheduler = create_large(COUNT, &lease);
+    OWNED(fracas_scheduler) *scheduler = create_large(COUNT, &lease);
     OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, KEPT, 8, &lease, &final));
     assert_lease(&lease, 0, KEPT, 8); /* what was at fault */
     assert_false(final);
@@ -52,7 +54,6 @@ static void a_failed_batch_is_bisected(void **state)
     while (next(scheduler, 0, 0, &lease)) computed(scheduler, 0, &lease, 0.001);
     fracas_scheduler_durable(scheduler, 0);
     assert_counts(scheduler, 4 * COUNT - 1, 0, 1);
-    fracas_scheduler_destroy(scheduler);
 }
 
 /* The last realization of a lease alone at fault: one attempt, as its server computed it alone. */
@@ -60,7 +61,7 @@ static void one_at_fault_has_had_an_attempt(void **state)
 {
     fracas_lease lease;
     bool final;
-    fracas_scheduler *scheduler = create_large(24, &lease);
+    OWNED(fracas_scheduler) *scheduler = create_large(24, &lease);
     OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 23, 1, &lease, &final));
     assert_lease(&lease, 0, 23, 1);
     assert_false(final);
@@ -76,7 +77,6 @@ static void one_at_fault_has_had_an_attempt(void **state)
     assert_counts(scheduler, 48, 0, 1);
     assert_true(next(scheduler, 0, 0, &lease));
     assert_lease(&lease, 0, 0, 23);
-    fracas_scheduler_destroy(scheduler);
 }
 
 /* Odd numbers: the first half is the larger one. */
@@ -84,7 +84,7 @@ static void a_part_of_a_batch_is_bisected_too(void **state)
 {
     fracas_lease lease;
     bool final;
-    fracas_scheduler *scheduler = create(1, 5, 1);
+    OWNED(fracas_scheduler) *scheduler = create(1, 5, 1);
     assert_true(next(scheduler, 0, 0, &lease));
     OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 0, 5, &lease, &final));
     static const int64_t first[] = {0, 3};
@@ -95,14 +95,13 @@ static void a_part_of_a_batch_is_bisected_too(void **state)
         computed(scheduler, 0, &lease, 1);
     }
     assert_counts(scheduler, 0, 5, 0);
-    fracas_scheduler_destroy(scheduler);
 }
 
 static void nonsense_is_refused(void **state)
 {
     fracas_lease lease, other;
     bool final;
-    fracas_scheduler *scheduler = create(1, 40, 2);
+    OWNED(fracas_scheduler) *scheduler = create(1, 40, 2);
     assert_true(next(scheduler, 0, 0, &lease));
     assert_int_equal(fracas_scheduler_computed(scheduler, 1, lease.id, 0, 1),
                      FRACAS_BUG); /* not its own */
@@ -119,12 +118,11 @@ static void nonsense_is_refused(void **state)
     assert_int_equal(fracas_scheduler_computed(scheduler, 0, lease.id, 0, 1),
                      FRACAS_BUG); /* once is enough */
     assert_counts(scheduler, 0, 8, 0);
-    fracas_scheduler_destroy(scheduler);
 }
 
 static void a_lost_worker_costs_what_was_not_durable(void **state)
 {
-    fracas_scheduler *scheduler = create(1, 400, 2);
+    OWNED(fracas_scheduler) *scheduler = create(1, 400, 2);
     fracas_lease first, second, third, fourth, again;
     assert_true(next(scheduler, 0, 0, &first));
     computed(scheduler, 0, &first, 8);
@@ -149,7 +147,6 @@ static void a_lost_worker_costs_what_was_not_durable(void **state)
     assert_true(next(scheduler, 1, 0, &again));
     assert_lease(&again, 0, 32, 8);
     assert_int_equal(again.isolated, 0);
-    fracas_scheduler_destroy(scheduler);
 }
 
 /* Of a lease in isolation only what was at fault stays isolated. */
@@ -157,7 +154,7 @@ static void halves_stay_isolated(void **state)
 {
     fracas_lease lease;
     bool final;
-    fracas_scheduler *scheduler = create_large(24, &lease);
+    OWNED(fracas_scheduler) *scheduler = create_large(24, &lease);
     fracas_scheduler_lost(scheduler, 0);
     assert_true(next(scheduler, 0, 0, &lease));
     assert_int_not_equal(lease.isolated, 0);
@@ -168,7 +165,6 @@ static void halves_stay_isolated(void **state)
         assert_int_equal(lease.isolated != 0, i < 2);
         computed(scheduler, 0, &lease, 0.1);
     }
-    fracas_scheduler_destroy(scheduler);
 }
 
 TESTS(a_failed_batch_is_bisected, one_at_fault_has_had_an_attempt,

@@ -83,8 +83,8 @@ static void settled_waits_for_quiet_after_the_first_onset(void **unused)
  * peak at step 7. */
 static void history_keeps_intervals_onset_peak_and_end(void **unused)
 {
-    fracas_history history;
-    fracas_record record;
+    CLEARED(fracas_history) history;
+    CLEARED(fracas_record) record;
     fracas_record_init(&record);
     OK(fracas_history_init(&history, 2, 1.0));
     for (int step = 0; step <= 12; step++) {
@@ -96,8 +96,6 @@ static void history_keeps_intervals_onset_peak_and_end(void **unused)
     assert_int_equal(record.nhistory, 5);
     for (int i = 0; i < 5; i++)
         assert_true(fabs(record.history[i].time - 0.09 * expected[i]) < 1e-15);
-    fracas_record_clear(&record);
-    fracas_history_clear(&history);
 }
 
 /* Two steps by hand: work is the trapezoid of power, the residual holds every term with its sign.
@@ -140,7 +138,7 @@ static void the_ledger_adds_every_term(void **unused)
 
 static void fragments_are_connected_elements(void **unused)
 {
-    fracas_partition p;
+    CLEARED(fracas_partition) p;
     OK(fracas_partition_init(&p, 8));
     fracas_partition_unite(&p, 7, 2);
     fracas_partition_unite(&p, 2, 5);
@@ -149,7 +147,6 @@ static void fragments_are_connected_elements(void **unused)
     assert_int_equal(fracas_partition_label(&p), 5);
     const uint32_t expected[] = {0, 1, 2, 3, 4, 2, 1, 2};
     assert_memory_equal(p.label, expected, sizeof expected);
-    fracas_partition_clear(&p);
 }
 
 /* A closed bar of 10 elements broken at interfaces 2 and 6: elements 3-6, and 7-9 with 0-2 in one
@@ -158,8 +155,8 @@ static void a_fragment_across_the_end_is_in_one_piece(void **unused)
 {
     fracas_spec spec = bar_reference(10, 1e4, 1);
     spec.geometry.length = 10 * 1e-4;
-    fracas_model *model;
-    fracas_batch *batch;
+    OWNED(fracas_model) *model;
+    OWNED(fracas_batch) *batch;
     OK(fracas_model_create(&spec, &model));
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
     OK(fracas_batch_create(model, 1, &options, &batch));
@@ -168,7 +165,7 @@ static void a_fragment_across_the_end_is_in_one_piece(void **unused)
     batch->step.state[2 * 7 + 4] = batch->step.state[6 * 7 + 4] =
         1.0;                    /* damage of interfaces 2 and 6 */
     batch->step.time[0] = 1e-5; /* stretched by 1.1 */
-    fracas_record record;
+    CLEARED(fracas_record) record;
     fracas_record_init(&record);
     OK(model->formulation->harvest(model, &batch->step, 0, &record));
     assert_int_equal(record.nfragment, 2);
@@ -184,9 +181,6 @@ static void a_fragment_across_the_end_is_in_one_piece(void **unused)
     assert_int_equal(count_broken(model, 2), 2);
     assert_int_equal(count_broken(model, 1), 1);
     assert_int_equal(count_broken(model, 0), 1);
-    fracas_record_clear(&record);
-    fracas_batch_destroy(batch);
-    fracas_model_destroy(model);
 }
 
 static double noise(uint64_t *state)
@@ -342,13 +336,13 @@ static void a_run_that_gains_energy_ends_as_drift(void **unused)
         fracas_spec spec = bar_reference(800, 1e5, 2e-7);
         spec.geometry.length = 5e-3;
         spec.time.safety = unstable ? 1 : 0.25;
-        fracas_model *model;
-        fracas_batch *batch;
+        OWNED(fracas_model) *model;
+        OWNED(fracas_batch) *batch;
         OK(fracas_model_create(&spec, &model));
         const fracas_batch_options options = {.history = 10, .isa = FRACAS_ISA_BEST};
         OK(fracas_batch_create(model, 1, &options, &batch));
         bar_draw(batch, 0, 1.0 / 300, 1);
-        fracas_record record;
+        CLEARED(fracas_record) record;
         fracas_record_init(&record);
         OK(fracas_batch_run(batch, &record));
         assert_int_equal(record.outcome, unstable ? FRACAS_ENERGY_DRIFT : FRACAS_FRAGMENTED);
@@ -360,9 +354,6 @@ static void a_run_that_gains_energy_ends_as_drift(void **unused)
         assert_true(end->time == record.end_time && end->residual == record.residual_end &&
                     record.residual_end != 0);
         assert_true(record.residual >= fabs(record.residual_end));
-        fracas_record_clear(&record);
-        fracas_batch_destroy(batch);
-        fracas_model_destroy(model);
     }
 }
 
@@ -376,13 +367,13 @@ static void events_are_counted_and_timed_inside_their_steps(void **unused)
         spec.geometry.length = 1e-2;
         spec.cohesive.law = laws[law];
         spec.time.safety = 0.1;
-        fracas_model *model;
-        fracas_batch *batch;
+        OWNED(fracas_model) *model;
+        OWNED(fracas_batch) *batch;
         OK(fracas_model_create(&spec, &model));
         const fracas_batch_options options = {.interfaces = true, .isa = FRACAS_ISA_BEST};
         OK(fracas_batch_create(model, 1, &options, &batch));
         bar_draw(batch, 0, 0.02, 1);
-        fracas_record record;
+        CLEARED(fracas_record) record;
         fracas_record_init(&record);
         OK(fracas_batch_run(batch, &record));
         int64_t cracked = 0, broken = 0, at_step = 0;
@@ -404,9 +395,6 @@ static void events_are_counted_and_timed_inside_their_steps(void **unused)
         assert_int_equal(record.broken, broken);
         assert_true(record.onset_time == first && broken > 20 && cracked > broken);
         assert_true(at_step * 20 < cracked + broken);
-        fracas_record_clear(&record);
-        fracas_batch_destroy(batch);
-        fracas_model_destroy(model);
     }
 }
 
@@ -426,8 +414,8 @@ static void the_part_of_bending_is_kept(void **unused)
     for (int with = 0; with < 2; with++) {
         fracas_spec spec = bar_reference(800, 1e5, 2e-7);
         spec.geometry.length = 5e-3;
-        fracas_model *model;
-        fracas_batch *batch;
+        OWNED(fracas_model) *model;
+        OWNED(fracas_batch) *batch;
         OK(fracas_model_create(&spec, &model));
         if (with) model->formulation = &bent;
         const fracas_batch_options options = {.history = 10, .isa = FRACAS_ISA_BEST};
@@ -448,8 +436,6 @@ static void the_part_of_bending_is_kept(void **unused)
                         1e-13 * end->work); /* at rest at first: E(0) is 0; a few roundings */
             fracas_record_clear(&record[l]);
         }
-        fracas_batch_destroy(batch);
-        fracas_model_destroy(model);
     }
 }
 

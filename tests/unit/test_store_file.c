@@ -32,10 +32,9 @@ static int tear_down(void **state)
 static void write_meshes(fracas_writer *writer, const grid_shape *shape)
 {
     for (size_t p = 0; shape && p < SAMPLE_POINTS; p++) {
-        fracas_stored_mesh mesh = {0};
+        CLEARED(fracas_stored_mesh) mesh = {0};
         if (p == 1) grid_make(shape, &mesh);
         OK(fracas_writer_mesh(writer, &mesh));
-        fracas_stored_mesh_clear(&mesh);
     }
 }
 
@@ -129,10 +128,9 @@ static void write_file_of(const char *path, int64_t replicas, size_t most, bool 
     OK(fracas_writer_create(path, &header, &table, &writer));
     for (size_t p = 0; p < SAMPLE_POINTS; p++)
         for (int64_t r = 0; r < replicas; r++) {
-            fracas_record record;
+            CLEARED(fracas_record) record;
             sample_record(p, r, most, &record);
             OK(fracas_writer_append(writer, p, r, &record));
-            fracas_record_clear(&record);
         }
     if (shape) OK(fracas_writer_decisions(writer, decisions, DECISIONS));
     write_meshes(writer, shape);
@@ -179,10 +177,10 @@ static void write_and_tell(const char *path)
     enum { SOME = 5, ROWS = 7 };
     static const grid_shape shape = {.nx = 3, .ny = 2, .rolled = true, .middles = true};
     fracas_file_seal seal;
-    fracas_stored_mesh mesh;
+    CLEARED(fracas_stored_mesh) mesh;
     write_file_of(path, SOME, ROWS, true, &shape, &seal);
     for (size_t i = 0; i < SAMPLE_POINTS * SOME; i++) {
-        fracas_record r;
+        CLEARED(fracas_record) r;
         uint64_t bits;
         sample_record(i / SOME, (int64_t)(i % SOME), ROWS, &r);
         sample_make_canonical(&r);
@@ -205,17 +203,15 @@ static void write_and_tell(const char *path)
             printf(" i %016llx", (unsigned long long)bits);
         }
         printf("\n");
-        fracas_record_clear(&r);
     }
     grid_make(&shape, &mesh);
     tell_mesh(&mesh);
-    fracas_stored_mesh_clear(&mesh);
 }
 
 static void check_row(fracas_reader *reader, size_t row, int64_t replicas, size_t most,
                       unsigned parts)
 {
-    fracas_record wanted, found;
+    CLEARED(fracas_record) wanted, found;
     size_t point;
     int64_t replica;
     fracas_record_init(&found);
@@ -228,8 +224,6 @@ static void check_row(fracas_reader *reader, size_t row, int64_t replicas, size_
     if (!(parts & FRACAS_READ_HISTORY)) wanted.nhistory = 0;
     if (!(parts & FRACAS_READ_INTERFACES)) wanted.ninterface = 0;
     assert_true(sample_equal(&wanted, &found));
-    fracas_record_clear(&wanted);
-    fracas_record_clear(&found);
 }
 
 static void records_come_back_bit_by_bit(void **state)
@@ -440,10 +434,10 @@ static void other_files_are_refused(void **state)
 static void records_survive_packing(void **state)
 {
     for (int64_t replica = 0; replica < 50; replica++) {
-        fracas_record record, back;
+        CLEARED(fracas_record) record, back;
         sample_record(1, replica, 9, &record);
         size_t size = fracas_record_packed_size(&record);
-        char *bytes = malloc(size + 1);
+        FREED char *bytes = malloc(size + 1);
         fracas_record_pack(&record, bytes);
         fracas_record_init(&back);
         OK(fracas_record_unpack(bytes, size, &back));
@@ -454,9 +448,6 @@ static void records_survive_packing(void **state)
         ((fracas_record *)(void *)bytes)->nhistory = SIZE_MAX / sizeof(fracas_history_row) +
                                                      2; /* wraps around */
         sample_fails(fracas_record_unpack(bytes, size, &back), FRACAS_BUG, "does not fit");
-        free(bytes);
-        fracas_record_clear(&record);
-        fracas_record_clear(&back);
     }
 }
 

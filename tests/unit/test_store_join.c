@@ -91,12 +91,11 @@ static void commit_different(void)
     fracas_segment_row row[10];
     OK(fracas_writer_create(sample_path(study, "segments/d.h5"), &header, &table, &writer));
     for (int64_t r = 0; r < 10; r++) {
-        fracas_record record;
+        CLEARED(fracas_record) record;
         sample_record(1, r, MOST, &record);
         if (r == 3) record.momentum[1] = 0.125;
         row[r] = (fracas_segment_row){point_row[1].hash, r, r, fracas_summary_of(&record)};
         OK(fracas_writer_append(writer, 1, r, &record));
-        fracas_record_clear(&record);
     }
     OK(fracas_writer_finish(writer, false, &seal));
     OK(fracas_index_commit(index_, "d.h5", &seal, row, 10, "{}"));

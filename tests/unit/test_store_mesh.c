@@ -8,6 +8,8 @@
 #include "analysis/draw/surface_picture.h"
 #include "tests/support/test.h"
 
+OWNS(fracas_analysis)
+
 enum {
     SURFACE = 1,
     EACH = 5
@@ -57,14 +59,13 @@ static void commit(size_t size, size_t interfaces)
         snprintf(path, sizeof path, "segments/%s", name);
         OK(fracas_writer_create(sample_path(study, path), &header, &table, &writer));
         for (size_t i = begin; i < end; i++) {
-            fracas_record record;
+            CLEARED(fracas_record) record;
             const size_t point = i / EACH;
             const int64_t replica = (int64_t)(i % EACH);
             make_record(point, replica, point == SURFACE ? interfaces : 7, &record);
             row[i - begin] = (fracas_segment_row){table.point[point].hash, replica,
                                                   (int64_t)(i - begin), fracas_summary_of(&record)};
             OK(fracas_writer_append(writer, point, replica, &record));
-            fracas_record_clear(&record);
         }
         OK(fracas_writer_finish(writer, false, &seal));
         OK(fracas_index_commit(index_, name, &seal, row, end - begin, "{}"));
@@ -91,10 +92,9 @@ static int set_up_surface(void **state)
 
 static size_t interfaces_of(const grid_shape *of)
 {
-    fracas_stored_mesh mesh;
+    CLEARED(fracas_stored_mesh) mesh;
     grid_make(of, &mesh);
     const size_t count = mesh.ninterfaces;
-    fracas_stored_mesh_clear(&mesh);
     return count;
 }
 
@@ -266,7 +266,7 @@ static void pictures_and_first_times(void **state)
 {
     static const double time[] = {2e-6, 9e-5};
     char *said;
-    char *folder = strdup(sample_path(study, "drawn"));
+    FREED char *folder = strdup(sample_path(study, "drawn"));
     size_t size;
     commit(4, interfaces_of(&shape));
     merge_with(&source);
@@ -285,19 +285,17 @@ static void pictures_and_first_times(void **state)
     assert_non_null(
         strstr(said, "first onset: 1.000 us\nfirst break: 1.500 us\nfirst crack through: "));
     assert_int_equal(sample_files(folder, ".svg"), 2);
-    char *csv = (char *)sample_slurp(sample_path(folder, "times-point-1.csv"), &size);
+    FREED char *csv = (char *)sample_slurp(sample_path(folder, "times-point-1.csv"), &size);
     csv[size] = '\0';
     assert_non_null(strstr(csv, "replica,outcome,first_onset,first_break,first_through,"));
     assert_non_null(strstr(csv, "\n1,INTACT,1e-06,1.5e-06,"));
     assert_non_null(strstr(csv, "\n2,FAILED,,,,,,,0,0\n"));
     assert_non_null(strstr(csv, "\n4,INTACT,4e-06,4.5e-06,"));
-    char *svg = (char *)sample_slurp(sample_path(folder, "surface-point-1-replica-1-2.svg"), &size);
+    FREED char *svg = (char *)sample_slurp(sample_path(folder, "surface-point-1-replica-1-2.svg"),
+                                           &size);
     svg[size] = '\0';
     assert_non_null(
         strstr(svg, "90.00 \u00b5s: 24 fragments (dust: 24)</text>")); /* everything is broken */
-    free(folder);
-    free(svg);
-    free(csv);
     free(said);
 }
 
@@ -338,11 +336,11 @@ static void bodies_are_drawn_as_asked_for(void **state)
 {
     static const fracas_view view = {225, -30};
     static const double time = 9e-6;
-    char *said, *wanted, *folder = strdup(sample_path(study, "drawn"));
+    FREED char *said, *wanted, *folder = strdup(sample_path(study, "drawn"));
     size_t size;
-    fracas_stored_mesh mesh = {0};
-    fracas_record record;
-    fracas_surface_state now;
+    CLEARED(fracas_stored_mesh) mesh = {0};
+    CLEARED(fracas_record) record;
+    CLEARED(fracas_surface_state) now;
     make_octant_study();
     FILE *out = open_memstream(&said, &size);
     const fracas_picture_request request = {.point = SURFACE,
@@ -364,34 +362,26 @@ static void bodies_are_drawn_as_asked_for(void **state)
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", out);
     OK(fracas_surface_picture_write(&mesh, &now, &picture, out));
     fclose(out);
-    char *svg = (char *)sample_slurp(sample_path(folder, "surface-point-1-replica-1-1.svg"), &size);
+    FREED char *svg = (char *)sample_slurp(sample_path(folder, "surface-point-1-replica-1-1.svg"),
+                                           &size);
     svg[size] = '\0';
     assert_string_equal(svg, wanted);
-    fracas_surface_state_clear(&now);
-    fracas_record_clear(&record);
-    fracas_stored_mesh_clear(&mesh);
-    free(svg);
-    free(wanted);
-    free(said);
-    free(folder);
 }
 
 /* The page of the study has `part`, or has it not. */
 static void page_has(const char *part, bool wanted)
 {
     size_t size;
-    char *page = (char *)sample_slurp(sample_path(study, "report/index.html"), &size);
+    FREED char *page = (char *)sample_slurp(sample_path(study, "report/index.html"), &size);
     page[size] = '\0';
     assert_int_equal(strstr(page, part) != NULL, wanted);
-    free(page);
 }
 
 static void report(void)
 {
-    fracas_analysis *analysis;
+    OWNED(fracas_analysis) *analysis;
     OK(fracas_analysis_create(study, NULL, NULL, &analysis));
     OK(fracas_report_write(analysis, study));
-    fracas_analysis_destroy(analysis);
 }
 
 static void the_report_shows_bodies_with_gaps(void **state)

@@ -37,12 +37,11 @@ static void cut(fracas_record *record, unsigned parts)
 
 static void check_record(const walk *w, size_t point, int64_t replica, const fracas_record *record)
 {
-    fracas_record wanted;
+    CLEARED(fracas_record) wanted;
     sample_record(point - w->shift, replica, MOST, &wanted);
     sample_make_canonical(&wanted);
     cut(&wanted, w->parts);
     assert_true(sample_equal(record, &wanted));
-    fracas_record_clear(&wanted);
 }
 
 static fracas_err look(void *context, fracas_result *result)

@@ -311,12 +311,11 @@ static void verify_compares_every_record(void **state)
     fracas_file_seal seal;
     OK(fracas_writer_create(sample_path(study, "study.h5"), &header, &table, &writer));
     for (size_t i = 0; i < ALL; i++) {
-        fracas_record record;
+        CLEARED(fracas_record) record;
         sample_record(i / REPLICAS, (int64_t)(i % REPLICAS), MOST, &record);
         if (i == 77) record.end_time = 1.5;
         if (i == 78 && record.nhistory) record.history[0].work = 2.5;
         OK(fracas_writer_append(writer, i / REPLICAS, (int64_t)(i % REPLICAS), &record));
-        fracas_record_clear(&record);
     }
     OK(fracas_writer_finish(writer, false, &seal));
     OK(fracas_index_seal_study(index_, &seal)); /* as if a merge had written it */

@@ -259,10 +259,9 @@ static void choose_done(sample_realization *what, size_t count)
 {
     int64_t replica = 6;
     for (size_t i = 0; i < count; replica++) {
-        fracas_record record;
+        CLEARED(fracas_record) record;
         sample_record(0, replica, MOST, &record);
         if (record.outcome != FRACAS_FAILED) what[i++] = (sample_realization){0, replica};
-        fracas_record_clear(&record);
     }
 }
 

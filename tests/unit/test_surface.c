@@ -361,7 +361,7 @@ static void test_locality(void **state)
     const fracas_surface_fineness fineness = {.divisions = 60, .order = 1};
     const fracas_surface *plain, *surface;
     OK(fracas_surface_rectangle(1.0, 1.0, &fineness, &plain));
-    uint32_t *element = malloc(3 * plain->nelements * sizeof *element);
+    FREED uint32_t *element = malloc(3 * plain->nelements * sizeof *element);
     assert_non_null(element);
     memcpy(element, plain->element, 3 * plain->nelements * sizeof *element);
     uint64_t x = 1;
@@ -403,7 +403,6 @@ static void test_locality(void **state)
     assert_true(all.mean_distance < 120.0 && all.largest_distance < 180);
     fracas_surface_destroy(surface);
     fracas_surface_destroy(plain);
-    free(element);
 }
 
 /* Two squares that do not touch are one surface in two parts. */

@@ -88,7 +88,7 @@ static void test_plates(void **state)
 {
     for (size_t i = 0; i < FRACAS_COUNT(plates); i++) {
         size_t size;
-        char *bytes = read_plate(i, &size);
+        FREED char *bytes = read_plate(i, &size);
         const fracas_surface *s = NULL;
         if (fracas_surface_read_gmsh(bytes, size, &s))
             fail_msg("%s: %s", plates[i], fracas_message());
@@ -115,7 +115,6 @@ static void test_plates(void **state)
             assert_true(fabs(hole - 0.5 * quarter) < 2e-3 &&
                         fabs(all.area - (2.0 - 0.125 * quarter)) < 2e-3);
         fracas_surface_destroy(s);
-        free(bytes);
     }
 }
 

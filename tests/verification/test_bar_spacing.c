@@ -16,7 +16,7 @@ static void lengths_of_a_graded_mesh_are_a_progression(void **unused)
             const size_t n = counts[c];
             fracas_spec spec = bar_reference((int64_t)n, 1e4, 1e-6);
             bar_grade(&spec, ratios[r]);
-            fracas_model *model;
+            OWNED(fracas_model) *model;
             OK(fracas_model_create(&spec, &model));
             long double total = 0, sum = 0;
             for (size_t e = 0; e < n; e++)
@@ -30,7 +30,6 @@ static void lengths_of_a_graded_mesh_are_a_progression(void **unused)
             }
             assert_true(fabsl(sum / 0.05L - 1) < (16 + (long double)n) * 0x1p-53L);
             assert_true(model->longest == fmax(model->table[0], model->table[n - 1]));
-            fracas_model_destroy(model);
         }
 }
 
@@ -74,7 +73,7 @@ static void the_longest_element_bounds_the_strength(void **unused)
         fracas_spec spec = bar_reference(200, 1e4, 1);
         spec.geometry.length = 0.01;
         spec.cohesive.law = laws[i % 2];
-        fracas_model *model = model_on(&spec, i / 2);
+        OWNED(fracas_model) *model = model_on(&spec, i / 2);
         double longest = 0;
         for (size_t e = 0; e < 200; e++) longest = fmax(longest, model->table[e]);
         const double offset = 4.5 * pow(1e4, 2.0 / 3) * 275e9 * pow(100, 2.0 / 3) *
@@ -83,15 +82,14 @@ static void the_longest_element_bounds_the_strength(void **unused)
                                   : sqrt(2 * 4 * 275e9 * 100 / longest);
         OK(fracas_model_check_strength(model, most * (1 - 1e-12)));
         assert_int_equal(fracas_model_check_strength(model, most * (1 + 1e-12)), FRACAS_USAGE);
-        fracas_model_destroy(model);
     }
 }
 
 static fracas_record run_to_fragments(fracas_spec *spec, double time_step)
 {
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    fracas_model *model;
-    fracas_batch *batch;
+    OWNED(fracas_model) *model;
+    OWNED(fracas_batch) *batch;
     fracas_record record;
     OK(fracas_model_create(spec, &model));
     assert_true(fabs(model->time_step / time_step - 1) <
@@ -101,8 +99,6 @@ static fracas_record run_to_fragments(fracas_spec *spec, double time_step)
     bar_draw(batch, 0, 0.1, 5);
     fracas_record_init(&record);
     OK(fracas_batch_run(batch, &record));
-    fracas_batch_destroy(batch);
-    fracas_model_destroy(model);
     return record;
 }
 
@@ -123,10 +119,10 @@ static void nearly_equal_lengths_give_the_uniform_run(void **unused)
         OK(fracas_model_create(&spec, &model));
         const double time_step = model->time_step;
         fracas_model_destroy(model);
-        fracas_record uniform = run_to_fragments(&spec, time_step);
+        CLEARED(fracas_record) uniform = run_to_fragments(&spec, time_step);
         if (i / 2) bar_perturb(&spec, 1e-14, 1, noise);
         else bar_grade(&spec, 1);
-        fracas_record varied = run_to_fragments(&spec, time_step);
+        CLEARED(fracas_record) varied = run_to_fragments(&spec, time_step);
         assert_int_equal(varied.cracked, uniform.cracked);
         assert_int_equal(varied.broken, uniform.broken);
         assert_int_equal(varied.fragments, uniform.fragments);
@@ -142,8 +138,6 @@ static void nearly_equal_lengths_give_the_uniform_run(void **unused)
                       laws[i % 2]->name, spec.mesh.spacing->name, (long long)uniform.fragments,
                       worst);
         assert_true(worst < (i == 3 ? 1e-2 : 1e-10));
-        fracas_record_clear(&uniform);
-        fracas_record_clear(&varied);
     }
 }
 
@@ -159,8 +153,8 @@ static void a_uniform_stretch_moves_nothing(void **unused)
         spec.geometry.length = 0.02;
         spec.cohesive.law = laws[i % 2];
         spec.geometry.ends = ends[i / 2 % 2];
-        fracas_model *model = model_on(&spec, i / 4);
-        fracas_batch *batch = batch_of(model, 300e6);
+        OWNED(fracas_model) *model = model_on(&spec, i / 4);
+        OWNED(fracas_batch) *batch = batch_of(model, 300e6);
         fracas_record record;
         fracas_record_init(&record);
         model->time_step = fmin(model->time_step, onset / 500);
@@ -172,8 +166,6 @@ static void a_uniform_stretch_moves_nothing(void **unused)
         }
         assert_int_equal(batch->step.cracked[0], model->interfaces);
         assert_true(fabs(batch->step.first_onset[0] / onset - 1) < 1e-12);
-        fracas_batch_destroy(batch);
-        fracas_model_destroy(model);
     }
 }
 
@@ -189,8 +181,8 @@ static void a_stretch_of_the_nodes_moves_no_inner_node(void **unused)
         spec.geometry.length = 0.02;
         spec.cohesive.law = laws[i % 2];
         spec.geometry.ends = &fracas_ends_held;
-        fracas_model *model = model_on(&spec, i / 2);
-        fracas_batch *batch = batch_of(model, 300e6);
+        OWNED(fracas_model) *model = model_on(&spec, i / 2);
+        OWNED(fracas_batch) *batch = batch_of(model, 300e6);
         double x = 0, least = 1;
         for (size_t e = 0; e < 400; e++) {
             *field(batch, e, W_LEFT) = strain * x;
@@ -208,8 +200,6 @@ static void a_stretch_of_the_nodes_moves_no_inner_node(void **unused)
         assert_true(largest < 8 * stress * 0.02 / least * 0x1p-53);
         assert_true(fabs(batch->step.elastic[0] / (0.5 * stress * strain * 0.02 * 1e-6) - 1) <
                     1e-9);
-        fracas_batch_destroy(batch);
-        fracas_model_destroy(model);
     }
 }
 
@@ -224,10 +214,10 @@ static double wave_error(int law, int mesh, int64_t elements)
     spec.geometry.ends = &fracas_ends_held;
     spec.cohesive.law = laws[law];
     spec.time.safety = 0.9;
-    fracas_model *model = model_on(&spec, mesh);
+    OWNED(fracas_model) *model = model_on(&spec, mesh);
     const double steps = ceil(quarter / model->time_step);
     model->time_step = quarter / steps;
-    fracas_batch *batch = batch_of(model, 5e7);
+    OWNED(fracas_batch) *batch = batch_of(model, 5e7);
     double x = 0, sum = 0, norm = 0;
     for (size_t e = 0; e < model->elements;
          e++) { /* w(0) = 0, so v(-dt/2) = v(0) to second order */
@@ -250,8 +240,6 @@ static double wave_error(int law, int mesh, int64_t elements)
         x += model->table[e];
     }
     assert_int_equal(batch->step.cracked[0], 0);
-    fracas_batch_destroy(batch);
-    fracas_model_destroy(model);
     return sqrt(sum / norm);
 }
 
@@ -283,8 +271,8 @@ static void tied_nodes_stay_together(void **unused)
         spec.geometry.length = 6e-3;
         spec.cohesive.law = &fracas_law_rigid_link.kind;
         spec.geometry.ends = ends[i % 2];
-        fracas_model *model = model_on(&spec, i / 2);
-        fracas_batch *batch = batch_of(model, 300e6);
+        OWNED(fracas_model) *model = model_on(&spec, i / 2);
+        OWNED(fracas_batch) *batch = batch_of(model, 300e6);
         bar_draw(batch, 0, 0.3, 1);
         fracas_record record;
         fracas_record_init(&record);
@@ -313,8 +301,6 @@ static void tied_nodes_stay_together(void **unused)
             if (i % 2 == 0) assert_true(fabs(momentum) <= scale * 4 * 0x1p-53 * (s + 300));
         }
         assert_true(moved > 1000 && closed > 50 && open > 10 && scale > 0);
-        fracas_batch_destroy(batch);
-        fracas_model_destroy(model);
     }
 }
 
@@ -347,7 +333,7 @@ static void events_are_timed_inside_their_steps(void **unused)
         fracas_spec spec = bar_reference(N, 1e5, 1);
         spec.geometry.length = 6e-3;
         spec.cohesive.law = laws[i % 2];
-        fracas_model *model = model_on(&spec, i / 2);
+        OWNED(fracas_model) *model = model_on(&spec, i / 2);
         const fracas_batch_options options = {
             .width = 1, .isa = FRACAS_ISA_BEST, .interfaces = true};
         fracas_batch *batch;
@@ -378,7 +364,6 @@ static void events_are_timed_inside_their_steps(void **unused)
         }
         assert_true(count[0] > 20);
         fracas_batch_destroy(batch);
-        fracas_model_destroy(model);
     }
 }
 
@@ -437,10 +422,10 @@ static void fragments_are_sums_over_their_elements(void **unused)
         spec.geometry.length = 8e-3;
         spec.cohesive.law = laws[i % 2];
         spec.geometry.ends = ends[i / 2 % 2];
-        fracas_model *model = model_on(&spec, i / 4);
-        fracas_batch *batch = batch_of(model, 300e6);
+        OWNED(fracas_model) *model = model_on(&spec, i / 4);
+        OWNED(fracas_batch) *batch = batch_of(model, 300e6);
         bar_draw(batch, 0, 0.05, 2);
-        fracas_record record;
+        CLEARED(fracas_record) record;
         fracas_record_init(&record);
         for (size_t running = 1; running > 0;) OK(fracas_batch_step(batch, &record, &running));
         static piece pieces[401];
@@ -467,9 +452,6 @@ static void fragments_are_sums_over_their_elements(void **unused)
         if (i / 2 % 2 == 0) /* closed: none; leapfrog's v is that of sqrt(2 T/m) on average */
             assert_true(fabs(record.momentum[0]) <
                         sqrt(2 * record.kinetic * record.mass) * 1e-16 * (double)record.steps);
-        fracas_record_clear(&record);
-        fracas_batch_destroy(batch);
-        fracas_model_destroy(model);
     }
 }
 

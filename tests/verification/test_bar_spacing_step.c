@@ -126,7 +126,7 @@ static void critical_step_is_that_of_the_dense_operator(void **unused)
         spec.cohesive.beta = betas[i / 8 % 3];
         if (i / 4 % 2 && !large) bar_grade(&spec, ratios[i % 5]);
         else bar_perturb(&spec, large ? 0.01 : amplitudes[i % 5], (uint64_t)i, noise);
-        fracas_model *model;
+        OWNED(fracas_model) *model;
         OK(fracas_model_create(&spec, &model));
         for (int broken = 0; broken < 2; broken++) {
             const double found = broken ? model->critical_cracked : model->critical_closed;
@@ -135,7 +135,6 @@ static void critical_step_is_that_of_the_dense_operator(void **unused)
             below = fmin(below, error);
         }
         assert_true(model->critical_step == fmin(model->critical_closed, model->critical_cracked));
-        fracas_model_destroy(model);
     }
     for (int i = 0; i < 4; i++) {
         print_message("[  figures ] %s %s: step above the critical one by %.1e at most\n",
@@ -179,7 +178,7 @@ static void press_together(const fracas_model *model, fracas_batch *batch)
 static double march(const fracas_model *model, bool broken, double factor)
 {
     const size_t n = model->elements;
-    fracas_batch *batch = batch_of(model, 3e8);
+    OWNED(fracas_batch) *batch = batch_of(model, 3e8);
     uint64_t seed = 3;
     batch->step.time[0] = 0;
     if (broken) press_together(model, batch);
@@ -193,7 +192,6 @@ static double march(const fracas_model *model, bool broken, double factor)
     for (int s = 0; s < 100; s++) model->formulation->advance(model, &batch->step);
     for (size_t e = 0; e < n; e++)
         for (int f = V_LEFT; f <= V_RIGHT; f++) largest = fmax(largest, fabs(*field(batch, e, f)));
-    fracas_batch_destroy(batch);
     return largest;
 }
 
@@ -206,13 +204,12 @@ static void steps_blow_up_above_the_critical_one_only(void **unused)
         spec.geometry.length = 60 * 2e-5;
         spec.cohesive.law = laws[i % 2];
         spec.geometry.ends = ends[i / 2 % 2];
-        fracas_model *model = model_on(&spec, i / 8);
+        OWNED(fracas_model) *model = model_on(&spec, i / 8);
         const double stays = march(model, i / 4 % 2, 0.99), grows = march(model, i / 4 % 2, 1.01);
         if (!(stays < 1e-7) || !(grows > 1e-5))
             fail_msg("%s, %s, %s, mesh %d: %g m/s below, %g m/s above", laws[i % 2]->name,
                      ends[i / 2 % 2]->name, i / 4 % 2 ? "broken" : "uncracked", i / 8, stays,
                      grows);
-        fracas_model_destroy(model);
     }
 }
 

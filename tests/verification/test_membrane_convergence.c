@@ -123,9 +123,9 @@ static double static_error(fracas_spec spec, double distortion, double *size)
 {
     hold_all(&spec, &fracas_edge_held);
     spec.material.poisson = 0.22;
-    fracas_model *model = distorted_model(spec, distortion, (uint64_t)spec.mesh.divisions);
+    OWNED(fracas_model) *model = distorted_model(spec, distortion, (uint64_t)spec.mesh.divisions);
     const size_t n = unknowns_of(model);
-    double *u = vector_of(n), *f = vector_of(n);
+    FREED double *u = vector_of(n), *f = vector_of(n);
     interpolate(model, exact, NULL, u);
     for (size_t i = 0; i < n; i++)
         if (!is_held(model, i)) u[i] = 0;
@@ -133,9 +133,6 @@ static double static_error(fracas_spec spec, double distortion, double *size)
     solve(model, f, u);
     const double error = miss(model, u);
     *size = 1 / sqrt((double)model->elements);
-    free(u);
-    free(f);
-    fracas_model_destroy(model);
     return error;
 }
 
@@ -203,14 +200,15 @@ static double frequency_error(int64_t order, int64_t divisions, const fracas_kin
     spec.material.poisson = 0.22;
     spec.time.mass = mass;
     hold_all(&spec, &fracas_edge_sliding);
-    fracas_model *model = distorted_model(spec, DISTORTION, (uint64_t)divisions);
+    OWNED(fracas_model) *model = distorted_model(spec, DISTORTION, (uint64_t)divisions);
     const fracas_geometry *g = &spec.geometry;
     const wave exact_wave = {PI / g->width, PI / g->height, -0.5 * g->width, -0.5 * g->height};
     const double shear = spec.material.young /
                          (2 * (1 + spec.material.poisson) * spec.material.density);
     const double square = shear * (exact_wave.a * exact_wave.a + exact_wave.b * exact_wave.b);
     const size_t n = unknowns_of(model);
-    double *u = vector_of(n), *f = vector_of(n), *momentum = vector_of(n), quotient = 0;
+    FREED double *u = vector_of(n), *f = vector_of(n), *momentum = vector_of(n);
+    double quotient = 0;
     interpolate(model, wave_at, &exact_wave, u);
     for (int turn = 0; turn < 4; turn++) {
         for (size_t i = 0; i < n; i++) u[i] = is_held(model, i) ? 0 : u[i];
@@ -221,10 +219,6 @@ static double frequency_error(int64_t order, int64_t divisions, const fracas_kin
         quotient = dot(u, f, n) / (square * dot(u, momentum, n)); /* u.K u/(u.M u), K u = f */
     }
     *size = 1 / sqrt((double)model->elements);
-    free(u);
-    free(f);
-    free(momentum);
-    fracas_model_destroy(model);
     return quotient - 1;
 }
 

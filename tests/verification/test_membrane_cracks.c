@@ -64,14 +64,14 @@ static double growth_of(const fracas_model *model, size_t i)
  * body/element = 40 times stress/u: 1e-14; 1e-12 of the time. */
 static void check_onsets(const fracas_spec *spec)
 {
-    fracas_model *model = distorted_model(*spec, DISTORTION, 9);
+    OWNED(fracas_model) *model = distorted_model(*spec, DISTORTION, 9);
     double fastest = 0, expected[MOST], end = 0;
     size_t weak[MOST], count = 0;
     for (size_t i = 0; i < model->interfaces; i++) fastest = fmax(fastest, growth_of(model, i));
     for (size_t i = 0; i < model->interfaces && count < MOST; i += 3)
         if (growth_of(model, i) > 0.1 * fastest) weak[count++] = i;
     assert_true(count > 3);
-    fracas_batch *batch = batch_with(
+    OWNED(fracas_batch) *batch = batch_with(
         model, count, (fracas_batch_options){.interfaces = true, .isa = FRACAS_ISA_BEST});
     for (size_t l = 0; l < count; l++) {
         const double strength = 300e6 * (1 + 0.01 * (double)l);
@@ -101,8 +101,6 @@ static void check_onsets(const fracas_spec *spec)
                   spec->cohesive.coupling, spec->cohesive.friction, spec->time.integrator->name,
                   model->strengths, count, worst);
     assert_true(worst < 1e-12);
-    fracas_batch_destroy(batch);
-    fracas_model_destroy(model);
 }
 
 static void onsets_under_uniform_stress(void **unused)
@@ -244,8 +242,8 @@ static void check_fate(fracas_model *model, double velocity[2][6], const double 
     const fate f[2] = {fate_of(model, &r, 0, strength[0]), fate_of(model, &r, 1, strength[1])};
     const double onset = fmin(f[0].onset, f[1].onset), broken = fmax(f[0].broken, f[1].broken);
     model->spec.time.end = broken + 1.5 * model->time_step;
-    fracas_batch *batch = lane_of(model, 0, 0, 0);
-    fracas_record record;
+    OWNED(fracas_batch) *batch = lane_of(model, 0, 0, 0);
+    CLEARED(fracas_record) record;
     fracas_record_init(&record);
     for (size_t k = 0; k < model->strengths; k++) bar_set_strength(batch, 0, k, strength[k]);
     OK(fracas_batch_begin(batch));
@@ -267,8 +265,6 @@ static void check_fate(fracas_model *model, double velocity[2][6], const double 
     worst[0] = fmax(worst[0], fabs(record.onset_time / onset - 1));
     worst[1] = fmax(worst[1], fabs(record.interface[0].break_time / broken - 1));
     worst[2] = fmax(worst[2], fabs(record.dissipated / (energy * area) - 1));
-    fracas_record_clear(&record);
-    fracas_batch_destroy(batch);
 }
 
 static void two_triangles_crack_and_break_in_time(void **unused)
@@ -372,8 +368,8 @@ static double energy_of_row(const fracas_batch *batch, const fracas_record *reco
 static void check_row(const fracas_model *model, int mode, int64_t in_the_row)
 {
     const double speed = 2, *size = &model->spec.geometry.width;
-    fracas_batch *batch = lane_of(model, 0.2, 6, 10);
-    bool *in_row = calloc(model->interfaces, sizeof *in_row);
+    OWNED(fracas_batch) *batch = lane_of(model, 0.2, 6, 10);
+    FREED bool *in_row = calloc(model->interfaces, sizeof *in_row);
     double(*at)[3] = malloc(model->interfaces * sizeof *at);
     assert_true(in_row && at);
     fracas_model_interface_positions(model, at);
@@ -383,7 +379,7 @@ static void check_row(const fracas_model *model, int mode, int64_t in_the_row)
         row += in_row[i];
         bar_set_strength(batch, 0, i, in_row[i] ? (120 + 5.0 * (double)(i % 13)) * 1e6 : 8e8);
     }
-    fracas_record record;
+    CLEARED(fracas_record) record;
     fracas_record_init(&record);
     OK(fracas_batch_begin(batch));
     move_halves(batch, mode, speed);
@@ -429,9 +425,6 @@ static void check_row(const fracas_model *model, int mode, int64_t in_the_row)
         assert_true(part->position[2] == 0 && part->velocity[2] == 0);
     }
     assert_true(record.fragment[0].position[1] * record.fragment[1].position[1] < 0);
-    fracas_record_clear(&record);
-    fracas_batch_destroy(batch);
-    free(in_row);
     free(at);
 }
 
@@ -446,10 +439,9 @@ static void a_row_of_weak_interfaces(void **unused)
             spec.cohesive.fracture_energy = 0;
             spec.cohesive.critical_opening = 1.2e-6;
         }
-        fracas_model *model = distorted_model(spec, 0, 0);
+        OWNED(fracas_model) *model = distorted_model(spec, 0, 0);
         check_row(model, which / 2 % 2,
                   which % 2 ? 8 : 16); /* squares along x: 4 times those along y */
-        fracas_model_destroy(model);
     }
 }
 
@@ -534,12 +526,12 @@ static void fragments_and_histories_of_a_plate(void **unused)
         if (which / 2 % 2) spec.time.mass = &fracas_mass_consistent;
         spec.cohesive.law = laws[which / 4];
         if (which / 4) spec.time.safety = 0.1;
-        fracas_model *model = distorted_model(spec, DISTORTION, 3);
-        fracas_batch *batch = lane_of(model, 0.3, (uint64_t)which, 60);
-        fracas_record record;
+        OWNED(fracas_model) *model = distorted_model(spec, DISTORTION, 3);
+        OWNED(fracas_batch) *batch = lane_of(model, 0.3, (uint64_t)which, 60);
+        CLEARED(fracas_record) record;
         fracas_record_init(&record);
         OK(fracas_batch_run(batch, &record));
-        size_t *label = malloc(model->elements * sizeof *label);
+        FREED size_t *label = malloc(model->elements * sizeof *label);
         assert_non_null(label);
         assert_int_equal(record.fragments,
                          label_fragments(model, record.interface, is_not_broken, 0, label));
@@ -549,10 +541,6 @@ static void fragments_and_histories_of_a_plate(void **unused)
         assert_true(record.fragments > 10 && record.nhistory > 50);
         check_fragments(batch, &record, label);
         check_history(model, &record, label);
-        free(label);
-        fracas_record_clear(&record);
-        fracas_batch_destroy(batch);
-        fracas_model_destroy(model);
     }
 }
 
@@ -561,9 +549,9 @@ static void fragments_and_histories_of_a_plate(void **unused)
 static void an_interface_holds_by_its_last_point(void **unused)
 {
     fracas_spec spec = brittle_plate(2, 1, 0, 1e-7);
-    fracas_model *model = distorted_model(spec, 0, 0);
-    fracas_batch *batch = lane_of(model, 0, 0, 0);
-    fracas_record record;
+    OWNED(fracas_model) *model = distorted_model(spec, 0, 0);
+    OWNED(fracas_batch) *batch = lane_of(model, 0, 0, 0);
+    CLEARED(fracas_record) record;
     fracas_record_init(&record);
     OK(fracas_batch_begin(batch));
     for (size_t i = 0; i < model->interfaces; i++)
@@ -575,9 +563,6 @@ static void an_interface_holds_by_its_last_point(void **unused)
     run_to_end(batch, &record);
     assert_true(record.fragments == 1 && record.nfragment == 1 && record.broken == 0 &&
                 record.interface[0].damage < 1);
-    fracas_record_clear(&record);
-    fracas_batch_destroy(batch);
-    fracas_model_destroy(model);
 }
 
 /* A row for every step shows the first maximum of the elastic energy that is followed by a fall of
@@ -586,8 +571,8 @@ static void an_interface_holds_by_its_last_point(void **unused)
 static void check_stop(const fracas_model *model, uint64_t replica)
 {
     const fracas_time *rule = &model->spec.time;
-    fracas_batch *batch = lane_of(model, 0.3, replica, 100000);
-    fracas_record record;
+    OWNED(fracas_batch) *batch = lane_of(model, 0.3, replica, 100000);
+    CLEARED(fracas_record) record;
     fracas_record_init(&record);
     OK(fracas_batch_run(batch, &record));
     assert_int_equal(record.nhistory, record.steps + 1);
@@ -604,8 +589,6 @@ static void check_stop(const fracas_model *model, uint64_t replica)
                   rule->drop, 1e9 * time, 1e9 * record.end_time);
     assert_true(record.outcome == (record.broken > 0 ? FRACAS_FRAGMENTED : FRACAS_INTACT) &&
                 time > record.onset_time && record.end_time < rule->end);
-    fracas_record_clear(&record);
-    fracas_batch_destroy(batch);
 }
 
 static void it_stops_at_the_multiple_of_the_peak(void **unused)
@@ -616,9 +599,8 @@ static void it_stops_at_the_multiple_of_the_peak(void **unused)
         spec.time.stop = &fracas_stop_peak_multiple;
         spec.time.multiple = which ? 1 : 1.7;
         spec.time.drop = which ? 0.5 : 0.05;
-        fracas_model *model = distorted_model(spec, DISTORTION, 3);
+        OWNED(fracas_model) *model = distorted_model(spec, DISTORTION, 3);
         for (uint64_t replica = 0; replica < 4; replica++) check_stop(model, replica);
-        fracas_model_destroy(model);
     }
 }
 

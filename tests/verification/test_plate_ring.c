@@ -131,7 +131,7 @@ static membrane_errors turn_by(int64_t order, double size, const fracas_kind *ma
                                const fracas_kind *integrator)
 {
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    fracas_model *model = disk_model(order, size, mass, integrator);
+    OWNED(fracas_model) *model = disk_model(order, size, mass, integrator);
     fracas_batch *batch;
     fracas_record record;
     size_t running = 1, stride;
@@ -163,7 +163,6 @@ static membrane_errors turn_by(int64_t order, double size, const fracas_kind *ma
                   (long long)batch->steps, errors.stress, errors.moved, errors.residual);
     fracas_record_clear(&record);
     fracas_batch_destroy(batch);
-    fracas_model_destroy(model);
     return errors;
 }
 

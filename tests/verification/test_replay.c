@@ -28,14 +28,13 @@ static void replay(const dynfrag1d_run *run, const dynfrag1d_row *reference, int
                    uint64_t seed, dynfrag1d_row *now)
 {
     const fracas_stream stream = {.seed = seed, .purpose = FRACAS_PURPOSE_STRENGTH};
-    double *strength = dynfrag1d_strengths(run);
+    FREED double *strength = dynfrag1d_strengths(run);
     for (int i = 0; i < run->elements; i++)
         strength[i] *= 1 + noise * (2 * fracas_stream_uniform(&stream, (uint64_t)i) - 1);
     dynfrag1d_replay bar;
     dynfrag1d_begin(&bar, run, &fracas_law_rigid_link.kind, 1, 0, strength);
     dynfrag1d_follow(&bar, reference, rows, now);
     dynfrag1d_end(&bar);
-    free(strength);
 }
 
 static void dynfrag1d_is_replayed_to_1e_8_with_every_count(void **unused)

@@ -40,7 +40,7 @@ static double dissipated_difference(const dynfrag1d_row *ours, const dynfrag1d_r
 static void compute(const dynfrag1d_run *run, const fracas_kind *law, int refine, double courant,
                     const curve *theirs, int rows, curve *ours)
 {
-    double *strength = dynfrag1d_strengths(run);
+    FREED double *strength = dynfrag1d_strengths(run);
     dynfrag1d_replay bar;
     dynfrag1d_begin(&bar, run, law, refine, courant, strength);
     dynfrag1d_follow(&bar, theirs->at, rows, ours->at);
@@ -49,7 +49,6 @@ static void compute(const dynfrag1d_run *run, const fracas_kind *law, int refine
         ours->broken[i] = dynfrag1d_field(&bar, (size_t)((i + 1) * refine - 1), DYNFRAG1D_DAMAGE) >
                           0.99;
     dynfrag1d_end(&bar);
-    free(strength);
 }
 
 static int common_breaks(const dynfrag1d_run *run, const curve *a, const curve *b)

@@ -312,8 +312,8 @@ static double slope_error(fracas_batch *batch, const double *u, double scale,
     const size_t n = unknowns_of(batch->model);
     shell_answer here = {.force = calloc(n, sizeof(double))},
                  there = {.force = calloc(n, sizeof(double))};
-    double *direction = calloc(n, sizeof *direction), *moved = calloc(n, sizeof *moved), energy[2],
-           worst = 0;
+    FREED double *direction = calloc(n, sizeof *direction), *moved = calloc(n, sizeof *moved);
+    double energy[2], worst = 0;
     assert_true(here.force && there.force && direction && moved);
     look_at(batch, u, &here);
     for (int trial = 0; trial < 4; trial++) {
@@ -335,8 +335,6 @@ static double slope_error(fracas_batch *batch, const double *u, double scale,
     }
     free(here.force);
     free(there.force);
-    free(direction);
-    free(moved);
     return worst;
 }
 
@@ -351,8 +349,8 @@ static double relative(double a, double b, double scale)
 static void walk(const fracas_spec *spec, double scale, double distortion, long seen[7],
                  double worst[3])
 {
-    fracas_model *model = distorted_model(*spec, distortion, 3);
-    fracas_batch *batch = lane_of(model, 0.3, 5);
+    OWNED(fracas_model) *model = distorted_model(*spec, distortion, 3);
+    OWNED(fracas_batch) *batch = lane_of(model, 0.3, 5);
     OK(fracas_batch_begin(batch));
     const size_t n = unknowns_of(model);
     twin t = twin_of(model, batch);
@@ -412,8 +410,6 @@ static void walk(const fracas_spec *spec, double scale, double distortion, long 
     free(u);
     free(answer.force);
     twin_clear(&t);
-    fracas_batch_destroy(batch);
-    fracas_model_destroy(model);
 }
 
 static void interfaces_do_what_their_layers_do(void **unused)
@@ -522,7 +518,7 @@ static double damage_of(const fracas_batch *batch, size_t i)
  * that for an onset by what shear has over friction. */
 static void check_times(const fracas_spec *spec, double distortion, double worst[2], long counts[2])
 {
-    fracas_model *model = distorted_model(*spec, distortion, 3);
+    OWNED(fracas_model) *model = distorted_model(*spec, distortion, 3);
     const size_t n = unknowns_of(model);
     const double dt = model->time_step, speed = spec->cohesive.onset == &fracas_onset_flux ||
                                                         spec->cohesive.critical_opening > 0
@@ -530,7 +526,7 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
                                                     : 1;
     for (size_t e = 0; e < model->elements; e++)
         shell_tables(model)->held[e] = shell_tables(model)->fixed[e] = 0x3ffff;
-    double *velocity = calloc(n, sizeof *velocity);
+    FREED double *velocity = calloc(n, sizeof *velocity);
     assert_non_null(velocity);
     const fracas_stream stream = {.seed = 12, .purpose = FRACAS_PURPOSE_MESH};
     for (uint64_t trial = 0; trial < 160 / model->interfaces; trial++) {
@@ -547,7 +543,7 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
                             1.5e-3 * (node_at(model, i / 18, i % 18 / 3)[i % 3] - centre)) /
                            (200 * dt);
         }
-        fracas_batch *batch = lane_of(model, 0.3, trial);
+        OWNED(fracas_batch) *batch = lane_of(model, 0.3, trial);
         double end = 0, onset, broken;
         for (size_t i = 0; i < model->interfaces; i++) {
             if (fate_of(batch, i, velocity, &onset, &broken) && isfinite(broken))
@@ -580,10 +576,7 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
         }
         assert_true(isinf(first) ? isnan(record.onset_time) : record.onset_time == first);
         fracas_record_clear(&record);
-        fracas_batch_destroy(batch);
     }
-    free(velocity);
-    fracas_model_destroy(model);
 }
 
 static void onsets_and_breaks_come_when_they_must(void **unused)
@@ -621,23 +614,20 @@ static void onsets_and_breaks_come_when_they_must(void **unused)
  * weights sum. */
 static void an_interface_breaks_with_its_last_layer(void **unused)
 {
-    fracas_model *model = distorted_model(brittle_shell(&fracas_shape_plate, 1), 0, 0);
-    fracas_batch *batch = lane_of(model, 0, 0);
+    OWNED(fracas_model) *model = distorted_model(brittle_shell(&fracas_shape_plate, 1), 0, 0);
+    OWNED(fracas_batch) *batch = lane_of(model, 0, 0);
     OK(fracas_batch_begin(batch));
     for (int last = 0; last <= SHELL_EDGE * SHELL_LAYERS; last++) {
         for (int p = 0; p < SHELL_EDGE * SHELL_LAYERS; p++)
             *fracas_surface_point(model, &batch->step, 0, p, SURFACE_DAMAGE,
                                   0) = p == last ? 1 - 0x1p-53 : 1;
-        fracas_record record;
+        CLEARED(fracas_record) record;
         fracas_record_init(&record);
         batch->step.broken[0] = 1;
         OK(model->formulation->harvest(model, &batch->step, 0, &record));
         assert_true((record.interface[0].damage == 1) == (last == SHELL_EDGE * SHELL_LAYERS));
         assert_int_equal(record.nfragment, last == SHELL_EDGE * SHELL_LAYERS ? 2 : 1);
-        fracas_record_clear(&record);
     }
-    fracas_batch_destroy(batch);
-    fracas_model_destroy(model);
 }
 
 TESTS(interfaces_do_what_their_layers_do, onsets_and_breaks_come_when_they_must,

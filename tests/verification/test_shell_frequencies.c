@@ -28,7 +28,7 @@ static void frequencies(const vibration *v, size_t level, double beta, double be
     spec.cohesive.beta = beta;
     spec.cohesive.beta_shear = beta_shear;
     for (int tag = 1; tag < FRACAS_EDGES; tag++) spec.geometry.edge[tag] = v->edge[tag > 2];
-    fracas_model *model = grid_model(
+    OWNED(fracas_model) *model = grid_model(
         &spec,
         &(shell_grid){.nx = v->nx[level], .ny = v->ny[level], .map = flat_map, .how = v->size});
     shell_statics *s = statics_open(model);
@@ -44,7 +44,6 @@ static void frequencies(const vibration *v, size_t level, double beta, double be
     print_message("\n");
     free(mode);
     statics_close(s);
-    fracas_model_destroy(model);
 }
 
 /* Frequencies are wrong by the energy of the modes' errors, of order 2 in h: the slope of the last

@@ -25,10 +25,10 @@ static void free_bodies_have_six_rigid_motions(void **unused)
             fracas_spec spec = shell_spec(&fracas_shape_sphere);
             spec.cohesive.beta = beta[k < 3 ? k : 1];
             spec.cohesive.beta_shear = shear[k < 3 ? 1 : k == 3 ? 0 : 2];
-            fracas_model *model = body_of(which, spec, 3, 11);
+            OWNED(fracas_model) *model = body_of(which, spec, 3, 11);
             const size_t n = unknowns_of(model);
-            double *matrix = stiffness_matrix(model, n),
-                   *value = squares_of_frequencies(model, matrix, n);
+            FREED double *matrix = stiffness_matrix(model, n),
+                         *value = squares_of_frequencies(model, matrix, n);
             const double step = 2 / sqrt(value[n - 1]);
             print_message("%s, beta %g, beta_shear %g: eigenvalues %.1e, 6 below %.1e, next %.1e "
                           "of the largest; step by it %+.1e\n",
@@ -38,9 +38,6 @@ static void free_bodies_have_six_rigid_motions(void **unused)
             assert_true(fmax(value[5], -value[0]) < 1e-13 * value[n - 1]);
             assert_true(value[6] > 1e-9 * value[n - 1]);
             assert_true(fabs(model->critical_closed / step - 1) < 1e-5);
-            free(matrix);
-            free(value);
-            fracas_model_destroy(model);
         }
 }
 
@@ -82,15 +79,15 @@ static double least_beta(double poisson, double distortion, double slant, int di
     spec.cohesive.beta = 10;
     spec.cohesive.beta_shear = 1e-4;
     const double how[2] = {1, slant};
-    fracas_model *model = grid_model(&spec, &(shell_grid){.nx = 3,
-                                                          .ny = 3,
-                                                          .map = slant_map,
-                                                          .how = how,
-                                                          .distortion = distortion,
-                                                          .seed = 4,
-                                                          .diagonals = diagonals});
+    OWNED(fracas_model) *model = grid_model(&spec, &(shell_grid){.nx = 3,
+                                                                 .ny = 3,
+                                                                 .map = slant_map,
+                                                                 .how = how,
+                                                                 .distortion = distortion,
+                                                                 .seed = 4,
+                                                                 .diagonals = diagonals});
     const size_t n = unknowns_of(model);
-    double *stiff = stiffness_matrix(model, n);
+    FREED double *stiff = stiffness_matrix(model, n);
     for (size_t i = 0; i < model->interfaces; i++)
         tables_of(model)->interface[i * SHELL_INTERFACE_TABLE + SURFACE_STIFFNESS] = 0;
     double *soft = stiffness_matrix(model, n), low = 0, high = 10;
@@ -99,9 +96,7 @@ static double least_beta(double poisson, double distortion, double slant, int di
         if (lowest_by_largest(model, soft, stiff, beta / 10, across, n) < -1e-13) low = beta;
         else high = beta;
     }
-    free(stiff);
     free(soft);
-    fracas_model_destroy(model);
     return high;
 }
 
@@ -138,12 +133,11 @@ static double step_of(bool even, double thickness_by_size, double beta, double b
     spec.geometry.thickness = thickness_by_size * size;
     spec.cohesive.beta = beta;
     spec.cohesive.beta_shear = beta_shear;
-    fracas_model *model = grid_model(
+    OWNED(fracas_model) *model = grid_model(
         &spec,
         &(shell_grid){.nx = n, .ny = n, .map = slant_map, .how = how, .diagonals = even ? 2 : 0});
     const double step = model->critical_closed *
                         sqrt(spec.material.young / (spec.material.density * (1 - 0.09))) / size;
-    fracas_model_destroy(model);
     return step;
 }
 

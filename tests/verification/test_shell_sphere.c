@@ -49,9 +49,10 @@ static void breathing_frequency(void **unused)
         for (int64_t n = 2; n < 33; n *= 2) {
             if (whole && n > 8) continue;
             const fracas_spec spec = alumina(whole ? &fracas_part_whole : &fracas_part_octant, n);
-            fracas_model *model = distorted_model(spec, n > 2 && !whole ? DISTORTION : 0, 5);
+            OWNED(fracas_model) *model = distorted_model(spec, n > 2 && !whole ? DISTORTION : 0, 5);
             const size_t size = unknowns_of(model);
-            double *u = vector_of(size), *f = vector_of(size), stretch = 0, mass = 0;
+            FREED double *u = vector_of(size), *f = vector_of(size);
+            double stretch = 0, mass = 0;
             fracas_surface_operator *op = open_operator(model);
             interpolate(model, radial, NULL, u);
             apply_stiffness(model, op, u, f);
@@ -63,9 +64,6 @@ static void breathing_frequency(void **unused)
             assert_true(fabs(error) < before);
             before = fabs(error);
             fracas_surface_operator_close(op);
-            free(u);
-            free(f);
-            fracas_model_destroy(model);
         }
         assert_true(before < 1e-3);
         const fracas_spec spec = alumina(&fracas_part_octant, 1);
@@ -171,7 +169,7 @@ static fracas_model *mirrored(const fracas_model *octant)
 {
     const fracas_surface *s = octant->surface;
     double(*node)[3] = calloc(8 * s->nnodes, sizeof *node);
-    uint32_t *element = calloc(8 * s->nelements * 6, sizeof *element);
+    FREED uint32_t *element = calloc(8 * s->nelements * 6, sizeof *element);
     assert_non_null(node);
     assert_non_null(element);
     size_t nodes = 0;
@@ -200,7 +198,6 @@ static fracas_model *mirrored(const fracas_model *octant)
     fracas_model *model = shell_of(octant->spec, all);
     fracas_surface_destroy(all);
     free(node);
-    free(element);
     return model;
 }
 
@@ -244,11 +241,12 @@ static void symmetry_is_a_mirror(void **unused)
 {
     fracas_spec spec = alumina(&fracas_part_octant, 4);
     spec.geometry.thickness = 1e-3; /* bending as large as stretching */
-    fracas_model *octant = distorted_model(spec, DISTORTION, 5), *whole = mirrored(octant);
+    OWNED(fracas_model) *octant = distorted_model(spec, DISTORTION, 5), *whole = mirrored(octant);
     const size_t n = unknowns_of(octant), all = unknowns_of(whole);
-    double *u = vector_of(n), *f = vector_of(n), *u_all = vector_of(all), *f_all = vector_of(all),
-           *sign = vector_of(all), worst = 0;
-    size_t *from = calloc(all, sizeof *from);
+    FREED double *u = vector_of(n), *f = vector_of(n), *u_all = vector_of(all),
+                 *f_all = vector_of(all), *sign = vector_of(all);
+    double worst = 0;
+    FREED size_t *from = calloc(all, sizeof *from);
     assert_non_null(from);
     match(octant, whole, from, sign);
     uint64_t noise = 9;
@@ -266,14 +264,6 @@ static void symmetry_is_a_mirror(void **unused)
     assert_true(fabs(energy) < 1e-13);
     fracas_surface_operator_close(op);
     fracas_surface_operator_close(op_all);
-    free(u);
-    free(f);
-    free(u_all);
-    free(f_all);
-    free(sign);
-    free(from);
-    fracas_model_destroy(octant);
-    fracas_model_destroy(whole);
 }
 
 static void start_ellipsoid(shell_run *run)

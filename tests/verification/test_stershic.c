@@ -278,14 +278,13 @@ static void the_base_step_is_the_papers(void **unused)
     const int64_t sizes[] = {40, 41, 401, 1000, 1250, 5000};
     for (size_t i = 0; i < FRACAS_COUNT(sizes); i++) {
         const fracas_spec spec = at_rest(sizes[i]);
-        fracas_model *model;
+        OWNED(fracas_model) *model;
         OK(fracas_model_create(&spec, &model));
         const double paper = 0.8 * RING_CIRCUMFERENCE / (double)sizes[i] / BAR_WAVE_SPEED;
         const double odd = sizes[i] % 2 ? cos(0.5 * 3.14159265358979323846 / (double)sizes[i]) : 1;
         print_message("[  figures ] %5ld elements: time step %.2e beyond 0.8 h/c\n", (long)sizes[i],
                       model->time_step / paper - 1);
         assert_true(fabs(model->time_step * odd / paper - 1) < (sizes[i] % 2 ? 1e-7 : 1e-9));
-        fracas_model_destroy(model);
     }
 }
 
