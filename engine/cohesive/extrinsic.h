@@ -142,7 +142,8 @@ LANES_FUNCTION vd extrinsic_opening_at(const plane_interface *at, const plane_in
                                        const double *point)
 {
     return extrinsic_opening(at, in->q_n - lanes_load(point + EXTRINSIC_JUMP_N * LANES),
-                             in->q_t - lanes_load(point + EXTRINSIC_JUMP_T * LANES));
+                             in->q_t - lanes_load(point + EXTRINSIC_JUMP_T * LANES)) /
+           plane_critical_opening(at, lanes_load(point + SURFACE_PEAK * LANES));
 }
 #endif
 #endif

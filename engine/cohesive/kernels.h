@@ -24,7 +24,8 @@ LANES_FUNCTION plane_result plane_law(int law, const plane_interface *at, const 
     __builtin_unreachable();
 }
 
-/* Opening that law number `law` holds against delta_c at a point of a surface [m]. */
+/* Opening at a point of a surface, over that of the break: D of law number `law` reaches 1 with it.
+ */
 LANES_FUNCTION vd plane_opening(int law, const plane_interface *at, const plane_input *in,
                                 const double *point)
 {

@@ -99,4 +99,11 @@ LANES_FUNCTION vd plane_energy(const plane_interface *at, vd peak)
     return cohesive_energy(at->energy, at->opening, peak);
 }
 
+/* delta_c of a point with this peak [m]. */
+LANES_FUNCTION vd plane_critical_opening(const plane_interface *at, vd peak)
+{
+    const vd zero = lanes_set(0.0);
+    return lanes_select(lanes_lt(zero, at->opening), at->opening, (at->energy + at->energy) / peak);
+}
+
 #endif

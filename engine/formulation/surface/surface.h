@@ -99,7 +99,7 @@ typedef struct {
     double u[2][SURFACE_UNKNOWNS_MOST]; /* displacements of its two elements [m] */
     double fields[SURFACE_POINTS_MOST * SURFACE_POINT_FIELDS_MOST]; /* [point][field] of the law */
     double strength[SURFACE_EDGE(2)];                               /* of its Gauss points [Pa] */
-    /* At each point: traction held against the strength, opening held against delta_c; 1 at the
+    /* At each point: traction held against the strength, opening over that of the break; 1 at the
      * onset, at the break. */
     double onset[SURFACE_POINTS_MOST], opening[SURFACE_POINTS_MOST];
 } fracas_surface_view;

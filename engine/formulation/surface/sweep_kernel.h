@@ -258,13 +258,12 @@ LANES_FUNCTION void surface_look(const fracas_surface_constants *s, int order, s
     BODY(flux)(&c, order, i, &sides, at);
     for (int p = 0; p < SURFACE_EDGE(order) * BODY_LAYERS; p++) {
         const int g = p / BODY_LAYERS;
-        const double *point = view->fields + p * s->point_fields, peak = point[SURFACE_PEAK];
+        const double *point = view->fields + p * s->point_fields;
         const plane_input in = BODY(input)(s, table + BODY_HEAD + g * BODY_POINT_TABLE, &at[g],
                                            p % BODY_LAYERS);
         const plane_traction held = plane_held(&interface, &in);
         view->onset[p] = lanes_sqrt(plane_onset(&interface, held.n, held.t)) / view->strength[g];
-        view->opening[p] = plane_opening(s->law, &interface, &in, point) /
-                           cohesive_opening(s->energy, s->opening, peak);
+        view->opening[p] = plane_opening(s->law, &interface, &in, point);
     }
 }
 #endif
