@@ -63,6 +63,7 @@ void fracas_model_destroy(fracas_model *model)
     if (model->plan) model->formulation->plan_destroy(model->plan);
     fracas_surface_destroy(model->surface);
     free(model->table);
+    free(model->sizes);
     free(model);
 }
 

@@ -19,6 +19,9 @@ struct fracas_model {
     double mass;                  /* kg */
     double element_size, longest; /* m: mean and largest length h of an element */
     double *table; /* of the formulation's own: what its mesh is at; freed with the model */
+    const struct fracas_chain *chain; /* fields of a chain's state; NULL of a surface */
+    double
+        *sizes; /* m, lengths of a chain's elements; NULL: all element_size; freed with the model */
     const struct fracas_surface
         *surface; /* mesh of a surface; NULL of a chain; destroyed with the model */
     void *plan;   /* of the formulation's own, freed by plan_destroy */

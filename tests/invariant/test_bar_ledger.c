@@ -41,7 +41,7 @@ static fracas_model *model_on(int mesh, fracas_spec *spec)
 
 static double size_of(const fracas_model *model, size_t e)
 {
-    return model->table ? model->table[e] : model->element_size;
+    return model->sizes ? model->sizes[e] : model->element_size;
 }
 
 /* Random velocities under load, nothing cracks: with leapfrog's kinetic energy the ledger of a

@@ -58,7 +58,7 @@ static void interfaces_share_the_body_on_any_mesh(void **unused)
         OWNED(fracas_model) *model;
         OK(fracas_model_create(&spec, &model));
         const size_t n = fracas_model_interfaces(model);
-        const double *h = model->table;
+        const double *h = model->sizes;
         double sum = 0.0, body = i / 2 ? 5e-8 - 0.5e-6 * (h[0] + h[299]) : 5e-8;
         assert_int_equal(n, i / 2 ? 299 : 300);
         for (size_t k = 0; k < n; k++) {

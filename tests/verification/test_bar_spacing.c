@@ -25,11 +25,11 @@ static void lengths_of_a_graded_mesh_are_a_progression(void **unused)
                 long double exact =
                     0.05L * powl((long double)ratios[r], (long double)e / (long double)(n - 1)) /
                     total;
-                assert_true(fabsl(model->table[e] / exact - 1) < (16 + (long double)n) * 0x1p-53L);
-                sum += model->table[e];
+                assert_true(fabsl(model->sizes[e] / exact - 1) < (16 + (long double)n) * 0x1p-53L);
+                sum += model->sizes[e];
             }
             assert_true(fabsl(sum / 0.05L - 1) < (16 + (long double)n) * 0x1p-53L);
-            assert_true(model->longest == fmax(model->table[0], model->table[n - 1]));
+            assert_true(model->longest == fmax(model->sizes[0], model->sizes[n - 1]));
         }
 }
 
@@ -48,7 +48,7 @@ static void nodes_of_a_perturbed_mesh_are_moved_by_their_numbers(void **unused)
         long double node = 0;
         double longest = 0;
         for (size_t e = 0; e < N; e++) {
-            const double *size = model->table;
+            const double *size = model->sizes;
             assert_true(size[e] >= h * (1 - 2 * amplitudes[a]) &&
                         size[e] <= h * (1 + 2 * amplitudes[a]));
             longest = fmax(longest, size[e]);
@@ -75,7 +75,7 @@ static void the_longest_element_bounds_the_strength(void **unused)
         spec.cohesive.law = laws[i % 2];
         OWNED(fracas_model) *model = model_on(&spec, i / 2);
         double longest = 0;
-        for (size_t e = 0; e < 200; e++) longest = fmax(longest, model->table[e]);
+        for (size_t e = 0; e < 200; e++) longest = fmax(longest, model->sizes[e]);
         const double offset = 4.5 * pow(1e4, 2.0 / 3) * 275e9 * pow(100, 2.0 / 3) *
                               pow(2750, 1.0 / 3);
         const double most = i % 2 ? sqrt(4.5 * 100 * 275e9 / longest - offset)
@@ -186,9 +186,9 @@ static void a_stretch_of_the_nodes_moves_no_inner_node(void **unused)
         double x = 0, least = 1;
         for (size_t e = 0; e < 400; e++) {
             *field(batch, e, W_LEFT) = strain * x;
-            x += model->table[e];
+            x += model->sizes[e];
             *field(batch, e, W_RIGHT) = strain * x;
-            least = fmin(least, model->table[e]);
+            least = fmin(least, model->sizes[e]);
         }
         batch->step.time[0] = batch->step.drift[0] = 0;
         batch->step.kick[0] = 1;
@@ -196,7 +196,7 @@ static void a_stretch_of_the_nodes_moves_no_inner_node(void **unused)
         double largest = 0;
         for (size_t e = 0; e < 400; e++)
             for (int f = V_LEFT; f <= V_RIGHT; f++)
-                largest = fmax(largest, fabs(*field(batch, e, f)) * 0.5 * 2750 * model->table[e]);
+                largest = fmax(largest, fabs(*field(batch, e, f)) * 0.5 * 2750 * model->sizes[e]);
         assert_true(largest < 8 * stress * 0.02 / least * 0x1p-53);
         assert_true(fabs(batch->step.elastic[0] / (0.5 * stress * strain * 0.02 * 1e-6) - 1) <
                     1e-9);
@@ -222,7 +222,7 @@ static double wave_error(int law, int mesh, int64_t elements)
     for (size_t e = 0; e < model->elements;
          e++) { /* w(0) = 0, so v(-dt/2) = v(0) to second order */
         *field(batch, e, V_LEFT) = e > 0 ? *field(batch, e - 1, V_RIGHT) : 0;
-        x += model->table[e];
+        x += model->sizes[e];
         *field(batch, e, V_RIGHT) = e + 1 < model->elements ? sin(k * x) : 0;
     }
     fracas_record record;
@@ -231,13 +231,13 @@ static double wave_error(int law, int mesh, int64_t elements)
     x = 0;
     for (size_t e = 0; e < model->elements; e++) {
         for (int g = 0; g < 2; g++) { /* two Gauss points */
-            double h = model->table[e], xi = 0.5 + (g ? 0.5 : -0.5) / sqrt(3);
+            double h = model->sizes[e], xi = 0.5 + (g ? 0.5 : -0.5) / sqrt(3);
             double w = (1 - xi) * *field(batch, e, W_LEFT) + xi * *field(batch, e, W_RIGHT);
             double exact = sin(k * (x + xi * h)) / (k * BAR_WAVE_SPEED);
             sum += h * (w - exact) * (w - exact);
             norm += h * exact * exact;
         }
-        x += model->table[e];
+        x += model->sizes[e];
     }
     assert_int_equal(batch->step.cracked[0], 0);
     return sqrt(sum / norm);
@@ -286,8 +286,8 @@ static void tied_nodes_stay_together(void **unused)
                 const size_t next = (e + 1) % 300;
                 const double *w = field(batch, e, W_RIGHT), *v = field(batch, e, V_RIGHT);
                 for (int f = V_LEFT; f <= V_RIGHT; f++) {
-                    momentum += model->table[e] * *field(batch, e, f);
-                    scale += model->table[e] * fabs(*field(batch, e, f));
+                    momentum += model->sizes[e] * *field(batch, e, f);
+                    scale += model->sizes[e] * fabs(*field(batch, e, f));
                 }
                 if (e >= model->interfaces || *field(batch, e, LAW) > 0) {
                     open += e < model->interfaces;
@@ -310,7 +310,7 @@ static double crossing_of(fracas_batch *batch, size_t e, bool onset)
 {
     const fracas_model *model = batch->model;
     const size_t next = (e + 1) % model->elements;
-    const double left = 275e9 / model->table[e], right = 275e9 / model->table[next],
+    const double left = 275e9 / model->sizes[e], right = 275e9 / model->sizes[next],
                  sigma_c = *field(batch, e, STRENGTH);
     const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche.kind;
     const double q = *field(batch, next, W_LEFT) - *field(batch, e, W_RIGHT),
@@ -375,7 +375,7 @@ typedef struct {
 /* Element e of a bar taken `back` by this length [m], its left node at `x`, joins the piece. */
 static void join(piece *p, fracas_batch *batch, size_t e, long double x, long double back)
 {
-    const long double h = batch->model->table[e], middle = x + h / 2 - back,
+    const long double h = batch->model->sizes[e], middle = x + h / 2 - back,
                       rate = batch->model->spec.loading.rate;
     const long double w = ((long double)*field(batch, e, W_LEFT) + *field(batch, e, W_RIGHT)) / 2;
     const long double v = ((long double)*field(batch, e, V_LEFT) + *field(batch, e, V_RIGHT)) / 2;
@@ -397,7 +397,7 @@ static size_t walk(fracas_batch *batch, piece *pieces)
     while (ring && last > 0 && *field(batch, last - 1, DAMAGE) < 1) last--;
     long double x = 0;
     pieces[0] = (piece){0};
-    for (size_t e = 0; e < model->elements; x += model->table[e], e++) {
+    for (size_t e = 0; e < model->elements; x += model->sizes[e], e++) {
         const bool wraps = e >= last;
         if (e > 0 && !wraps && *field(batch, e - 1, DAMAGE) >= 1) pieces[count++] = (piece){0};
         join(&pieces[wraps ? 0 : count - 1], batch, e, x, wraps ? length : 0);
@@ -444,7 +444,7 @@ static void fragments_are_sums_over_their_elements(void **unused)
             size += got->size;
         }
         for (size_t e = 0; e < 400; e++)
-            momentum += 0.5 * 2750e-6 * model->table[e] *
+            momentum += 0.5 * 2750e-6 * model->sizes[e] *
                         (*field(batch, e, V_LEFT) + *field(batch, e, V_RIGHT));
         assert_true(fabs(size / 8e-3 - 1) < 1e-13 && fabs(mass / record.mass - 1) < 1e-13);
         assert_true(fabs(record.mass / (2750e-6 * 8e-3) - 1) < 1e-15);

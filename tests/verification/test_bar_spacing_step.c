@@ -33,7 +33,7 @@ static void add_product(dense_operator *o, const size_t *at, const double *a, co
 static void assemble(dense_operator *o)
 {
     const size_t n = o->model->elements;
-    const double *h = o->model->table;
+    const double *h = o->model->sizes;
     o->size = 2 * n;
     o->stiffness = gsl_matrix_calloc(o->size, o->size);
     for (size_t e = 0; e < n; e++) {
@@ -87,7 +87,7 @@ static double dense_step(const fracas_model *model, bool broken)
     const size_t n = number_nodes(&o, number);
     double mass[2 * MOST] = {0};
     for (size_t i = 0; i < o.size; i++)
-        if (number[i] >= 0) mass[number[i]] += 0.5 * 2750 * model->table[i / 2];
+        if (number[i] >= 0) mass[number[i]] += 0.5 * 2750 * model->sizes[i / 2];
     gsl_matrix *matrix = gsl_matrix_calloc(n, n);
     for (size_t i = 0; i < o.size; i++)
         for (size_t j = 0; j < o.size; j++)
@@ -155,7 +155,7 @@ static void press_together(const fracas_model *model, fracas_batch *batch)
                           pow(2750, 1.0 / 3);
     double stiffness[MOST], give = model->spec.geometry.length / 275e9, left = 0;
     for (size_t e = 0; e < model->interfaces; e++) {
-        const double mean = 0.5 * 275e9 * (1 / model->table[e] + 1 / model->table[(e + 1) % n]);
+        const double mean = 0.5 * 275e9 * (1 / model->sizes[e] + 1 / model->sizes[(e + 1) % n]);
         stiffness[e] = nitsche ? 4 * mean : mean;
         give += 1 / stiffness[e];
         *field(batch, e, DAMAGE) = 1;
@@ -168,7 +168,7 @@ static void press_together(const fracas_model *model, fracas_batch *batch)
                  stress = load * model->spec.geometry.length / give;
     for (size_t e = 0; e < n; e++) {
         *field(batch, e, W_LEFT) = left;
-        *field(batch, e, W_RIGHT) = left += (stress / 275e9 - load) * model->table[e];
+        *field(batch, e, W_RIGHT) = left += (stress / 275e9 - load) * model->sizes[e];
         if (e < model->interfaces) left += stress / stiffness[e];
     }
 }

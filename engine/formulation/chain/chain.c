@@ -2,24 +2,79 @@
 #include "engine/formulation/chain/chain.h"
 
 #include "engine/cohesive/law.h"
+#include "engine/mesh/body.h"
 
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 
-double *fracas_chain_field(const fracas_chain *chain, const fracas_model *model,
-                           const fracas_step *step, size_t element, int field, int lane)
+fracas_err fracas_chain_model_init(fracas_model *model, const fracas_chain *chain, int64_t least)
+{
+    const fracas_spec *spec = &model->spec;
+    const int64_t elements = spec->mesh.elements;
+    const bool closed = fracas_shape_of(spec)->round || fracas_model_period(model) > 0;
+    if (elements < least || elements > 100000000)
+        return fracas_fail(FRACAS_USAGE,
+                           "mesh.elements is %" PRId64 "; a %s takes %" PRId64 " to 1e8 elements",
+                           elements, spec->formulation->name, least);
+    model->chain = chain;
+    model->elements = (size_t)elements;
+    model->interfaces = model->elements - (closed ? 0 : 1);
+    model->element_size = model->longest = fracas_spec_length(spec) / (double)elements;
+    model->mass = spec->material.density * spec->geometry.area * fracas_spec_length(spec);
+    return FRACAS_OK;
+}
+
+double *fracas_chain_field(const fracas_model *model, const fracas_step *step, size_t element,
+                           int field, int lane)
 {
     const size_t lanes = (size_t)step->lanes, group = (size_t)lane / lanes,
-                 fields = (size_t)chain->fields;
+                 fields = (size_t)model->chain->fields;
     return step->state + group * lanes * model->elements * fields +
            (element * fields + (size_t)field) * lanes + (size_t)lane % lanes;
 }
 
-double *fracas_chain_strength(const fracas_chain *chain, const fracas_model *model,
-                              const fracas_step *step, int lane, size_t *stride)
+double fracas_chain_interface_volume(const fracas_model *model, size_t e)
 {
-    *stride = (size_t)(chain->fields * step->lanes);
-    return fracas_chain_field(chain, model, step, 0, chain->strength, lane);
+    return model->spec.geometry.area *
+           (0.5 *
+            (fracas_chain_size(model, e) + fracas_chain_size(model, fracas_chain_next(model, e))));
+}
+
+size_t fracas_chain_state_size(const fracas_model *model)
+{
+    return model->elements * (size_t)model->chain->fields;
+}
+
+double *fracas_chain_strength(const fracas_model *model, const fracas_step *step, int lane,
+                              size_t *stride)
+{
+    *stride = (size_t)(model->chain->fields * step->lanes);
+    return fracas_chain_field(model, step, 0, model->chain->strength, lane);
+}
+
+/* K of interface e: its factor times E/h, with 1/h the mean of its two elements'  (bar.18) */
+static double stiffness_of(const fracas_model *model, size_t e)
+{
+    const double young = model->spec.material.young,
+                 factor = fracas_law_of(&model->spec)->contact(&model->spec.cohesive);
+    if (!model->sizes) return factor * young / model->element_size;
+    return factor *
+           (0.5 * (young / model->sizes[e] + young / model->sizes[fracas_chain_next(model, e)]));
+}
+
+void fracas_chain_lane_init(const fracas_model *model, const fracas_step *step, int lane)
+{
+    const fracas_law *law = fracas_law_of(&model->spec);
+    const fracas_chain *chain = model->chain;
+    for (size_t e = 0; e < model->elements; e++) {
+        const double strength = *fracas_chain_field(model, step, e, chain->strength, lane);
+        for (int field = 0; field < chain->fields; field++)
+            if (field != chain->strength) *fracas_chain_field(model, step, e, field, lane) = 0.0;
+        if (law->constant && e < model->interfaces)
+            *fracas_chain_field(model, step, e, chain->law, lane) = law->constant(
+                stiffness_of(model, e), model->spec.cohesive.fracture_energy, strength);
+    }
 }
 
 /* K > sigma_c/delta_c = sigma_c^2/(2 G_c), with K delta_c - sigma_c finite  (cohesive.7) */
@@ -56,37 +111,36 @@ int64_t fracas_chain_fragment_count(const fracas_model *model, fracas_step *step
     return fracas_chain_is_closed(model) ? (broken > 1 ? broken : 1) : broken + 1;
 }
 
-bool fracas_chain_is_broken(const fracas_chain *chain, const fracas_model *model,
-                            const fracas_step *step, size_t element, int lane)
+bool fracas_chain_is_broken(const fracas_model *model, const fracas_step *step, size_t element,
+                            int lane)
 {
     return element >= model->interfaces ||
-           *fracas_chain_field(chain, model, step, element, chain->damage, lane) >= 1.0;
+           *fracas_chain_field(model, step, element, model->chain->damage, lane) >= 1.0;
 }
 
 /* (bar.17) */
-size_t fracas_chain_partition(const fracas_chain *chain, const fracas_model *model,
-                              fracas_step *step, int lane)
+size_t fracas_chain_partition(const fracas_model *model, fracas_step *step, int lane)
 {
     fracas_partition *partition = &step->partition;
     fracas_partition_reset(partition);
     for (size_t e = 0; e < model->interfaces; e++)
-        if (!fracas_chain_is_broken(chain, model, step, e, lane))
-            fracas_partition_unite(partition, (uint32_t)e,
-                                   (uint32_t)(e + 1 < model->elements ? e + 1 : 0));
+        if (!fracas_chain_is_broken(model, step, e, lane))
+            fracas_partition_unite(partition, (uint32_t)e, (uint32_t)fracas_chain_next(model, e));
     return fracas_partition_label(partition);
 }
 
-fracas_err fracas_chain_harvest_interfaces(const fracas_chain *chain, const fracas_model *model,
-                                           const fracas_step *step, int lane, fracas_record *record)
+fracas_err fracas_chain_harvest_interfaces(const fracas_model *model, const fracas_step *step,
+                                           int lane, fracas_record *record)
 {
+    if (!step->onset_time) return FRACAS_OK;
     record->interface = calloc(model->interfaces, sizeof *record->interface);
     if (!record->interface) return fracas_no_memory("the interfaces of a realization");
     record->ninterface = model->interfaces;
     for (size_t e = 0; e < model->interfaces; e++) {
         size_t at = e * (size_t)step->width + (size_t)lane;
         record->interface[e] = (fracas_interface_row){
-            .strength = *fracas_chain_field(chain, model, step, e, chain->strength, lane),
-            .damage = *fracas_chain_field(chain, model, step, e, chain->damage, lane),
+            .strength = *fracas_chain_field(model, step, e, model->chain->strength, lane),
+            .damage = *fracas_chain_field(model, step, e, model->chain->damage, lane),
             .onset_time = step->onset_time[at],
             .break_time = step->break_time[at]};
     }

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A chain: elements in a row, an interface between each and the next; what bar and ring have in
- * common.
+/* A chain: elements in a row, an interface between each and the next. Common to bar and ring.
  *
  * The state of a batch is laid out [group][element][field][lane]: groups of step->lanes lanes one
  * after another. Interface e joins elements e and e+1, and its fields are kept with element e; the
@@ -10,26 +9,47 @@
 
 #include "engine/formulation/formulation.h"
 
-typedef struct {
+typedef struct fracas_chain {
     int fields;   /* of an element */
-    int damage;   /* which of them is delta_max/delta_c of the interface */
-    int strength; /* which is its sigma_c [Pa] */
+    int damage;   /* number of the field delta_max/delta_c of the interface; behind it are ... */
+    int strength; /* ... sigma_c [Pa], and ... */
+    int law;      /* ... the law's constant */
 } fracas_chain;
+
+/* Fills elements, interfaces, lengths and mass of a model with elements of one length.
+ * FRACAS_USAGE for fewer elements than `least` or more than 1e8. */
+FRACAS_MUST_USE fracas_err fracas_chain_model_init(fracas_model *model, const fracas_chain *chain,
+                                                   int64_t least);
 
 static inline bool fracas_chain_is_closed(const fracas_model *model)
 {
     return model->interfaces == model->elements;
 }
 
-/* Where the state has this field. */
-double *fracas_chain_field(const fracas_chain *chain, const fracas_model *model,
-                           const fracas_step *step, size_t element, int field, int lane);
+/* Element or vertex after e, around a closed chain. */
+static inline size_t fracas_chain_next(const fracas_model *model, size_t e)
+{
+    return e + 1 < model->elements ? e + 1 : 0;
+}
 
-/* As fracas_formulation.strength. */
-double *fracas_chain_strength(const fracas_chain *chain, const fracas_model *model,
-                              const fracas_step *step, int lane, size_t *stride);
+/* Length of an element [m]. */
+static inline double fracas_chain_size(const fracas_model *model, size_t e)
+{
+    return model->sizes ? model->sizes[e] : model->element_size;
+}
 
-/* FRACAS_USAGE unless the strength [Pa] is positive and finite and, for the law nitsche, lets the
+/* Place of a field in the state. */
+double *fracas_chain_field(const fracas_model *model, const fracas_step *step, size_t element,
+                           int field, int lane);
+
+/* As the functions of fracas_formulation; lane_init leaves all 0 but strengths and constants. */
+double fracas_chain_interface_volume(const fracas_model *model, size_t e);
+size_t fracas_chain_state_size(const fracas_model *model);
+double *fracas_chain_strength(const fracas_model *model, const fracas_step *step, int lane,
+                              size_t *stride);
+void fracas_chain_lane_init(const fracas_model *model, const fracas_step *step, int lane);
+
+/* FRACAS_USAGE unless the strength [Pa] is positive and finite and, for a law with flux, lets the
  * longest element soften as slowly as the law asks, K > sigma_c/delta_c  (cohesive.7). */
 FRACAS_MUST_USE fracas_err fracas_chain_check_strength(const fracas_model *model, double strength);
 
@@ -38,24 +58,21 @@ FRACAS_MUST_USE fracas_err fracas_chain_check_strength(const fracas_model *model
 int64_t fracas_chain_fragment_count(const fracas_model *model, fracas_step *step, int lane);
 
 /* True where the interface on the right of `element` is broken, or there is none. */
-bool fracas_chain_is_broken(const fracas_chain *chain, const fracas_model *model,
-                            const fracas_step *step, size_t element, int lane);
+bool fracas_chain_is_broken(const fracas_model *model, const fracas_step *step, size_t element,
+                            int lane);
 
 /* Elements connected by unbroken interfaces (bar.17), labelled, as the step's partition; returns
  * their number. */
-size_t fracas_chain_partition(const fracas_chain *chain, const fracas_model *model,
-                              fracas_step *step, int lane);
+size_t fracas_chain_partition(const fracas_model *model, fracas_step *step, int lane);
 
-/* The interface rows of a record. */
-FRACAS_MUST_USE fracas_err fracas_chain_harvest_interfaces(const fracas_chain *chain,
-                                                           const fracas_model *model,
+/* The interface rows of a record, if they are kept. */
+FRACAS_MUST_USE fracas_err fracas_chain_harvest_interfaces(const fracas_model *model,
                                                            const fracas_step *step, int lane,
                                                            fracas_record *record);
 
-/* The time step of a chain of elements of these sizes h [m] (NULL: all of model->element_size), of
- * which stiffness and mass per area are E/h and rho h/2 a node; the law is the model's: fills
- * critical_closed, critical_cracked, critical_step and contact (bar.16). A ring's transverse motion
- * is softer: K between nodes, without the elements. */
-FRACAS_MUST_USE fracas_err fracas_chain_critical_step(fracas_model *model, const double *size);
+/* Fills critical_closed, critical_cracked and critical_step of the model: stiffness and mass per
+ * area are E/h and rho h/2 a node, the law is the model's (bar.16). A ring's transverse motion is
+ * softer: K between nodes, without the elements. */
+FRACAS_MUST_USE fracas_err fracas_chain_critical_step(fracas_model *model);
 
 #endif

@@ -23,8 +23,7 @@ static double size_of(const chain_operator *o, size_t e)
 
 /* The operator of a chain: all interfaces uncracked, or all broken and in contact. A regular
  * chain's largest frequency is that of a short one: it has 1024 elements at most. */
-static fracas_err open_operator(const fracas_model *model, const double *size, bool contact,
-                                chain_operator **out)
+static fracas_err open_operator(const fracas_model *model, bool contact, chain_operator **out)
 {
     enum { ENOUGH = 1024 };
     const fracas_spec *spec = &model->spec;
@@ -33,7 +32,7 @@ static fracas_err open_operator(const fracas_model *model, const double *size, b
                  factor = law->contact ? law->contact(&spec->cohesive) : 1.0;
     chain_operator *o = aligned_alloc(64, (sizeof *o + 63) / 64 * 64);
     if (!o) return fracas_no_memory("the critical time step");
-    const size_t n = !size && model->elements > ENOUGH ? ENOUGH : model->elements;
+    const size_t n = !model->sizes && model->elements > ENOUGH ? ENOUGH : model->elements;
     *o = (chain_operator){.step = {.width = 1, .lanes = 1, .kick = {1}},
                           .flux = contact || law->flux,
                           .bar = {.elements = n,
@@ -43,7 +42,7 @@ static fracas_err open_operator(const fracas_model *model, const double *size, b
                                   .beta = factor,
                                   .spring = factor * young / h,
                                   .size = h,
-                                  .sizes = size,
+                                  .sizes = model->sizes,
                                   .nodal_mass = 0.5 * spec->material.density * h}};
     o->step.state = calloc(n * BAR_FIELDS, sizeof *o->step.state);
     *out = o;
@@ -98,11 +97,10 @@ static void fill_start(const chain_operator *o, double *start)
     if (!o->bar.periodic) start[0] = start[2 * n - 1] = 0;
 }
 
-static fracas_err critical_step(const fracas_model *model, const double *size, bool contact,
-                                double *step)
+static fracas_err critical_step(const fracas_model *model, bool contact, double *step)
 {
     chain_operator *o = NULL;
-    TRY(open_operator(model, size, contact, &o));
+    TRY(open_operator(model, contact, &o));
     const size_t n = 2 * o->bar.elements;
     double omega_squared = 0, *start = malloc(n * sizeof *start);
     fracas_err err = start ? FRACAS_OK : fracas_no_memory("the critical time step");
@@ -119,10 +117,10 @@ static fracas_err critical_step(const fracas_model *model, const double *size, b
 }
 
 /* (bar.16) */
-fracas_err fracas_chain_critical_step(fracas_model *model, const double *size)
+fracas_err fracas_chain_critical_step(fracas_model *model)
 {
-    TRY(critical_step(model, size, false, &model->critical_closed));
-    TRY(critical_step(model, size, true, &model->critical_cracked));
+    TRY(critical_step(model, false, &model->critical_closed));
+    TRY(critical_step(model, true, &model->critical_cracked));
     /* A law that refines the step itself starts from the uncracked one. */
     model->critical_step = fracas_law_of(&model->spec)->finest
                                ? model->critical_closed

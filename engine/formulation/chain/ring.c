@@ -8,25 +8,21 @@
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 
-#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 
 FRACAS_KERNEL_TABLE(const fracas_ring_kernel, fracas_ring);
 
 static const fracas_chain flux_chain = {
-    .fields = RING_FIELDS, .damage = RING_DAMAGE, .strength = RING_STRENGTH};
-static const fracas_chain rigid_chain = {
-    .fields = RING_FIELDS_STERSHIC, .damage = RING_DAMAGE, .strength = RING_STRENGTH};
+    .fields = RING_FIELDS, .damage = RING_DAMAGE, .strength = RING_STRENGTH, .law = RING_LAW};
+static const fracas_chain rigid_chain = {.fields = RING_FIELDS_STERSHIC,
+                                         .damage = RING_DAMAGE,
+                                         .strength = RING_STRENGTH,
+                                         .law = RING_LAW};
 
 static bool has_flux(const fracas_model *model)
 {
     return fracas_law_of(&model->spec)->flux;
-}
-
-static const fracas_chain *chain_of(const fracas_model *model)
-{
-    return has_flux(model) ? &flux_chain : &rigid_chain;
 }
 
 /* Radius of the vertices of the polygon whose perimeter is the ring's circumference [m]  (ring.1).
@@ -73,22 +69,15 @@ static fracas_ring_constants constants_of(const fracas_model *model)
 
 static fracas_err ring_model_init(fracas_model *model)
 {
-    const fracas_spec *spec = &model->spec;
-    if (spec->mesh.elements < 3 || spec->mesh.elements > 100000000)
-        return fracas_fail(FRACAS_USAGE,
-                           "mesh.elements is %" PRId64 "; a ring takes 3 to 1e8 elements",
-                           spec->mesh.elements);
-    const size_t n = model->elements = model->interfaces = (size_t)spec->mesh.elements;
-    const double circumference = 2 * FRACAS_PI * spec->geometry.radius;
-    model->element_size = model->longest = circumference / (double)n;
-    model->mass = spec->material.density * spec->geometry.area * circumference;
-    if (!has_flux(model) && spec->cohesive.zone > 0 &&
-        spec->cohesive.zone * (1 + 1e-12) < model->element_size)
+    const double zone = model->spec.cohesive.zone;
+    TRY(fracas_chain_model_init(model, has_flux(model) ? &flux_chain : &rigid_chain, 3));
+    const size_t n = model->elements;
+    if (!has_flux(model) && zone > 0 && zone * (1 + 1e-12) < model->element_size)
         return fracas_fail(
             FRACAS_USAGE,
             "cohesive.zone is %.4g m, but elements are %.4g m long, so that it holds no other "
             "interface: raise it, or mesh.elements above %.0f, or leave it out",
-            spec->cohesive.zone, model->element_size, ceil(circumference / spec->cohesive.zone));
+            zone, model->element_size, ceil(fracas_spec_length(&model->spec) / zone));
     double *table = model->table = malloc(n * RING_TABLE * sizeof *table);
     if (!table) return fracas_no_memory("the mesh of a ring");
     for (size_t e = 0; e < n; e++) {
@@ -99,20 +88,14 @@ static fracas_err ring_model_init(fracas_model *model)
         table[e * RING_TABLE + RING_COS_MIDDLE] = fracas_cospi(middle);
         table[e * RING_TABLE + RING_SIN_MIDDLE] = fracas_sinpi(middle);
     }
-    return fracas_chain_critical_step(model, NULL);
-}
-
-static double ring_interface_volume(const fracas_model *model, size_t interface)
-{
-    (void)interface;
-    return model->spec.geometry.area * model->element_size;
+    return fracas_chain_critical_step(model);
 }
 
 static void ring_interface_positions(const fracas_model *model, double (*position)[3])
 {
     const double radius = model->spec.geometry.radius;
     for (size_t e = 0; e < model->interfaces; e++) {
-        const double *node = model->table + (e + 1) % model->elements * RING_TABLE;
+        const double *node = model->table + fracas_chain_next(model, e) * RING_TABLE;
         position[e][0] = radius * node[RING_COS];
         position[e][1] = radius * node[RING_SIN];
         position[e][2] = 0;
@@ -120,23 +103,6 @@ static void ring_interface_positions(const fracas_model *model, double (*positio
 }
 
 /* ---- state ---- */
-
-static size_t ring_state_size(const fracas_model *model)
-{
-    return model->elements * (size_t)chain_of(model)->fields;
-}
-
-static double *field_of(const fracas_model *model, const fracas_step *step, size_t element,
-                        int field, int lane)
-{
-    return fracas_chain_field(chain_of(model), model, step, element, field, lane);
-}
-
-static double *ring_strength(const fracas_model *model, const fracas_step *step, int lane,
-                             size_t *stride)
-{
-    return fracas_chain_strength(chain_of(model), model, step, lane, stride);
-}
 
 /* Velocities outward and along the ring that its nodes start with [m/s]; central difference has
  * them half a step before the start, at the acceleration of the start, Newmark at the start itself
@@ -155,27 +121,19 @@ static void start_velocities(const fracas_model *model, double velocity[2])
 
 static void ring_lane_init(const fracas_model *model, const fracas_step *step, int lane)
 {
-    const fracas_ring_constants ring = constants_of(model);
-    const size_t n = model->elements;
-    const fracas_law *law = fracas_law_of(&model->spec);
     double velocity[2];
     start_velocities(model, velocity);
-    for (size_t e = 0; e < n; e++) {
-        for (int field = 0; field < chain_of(model)->fields; field++)
-            if (field != RING_STRENGTH) *field_of(model, step, e, field, lane) = 0.0;
+    fracas_chain_lane_init(model, step, lane);
+    for (size_t e = 0; e < model->elements; e++) {
         for (size_t side = 0; side < 2; side++) {
-            const double *table = model->table + (e + side) % n * RING_TABLE;
+            const double *table = model->table + (e + side) % model->elements * RING_TABLE;
             const int field = side ? RING_V_RIGHT : RING_V_LEFT;
-            *field_of(model, step, e, field, lane) = velocity[0] * table[RING_COS] -
-                                                     velocity[1] * table[RING_SIN];
-            *field_of(model, step, e, field + 1, lane) = velocity[0] * table[RING_SIN] +
-                                                         velocity[1] * table[RING_COS];
+            *fracas_chain_field(model, step, e, field, lane) = velocity[0] * table[RING_COS] -
+                                                               velocity[1] * table[RING_SIN];
+            *fracas_chain_field(model, step, e, field + 1, lane) = velocity[0] * table[RING_SIN] +
+                                                                   velocity[1] * table[RING_COS];
         }
-        double strength = *field_of(model, step, e, RING_STRENGTH, lane);
-        if (law->constant)
-            *field_of(model, step, e, RING_LAW,
-                      lane) = law->constant(ring.spring, ring.fracture_energy, strength);
-        if (!law->flux) *field_of(model, step, e, RING_STRAIN, lane) = -1.0;
+        if (!has_flux(model)) *fracas_chain_field(model, step, e, RING_STRAIN, lane) = -1.0;
     }
 }
 
@@ -202,10 +160,11 @@ static void add_element(const fracas_model *model, const fracas_step *step, int 
     for (size_t side = 0; side < 2; side++) {
         const double *table = model->table + (e + side) % model->elements * RING_TABLE;
         const int u = side ? RING_U_RIGHT : RING_U_LEFT, v = side ? RING_V_RIGHT : RING_V_LEFT;
-        const double x[3] = {radius * table[RING_COS] + *field_of(model, step, e, u, lane),
-                             radius * table[RING_SIN] + *field_of(model, step, e, u + 1, lane)};
-        const double w[3] = {*field_of(model, step, e, v, lane),
-                             *field_of(model, step, e, v + 1, lane)};
+        const double x[3] = {
+            radius * table[RING_COS] + *fracas_chain_field(model, step, e, u, lane),
+            radius * table[RING_SIN] + *fracas_chain_field(model, step, e, u + 1, lane)};
+        const double w[3] = {*fracas_chain_field(model, step, e, v, lane),
+                             *fracas_chain_field(model, step, e, v + 1, lane)};
         fracas_fragment_sums_add(f, mass, x, w);
     }
     f->mass = before + 2 * mass; /* rounded once an element */
@@ -215,17 +174,14 @@ static void add_element(const fracas_model *model, const fracas_step *step, int 
 static fracas_err ring_harvest(const fracas_model *model, fracas_step *step, int lane,
                                fracas_record *record)
 {
-    const size_t count = fracas_chain_partition(chain_of(model), model, step, lane);
+    const size_t count = fracas_chain_partition(model, step, lane);
     fracas_fragment_sums *sums = calloc(count, sizeof *sums);
     if (!sums) return fracas_no_memory("the fragments of a realization");
     for (size_t e = 0; e < model->elements; e++)
         add_element(model, step, lane, e, &sums[step->partition.label[e]]);
     fracas_err err = fracas_fragments_take(sums, count, 1, record);
     free(sums);
-    TRY(err);
-    return step->onset_time
-               ? fracas_chain_harvest_interfaces(chain_of(model), model, step, lane, record)
-               : FRACAS_OK;
+    return err ? err : fracas_chain_harvest_interfaces(model, step, lane, record);
 }
 
 static const fracas_kind *const goes_with[] = {&fracas_shape_ring,
@@ -240,10 +196,10 @@ const fracas_formulation fracas_formulation_ring = {
              FRACAS_GOES_WITH(goes_with)},
     .model_init = ring_model_init,
     .check_strength = fracas_chain_check_strength,
-    .interface_volume = ring_interface_volume,
+    .interface_volume = fracas_chain_interface_volume,
     .interface_positions = ring_interface_positions,
-    .state_size = ring_state_size,
-    .strength = ring_strength,
+    .state_size = fracas_chain_state_size,
+    .strength = fracas_chain_strength,
     .lane_init = ring_lane_init,
     .advance = ring_advance,
     .fragment_count = fracas_chain_fragment_count,
