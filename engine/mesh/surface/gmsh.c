@@ -65,42 +65,33 @@ static fracas_err sort(const mesh *m, const char *what, entry *all, size_t count
     return FRACAS_OK;
 }
 
-/* ---- entities (4.1): which physical group a curve is in ---- */
-
-static fracas_err read_physical(mesh *m, int dimension, int32_t curve, int32_t *group)
+/* Reads a count, then as many `int`s; *last: the last of them, 0 without any. */
+static fracas_err read_list(mesh *m, int64_t *count, int32_t *last)
 {
-    int64_t count;
-    int32_t tag;
-    *group = 0;
-    TRY(fracas_gmsh_integer(&m->scan, 8, &count));
-    TRY(fracas_gmsh_fits(&m->scan, count, 1));
-    if (dimension == 1 && count > 1)
-        return fracas_gmsh_fail(&m->scan,
-                                "curve %" PRId32 " is in %" PRId64
-                                " physical groups: an edge has one tag at most",
-                                curve, count);
-    for (int64_t i = 0; i < count; i++) {
-        TRY(fracas_gmsh_int(&m->scan, &tag));
-        *group = tag;
-    }
+    *last = 0;
+    TRY(fracas_gmsh_integer(&m->scan, 8, count));
+    TRY(fracas_gmsh_fits(&m->scan, *count, 1));
+    for (int64_t i = 0; i < *count; i++) TRY(fracas_gmsh_ints(&m->scan, 1, last));
     return FRACAS_OK;
 }
 
+/* ---- entities (4.1): the physical group of each curve ---- */
+
 static fracas_err read_entity(mesh *m, int dimension)
 {
-    int32_t number, group;
-    double box;
-    TRY(fracas_gmsh_int(&m->scan, &number));
-    for (int i = 0; i < (dimension == 0 ? 3 : 6); i++) TRY(fracas_gmsh_real(&m->scan, &box));
-    TRY(read_physical(m, dimension, number, &group));
+    int32_t number, group, border;
+    int64_t groups, borders;
+    double box[6];
+    TRY(fracas_gmsh_ints(&m->scan, 1, &number));
+    TRY(fracas_gmsh_reals(&m->scan, dimension == 0 ? 3 : 6, box));
+    TRY(read_list(m, &groups, &group));
+    if (dimension == 1 && groups > 1)
+        return fracas_gmsh_fail(&m->scan,
+                                "curve %" PRId32 " is in %" PRId64
+                                " physical groups: an edge has one tag at most",
+                                number, groups);
     if (dimension == 1) m->curve[m->ncurves++] = (entry){.number = number, .value = group};
-    if (dimension == 0) return FRACAS_OK;
-    int64_t count;
-    int32_t border;
-    TRY(fracas_gmsh_integer(&m->scan, 8, &count));
-    TRY(fracas_gmsh_fits(&m->scan, count, 1));
-    for (int64_t i = 0; i < count; i++) TRY(fracas_gmsh_int(&m->scan, &border));
-    return FRACAS_OK;
+    return dimension == 0 ? FRACAS_OK : read_list(m, &borders, &border);
 }
 
 static fracas_err read_entities(mesh *m)
@@ -116,6 +107,44 @@ static fracas_err read_entities(mesh *m)
     return sort(m, "curve", m->curve, m->ncurves);
 }
 
+/* ---- heads of sections and blocks ---- */
+
+/* 2.2: the number of things, text even in a binary file. */
+static fracas_err read_count(mesh *m, int64_t *count)
+{
+    const bool is_binary = m->scan.is_binary;
+    m->scan.is_binary = false;
+    fracas_err err = fracas_gmsh_integer(&m->scan, 8, count);
+    if (!err) err = fracas_gmsh_line_end(&m->scan);
+    m->scan.is_binary = is_binary;
+    return err;
+}
+
+/* 4.1: blocks, things in them all, lowest and highest number. */
+static fracas_err read_head(mesh *m, int64_t head[4])
+{
+    for (int i = 0; i < 4; i++) TRY(fracas_gmsh_integer(&m->scan, 8, &head[i]));
+    return fracas_gmsh_fits(&m->scan, head[0], 4);
+}
+
+static fracas_err check_block(const mesh *m, const char *things, int64_t least, int64_t count,
+                              size_t left)
+{
+    if (count >= least && (size_t)count <= left) return FRACAS_OK;
+    return fracas_gmsh_fail(&m->scan,
+                            "%" PRId64 " %s in a block, but %zu are left of those announced", count,
+                            things, left);
+}
+
+/* 4.1: three numbers, and the number of things, at most `left`. */
+static fracas_err read_block(mesh *m, const char *things, size_t left, int32_t head[3],
+                             int64_t *count)
+{
+    TRY(fracas_gmsh_ints(&m->scan, 3, head));
+    TRY(fracas_gmsh_integer(&m->scan, 8, count));
+    return check_block(m, things, 0, *count, left);
+}
+
 /* ---- nodes ---- */
 
 static fracas_err allocate_nodes(mesh *m, int64_t count)
@@ -127,67 +156,39 @@ static fracas_err allocate_nodes(mesh *m, int64_t count)
     return m->node && m->node_entry ? FRACAS_OK : fracas_no_memory("the nodes of a mesh");
 }
 
-static fracas_err read_point(mesh *m, double point[3])
-{
-    for (int i = 0; i < 3; i++) TRY(fracas_gmsh_real(&m->scan, &point[i]));
-    return FRACAS_OK;
-}
-
 static fracas_err read_nodes_2(mesh *m)
 {
-    const bool is_binary = m->scan.is_binary;
     int64_t count;
-    m->scan.is_binary = false; /* this number is text always */
-    fracas_err err = fracas_gmsh_integer(&m->scan, 8, &count);
-    if (!err) err = fracas_gmsh_line_end(&m->scan);
-    m->scan.is_binary = is_binary;
-    TRY(err);
+    TRY(read_count(m, &count));
     TRY(allocate_nodes(m, count));
     for (; m->nnodes < (size_t)count; m->nnodes++) {
-        int64_t number;
-        TRY(fracas_gmsh_integer(&m->scan, 4, &number));
-        TRY(read_point(m, m->node[m->nnodes]));
-        m->node_entry[m->nnodes] = (entry){.number = number, .value = (int64_t)m->nnodes};
+        entry *of = &m->node_entry[m->nnodes];
+        of->value = (int64_t)m->nnodes;
+        TRY(fracas_gmsh_integer(&m->scan, 4, &of->number));
+        TRY(fracas_gmsh_reals(&m->scan, 3, m->node[m->nnodes]));
     }
     return sort(m, "node", m->node_entry, m->nnodes);
 }
 
 /* Numbers of the block's nodes, then their coordinates, with those on the entity itself where it is
- * `parametric`. */
+ * parametric. */
 static fracas_err read_node_block(mesh *m, size_t all)
 {
-    int32_t dimension, entity, parametric;
+    int32_t head[3]; /* dimension, entity, is it parametric */
     int64_t count;
-    TRY(fracas_gmsh_int(&m->scan, &dimension));
-    TRY(fracas_gmsh_int(&m->scan, &entity));
-    TRY(fracas_gmsh_int(&m->scan, &parametric));
-    TRY(fracas_gmsh_integer(&m->scan, 8, &count));
-    if (dimension < 0 || dimension > 3)
-        return fracas_gmsh_fail(&m->scan, "nodes of an entity of %" PRId32 " dimensions",
-                                dimension);
-    if (count < 0 || (size_t)count > all - m->nnodes)
-        return fracas_gmsh_fail(&m->scan,
-                                "%" PRId64 " nodes in a block, but %zu are left of those announced",
-                                count, all - m->nnodes);
-    for (int64_t i = 0; i < count; i++) {
-        const size_t n = m->nnodes + (size_t)i;
+    double ignored[3];
+    TRY(read_block(m, "nodes", all - m->nnodes, head, &count));
+    if (head[0] < 0 || head[0] > 3)
+        return fracas_gmsh_fail(&m->scan, "nodes of an entity of %" PRId32 " dimensions", head[0]);
+    for (size_t n = m->nnodes; n < m->nnodes + (size_t)count; n++) {
         TRY(fracas_gmsh_integer(&m->scan, 8, &m->node_entry[n].number));
         m->node_entry[n].value = (int64_t)n;
     }
     for (int64_t i = 0; i < count; i++, m->nnodes++) {
-        double ignored;
-        TRY(read_point(m, m->node[m->nnodes]));
-        for (int32_t d = 0; parametric && d < dimension; d++)
-            TRY(fracas_gmsh_real(&m->scan, &ignored));
+        TRY(fracas_gmsh_reals(&m->scan, 3, m->node[m->nnodes]));
+        if (head[2]) TRY(fracas_gmsh_reals(&m->scan, (size_t)head[0], ignored));
     }
     return FRACAS_OK;
-}
-
-/* Blocks, things in them all, lowest and highest number. */
-static fracas_err read_head(mesh *m, int64_t head[4])
-{
-    for (int i = 0; i < 4; i++) TRY(fracas_gmsh_integer(&m->scan, 8, &head[i]));
-    return fracas_gmsh_fits(&m->scan, head[0], 4);
 }
 
 static fracas_err read_nodes_4(mesh *m)
@@ -204,50 +205,27 @@ static fracas_err read_nodes_4(mesh *m)
 /* Nodes of an element; FRACAS_USAGE with its name for those that are no part of a surface. */
 static fracas_err nodes_of_type(const mesh *m, int32_t type, size_t *nodes)
 {
-    static const char *const names[] = {NULL,
-                                        NULL,
-                                        NULL,
-                                        "4-node quadrangles",
-                                        "4-node tetrahedra",
-                                        "8-node hexahedra",
-                                        "6-node prisms",
-                                        "5-node pyramids",
-                                        NULL,
-                                        NULL,
-                                        "9-node quadrangles",
-                                        "10-node tetrahedra",
-                                        "27-node hexahedra",
-                                        "18-node prisms",
-                                        "14-node pyramids",
-                                        NULL,
-                                        "8-node quadrangles",
-                                        "20-node hexahedra",
-                                        "15-node prisms",
-                                        "13-node pyramids",
-                                        "9-node triangles",
-                                        "10-node triangles",
-                                        "12-node triangles",
-                                        "15-node triangles",
-                                        "15-node triangles",
-                                        "21-node triangles",
-                                        "4-node lines",
-                                        "5-node lines",
-                                        "6-node lines",
-                                        "20-node tetrahedra",
-                                        "35-node tetrahedra",
-                                        "56-node tetrahedra"};
-    switch (type) {
-    case GMSH_POINT: *nodes = 1; return FRACAS_OK;
-    case GMSH_LINE: *nodes = 2; return FRACAS_OK;
-    case GMSH_TRIANGLE:
-    case GMSH_LINE_3: *nodes = 3; return FRACAS_OK;
-    case GMSH_TRIANGLE_6: *nodes = 6; return FRACAS_OK;
-    default: break;
-    }
-    if (type > 0 && (size_t)type < sizeof names / sizeof *names)
+    enum { LINE, TRIANGLE, QUAD, TETRA, HEXA, PRISM, PYRAMID, POINT };
+    static const char *const shapes[] = {"lines",     "triangles", "quadrangles", "tetrahedra",
+                                         "hexahedra", "prisms",    "pyramids"};
+    static const struct {
+        uint8_t nodes, shape;
+    } types[] = {{0, 0},         {2, LINE},      {3, TRIANGLE},  {4, QUAD},      {4, TETRA},
+                 {8, HEXA},      {6, PRISM},     {5, PYRAMID},   {3, LINE},      {6, TRIANGLE},
+                 {9, QUAD},      {10, TETRA},    {27, HEXA},     {18, PRISM},    {14, PYRAMID},
+                 {1, POINT},     {8, QUAD},      {20, HEXA},     {15, PRISM},    {13, PYRAMID},
+                 {9, TRIANGLE},  {10, TRIANGLE}, {12, TRIANGLE}, {15, TRIANGLE}, {15, TRIANGLE},
+                 {21, TRIANGLE}, {4, LINE},      {5, LINE},      {6, LINE},      {20, TETRA},
+                 {35, TETRA},    {56, TETRA}};
+    const bool known = type > 0 && (size_t)type < sizeof types / sizeof *types;
+    *nodes = known ? types[type].nodes : 0;
+    if (type == GMSH_LINE || type == GMSH_TRIANGLE || type == GMSH_LINE_3 ||
+        type == GMSH_TRIANGLE_6 || type == GMSH_POINT)
+        return FRACAS_OK;
+    if (known)
         return fracas_gmsh_fail(
-            &m->scan, "%s (Gmsh's type %" PRId32 "): a surface has 3- or 6-node triangles",
-            names[type], type);
+            &m->scan, "%zu-node %s (Gmsh's type %" PRId32 "): a surface has 3- or 6-node triangles",
+            *nodes, shapes[types[type].shape], type);
     return fracas_gmsh_fail(
         &m->scan, "elements of Gmsh's type %" PRId32 ": a surface has 3- or 6-node triangles",
         type);
@@ -291,94 +269,51 @@ static fracas_err read_element(mesh *m, int32_t type, size_t bytes, int64_t numb
     return FRACAS_OK;
 }
 
-/* The first of `count` tags is the physical group. */
-static fracas_err read_tags(mesh *m, int32_t count, int32_t *group)
+/* Text has the number, type and count of tags of each element; a binary file has blocks of one type
+ * and count of tags. The first tag is the physical group. */
+static fracas_err read_elements_2(mesh *m)
 {
-    int32_t tag;
-    *group = 0;
-    TRY(fracas_gmsh_fits(&m->scan, count, 1));
-    for (int32_t i = 0; i < count; i++) {
-        TRY(fracas_gmsh_int(&m->scan, &tag));
-        if (i == 0) *group = tag;
-    }
-    return FRACAS_OK;
-}
-
-static fracas_err read_elements_2_text(mesh *m, int64_t count)
-{
+    int64_t count, left = 0, number;
+    int32_t type = 0, follow, tags = 0, tag, group;
+    TRY(read_count(m, &count));
+    TRY(allocate_elements(m, count));
     for (int64_t i = 0; i < count; i++) {
-        int64_t number;
-        int32_t type, tags, group;
+        if (m->scan.is_binary && left == 0) {
+            int32_t head[3];
+            TRY(fracas_gmsh_ints(&m->scan, 3, head));
+            type = head[0], follow = head[1], tags = head[2];
+            TRY(check_block(m, "elements", 1, follow, (size_t)(count - i)));
+            left = follow;
+        }
+        left--;
         TRY(fracas_gmsh_integer(&m->scan, 4, &number));
-        TRY(fracas_gmsh_int(&m->scan, &type));
-        TRY(fracas_gmsh_int(&m->scan, &tags));
-        TRY(read_tags(m, tags, &group));
+        if (!m->scan.is_binary) {
+            TRY(fracas_gmsh_ints(&m->scan, 1, &type));
+            TRY(fracas_gmsh_ints(&m->scan, 1, &tags));
+        }
+        TRY(fracas_gmsh_fits(&m->scan, tags, 1));
+        group = 0;
+        for (int32_t t = 0; t < tags; t++)
+            TRY(fracas_gmsh_ints(&m->scan, 1, t == 0 ? &group : &tag));
         TRY(read_element(m, type, 4, number, group));
     }
     return FRACAS_OK;
 }
 
-static fracas_err read_elements_2_binary(mesh *m, int64_t count)
-{
-    for (int64_t done = 0; done < count;) {
-        int32_t type, follow, tags, group;
-        TRY(fracas_gmsh_int(&m->scan, &type));
-        TRY(fracas_gmsh_int(&m->scan, &follow));
-        TRY(fracas_gmsh_int(&m->scan, &tags));
-        if (follow < 1 || follow > count - done)
-            return fracas_gmsh_fail(&m->scan,
-                                    "%" PRId32 " elements in a block, but %" PRId64
-                                    " are left of those announced",
-                                    follow, count - done);
-        for (int32_t i = 0; i < follow; i++) {
-            int64_t number;
-            TRY(fracas_gmsh_integer(&m->scan, 4, &number));
-            TRY(read_tags(m, tags, &group));
-            TRY(read_element(m, type, 4, number, group));
-        }
-        done += follow;
-    }
-    return FRACAS_OK;
-}
-
-static fracas_err read_elements_2(mesh *m)
-{
-    const bool is_binary = m->scan.is_binary;
-    int64_t count;
-    m->scan.is_binary = false;
-    fracas_err err = fracas_gmsh_integer(&m->scan, 8, &count);
-    if (!err) err = fracas_gmsh_line_end(&m->scan);
-    m->scan.is_binary = is_binary;
-    TRY(err);
-    TRY(allocate_elements(m, count));
-    return is_binary ? read_elements_2_binary(m, count) : read_elements_2_text(m, count);
-}
-
 static fracas_err read_elements_4(mesh *m)
 {
-    int64_t head[4], left;
+    int64_t head[4], count, number, left;
     TRY(read_head(m, head));
     TRY(allocate_elements(m, head[1]));
     left = head[1];
-    for (int64_t block = 0; block < head[0]; block++) {
-        int32_t dimension, entity, type;
-        int64_t count;
-        TRY(fracas_gmsh_int(&m->scan, &dimension));
-        TRY(fracas_gmsh_int(&m->scan, &entity));
-        TRY(fracas_gmsh_int(&m->scan, &type));
-        TRY(fracas_gmsh_integer(&m->scan, 8, &count));
-        if (count < 0 || count > left)
-            return fracas_gmsh_fail(&m->scan,
-                                    "%" PRId64 " elements in a block, but %" PRId64
-                                    " are left of those announced",
-                                    count, left);
-        const entry *curve = dimension == 1 ? find(m->curve, m->ncurves, entity) : NULL;
+    for (int64_t block = 0; block < head[0]; block++, left -= count) {
+        int32_t of[3]; /* dimension, entity, type */
+        TRY(read_block(m, "elements", (size_t)left, of, &count));
+        const entry *curve = of[0] == 1 ? find(m->curve, m->ncurves, of[1]) : NULL;
         for (int64_t i = 0; i < count; i++) {
-            int64_t number;
             TRY(fracas_gmsh_integer(&m->scan, 8, &number));
-            TRY(read_element(m, type, 8, number, curve ? (int32_t)curve->value : 0));
+            TRY(read_element(m, of[2], 8, number, curve ? (int32_t)curve->value : 0));
         }
-        left -= count;
     }
     return FRACAS_OK;
 }
@@ -409,7 +344,7 @@ static fracas_err read_format(mesh *m)
         TRY(fracas_gmsh_line_end(scan));
         int32_t one;
         scan->is_binary = true;
-        TRY(fracas_gmsh_int(scan, &one));
+        TRY(fracas_gmsh_ints(scan, 1, &one));
         scan->is_swapped = one == 0x01000000;
         if (one != 1 && !scan->is_swapped)
             return fracas_gmsh_fail(

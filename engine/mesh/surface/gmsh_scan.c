@@ -126,21 +126,28 @@ fracas_err fracas_gmsh_integer(fracas_gmsh_scan *scan, size_t bytes, int64_t *va
     return fracas_gmsh_fail(scan, "`%s` is not a whole number of %zu bits", word, 8 * bytes);
 }
 
-fracas_err fracas_gmsh_int(fracas_gmsh_scan *scan, int32_t *value)
+fracas_err fracas_gmsh_ints(fracas_gmsh_scan *scan, size_t count, int32_t *value)
 {
-    int64_t wide;
-    TRY(fracas_gmsh_integer(scan, 4, &wide));
-    *value = (int32_t)wide;
+    for (size_t i = 0; i < count; i++) {
+        int64_t wide;
+        TRY(fracas_gmsh_integer(scan, 4, &wide));
+        value[i] = (int32_t)wide;
+    }
     return FRACAS_OK;
 }
 
-fracas_err fracas_gmsh_real(fracas_gmsh_scan *scan, double *value)
+fracas_err fracas_gmsh_reals(fracas_gmsh_scan *scan, size_t count, double *value)
 {
-    if (scan->is_binary) return read_bytes(scan, 8, value);
     char word[FRACAS_GMSH_WORD];
-    TRY(fracas_gmsh_word(scan, word));
-    if (fracas_number_read(word, value))
-        return fracas_gmsh_fail(scan, "`%s` is not a number", word);
+    for (size_t i = 0; i < count; i++) {
+        if (scan->is_binary) {
+            TRY(read_bytes(scan, 8, &value[i]));
+            continue;
+        }
+        TRY(fracas_gmsh_word(scan, word));
+        if (fracas_number_read(word, &value[i]))
+            return fracas_gmsh_fail(scan, "`%s` is not a number", word);
+    }
     return FRACAS_OK;
 }
 

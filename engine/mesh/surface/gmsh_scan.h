@@ -35,9 +35,9 @@ FRACAS_MUST_USE fracas_err fracas_gmsh_skip(fracas_gmsh_scan *scan, const char *
 /* A whole number of 4 or 8 bytes; of text one that would fit them. */
 FRACAS_MUST_USE fracas_err fracas_gmsh_integer(fracas_gmsh_scan *scan, size_t bytes,
                                                int64_t *value);
-/* The same of an `int`. */
-FRACAS_MUST_USE fracas_err fracas_gmsh_int(fracas_gmsh_scan *scan, int32_t *value);
-FRACAS_MUST_USE fracas_err fracas_gmsh_real(fracas_gmsh_scan *scan, double *value);
+/* `count` numbers, of an `int` or a `double` each. */
+FRACAS_MUST_USE fracas_err fracas_gmsh_ints(fracas_gmsh_scan *scan, size_t count, int32_t *value);
+FRACAS_MUST_USE fracas_err fracas_gmsh_reals(fracas_gmsh_scan *scan, size_t count, double *value);
 /* Refuses `count` things of `numbers` numbers each that cannot fit into the rest of the file, so
  * that what is allocated for them stays in proportion to the file. */
 FRACAS_MUST_USE fracas_err fracas_gmsh_fits(const fracas_gmsh_scan *scan, int64_t count,
