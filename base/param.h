@@ -92,6 +92,12 @@ typedef struct {
 
 #define FRACAS_COUNT(array) (sizeof(array) / sizeof *(array))
 
+/* Braces of an initializer, in a macro. */
+#define FRACAS_BRACES(...) \
+    {                      \
+        __VA_ARGS__        \
+    }
+
 /* Initializers of members that name an array and its length. */
 #define FRACAS_PARAMS(array) .params = array, .nparams = FRACAS_COUNT(array)
 #define FRACAS_KINDS(array) .kinds = array, .nkinds = FRACAS_COUNT(array)

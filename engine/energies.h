@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The energies of a realization, each named once.
- *
- * A new energy is one line of FRACAS_EACH_ENERGY and the code that computes it. The table makes the
- * members of a step, ledger, history row and record, the balance (bar.14) with its residual, and
- * the datasets of study.h5 with their descriptions. */
+/* The energies of a realization, each named once. A new one is a line of FRACAS_EACH_ENERGY and the
+ * code for it. The table makes the members of a step, ledger, history row and record, the balance
+ * (bar.14) with its residual, and the datasets of study.h5 with their descriptions. */
 #ifndef FRACAS_ENGINE_ENERGIES_H
 #define FRACAS_ENGINE_ENERGIES_H
 
@@ -17,8 +15,7 @@ typedef enum {
     FRACAS_ROLE_LOAD     /* -, work of the load so far, integrated by the ledger (bar.13) */
 } fracas_energy_role;
 
-/* X(key, role, unit, meaning). The kinetic energy comes first; sums follow the order of the lines.
- */
+/* X(key, role, unit, meaning). Kinetic energy comes first; sums follow the order of the lines. */
 #define FRACAS_EACH_ENERGY(X)                                                     \
     X(kinetic, KINETIC, "J", "kinetic energy")                                    \
     X(elastic, STORED, "J", "elastic energy of bulk and interfaces")              \

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The engine's door: a model (immutable, shared) and batches of realizations advanced in SIMD
- * lanes. */
+/* A model (immutable, shared), and batches of realizations advanced in SIMD lanes. */
 #ifndef FRACAS_ENGINE_ENGINE_H
 #define FRACAS_ENGINE_ENGINE_H
 
@@ -16,50 +15,45 @@
 typedef struct fracas_model fracas_model;
 typedef struct fracas_batch fracas_batch;
 
-/* Mesh, operators and critical time step of one point. `spec` is copied. FRACAS_USAGE if the
- * parameters do not go together (the message says which), FRACAS_ENVIRONMENT without memory. */
+/* Mesh, operators and critical time step of one point. `spec` is copied. FRACAS_USAGE names
+ * parameters that do not go together, FRACAS_ENVIRONMENT means no memory. */
 FRACAS_MUST_USE fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **model);
 void fracas_model_destroy(fracas_model *model); /* NULL is allowed */
 
 size_t fracas_model_interfaces(const fracas_model *model);
-/* 1, or the number of Gauss points of an interface where each has its own (spec.strength_per_point;
- * of surfaces). A realization needs fracas_model_interfaces times as many; strength k =
- * interface*this + g. */
+/* 1, or the Gauss points of an interface with spec.strength_per_point. A realization needs
+ * fracas_model_interfaces times as many; strength k = interface*this + g. */
 size_t fracas_model_strengths_per_interface(const fracas_model *model);
 size_t fracas_model_elements(const fracas_model *model);
-double fracas_model_element_size(
-    const fracas_model *model); /* m: mean length of elements, of surfaces of their edges */
-double fracas_model_critical_time_step(const fracas_model *model); /* s */
-double fracas_model_time_step(const fracas_model *model);          /* s, = safety * critical */
-int64_t fracas_model_steps(const fracas_model *model);             /* steps to time.end, at most */
+/* Mean length of elements, of surfaces of their edges [m]. */
+double fracas_model_element_size(const fracas_model *model);
+double fracas_model_time_step(const fracas_model *model); /* s, = safety * critical */
+int64_t fracas_model_steps(const fracas_model *model);    /* steps to time.end, at most */
 
 /* The mesh of a surface, which lives as long as the model; NULL for bars and rings. */
 const struct fracas_surface *fracas_model_surface(const fracas_model *model);
 
-/* Volume of the body that interface `interface` stands for [m3]: half of its two elements of a
- * chain, a third of its two triangles of a surface. */
+/* Volume of the body around an interface [m3]: half of its two elements of a chain, a third of its
+ * two triangles of a surface. */
 double fracas_model_interface_volume(const fracas_model *model, size_t interface);
 
-/* position[k]: where strength k is at the start [m]. That of an interface: of a surface, the middle
- * between the two ends of its edge; of a bar, x along it from its left end; of a ring, on its
- * circle in the plane, at the angle 2 pi (i + 1)/n. That of a Gauss point: there, on the edge that
- * may be curved. */
+/* position[k]: initial place of strength k [m]. Interface of a surface: the middle between the ends
+ * of its edge; of a bar: x from its left end; of a ring: on its circle, at the angle 2 pi (i +
+ * 1)/n. Gauss point: there, on the edge, which may be curved. */
 void fracas_model_interface_positions(const fracas_model *model, double (*position)[3]);
 
-/* Area of interface `interface` itself [m2]: the cross-section of a chain, length times thickness
- * of a surface. */
+/* Area of an interface [m2]: the cross-section of a chain, length times thickness of a surface. */
 double fracas_model_interface_area(const fracas_model *model, size_t interface);
 
 /* Length of a bar whose ends are joined [m], 0 of any other body. */
 double fracas_model_period(const fracas_model *model);
 
-/* Checks one strength [Pa] against the mesh: FRACAS_USAGE, saying what would do, where the law
- * could not dissipate G_c (K <= sigma_c/delta_c). */
+/* FRACAS_USAGE, with the remedy, for a strength [Pa] at which the law could not dissipate G_c on
+ * this mesh (K <= sigma_c/delta_c). */
 FRACAS_MUST_USE fracas_err fracas_model_check_strength(const fracas_model *model, double strength);
 
 typedef struct {
-    int64_t history; /* equal intervals of time.end at which a history row is kept; 0: only the
-                        events */
+    int64_t history; /* history rows, at equal intervals of time.end; 0: only the events */
     bool interfaces; /* keep one row an interface */
     int width;       /* lanes: 1, 4, 8; 0 chooses by the number of realizations */
     fracas_isa isa;  /* FRACAS_ISA_BEST: the best this CPU has */
@@ -76,10 +70,9 @@ void fracas_batch_destroy(fracas_batch *batch); /* NULL is allowed */
  * strength k (fracas_model_strengths_per_interface) is strength[k*stride]. */
 double *fracas_batch_strength(fracas_batch *batch, size_t lane, size_t *stride);
 
-/* Advances every lane to its own stop; record[l], l < count, must be initialised
+/* Advances every lane to its own stop, once; record[l], l < count, must be initialised
  * (fracas_record_init) and then belongs to the caller. A lane's record depends on its own strengths
- * alone. FRACAS_USAGE for a strength that fracas_model_check_strength refuses. A batch runs once.
- */
+ * alone. FRACAS_USAGE as fracas_model_check_strength. */
 FRACAS_MUST_USE fracas_err fracas_batch_run(fracas_batch *batch, fracas_record *record);
 
 #endif

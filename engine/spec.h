@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What one point of a campaign asks of the engine: every physical parameter, resolved, in SI. */
+/* The engine's input for one point of a campaign: every physical parameter, resolved, in SI. */
 #ifndef FRACAS_ENGINE_SPEC_H
 #define FRACAS_ENGINE_SPEC_H
 
@@ -23,8 +23,7 @@ typedef struct {
     double inner, outer;           /* m, annulus: radii */
     const fracas_attachment *file; /* file: the mesh */
     double thickness;              /* m, surfaces */
-    const fracas_kind *edge[FRACAS_EDGES]; /* surfaces: what holds the edges of each tag; of any
-                                              other tag the first */
+    const fracas_kind *edge[FRACAS_EDGES]; /* surfaces: edges of each tag; of any other the first */
 } fracas_geometry;
 
 typedef struct {
@@ -32,11 +31,10 @@ typedef struct {
     int64_t elements;           /* bar and ring */
     double ratio;               /* graded: size of the last element / size of the first; 1 */
     double amplitude;           /* perturbed, triangles: largest move of a node / element size; 1 */
-    double size;                /* m, triangles: see fracas_surface_fineness; or 0 and ... */
+    double size;                /* m, triangles: fracas_surface_fineness; or 0 and ... */
     int64_t divisions;          /* ... a number */
     int64_t order;              /* triangles: 1 linear, 2 quadratic */
-    const double *noise; /* in [-1, 1], move of each node / largest; not a parameter: drawn outside,
-                            where the mesh needs it */
+    const double *noise; /* in [-1, 1], move of each node / largest; no parameter: drawn outside */
     size_t nnoise;       /* fracas_mesh_noise_count */
 } fracas_mesh;
 
@@ -53,25 +51,21 @@ typedef struct {
     double critical_opening; /* m, stershic: 0 where the fracture energy is given */
     double penalty;          /* stershic: stiffness of contact / (E/h); 1 */
     double refinement;       /* stershic: factor xi of the time step for each critical zone; 1 */
-    const fracas_kind
-        *critical_zone; /* stershic: softening, steep; which open links refine the time step */
-    double
-        zone; /* m, stershic: no interface opens within this distance of an open one; 0: no zone */
+    const fracas_kind *critical_zone; /* stershic: softening, steep: links with finer time steps */
+    double zone;       /* m, stershic: no interface opens so close to an open one; 0: no zone */
     double beta_shear; /* shells: stiffness against shearing off; 1 */
-    const fracas_kind
-        *onset;      /* surfaces: mean, flux; the traction that is held against the strength */
-    double coupling; /* surfaces: beta_c, shear strength / normal strength; 1 */
-    double friction; /* surfaces: mu_c, Coulomb's coefficient; 1 */
+    const fracas_kind *onset; /* surfaces: mean, flux; traction compared with the strength */
+    double coupling;          /* surfaces: beta_c, shear strength / normal strength; 1 */
+    double friction;          /* surfaces: mu_c, Coulomb's coefficient; 1 */
 } fracas_cohesive;
 
 typedef struct {
-    const fracas_kind *type;  /* imposed-rate, initial-velocity, held-velocity, force; expansion,
-                                 centrifugal: surfaces */
-    double rate;              /* 1/s, imposed-rate, expansion */
-    double ratio;             /* 1, expansion: rate along y / rate along x */
-    const fracas_kind *start; /* expansion: moving, rest; the inside */
-    double speed;             /* rad/s, centrifugal */
-    double ramp;              /* s, centrifugal: time to reach it */
+    const fracas_kind *type;
+    double rate;                    /* 1/s, imposed-rate, expansion */
+    double ratio;                   /* 1, expansion: rate along y / rate along x */
+    const fracas_kind *start;       /* expansion: moving, rest; the inside */
+    double speed;                   /* rad/s, centrifugal */
+    double ramp;                    /* s, centrifugal: time to reach it */
     double radial, circumferential; /* m/s, initial-velocity */
     const fracas_kind *direction;   /* held-velocity, force: radial, circumferential */
     double velocity;                /* m/s, held-velocity */
@@ -86,7 +80,7 @@ typedef struct {
     double quiet;          /* s */
     double quiet_fraction; /* 1 */
     double multiple;       /* 1, peak-multiple */
-    double drop;   /* 1, peak-multiple: fall of the elastic energy that makes its maximum a peak */
+    double drop;   /* 1, peak-multiple: least relative fall of the elastic energy after its peak */
     double safety; /* time step / critical time step; 1 */
     const fracas_kind *integrator; /* surfaces: central-difference, hulbert-chung */
     double spectral_radius;        /* 1, hulbert-chung: at the bifurcation */
@@ -95,8 +89,7 @@ typedef struct {
 
 typedef struct {
     const fracas_kind *formulation; /* `model` of the campaign file */
-    bool strength_per_point; /* surfaces: each Gauss point of an interface has a strength; not a
-                                parameter of the engine's */
+    bool strength_per_point;        /* surfaces: each Gauss point of an interface has a strength */
     fracas_geometry geometry;
     fracas_mesh mesh;
     fracas_material material;
@@ -105,12 +98,10 @@ typedef struct {
     fracas_time time;
 } fracas_spec;
 
-/* What follows from the parameters alone, without a model. */
-double
-fracas_spec_length(const fracas_spec *spec); /* m, of the bar or along the ring; NaN for surfaces */
-/* Strain rate that the loading begins with [1/s]: the imposed rate, radial velocity / radius,
- * initial or held, or that of an expansion along x; NaN for a loading that gives none (a force, a
- * circumferential velocity, a centrifugal load). */
+/* Length of the bar or along the ring [m]; NaN for surfaces. */
+double fracas_spec_length(const fracas_spec *spec);
+/* Strain rate at the start [1/s]: imposed, radial velocity / radius, or along x of an expansion;
+ * NaN for other loadings. */
 double fracas_spec_strain_rate(const fracas_spec *spec);
 /* G_c [J/m2] of an interface of this strength [Pa]: as given, or sigma_c delta_c/2. */
 double fracas_spec_fracture_energy(const fracas_spec *spec, double strength);

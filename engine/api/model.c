@@ -83,10 +83,6 @@ double fracas_model_element_size(const fracas_model *model)
 {
     return model->element_size;
 }
-double fracas_model_critical_time_step(const fracas_model *model)
-{
-    return model->critical_step;
-}
 double fracas_model_time_step(const fracas_model *model)
 {
     return model->time_step;
@@ -122,8 +118,7 @@ double fracas_model_period(const fracas_model *model)
     return shape->period ? shape->period(&model->spec.geometry) : 0;
 }
 
-/* Of an edge: its ends and, of quadratic triangles, its middle (else its first end, which then has
- * no share). */
+/* Ends of an edge and, of quadratic triangles, its middle; else its first end, without a share. */
 static void edge_nodes(const fracas_surface *surface, size_t interface, const double *node[3])
 {
     const fracas_surface_interface *of = &surface->interface[interface];

@@ -4,10 +4,8 @@
 #include "engine/cohesive/parameters.h"
 #include "engine/formulation/formulation.h"
 
-const fracas_kind fracas_onset_mean = {.name = "mean",
-                                       .doc = "the mean of the stresses on both sides"};
-const fracas_kind fracas_onset_flux = {.name = "flux",
-                                       .doc = "the traction of the discontinuous-Galerkin flux"};
+const fracas_kind fracas_onset_mean = {"mean", "the mean of the stresses on both sides"};
+const fracas_kind fracas_onset_flux = {"flux", "the traction of the discontinuous-Galerkin flux"};
 static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
 
 bool fracas_onset_by_mean(const fracas_cohesive *cohesive)

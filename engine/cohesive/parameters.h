@@ -11,12 +11,10 @@
     .kind = {.name = name_, .doc = doc_, FRACAS_PARAMS(law##_params), .only = law##_models}
 
 /* A parameter that is the member of that name. */
-#define FRACAS_LAW_REAL(key, si, otherwise, least, most, open, models, text)               \
-    {                                                                                      \
-        .name = #key, .type = FRACAS_REAL, .unit = si, .doc = text, .fallback = otherwise, \
-        .minimum = least, .maximum = most, .minimum_open = open,                           \
-        .offset = offsetof(fracas_cohesive, key), .only = models                           \
-    }
+#define FRACAS_LAW_REAL(key, si, otherwise, least, most, open, models, text)                      \
+    FRACAS_BRACES(.name = #key, .type = FRACAS_REAL, .unit = si, .doc = text,                     \
+                  .fallback = otherwise, .minimum = least, .maximum = most, .minimum_open = open, \
+                  .offset = offsetof(fracas_cohesive, key), .only = models)
 
 /* Parameters of laws for surfaces, whose interfaces slide, too. */
 #define FRACAS_SURFACE_LAW                                                                         \

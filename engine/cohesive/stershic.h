@@ -6,13 +6,12 @@ FRACAS_LAW(stershic, NO, RIGID, NO, NO)
 #elif defined FRACAS_LAW_TABLES
 
 const fracas_kind fracas_zone_softening = {
-    .name = "softening",
-    .doc = "open links on the softening branch while they carry more than E/h times their opening "
-           "(the paper's)"};
+    "softening",
+    "open links on the softening branch while they carry more than E/h times their opening "
+    "(the paper's)"};
 const fracas_kind fracas_zone_steep = {
-    .name = "steep",
-    .doc = "all open links that carry more than E/h times their opening, closing ones too: a "
-           "hundredth of the ledger's residual and less, for a seventh more steps"};
+    "steep", "all open links that carry more than E/h times their opening, closing ones too: a "
+             "hundredth of the ledger's residual and less, for a seventh more steps"};
 static const fracas_kind *const zones[] = {&fracas_zone_softening, &fracas_zone_steep};
 
 static const fracas_param stershic_params[] = {

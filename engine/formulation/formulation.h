@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A formulation: bulk and interface kernels of one kind of body, behind one table of functions.
- *
- * The solver owns clocks, ledger, stop rules and histories; a formulation owns the state of its
- * degrees of freedom and advances it by one step of central difference for all lanes. */
+/* A formulation: bulk and interface kernels of one kind of body, behind one table of functions. The
+ * solver owns clocks, ledger, stop rules and histories; a formulation owns the state of its degrees
+ * of freedom and advances it by one step for all lanes. */
 #ifndef FRACAS_ENGINE_FORMULATION_FORMULATION_H
 #define FRACAS_ENGINE_FORMULATION_FORMULATION_H
 
@@ -15,20 +14,18 @@ struct fracas_model {
     const fracas_formulation *formulation;
     fracas_spec spec;
     size_t elements, interfaces;
-    size_t strengths;             /* of an interface: 1 unless model_init says more */
-    double mass;                  /* kg */
-    double element_size, longest; /* m: mean and largest length h of an element */
-    double *table; /* of the formulation's own: what its mesh is at; freed with the model */
+    size_t strengths;                 /* of an interface: 1 unless model_init says more */
+    double mass;                      /* kg */
+    double element_size, longest;     /* m: mean and largest length h of an element */
+    double *table;                    /* of the formulation's own; freed with the model */
     const struct fracas_chain *chain; /* fields of a chain's state; NULL of a surface */
     double
         *sizes; /* m, lengths of a chain's elements; NULL: all element_size; freed with the model */
-    const struct fracas_surface
-        *surface; /* mesh of a surface; NULL of a chain; destroyed with the model */
-    void *plan;   /* of the formulation's own, freed by plan_destroy */
-    double critical_closed,
-        critical_cracked; /* s: all interfaces uncracked; all broken and in contact */
-    double critical_step; /* s, the smaller of the two */
-    double time_step;     /* s */
+    const struct fracas_surface *surface;     /* NULL of a chain; destroyed with the model */
+    void *plan;                               /* of the formulation's own, freed by plan_destroy */
+    double critical_closed, critical_cracked; /* s: all interfaces uncracked; broken, in contact */
+    double critical_step;                     /* s, the smaller of the two */
+    double time_step;                         /* s */
 };
 
 #define FRACAS_ENERGY_LANES(key, role, unit, meaning) double key[FRACAS_LANES_MAX];
@@ -36,21 +33,19 @@ struct fracas_model {
 /* One step of a batch, and the sums of its lanes so far. Arrays are [lane]. */
 typedef struct {
     int width; /* lanes of the batch: 1, 4, 8 */
-    int lanes; /* lanes of one kernel: what a register holds; the batch is width/lanes such groups
-                */
+    int lanes; /* lanes of one kernel; the batch is width/lanes such groups */
     fracas_isa isa;
     double *state; /* owned by the batch, laid out by the formulation, group after group */
-    fracas_partition partition; /* room for it: of one lane at a time, found anew for each use */
+    fracas_partition partition; /* of one lane at a time, found anew for each use */
     double *onset_time;         /* [interface][lane], s; NULL unless interfaces are kept */
     double *break_time;         /* the same */
-    /* in: time of the step, the time step that led to it (0 in the first), and the one that
-     * velocities are advanced by */
+    /* in: time of the step, the time step that led to it (0 in the first), and that of velocities
+     */
     _Alignas(64) double time[FRACAS_LANES_MAX], drift[FRACAS_LANES_MAX], kick[FRACAS_LANES_MAX];
-    /* in, out: the time step that will follow: the model's, unless the formulation refines it */
+    /* in, out: the next time step: the model's, unless the formulation refines it */
     double next[FRACAS_LANES_MAX];
-    /* out: energies [J] at this time, each as `key` and as energy[i] (engine/energies.h). `created`
-     * and `friction` accumulate; `work` is the load's work since the step before, beside its
-     * `power` [W] now. A body without bending leaves dissipated_bending 0. */
+    /* out: energies [J] at this time (engine/energies.h). `created` and `friction` accumulate;
+     * `work` is the load's since the step before, beside its `power` [W] now. */
     union {
         struct {
             FRACAS_EACH_ENERGY(FRACAS_ENERGY_LANES)
@@ -58,8 +53,7 @@ typedef struct {
         double energy[FRACAS_ENERGIES][FRACAS_LANES_MAX];
     };
     double power[FRACAS_LANES_MAX];
-    /* of the formulation's own: power of the drive at the step before, at the velocities after it
-     * [W] */
+    /* of the formulation's own: power of the drive at the velocities after the step before [W] */
     double driven[FRACAS_LANES_MAX];
     /* accumulated: counts of interfaces, time of the first onset [s, NaN] */
     double first_onset[FRACAS_LANES_MAX];
@@ -79,7 +73,7 @@ struct fracas_formulation {
     void (*plan_destroy)(void *plan);
     /* Doubles that a lane's state takes. */
     size_t (*state_size)(const fracas_model *model);
-    /* Where the first strength of a lane is in the state, and the distance to the next. */
+    /* First strength of a lane in the state, and the distance to the next. */
     double *(*strength)(const fracas_model *model, const fracas_step *step, int lane,
                         size_t *stride);
     /* Prepares the state of one lane for the first step, its strengths being there. */
@@ -88,17 +82,15 @@ struct fracas_formulation {
     void (*advance)(const fracas_model *model, fracas_step *step);
     /* Number of fragments of a lane after a step. */
     int64_t (*fragment_count)(const fracas_model *model, fracas_step *step, int lane);
-    /* Fragments, momentum and (if kept) interface rows of one lane after a step, into the record.
-     */
+    /* Fragments, momentum and (if kept) interface rows of one lane, into the record. */
     fracas_err (*harvest)(const fracas_model *model, fracas_step *step, int lane,
                           fracas_record *record);
 };
 
 extern const fracas_formulation fracas_formulation_bar, fracas_formulation_ring,
     fracas_formulation_membrane, fracas_formulation_shell;
+/* Models of such bodies, then NULL. */
 extern const fracas_kind *const fracas_chain_models[],
-    *const fracas_surface_models[]; /* of such bodies; then NULL */
-extern const fracas_kind *const fracas_membrane_models[],
-    *const fracas_shell_models[]; /* of surfaces, those; then NULL */
+    *const fracas_surface_models[], *const fracas_membrane_models[], *const fracas_shell_models[];
 
 #endif

@@ -109,8 +109,8 @@ static void inertia_of(const fracas_fragment_sums *sums, const double centre[3],
     }
 }
 
-/* Of an inertia that is 0, sums leave some 1e-16 of the largest, times the root of the number of
- * nodes, and places rounded to 1e-16 |X| leave 1e-32 m X.X. */
+/* Sums leave of an inertia 0 some 1e-16 of the largest, times the root of the number of nodes;
+ * places rounded to 1e-16 |X| leave 1e-32 m X.X. */
 static const double no_inertia = 1e-12;
 
 /* (fragments.4) */

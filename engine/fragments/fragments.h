@@ -1,15 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fragments: connected sets of elements over unbroken interfaces, and their motion as rigid bodies
- * in space. */
+/* Fragments: sets of elements connected by unbroken interfaces, and their motion as rigid bodies.
+ */
 #ifndef FRACAS_ENGINE_FRAGMENTS_FRAGMENTS_H
 #define FRACAS_ENGINE_FRAGMENTS_FRAGMENTS_H
 
 #include "base/partition.h"
 #include "engine/record.h"
 
-/* Sums over the nodes of one fragment; all 0 to begin with. Its elements [1] and size [m] are the
- * formulation's to say. Second moments are taken from the first node: those of a small fragment
- * would be lost in the rounding of a place far off. */
+/* Sums over the nodes of one fragment, 0 at first; the formulation sets elements [1] and size [m].
+ * Second moments are about the first node: from far off, rounding would lose small fragments'. */
 typedef struct {
     int64_t elements, nodes;
     double mass, size;  /* kg, m */
@@ -24,17 +23,15 @@ typedef struct {
 void fracas_fragment_sums_add(fracas_fragment_sums *sums, double mass, const double x[3],
                               const double v[3]);
 
-/* Adds node k of masses M_kl that couple it with others, all of them of this fragment: mass = sum
- * over l of M_kl [kg], carried = sum of M_kl x_l [kg m], momentum = sum of M_kl v_l [kg m/s], x its
- * own place [m]. */
+/* Adds node k at x [m], coupled by masses M_kl with nodes l of this fragment: mass = sum_l M_kl
+ * [kg], carried = sum_l M_kl x_l [kg m], momentum = sum_l M_kl v_l [kg m/s]. */
 void fracas_fragment_sums_add_coupled(fracas_fragment_sums *sums, double mass, const double x[3],
                                       const double carried[3], const double momentum[3]);
 
-/* Gives an empty record its momentum and `count` fragments of these sums, allocated by malloc
- * (FRACAS_ENVIRONMENT without memory): centre of mass X, its velocity V, angular momentum about it
- * L = sum of x x m v - M X x V, spin = I^-1 L with I = sum of m ((y.y) 1 - y y^T), y = x - X, or
- * where I is singular (nodes on a line, a single node) the least such spin: 0 about an axis without
- * inertia. Dust are fragments of at most `dust` elements. */
+/* Gives an empty record its momentum and `count` fragments (FRACAS_ENVIRONMENT without memory):
+ * centre of mass X, its velocity V, angular momentum about it L = sum of x x m v - M X x V, spin =
+ * I^-1 L with I = sum of m ((y.y) 1 - y y^T), y = x - X; spin is 0 about an axis without inertia
+ * (nodes on a line, a single node). Dust are fragments of at most `dust` elements. */
 FRACAS_MUST_USE fracas_err fracas_fragments_take(const fracas_fragment_sums *sums, size_t count,
                                                  int64_t dust, fracas_record *record);
 

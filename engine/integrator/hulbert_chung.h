@@ -3,11 +3,11 @@
 #ifndef FRACAS_ENGINE_INTEGRATOR_HULBERT_CHUNG_H
 #define FRACAS_ENGINE_INTEGRATOR_HULBERT_CHUNG_H
 
-/*   M [(1 - am) a_{n+1} + am a_n] = F(u_n, t_n),  a_0 = M^-1 F(u_0, 0) (membrane.14) u_{n+1} = u_n
- * + dt v_n + dt^2 [(1/2 - b) a_n + b a_{n+1}],  v_{n+1} = v_n + dt [(1 - g) a_n + g a_{n+1}]
- * (membrane.15) with the spectral radius r at the bifurcation, 0 <= r <= 1: am = (2 r - 1)/(1 + r),
- * b = (5 - 3 r)/((1 + r)^2 (2 - r)), g = 3/2 - am r = 1 is not central difference and leaves a
- * spurious root undamped. */
+/*   M [(1 - am) a_{n+1} + am a_n] = F(u_n, t_n),  a_0 = M^-1 F(u_0, 0)             (membrane.14)
+ *   u_{n+1} = u_n + dt v_n + dt^2 [(1/2 - b) a_n + b a_{n+1}]
+ *   v_{n+1} = v_n + dt [(1 - g) a_n + g a_{n+1}]                                    (membrane.15)
+ * with the spectral radius r at the bifurcation, 0 <= r <= 1: am = (2 r - 1)/(1 + r),
+ * b = (5 - 3 r)/((1 + r)^2 (2 - r)), g = 3/2 - am. r = 1 leaves a spurious root undamped. */
 typedef struct {
     double alpha_m, beta, gamma; /* 1 */
     double limit;                /* 1: stable for omega dt below this, of an undamped body */

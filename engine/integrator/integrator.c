@@ -12,8 +12,7 @@ static double central_difference_limit(const fracas_time *time)
 }
 
 const fracas_kind fracas_integrator_central_difference = {
-    .name = "central-difference",
-    .doc = "leapfrog: second order, damps nothing",
+    "central-difference", "leapfrog: second order, damps nothing",
     .traits = &(const fracas_integrator){.limit = central_difference_limit}};
 
 /* (membrane.14), (membrane.15) */
@@ -32,16 +31,13 @@ static double hulbert_chung_limit(const fracas_time *time)
 }
 
 const fracas_kind fracas_integrator_hulbert_chung = {
-    .name = "hulbert-chung",
-    .doc = "explicit generalised alpha: second order, damps high frequencies",
+    "hulbert-chung", "explicit generalised alpha: second order, damps high frequencies",
     .traits = &(const fracas_integrator){.limit = hulbert_chung_limit, .accelerations = true}};
 
 const fracas_kind fracas_mass_lumped = {
-    .name = "lumped",
-    .doc = "diagonal; of quadratic triangles by the rule of Hinton, Rock and Zienkiewicz"};
+    "lumped", "diagonal; of quadratic triangles by the rule of Hinton, Rock and Zienkiewicz"};
 const fracas_kind fracas_mass_consistent = {
-    .name = "consistent",
-    .doc = "the integral of the shape functions' products, inverted element by element"};
+    "consistent", "the integral of the shape functions' products, inverted element by element"};
 
 bool fracas_mass_is_consistent(const fracas_time *time)
 {

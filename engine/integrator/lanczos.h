@@ -18,16 +18,14 @@ typedef struct {
 } fracas_lanczos_problem;
 
 /* *largest: the largest eigenvalue of M^-1 K, from `start` (overwritten, not 0): the largest Ritz
- * value theta plus the bound of its error beta_j |s_j| (Paige 1971), once that is below 2e-3 theta
- * and theta has moved by less than 1e-4 of itself in each of the last 12 steps; 200 steps at most.
- * It is above the largest eigenvalue by less than 2e-3 of it. The bound is of the distance to some
- * eigenvalue: a start that has next to nothing of the last mode may rest at the one before. Of 12
- * 000 random pencils of up to 60 degrees of freedom 7 did, 7e-4 below at worst (4 steps: 99, and
- * 6e-2).
+ * value theta plus the bound of its error beta_j |s_j| (Paige 1971), once the bound is below 2e-3
+ * theta and theta has moved by less than 1e-4 of itself in each of the last 12 steps; 200 steps at
+ * most. It is above the largest eigenvalue by less than 2e-3 of it. A start with next to nothing of
+ * the last mode may rest at the one before: of 12 000 random pencils of up to 60 degrees of freedom
+ * 7 did, 7e-4 below at worst (4 steps: 99, and 6e-2).
  *
- * With `settled`, *largest is theta alone, from below, once theta has moved by less than that in
- * each of the last 12 steps; 2000 steps at most. Its error is of second order in that of the mode.
- */
+ * With `settled`, *largest is theta alone, from below, once theta has moved by less in each of the
+ * last 12 steps; 2000 steps at most. Its error is of second order in the mode's. */
 FRACAS_MUST_USE fracas_err fracas_lanczos(const fracas_lanczos_problem *problem, double *start,
                                           double *largest);
 

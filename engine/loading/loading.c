@@ -3,14 +3,12 @@
 
 #include <math.h>
 
-const fracas_kind fracas_axis_radial = {.name = "radial", .doc = "outward"};
-const fracas_kind fracas_axis_circumferential = {.name = "circumferential",
-                                                 .doc = "along the ring, counter-clockwise"};
+const fracas_kind fracas_axis_radial = {"radial", "outward"};
+const fracas_kind fracas_axis_circumferential = {"circumferential",
+                                                 "along the ring, counter-clockwise"};
 static const fracas_kind *const axes[] = {&fracas_axis_radial, &fracas_axis_circumferential};
-#define DIRECTION(what)                                                             \
-    {                                                                               \
-        FRACAS_ONE_OF("direction", axes, offsetof(fracas_loading, direction), what) \
-    }
+#define DIRECTION(what) \
+    FRACAS_BRACES(FRACAS_ONE_OF("direction", axes, offsetof(fracas_loading, direction), what))
 
 static bool is_radial(const fracas_spec *spec)
 {
@@ -47,9 +45,7 @@ static fracas_ring_motion rate_motion(const fracas_spec *spec, double radius)
 }
 
 const fracas_kind fracas_loading_imposed_rate = {
-    .name = "imposed-rate",
-    .doc = "uniform stretching at a constant strain rate",
-    FRACAS_PARAMS(imposed_rate),
+    "imposed-rate", "uniform stretching at a constant strain rate", FRACAS_PARAMS(imposed_rate),
     .traits = &(const fracas_loading_traits){
         .rate = imposed_rate_of, .ring = rate_ring, .motion = rate_motion}};
 
@@ -98,8 +94,7 @@ static bool velocity_folds(const fracas_spec *spec, bool whole, double turn)
 }
 
 const fracas_kind fracas_loading_initial_velocity = {
-    .name = "initial-velocity",
-    .doc = "all nodes start with a velocity, then the ring is free",
+    "initial-velocity", "all nodes start with a velocity, then the ring is free",
     FRACAS_PARAMS(initial_velocity),
     .traits = &(const fracas_loading_traits){.rate = initial_rate,
                                              .ring = velocity_ring,
@@ -147,8 +142,7 @@ static double held_path(const fracas_spec *spec, double t)
 }
 
 const fracas_kind fracas_loading_held_velocity = {
-    .name = "held-velocity",
-    .doc = "one component of every node's velocity is velocity + acceleration t",
+    "held-velocity", "one component of every node's velocity is velocity + acceleration t",
     FRACAS_PARAMS(held_velocity),
     .traits = &(const fracas_loading_traits){
         .rate = held_rate, .ring = held_ring, .motion = held_motion, .path = held_path}};
@@ -196,17 +190,14 @@ static bool force_folds(const fracas_spec *spec, bool whole, double turn)
 }
 
 const fracas_kind fracas_loading_force = {
-    .name = "force",
-    .doc = "a force per length, force + force_rate t, on a ring at rest",
-    FRACAS_PARAMS(force),
+    "force", "a force per length, force + force_rate t, on a ring at rest", FRACAS_PARAMS(force),
     .traits = &(const fracas_loading_traits){
         .ring = force_ring, .motion = force_motion, .path = force_path, .folds = force_folds}};
 
 /* ---- expansion ---- */
 
-const fracas_kind fracas_start_moving = {.name = "moving", .doc = "with the same velocities"};
-const fracas_kind fracas_start_rest = {.name = "rest",
-                                       .doc = "at rest, so that held edges send a shock into it"};
+const fracas_kind fracas_start_moving = {"moving", "with the same velocities"};
+const fracas_kind fracas_start_rest = {"rest", "at rest, so that held edges send a shock into it"};
 static const fracas_kind *const starts[] = {&fracas_start_moving, &fracas_start_rest};
 
 static const fracas_param expansion[] = {
@@ -228,9 +219,9 @@ static fracas_stretch expansion_surface(const fracas_spec *spec, double t)
 }
 
 const fracas_kind fracas_loading_expansion = {
-    .name = "expansion",
-    .doc = "velocities (rate x, ratio rate y; of shells also rate z): all nodes start with them, "
-           "those of held edges keep them",
+    "expansion",
+    "velocities (rate x, ratio rate y; of shells also rate z): all nodes start with them, "
+    "those of held edges keep them",
     FRACAS_PARAMS(expansion),
     .traits = &(const fracas_loading_traits){.rate = imposed_rate_of,
                                              .surface = expansion_surface}};
@@ -251,9 +242,9 @@ static fracas_stretch centrifugal_surface(const fracas_spec *spec, double t)
 }
 
 const fracas_kind fracas_loading_centrifugal = {
-    .name = "centrifugal",
-    .doc = "a force w^2 r on every unit of mass of a body at rest, r from the origin to where it "
-           "started",
+    "centrifugal",
+    "a force w^2 r on every unit of mass of a body at rest, r from the origin to where it "
+    "started",
     FRACAS_PARAMS(centrifugal),
     .traits = &(const fracas_loading_traits){.surface = centrifugal_surface, .body_force = true}};
 

@@ -6,80 +6,63 @@
 #include "engine/mesh/surface/gmsh.h"
 
 const fracas_kind fracas_ends_periodic = {
-    .name = "periodic", .doc = "the bar closes on itself, as the hoop direction of a ring does"};
-const fracas_kind fracas_ends_held = {.name = "held",
-                                      .doc = "both ends move with the imposed rate"};
+    "periodic", "the bar closes on itself, as the hoop direction of a ring does"};
+const fracas_kind fracas_ends_held = {"held", "both ends move with the imposed rate"};
 static const fracas_kind *const ends[] = {&fracas_ends_periodic, &fracas_ends_held};
 
 const fracas_kind fracas_direction_initial = {
-    .name = "initial", .doc = "interfaces open along the circumference as it was at the start"};
+    "initial", "interfaces open along the circumference as it was at the start"};
 const fracas_kind fracas_direction_current = {
-    .name = "current",
-    .doc = "interfaces open along the mean of their two elements, wherever these have turned"};
+    "current", "interfaces open along the mean of their two elements, wherever these have turned"};
 static const fracas_kind *const directions[] = {&fracas_direction_current,
                                                 &fracas_direction_initial};
 
-#define EDGE_TRAITS(...)           \
-    .traits = &(const fracas_edge) \
-    {                              \
-        __VA_ARGS__                \
-    }
 const fracas_kind fracas_edge_free = {
-    .name = "free", .doc = "nothing holds the edge", EDGE_TRAITS(.membrane = true, .shell = true)};
+    "free", "nothing holds the edge",
+    .traits = &(const fracas_edge){.membrane = true, .shell = true}};
 const fracas_kind fracas_edge_held = {
-    .name = "held",
-    .doc = "the edge moves with the velocity of the loading all the time: that of the expansion, "
-           "or none; a shell may turn about it",
-    EDGE_TRAITS(.held = true, .moving = true, .membrane = true, .shell = true)};
+    "held",
+    "the edge moves with the velocity of the loading all the time: that of the expansion, "
+    "or none; a shell may turn about it",
+    .traits = &(const fracas_edge){.held = true, .moving = true, .membrane = true, .shell = true}};
 const fracas_kind fracas_edge_sliding = {
-    .name = "sliding",
-    .doc = "membranes: as held, but free to slide along itself; an edge along x or y only",
-    EDGE_TRAITS(.held = true, .moving = true, .sliding = true, .membrane = true)};
+    "sliding", "membranes: as held, but free to slide along itself; an edge along x or y only",
+    .traits = &(const fracas_edge){
+        .held = true, .moving = true, .sliding = true, .membrane = true}};
 const fracas_kind fracas_edge_fixed = {
-    .name = "fixed",
-    .doc = "the edge stays where it is; a shell may turn about it",
-    EDGE_TRAITS(.held = true, .membrane = true, .shell = true)};
+    "fixed", "the edge stays where it is; a shell may turn about it",
+    .traits = &(const fracas_edge){.held = true, .membrane = true, .shell = true}};
 const fracas_kind fracas_edge_clamped = {
-    .name = "clamped",
-    .doc = "shells: the edge stays where it is and does not turn",
-    EDGE_TRAITS(.held = true, .director = true, .shell = true)};
+    "clamped", "shells: the edge stays where it is and does not turn",
+    .traits = &(const fracas_edge){.held = true, .director = true, .shell = true}};
 const fracas_kind fracas_edge_symmetry = {
-    .name = "symmetry",
-    .doc = "shells: the edge lies in a plane x, y or z = const, and what is beyond is the mirror "
-           "image",
-    EDGE_TRAITS(.held = true, .director = true, .mirror = true, .shell = true)};
+    "symmetry",
+    "shells: the edge lies in a plane x, y or z = const, and what is beyond is the mirror "
+    "image",
+    .traits = &(const fracas_edge){.held = true, .director = true, .mirror = true, .shell = true}};
 const fracas_kind fracas_edge_diaphragm = {
-    .name = "diaphragm",
-    .doc = "shells: the edge lies in a plane x, y or z = const and does not move in it; it may "
-           "leave it, and the shell turn about it",
-    EDGE_TRAITS(.held = true, .in_plane = true, .shell = true)};
+    "diaphragm",
+    "shells: the edge lies in a plane x, y or z = const and does not move in it; it may "
+    "leave it, and the shell turn about it",
+    .traits = &(const fracas_edge){.held = true, .in_plane = true, .shell = true}};
 static const fracas_kind *const edges[] = {
     &fracas_edge_free,    &fracas_edge_held,     &fracas_edge_sliding,  &fracas_edge_fixed,
     &fracas_edge_clamped, &fracas_edge_symmetry, &fracas_edge_diaphragm};
-const fracas_kind fracas_part_whole = {.name = "whole", .doc = "all of it"};
-const fracas_kind fracas_part_octant = {.name = "octant",
-                                        .doc = "x, y, z >= 0; the other seven are mirror images"};
+const fracas_kind fracas_part_whole = {"whole", "all of it"};
+const fracas_kind fracas_part_octant = {"octant",
+                                        "x, y, z >= 0; the other seven are mirror images"};
 static const fracas_kind *const parts[] = {&fracas_part_whole, &fracas_part_octant};
 
-#define EDGE(key, tag, what)                                                                \
-    {                                                                                       \
-        FRACAS_ONE_OF(key, edges, offsetof(fracas_geometry, edge[tag]), "what holds " what) \
-    }
-#define AREA                                                                             \
-    {                                                                                    \
-        "area", FRACAS_REAL, "m2", "area of the cross-section", 1e-6, 0, INFINITY, true, \
-            offsetof(fracas_geometry, area)                                              \
-    }
-#define THICKNESS                                                                             \
-    {                                                                                         \
-        "thickness", FRACAS_REAL, "m", "thickness of the plate or shell", FRACAS_REQUIRED, 0, \
-            INFINITY, true, offsetof(fracas_geometry, thickness)                              \
-    }
-#define LENGTH(key, member, what)                                        \
-    {                                                                    \
-        key, FRACAS_REAL, "m", what, FRACAS_REQUIRED, 0, INFINITY, true, \
-            offsetof(fracas_geometry, member)                            \
-    }
+#define EDGE(key, tag, what) \
+    FRACAS_BRACES(           \
+        FRACAS_ONE_OF(key, edges, offsetof(fracas_geometry, edge[tag]), "what holds " what))
+#define LENGTH(key, member, what)                                                  \
+    FRACAS_BRACES(key, FRACAS_REAL, "m", what, FRACAS_REQUIRED, 0, INFINITY, true, \
+                  offsetof(fracas_geometry, member))
+#define THICKNESS LENGTH("thickness", thickness, "thickness of the plate or shell")
+#define AREA                                                                                       \
+    FRACAS_BRACES("area", FRACAS_REAL, "m2", "area of the cross-section", 1e-6, 0, INFINITY, true, \
+                  offsetof(fracas_geometry, area))
 
 static const fracas_param bar[] = {
     AREA,
@@ -100,9 +83,7 @@ static double bar_period(const fracas_geometry *geometry)
 }
 
 const fracas_kind fracas_shape_bar = {
-    .name = "bar",
-    .doc = "a straight bar",
-    FRACAS_PARAMS(bar),
+    "bar", "a straight bar", FRACAS_PARAMS(bar),
     .traits = &(const fracas_shape){.length = bar_length, .period = bar_period}};
 
 static const fracas_param ring[] = {
@@ -118,9 +99,7 @@ static double circumference(const fracas_geometry *geometry)
 }
 
 const fracas_kind fracas_shape_ring = {
-    .name = "ring",
-    .doc = "a closed thin ring",
-    FRACAS_PARAMS(ring),
+    "ring", "a closed thin ring", FRACAS_PARAMS(ring),
     .traits = &(const fracas_shape){.length = circumference, .round = true}};
 
 static const fracas_param plate[] = {
@@ -141,9 +120,7 @@ static fracas_err make_plate(const fracas_geometry *geometry,
 }
 
 const fracas_kind fracas_shape_plate = {
-    .name = "plate",
-    .doc = "a flat rectangle about the origin",
-    FRACAS_PARAMS(plate),
+    "plate", "a flat rectangle about the origin", FRACAS_PARAMS(plate),
     .traits = &(const fracas_shape){.make = make_plate, .even = true}};
 
 static const fracas_param annulus[] = {
@@ -161,8 +138,7 @@ static fracas_err make_annulus(const fracas_geometry *geometry,
     return fracas_surface_annulus(geometry->inner, geometry->outer, fineness, surface);
 }
 
-const fracas_kind fracas_shape_annulus = {.name = "annulus",
-                                          .doc = "a flat plate ring about the origin",
+const fracas_kind fracas_shape_annulus = {"annulus", "a flat plate ring about the origin",
                                           FRACAS_PARAMS(annulus),
                                           .traits = &(const fracas_shape){.make = make_annulus}};
 
@@ -182,9 +158,7 @@ static fracas_err make_sphere(const fracas_geometry *geometry,
 }
 
 const fracas_kind fracas_shape_sphere = {
-    .name = "sphere",
-    .doc = "a thin spherical shell about the origin",
-    FRACAS_PARAMS(sphere),
+    "sphere", "a thin spherical shell about the origin", FRACAS_PARAMS(sphere),
     .traits = &(const fracas_shape){.make = make_sphere, .edges = &fracas_edge_symmetry}};
 
 static const fracas_param file[] = {
@@ -212,9 +186,7 @@ static fracas_err make_from_file(const fracas_geometry *geometry,
 }
 
 const fracas_kind fracas_shape_file = {
-    .name = "file",
-    .doc = "the surface of a mesh file",
-    FRACAS_PARAMS(file),
+    "file", "the surface of a mesh file", FRACAS_PARAMS(file),
     .traits = &(const fracas_shape){.make = make_from_file, .from_file = true}};
 
 static const fracas_kind *const shapes[] = {&fracas_shape_bar,    &fracas_shape_ring,
@@ -230,15 +202,12 @@ const fracas_section fracas_geometry_section = {
     .hashed = true,
 };
 
-#define ELEMENTS                                                                               \
-    {                                                                                          \
-        "elements", FRACAS_INTEGER, "1", "number of elements", FRACAS_REQUIRED, 2, 1e8, false, \
-            offsetof(fracas_mesh, elements)                                                    \
-    }
+#define ELEMENTS                                                                                  \
+    FRACAS_BRACES("elements", FRACAS_INTEGER, "1", "number of elements", FRACAS_REQUIRED, 2, 1e8, \
+                  false, offsetof(fracas_mesh, elements))
 
 static const fracas_param uniform[] = {ELEMENTS};
-const fracas_kind fracas_spacing_uniform = {.name = "uniform",
-                                            .doc = "elements of one length",
+const fracas_kind fracas_spacing_uniform = {"uniform", "elements of one length",
                                             FRACAS_PARAMS(uniform),
                                             .traits = &(const fracas_spacing){.uniform = true}};
 
@@ -259,10 +228,9 @@ static fracas_err fill_graded(const fracas_mesh *mesh, double length, double *si
     return FRACAS_OK;
 }
 
-const fracas_kind fracas_spacing_graded = {.name = "graded",
-                                           .doc = "lengths in geometric progression along the bar",
-                                           FRACAS_PARAMS(graded),
-                                           .traits = &(const fracas_spacing){.fill = fill_graded}};
+const fracas_kind fracas_spacing_graded = {
+    "graded", "lengths in geometric progression along the bar", FRACAS_PARAMS(graded),
+    .traits = &(const fracas_spacing){.fill = fill_graded}};
 
 static const fracas_param perturbed[] = {
     ELEMENTS,
@@ -287,8 +255,7 @@ static fracas_err fill_perturbed(const fracas_mesh *mesh, double length, double 
 }
 
 const fracas_kind fracas_spacing_perturbed = {
-    .name = "perturbed",
-    .doc = "nodes moved at random from a uniform mesh, once a point",
+    "perturbed", "nodes moved at random from a uniform mesh, once a point",
     FRACAS_PARAMS(perturbed),
     .traits = &(const fracas_spacing){.fill = fill_perturbed, .moves = true}};
 
@@ -310,13 +277,11 @@ static const fracas_param triangles[] = {
      "lead cracks along their lines",
      0, 0, FRACAS_SURFACE_AMPLITUDE, false, offsetof(fracas_mesh, amplitude)},
 };
-const fracas_kind fracas_spacing_triangles = {.name = "triangles",
-                                              .doc = "near-uniform triangles",
+const fracas_kind fracas_spacing_triangles = {"triangles", "near-uniform triangles",
                                               FRACAS_PARAMS(triangles),
                                               .traits = &(const fracas_spacing){.rows = true}};
 
-const fracas_kind fracas_spacing_given = {.name = "given",
-                                          .doc = "the elements of the mesh file",
+const fracas_kind fracas_spacing_given = {"given", "the elements of the mesh file",
                                           .traits = &(const fracas_spacing){.from_file = true}};
 
 static fracas_err check_mesh(const void *section)

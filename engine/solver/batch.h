@@ -16,8 +16,7 @@ typedef struct {
     double pace;   /* s, time step of the last steps ... */
     double since;  /* s, ... since this time ... */
     int64_t paces; /* ... and how many: time = since + paces pace, without the round-off of a sum */
-    int64_t counted, fragments; /* number of fragments when `counted` interfaces were broken; -1:
-                                   not counted yet */
+    int64_t counted, fragments; /* fragments when `counted` interfaces were broken; -1: unknown */
     bool running;
 } fracas_lane;
 
@@ -29,12 +28,11 @@ struct fracas_batch {
     fracas_lane lane[FRACAS_LANES_MAX];
 };
 
-/* Checks the strengths and prepares every lane; then the state may be changed, before the first
- * step. */
+/* Checks the strengths and prepares every lane; then the state may be changed. */
 FRACAS_MUST_USE fracas_err fracas_batch_begin(fracas_batch *batch);
 
-/* Advances all lanes by one step and brings ledgers, histories and stop rules up to date. A
- * finished lane leaves its record and stops. *running: lanes left. */
+/* Advances all lanes, their ledgers, histories and stop rules by one step. A finished lane leaves
+ * its record and stops. *running: lanes left. */
 FRACAS_MUST_USE fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record,
                                              size_t *running);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The history of one lane: rows at equal intervals of time.end and at first onset, energy peak and
+/* The history of one lane: rows at equal intervals of time.end, at first onset, energy peak and
  * end. */
 #ifndef FRACAS_ENGINE_SOLVER_HISTORY_H
 #define FRACAS_ENGINE_SOLVER_HISTORY_H
@@ -40,8 +40,7 @@ bool fracas_history_keeps(const fracas_history *history, const fracas_history_ro
 void fracas_history_observe(fracas_history *history, int64_t step, const fracas_history_row *row,
                             bool cracked);
 
-/* Rows in order of time, each step once, into the record (which owns them); the last step observed
- * is the end. */
+/* Rows in order of time, each step once, into the record, which owns them. */
 FRACAS_MUST_USE fracas_err fracas_history_harvest(const fracas_history *history,
                                                   fracas_record *record);
 

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The energy ledger of one lane: each energy has its own sum, and the residual tells by how much
- * the balance fails. */
+/* The energy ledger of one lane: a sum for each energy, and the residual of the balance. */
 #ifndef FRACAS_ENGINE_SOLVER_LEDGER_H
 #define FRACAS_ENGINE_SOLVER_LEDGER_H
 
@@ -24,8 +23,8 @@ void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int la
 
 /* From the step FRACAS_ENERGY_START on, true when
  *   |residual| > FRACAS_ENERGY_TOLERANCE max(kinetic, stored + sinks, |work|)            (bar.15)
- * Such a run no longer computes its model. In the first steps of a body at rest all energies are
- * near 0, and the residual has no measure. */
+ * Such a run no longer computes its model. In the first steps energies of a body at rest are near
+ * 0, and the residual has no measure. */
 #define FRACAS_ENERGY_TOLERANCE 0.05
 #define FRACAS_ENERGY_START 16
 bool fracas_ledger_drifts(const fracas_ledger *ledger, int64_t step);

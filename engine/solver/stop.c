@@ -10,7 +10,7 @@ typedef struct {
     bool waits; /* time.quiet goes by until then */
 } stop_rule;
 
-const fracas_kind fracas_stop_time = {.name = "time", .doc = "at the set time `end`"};
+const fracas_kind fracas_stop_time = {"time", "at the set time `end`"};
 
 static const fracas_param settled[] = {
     {"quiet", FRACAS_REAL, "s",
@@ -33,10 +33,8 @@ static bool is_settled(fracas_stop *stop, const fracas_time *rule, const fracas_
 }
 
 const fracas_kind fracas_stop_settled = {
-    .name = "settled",
-    .doc = "once the cracks have settled (armed by the first onset), at `end` at the latest",
-    FRACAS_PARAMS(settled),
-    .traits = &(const stop_rule){.is_over = is_settled, .waits = true}};
+    "settled", "once the cracks have settled (armed by the first onset), at `end` at the latest",
+    FRACAS_PARAMS(settled), .traits = &(const stop_rule){.is_over = is_settled, .waits = true}};
 
 static const fracas_param peak_multiple[] = {
     {"multiple", FRACAS_REAL, "1", "end by the time of the first peak of the elastic energy", 2, 1,
@@ -56,11 +54,9 @@ static bool is_past_peak(fracas_stop *stop, const fracas_time *rule, const fraca
 }
 
 const fracas_kind fracas_stop_peak_multiple = {
-    .name = "peak-multiple",
-    .doc =
-        "at a multiple of the time of the first peak of the elastic energy, at `end` at the latest",
-    FRACAS_PARAMS(peak_multiple),
-    .traits = &(const stop_rule){.is_over = is_past_peak}};
+    "peak-multiple",
+    "at a multiple of the time of the first peak of the elastic energy, at `end` at the latest",
+    FRACAS_PARAMS(peak_multiple), .traits = &(const stop_rule){.is_over = is_past_peak}};
 
 static const fracas_kind *const stops[] = {&fracas_stop_time, &fracas_stop_settled,
                                            &fracas_stop_peak_multiple};

@@ -25,13 +25,13 @@ typedef struct {
     int64_t cracked, broken;
 } fracas_progress;
 
-/* Shows one step to the rule. True when the realization is over, then *outcome says how it ended.
- * `time`: over at the first step at or after `end`.
- * `settled`: armed by the first onset; over when for `quiet` seconds no interface cracked or broke
- * and the dissipated energy D grew by at most quiet_fraction D; at `end` at the latest, with
- * TIME_LIMIT if armed. `peak-multiple`: over at `multiple` times the time of the first peak of the
- * elastic energy, a maximum with a fall by more than `drop` of it behind; at `end` at the latest,
- * with TIME_LIMIT if something has cracked. */
+/* Shows one step to the rule. True when the realization is over, with its *outcome.
+ * `time`: at the first step at or after `end`.
+ * `settled`: after an onset, when for `quiet` seconds no interface cracked or broke and the
+ * dissipated energy D grew by at most quiet_fraction D.
+ * `peak-multiple`: at `multiple` times the time of the first peak of the elastic energy, a maximum
+ * followed by a fall by more than `drop` of it.
+ * Both at `end` at the latest, with TIME_LIMIT if something has cracked. */
 bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now,
                        fracas_outcome *outcome);
 

@@ -10,6 +10,7 @@
 #include "campaigns/plan/point_model.h"
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
+#include "tests/support/surface_measures.h"
 #include "tests/support/test.h"
 
 OWNS(fracas_batch)

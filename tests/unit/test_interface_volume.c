@@ -4,6 +4,7 @@
 #include "tests/support/bar.h"
 
 #include "engine/mesh/make.h"
+#include "tests/support/surface_measures.h"
 #include "tests/support/test.h"
 
 static double mean_of(const fracas_spec *spec)

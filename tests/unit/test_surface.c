@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* engine/mesh/surface: surfaces from arrays, every refusal, the order of elements. */
 #include "tests/support/surface.h"
+#include "tests/support/surface_measures.h"
 #include "tests/support/test.h"
 
 /* A square of two triangles and a third on its right side:

@@ -2,6 +2,7 @@
 /* engine/mesh/surface: rectangles, annuli, spheres and octants: topology, areas, perturbation,
  * bits. */
 #include "tests/support/surface.h"
+#include "tests/support/surface_measures.h"
 #include "tests/support/test.h"
 
 #define PI 3.14159265358979323846

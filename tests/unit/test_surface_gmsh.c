@@ -2,6 +2,7 @@
 /* engine/mesh/surface/gmsh: files of our own writer and of Gmsh 4.8 itself, refusals, damaged
  * files. */
 #include "tests/support/gmsh.h"
+#include "tests/support/surface_measures.h"
 #include "tests/support/test.h"
 
 #include <time.h>

@@ -240,7 +240,7 @@ static critical_steps critical(const fracas_kind *law, double beta)
     OK(fracas_model_create(&spec, &model));
     const double unit = model->element_size / BAR_WAVE_SPEED;
     critical_steps steps = {model->critical_closed / unit, model->critical_cracked / unit,
-                            fracas_model_critical_time_step(model) / unit};
+                            model->critical_step / unit};
     return steps;
 }
 

@@ -32,7 +32,6 @@ static fracas_bar_constants constants_of(const fracas_model *model)
                                                     fracas_pow(spec->material.density, 1.0 / 3.0),
                                   .size = model->element_size,
                                   .nodal_mass = 0.5 * spec->material.density * model->element_size,
-                                  .density = spec->material.density,
                                   .sizes = model->sizes,
                                   .fracture_energy = energy,
                                   .rate = spec->loading.rate,

@@ -29,7 +29,7 @@ typedef struct {
     vd drift, kick;                 /* dt [s], dt/(nodal mass) [m/(s Pa)] */
     vd load_stress;                 /* E rate t [Pa] */
     vd spring, compliance, modulus; /* K, 1/K, E/h [Pa/m] of elements of one length */
-    /* sums over the body, for the ledger */
+    /* sums over the body, for the ledger, 0 at first */
     vd stress_squared, flux_energy, opening_energy, damage, velocity_squared, stress, slip;
 } bar_context;
 
@@ -244,14 +244,7 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
                                           (lanes_set(bar->rate) * lanes_load(step->time + first)),
                            .spring = lanes_set(bar->spring),
                            .compliance = lanes_set(1.0 / bar->spring),
-                           .modulus = lanes_set(bar->young / bar->size),
-                           .stress_squared = zero,
-                           .flux_energy = zero,
-                           .opening_energy = zero,
-                           .damage = zero,
-                           .velocity_squared = zero,
-                           .stress = zero,
-                           .slip = zero};
+                           .modulus = lanes_set(bar->young / bar->size)};
     bar_context *c = &context;
 
     /* One pass in place: an element is written once both its interfaces are known, and what its

@@ -33,7 +33,6 @@ typedef struct {
     double contact_offset;  /* Pa2: rigid-link, 4.5 rate^(2/3) E G_c^(2/3) rho^(1/3) */
     double size;            /* m, h: of every element, where all are alike */
     const double *sizes;    /* m, [elements]; NULL where all are alike */
-    double density;         /* kg/m3 */
     double nodal_mass;      /* kg/m2, rho h/2 */
     double fracture_energy; /* J/m2 */
     double rate;            /* 1/s */

@@ -63,7 +63,7 @@ typedef struct {
     vd spring, modulus;   /* K, E/h [Pa/m] */
     vd drive, next_drive; /* force on a node [Pa] now; velocity held half a step ahead [m/s] */
     vd inertia;           /* nodal mass/dt [Pa s/m] */
-    /* sums over the body, for the ledger */
+    /* sums over the body, for the ledger, 0 at first */
     vd elastic, flux_energy, opening_energy, dissipated, velocity_squared;
     vd driven, driven_next; /* power of the drive, per area, at the velocities before and after now
                                [W/m2] */
@@ -165,9 +165,8 @@ LANES_FUNCTION vd ring_drive_work(const ring_context *c)
 LANES_FUNCTION ring_context ring_context_of(const fracas_ring_constants *ring, fracas_step *step,
                                             int first, int fields, vd kick, vd ahead)
 {
-    const vd zero = lanes_set(0.0), mass = lanes_set(ring->nodal_mass),
-             level = lanes_set(ring->level);
-    const vd rate = lanes_set(ring->rate), time = lanes_load(step->time + first);
+    const vd mass = lanes_set(ring->nodal_mass), level = lanes_set(ring->level),
+             rate = lanes_set(ring->rate), time = lanes_load(step->time + first);
     return (ring_context){.ring = ring,
                           .step = step,
                           .first = first,
@@ -178,14 +177,7 @@ LANES_FUNCTION ring_context ring_context_of(const fracas_ring_constants *ring, f
                           .modulus = lanes_set(ring->young / ring->size),
                           .drive = level + rate * time,
                           .next_drive = level + rate * (time + ahead),
-                          .inertia = mass / kick,
-                          .elastic = zero,
-                          .flux_energy = zero,
-                          .opening_energy = zero,
-                          .dissipated = zero,
-                          .velocity_squared = zero,
-                          .driven = zero,
-                          .driven_next = zero};
+                          .inertia = mass / kick};
 }
 
 #endif

@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Circles of nodes, each with as many as its length asks for, and a strip of triangles between each
- * two. */
+/* Circles of nodes, as many as their lengths ask for, and strips of triangles between them. */
 #include "base/elementary.h"
 #include "engine/mesh/surface/parts.h"
 
 #include <math.h>
 
 #define ROW 0.86602540378443865 /* altitude of an equilateral triangle by its edge */
-#define LEAST_NODES \
-    8.0 /* of a circle: with fewer, its bent edges come too close to the opposite vertices */
+#define LEAST_NODES 8.0 /* of a circle: bent edges of fewer come too close to opposite vertices */
 
 typedef struct {
     double inner, outer;

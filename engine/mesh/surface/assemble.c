@@ -8,7 +8,7 @@
 
 #define NONE UINT32_MAX
 
-/* What is known on the way; elements and nodes as given until `order` is applied. */
+/* Elements and nodes as given until `order` is applied. */
 typedef struct {
     const fracas_surface_arrays *arrays;
     fracas_surface_side *side;
@@ -168,8 +168,8 @@ static fracas_err fill(const assembly *work, fracas_surface *made)
     double(*node)[3] = malloc(made->nnodes * sizeof *node);
     uint32_t *element = malloc(made->nelements * made->corners * sizeof *element);
     int64_t *given = malloc(made->nelements * sizeof *given);
-    fracas_surface_interface *interface = malloc((made->ninterfaces + 1) *
-                                                 sizeof *interface); /* there may be none */
+    /* there may be none of these */
+    fracas_surface_interface *interface = malloc((made->ninterfaces + 1) * sizeof *interface);
     fracas_surface_border *border = malloc((made->nborders + 1) * sizeof *border);
     made->node = (const double(*)[3])node;
     made->element = element;

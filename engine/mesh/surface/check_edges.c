@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What can be wrong between elements: the edges that they share. */
+/* Faults between elements: the edges shared by them. */
 #include "engine/mesh/surface/parts.h"
 
 #include <inttypes.h>
@@ -93,8 +93,7 @@ static fracas_err check_edge(const fracas_surface_arrays *arrays, const fracas_s
         fracas_surface_node_name(arrays, b), low, high);
 }
 
-/* A mid-side node belongs to one edge and is no vertex. owner[node]: element that has it in its
- * middle or as vertex. */
+/* A mid-side node belongs to one edge and is no vertex. owner[node]: an element with it. */
 static fracas_err check_middles(const fracas_surface_arrays *arrays,
                                 const fracas_surface_side *side, uint32_t *owner)
 {
@@ -141,8 +140,7 @@ static bool is_folded_back(const fracas_surface_arrays *arrays, const fracas_sur
     return fracas_surface_dot(left, right) < FOLDED;
 }
 
-/* The element that is at odds with most of its neighbours, and with how many; the first of several.
- */
+/* The element at odds with most of its neighbours, the first of several; count[]: with how many. */
 static size_t most_at_odds(const fracas_surface_arrays *arrays, const fracas_surface_side *side,
                            bool (*at_odds)(const fracas_surface_arrays *arrays,
                                            const fracas_surface_side *a,

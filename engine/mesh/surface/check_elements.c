@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What can be wrong with an element by itself. */
+/* Faults of an element by itself. */
 #include "engine/mesh/surface/parts.h"
 
 #include <inttypes.h>
@@ -115,8 +115,7 @@ static fracas_err check_shapes(const fracas_surface_arrays *arrays)
 fracas_err fracas_surface_check_elements(const fracas_surface_arrays *arrays)
 {
     TRY(check_sizes(arrays));
-    bool *is_used = calloc(arrays->nnodes + 1,
-                           sizeof *is_used); /* one more: 0 bytes may give NULL */
+    bool *is_used = calloc(arrays->nnodes + 1, sizeof *is_used); /* 0 bytes may give NULL */
     if (!is_used) return fracas_no_memory("the nodes of a mesh");
     fracas_err err = check_names(arrays, is_used);
     if (!err) err = check_nodes(arrays, is_used);

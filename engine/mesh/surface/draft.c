@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the bodies share: how fine, perturbation of vertices, mid-side nodes. */
+/* Shared by the bodies: fineness, perturbation of vertices, mid-side nodes. */
 #include "engine/mesh/surface/parts.h"
 
 #include <inttypes.h>
@@ -9,8 +9,8 @@
 
 fracas_err fracas_surface_check_length(const char *what, double length)
 {
-    if (length >= 1e-30 && length <= 1e30)
-        return FRACAS_OK; /* volumes and their inverses are numbers */
+    /* volumes and their inverses are numbers */
+    if (length >= 1e-30 && length <= 1e30) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "%s of a surface is %g m: it should be between 1e-30 and 1e30 m", what,
                        length);
@@ -157,7 +157,6 @@ static fracas_err perturb(const fracas_surface_draft *draft,
 
 /* ---- mid-side nodes ---- */
 
-/* Nodes and elements of what is handed over. */
 typedef struct {
     double (*node)[3];
     uint32_t *element;
@@ -207,8 +206,8 @@ static fracas_err refine(const fracas_surface_draft *draft, const fracas_surface
     if (fineness->order == 2) {
         side = fracas_surface_sides(draft->element, draft->nelements, 3);
         if (!side) return fracas_no_memory("the edges of a mesh");
-        nedges = (3 * draft->nelements + draft->ntags) /
-                 2; /* every edge of the boundary has a tag */
+        /* every edge of the boundary has a tag */
+        nedges = (3 * draft->nelements + draft->ntags) / 2;
     }
     all->node = malloc((draft->nvertices + nedges) * sizeof *all->node);
     all->element = malloc(3 * (size_t)fineness->order * draft->nelements * sizeof *all->element);

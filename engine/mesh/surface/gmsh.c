@@ -9,7 +9,7 @@
 
 enum { GMSH_LINE = 1, GMSH_TRIANGLE = 2, GMSH_LINE_3 = 8, GMSH_TRIANGLE_6 = 9, GMSH_POINT = 15 };
 
-/* A number of Gmsh's and what it stands for. */
+/* A number of Gmsh's and its meaning. */
 typedef struct {
     int64_t number, value;
 } entry;
@@ -374,8 +374,7 @@ static fracas_err read_section(mesh *m)
     for (size_t s = 0; s < sizeof sections / sizeof *sections; s++) {
         fracas_err (*read)(mesh *) = sections[s].read[m->is_4];
         if (strcmp(word + 1, sections[s].name) != 0 || !read) continue;
-        /* Text may go on in any place, the numbers of a binary 4.1 file begin with the next line.
-         */
+        /* Text goes on in any place, numbers of a binary 4.1 file with the next line. */
         if (m->scan.is_binary) TRY(fracas_gmsh_line_end(&m->scan));
         TRY(read(m));
         strcat(end, sections[s].name);
@@ -400,7 +399,7 @@ static fracas_err read_file(mesh *m)
 
 /* ---- to a surface ---- */
 
-/* What fracas_surface_assemble takes. */
+/* Input of fracas_surface_assemble. */
 typedef struct {
     uint32_t *new_node; /* of each node of the file, UINT32_MAX: no triangle has it */
     uint32_t *element;

@@ -27,7 +27,7 @@ bool fracas_gmsh_at_end(fracas_gmsh_scan *scan);
 FRACAS_MUST_USE fracas_err fracas_gmsh_word(fracas_gmsh_scan *scan, char word[FRACAS_GMSH_WORD]);
 /* A word that must be `expected`. */
 FRACAS_MUST_USE fracas_err fracas_gmsh_expect(fracas_gmsh_scan *scan, const char *expected);
-/* The rest of the line, which must be blank: numbers of a binary file begin behind it. */
+/* The rest of the line, which must be blank: numbers of a binary file follow it. */
 FRACAS_MUST_USE fracas_err fracas_gmsh_line_end(fracas_gmsh_scan *scan);
 /* Goes behind the next `$End` of the section `name`. */
 FRACAS_MUST_USE fracas_err fracas_gmsh_skip(fracas_gmsh_scan *scan, const char *name);
@@ -38,8 +38,8 @@ FRACAS_MUST_USE fracas_err fracas_gmsh_integer(fracas_gmsh_scan *scan, size_t by
 /* `count` numbers, of an `int` or a `double` each. */
 FRACAS_MUST_USE fracas_err fracas_gmsh_ints(fracas_gmsh_scan *scan, size_t count, int32_t *value);
 FRACAS_MUST_USE fracas_err fracas_gmsh_reals(fracas_gmsh_scan *scan, size_t count, double *value);
-/* Refuses `count` things of `numbers` numbers each that cannot fit into the rest of the file, so
- * that what is allocated for them stays in proportion to the file. */
+/* Refuses `count` things of `numbers` numbers each, more than the rest of the file can hold: what
+ * is allocated for them stays in proportion. */
 FRACAS_MUST_USE fracas_err fracas_gmsh_fits(const fracas_gmsh_scan *scan, int64_t count,
                                             size_t numbers);
 

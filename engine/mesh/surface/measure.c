@@ -78,28 +78,3 @@ double fracas_surface_length(const fracas_surface *surface, size_t element, size
     const double t = 0.774596669241483377; /* sqrt(3/5): three points of Gauss */
     return (5.0 * (speed(a, m, b, -t) + speed(a, m, b, t)) + 8.0 * speed(a, m, b, 0.0)) / 9.0;
 }
-
-void fracas_surface_measure(const fracas_surface *surface, fracas_surface_measures *measures)
-{
-    fracas_surface_measures all = {.least_area = INFINITY, .least_edge = INFINITY};
-    for (size_t e = 0; e < surface->nelements; e++) {
-        const double area = fracas_surface_area(surface, e);
-        all.area += area;
-        all.least_area = fmin(all.least_area, area);
-        all.largest_area = fmax(all.largest_area, area);
-        for (size_t k = 0; k < 3; k++) {
-            const double length = fracas_surface_length(surface, e, k);
-            all.least_edge = fmin(all.least_edge, length);
-            all.largest_edge = fmax(all.largest_edge, length);
-        }
-    }
-    for (size_t b = 0; b < surface->nborders; b++)
-        all.border += fracas_surface_length(surface, surface->border[b].element,
-                                            surface->border[b].edge);
-    for (size_t i = 0; i < surface->ninterfaces; i++) {
-        const size_t distance = surface->interface[i].element[1] - surface->interface[i].element[0];
-        all.mean_distance += (double)distance / (double)surface->ninterfaces;
-        if (distance > all.largest_distance) all.largest_distance = distance;
-    }
-    *measures = all;
-}

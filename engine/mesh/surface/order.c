@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Which element comes after which: neighbours close to each other, so that a sweep finds them in
- * the cache. */
+/* Order of elements: neighbours close to each other, in the cache together. */
 #include "engine/mesh/surface/parts.h"
 
 #include <stdlib.h>
@@ -21,8 +20,8 @@ static int degree_of(const search *state, uint32_t e)
     return degree;
 }
 
-/* Puts what this sweep reaches first from `e` behind the queue's `end`: fewer neighbours first,
- * then lower numbers. */
+/* Queues neighbours of `e` new to this sweep at `end`: fewer neighbours first, then lower numbers.
+ */
 static size_t reach_neighbours(search *state, uint32_t e, size_t end)
 {
     const size_t start = end;
@@ -64,8 +63,7 @@ static size_t sweep(search *state, uint32_t start, size_t begin, size_t *depth, 
     return end;
 }
 
-/* Cuthill and McKee from an element far out, found as George and Liu do: from the last level to its
- * opposite. */
+/* Cuthill and McKee from an element far out, found as by George and Liu. */
 static size_t order_component(search *state, uint32_t start, size_t begin)
 {
     size_t depth, last_level, end = sweep(state, start, begin, &depth, &last_level);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the files of this folder share. */
+/* Shared by the files of this folder. */
 #ifndef FRACAS_ENGINE_MESH_SURFACE_PARTS_H
 #define FRACAS_ENGINE_MESH_SURFACE_PARTS_H
 
@@ -13,8 +13,8 @@ typedef struct {
     uint32_t element, edge;
 } fracas_surface_side;
 
-/* All 3 nelements sides, sorted by vertices, then by element: those of one edge stand together. The
- * caller frees them; NULL without memory. */
+/* All 3 nelements sides, sorted by vertices, then by element. The caller frees them; NULL without
+ * memory. */
 fracas_surface_side *fracas_surface_sides(const uint32_t *element, size_t nelements,
                                           size_t corners);
 
@@ -49,15 +49,14 @@ static inline int64_t fracas_surface_node_name(const fracas_surface_arrays *arra
     return arrays->node_number ? arrays->node_number[node] : (int64_t)node;
 }
 
-/* Checks of single elements and their nodes; then, with the sides, of neighbours; then of elements
- * of order 2. */
+/* Checks of single elements and their nodes; of neighbours; of elements of order 2. */
 FRACAS_MUST_USE fracas_err fracas_surface_check_elements(const fracas_surface_arrays *arrays);
 FRACAS_MUST_USE fracas_err fracas_surface_check_edges(const fracas_surface_arrays *arrays,
                                                       const fracas_surface_side *side);
 FRACAS_MUST_USE fracas_err fracas_surface_check_jacobians(const fracas_surface_arrays *arrays);
 
-/* order[k]: which element comes k-th, in the reverse order of Cuthill and McKee; neighbour[e][k]:
- * the element across edge k, UINT32_MAX for none. */
+/* order[k]: the k-th element in the reverse order of Cuthill and McKee; neighbour[e][k]: the
+ * element across edge k, UINT32_MAX for none. */
 FRACAS_MUST_USE fracas_err fracas_surface_order(size_t nelements, const uint32_t (*neighbour)[3],
                                                 uint32_t *order);
 

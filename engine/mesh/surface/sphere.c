@@ -9,8 +9,7 @@
 
 enum { MOST_VERTICES = 12, MOST_FACES = 20 };
 
-/* Vertices at the distance 1 or so from the origin; those that are next to each other span the
- * angle pi `arc`. */
+/* Neighbouring vertices span the angle pi `arc` at the origin. */
 typedef struct {
     size_t nvertices, nfaces, nedges;
     double vertex[MOST_VERTICES][3];
@@ -72,8 +71,8 @@ static polyhedron octant(void)
     return solid;
 }
 
-/* Number of the node that is `step[k]` divisions away from the side opposite of each corner k of
- * the face. Vertices come first, then edges, each from its lower vertex, then faces, row by row. */
+/* Number of the node `step[k]` divisions away from the side opposite of each corner k of the face.
+ * Vertices come first, then edges, each from its lower vertex, then faces, row by row. */
 static uint32_t number_of(const polyhedron *solid, size_t face, size_t n, const size_t step[3])
 {
     const size_t *corner = solid->face[face];

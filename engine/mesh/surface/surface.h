@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Surfaces of triangles in space: what membranes and shells are made of (docs/theory/meshes.md).
- * Lengths in m.
+/* Surfaces of triangles in space, for membranes and shells (docs/theory/meshes.md). Lengths in m.
  *
  * A triangle has the vertices 0, 1, 2; its edge k goes from vertex k to vertex k + 1 (mod 3). Order
  * 2 adds the nodes 3, 4, 5 on the edges 0, 1, 2. Neighbours go along their common edge in opposite
  * directions, so that every normal of a connected surface points to the same side.
  *
- * Each maker sets a surface that is finished and checked: nothing changes it any more, many threads
- * may read it. FRACAS_USAGE says what is wrong with what was given, FRACAS_ENVIRONMENT that memory
- * is short; then none is made. */
+ * Each maker sets a surface, finished and checked: many threads may read it. FRACAS_USAGE names a
+ * fault of the input, FRACAS_ENVIRONMENT means no memory; then none is made. */
 #ifndef FRACAS_ENGINE_MESH_SURFACE_SURFACE_H
 #define FRACAS_ENGINE_MESH_SURFACE_SURFACE_H
 
@@ -18,9 +16,7 @@
 #include <stdint.h>
 
 #define FRACAS_SURFACE_LARGEST ((size_t)100000000) /* elements or nodes of a mesh */
-#define FRACAS_SURFACE_AMPLITUDE                                     \
-    0.3 /* largest of a perturbation: up to it no element can invert \
-         */
+#define FRACAS_SURFACE_AMPLITUDE 0.3 /* of a perturbation: up to it no element can invert */
 
 /* An edge between two elements. */
 typedef struct {
@@ -60,30 +56,25 @@ typedef struct {
     const double (*node)[3];
     const uint32_t *element; /* [nelements][3 order] */
     const fracas_surface_tag *tag;
-    const int64_t *node_number,
-        *element_number; /* what messages call them; NULL: their index, from 0 */
+    const int64_t *node_number, *element_number; /* for messages; NULL: their index, from 0 */
 } fracas_surface_arrays;
 
-/* Refuses, with the number of the element: nodes out of range, repeated or named by nobody,
- * coordinates that are no number; areas or edges below 1e-9 of the mean; the same triangle twice;
- * edges of three or more elements; an element that goes round against its neighbours, or is folded
- * back on one by more than 120 degrees; elements whose Jacobian is not positive everywhere;
- * mid-side nodes that neighbours do not share; tags of edges that do not exist or have another tag.
- */
+/* Refuses, with the number of the element: nodes out of range, repeated or unused; coordinates that
+ * are no number; areas or edges below 1e-9 of the mean; equal triangles; edges of three or more
+ * elements; an element turned against its neighbours, or folded back on one by more than 120
+ * degrees; Jacobians not positive everywhere; mid-side nodes not shared; tags without edge or two
+ * of an edge. */
 FRACAS_MUST_USE fracas_err fracas_surface_assemble(const fracas_surface_arrays *arrays,
                                                    const fracas_surface **surface);
 void fracas_surface_destroy(const fracas_surface *surface); /* NULL is allowed */
 
 /* ---- meshes of simple bodies ---- */
 
-/* How finely, and how regularly. */
 typedef struct {
-    double size; /* edge of the equilateral triangle with the mean area of elements aimed at [m]; or
-                    0 and */
+    double size; /* edge of the equilateral triangle with the mean area of elements [m]; or 0 and */
     size_t divisions; /* a number, see each body; 0 where there is a size */
     int order;
-    double
-        amplitude; /* of the perturbation, in local edge lengths: 0 to FRACAS_SURFACE_AMPLITUDE */
+    double amplitude; /* of the perturbation, in local edge lengths: to FRACAS_SURFACE_AMPLITUDE */
     const double (*shift)[2]; /* two numbers in [-1, 1] for every vertex; NULL: no perturbation */
     size_t nshifts;           /* as many as `nvertices` of the mesh without perturbation */
 } fracas_surface_fineness;
@@ -110,22 +101,10 @@ FRACAS_MUST_USE fracas_err fracas_surface_octant(double radius,
                                                  const fracas_surface_fineness *fineness,
                                                  const fracas_surface **surface);
 
-/* ---- what they measure ---- */
-
 /* Area of an element [m2]: exact for straight edges in a plane, else by a quadrature whose error
  * falls as h^6. */
 double fracas_surface_area(const fracas_surface *surface, size_t element);
 /* Length of an edge [m], likewise. */
 double fracas_surface_length(const fracas_surface *surface, size_t element, size_t edge);
-
-typedef struct {
-    double area, border;             /* of the whole [m2, m] */
-    double least_area, largest_area; /* of an element */
-    double least_edge, largest_edge;
-    double mean_distance; /* between the numbers of the two elements of an interface */
-    size_t largest_distance;
-} fracas_surface_measures;
-
-void fracas_surface_measure(const fracas_surface *surface, fracas_surface_measures *measures);
 
 #endif
