@@ -159,15 +159,13 @@ static fracas_err print_decisions(const fracas_status *status)
                   "width\n",
                   stdout);
         for (size_t d = 0; d < count; d++) {
-            char found[32];
             const double asked = 100 * decision[d].relative_half_width;
-            fracas_format_beside(100 * fracas_decision_relative(&decision[d]), asked, found,
-                                 sizeof found);
             printf("%5zu%7" PRId64 "%10" PRId64
                    "  %-10s  %.5g +- %.2g (%s %%; %.3g %% asked for): %s\n",
                    p, decision[d].round, decision[d].replicas,
                    fracas_quantity_name[decision[d].quantity], decision[d].mean,
-                   decision[d].half_width, found, asked,
+                   decision[d].half_width,
+                   fracas_beside(100 * fracas_decision_relative(&decision[d]), asked).text, asked,
                    fracas_sequential_stop_name[decision[d].stop]);
         }
         first = first && !count;

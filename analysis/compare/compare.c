@@ -2,6 +2,7 @@
 #include "analysis/compare/compare.h"
 
 #include "analysis/compare/methods.h"
+#include "analysis/data/room.h"
 #include "analysis/summary/study.h"
 
 #include <gsl/gsl_sort.h>
@@ -19,6 +20,7 @@ const fracas_compared_quantity fracas_compared_quantities[FRACAS_COMPARED_VALUES
 
 /* The compared realizations of both points, those of A first. */
 typedef struct {
+    fracas_room room;
     size_t na, nb;
     const fracas_ensemble *a, *b;
     size_t *index;             /* na + nb: which of the ensemble */
@@ -27,15 +29,6 @@ typedef struct {
     double *cut;               /* ascending */
     size_t ncuts;
 } gathered;
-
-static void clear_gathered(gathered *of)
-{
-    free(of->index);
-    free(of->value);
-    free(of->below);
-    free(of->fragments);
-    free(of->cut);
-}
 
 /* Both are ascending by replica in a study's order; a replica missing on one side is left out. */
 static void pair_up(gathered *of)
@@ -82,13 +75,12 @@ static fracas_err gather(const fracas_ensemble *a, const fracas_ensemble *b, boo
 {
     *of = (gathered){.na = a->nrealizations, .nb = b->nrealizations, .a = a, .b = b};
     const size_t n = of->na + of->nb;
-    of->index = calloc(n + 1, sizeof *of->index);
-    of->value = calloc(n * FRACAS_COMPARED_VALUES + 1, sizeof *of->value);
-    of->below = calloc(n * CUTS + 1, sizeof *of->below);
-    of->fragments = calloc(n + 1, sizeof *of->fragments);
-    of->cut = calloc(CUTS, sizeof *of->cut);
-    if (!of->index || !of->value || !of->below || !of->fragments || !of->cut)
-        return fracas_no_memory("the realizations of two points");
+    FRACAS_TAKE(&of->room, of->index, n);
+    FRACAS_TAKE(&of->room, of->value, n * FRACAS_COMPARED_VALUES);
+    FRACAS_TAKE(&of->room, of->below, n * CUTS);
+    FRACAS_TAKE(&of->room, of->fragments, n);
+    FRACAS_TAKE(&of->room, of->cut, CUTS);
+    TRY(fracas_room_check(&of->room, "the realizations of two points"));
     for (size_t i = 0; i < n; i++) of->index[i] = i < of->na ? i : i - of->na;
     if (paired) pair_up(of);
     for (size_t i = 0; i < of->na + of->nb; i++) {
@@ -196,7 +188,7 @@ static fracas_err compare_points(const fracas_analysis *a, const fracas_analysis
         }
         err = test(&of, options, point);
     }
-    clear_gathered(&of);
+    fracas_room_clear(&of.room);
     return err;
 }
 
@@ -213,7 +205,6 @@ static fracas_err correct(fracas_comparison *comparison)
                                : FRACAS_OK;
 }
 
-/* The pairs of points, and the points without a partner. */
 static fracas_err list_points(const fracas_analysis *a, const fracas_analysis *b,
                               const size_t *partner, fracas_comparison *comparison)
 {

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Intervals from the standard errors of the difference and of the ratio. */
 static void put_intervals(double error, double relative_error, fracas_compared_value *value)
 {
     const bool known = error > 0 && value->freedom > 0;

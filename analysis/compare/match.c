@@ -43,7 +43,6 @@ static size_t columns_that_vary(const fracas_point_table *a, const fracas_point_
     return count;
 }
 
-/* Cuts `by` at its commas. */
 static fracas_err columns_named(const fracas_point_table *a, const fracas_point_table *b, char *by,
                                 const char **path, size_t *count)
 {

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A comparison as people and programs read it. */
 #include "analysis/compare/compare.h"
 
 #include "analysis/summary/study.h"

@@ -157,13 +157,8 @@ static bool is_same(double x, double y)
 
 static fracas_err add_row(fracas_convergence *convergence, const fracas_convergence_row *row)
 {
-    if (convergence->nrows == convergence->room) {
-        const size_t room = 2 * convergence->room + 64;
-        fracas_convergence_row *more = realloc(convergence->row, room * sizeof *more);
-        if (!more) return fracas_no_memory("the convergence");
-        convergence->row = more;
-        convergence->room = room;
-    }
+    TRY(fracas_grow(&convergence->row, sizeof *convergence->row, convergence->nrows,
+                    &convergence->room, "the convergence"));
     convergence->row[convergence->nrows++] = *row;
     return FRACAS_OK;
 }

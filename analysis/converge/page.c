@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures of a convergence, one a headline number. */
+/* Page and figures of a convergence. */
 #include "analysis/converge/rows.h"
 #include "analysis/data/format.h"
 #include "analysis/report/page.h"
@@ -82,7 +82,6 @@ static bool differs(const fracas_convergence_row *row)
     return row->verdict == FRACAS_NUMBER_MOVED || row->verdict == FRACAS_NUMBER_SHIFTED;
 }
 
-/* The interval of the number as it is, behind every mark. */
 static fracas_err add_boxes(const subject *what, fracas_panel *panel)
 {
     const fracas_convergence *convergence = what->convergence;

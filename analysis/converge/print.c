@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Notes of a convergence on its realizations. */
+/* A convergence as text, JSON and CSV; its notes. */
 #include "analysis/converge/rows.h"
 #include "analysis/data/field.h"
 #include "analysis/data/format.h"
@@ -19,13 +19,8 @@
 static fracas_err add_note(fracas_convergence *convergence, const char *refinement, size_t point,
                            fracas_convergence_note **note)
 {
-    if (convergence->nnotes == convergence->note_room) {
-        const size_t room = 2 * convergence->note_room + 8;
-        fracas_convergence_note *more = realloc(convergence->note, room * sizeof *more);
-        if (!more) return fracas_no_memory("the notes of the convergence");
-        convergence->note = more;
-        convergence->note_room = room;
-    }
+    TRY(fracas_grow(&convergence->note, sizeof *convergence->note, convergence->nnotes,
+                    &convergence->note_room, "the notes of the convergence"));
     *note = &convergence->note[convergence->nnotes++];
     (*note)->refinement = refinement;
     (*note)->point = point;
@@ -265,7 +260,6 @@ fracas_err fracas_convergence_print(const fracas_convergence *convergence, FILE 
 
 /* ---- JSON and CSV ---- */
 
-/* A row for print. */
 typedef struct {
     const char *refinement;
     size_t point;

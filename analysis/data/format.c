@@ -70,12 +70,29 @@ void fracas_format_digits(double value, int digits, char *text, size_t size)
     }
 }
 
-void fracas_format_beside(double value, double limit, char *text, size_t size)
+fracas_number_text fracas_digits(double value, int digits)
 {
-    for (int digits = 2; digits <= 5; digits++) {
-        fracas_format_digits(value, digits, text, size);
-        if (!isfinite(value) || (strtod(text, NULL) > limit) == (value > limit)) return;
-    }
+    fracas_number_text number;
+    fracas_format_digits(value, digits, number.text, sizeof number.text);
+    return number;
+}
+
+fracas_number_text fracas_beside(double value, double limit)
+{
+    int digits = 2;
+    while (digits < 5 && isfinite(value) &&
+           (strtod(fracas_digits(value, digits).text, NULL) > limit) != (value > limit))
+        digits++;
+    return fracas_digits(value, digits);
+}
+
+fracas_number_text fracas_with_unit(double value, int digits, const char *unit, bool unicode)
+{
+    const fracas_prefix prefix = fracas_prefix_for(&(double){fabs(value)}, 1);
+    fracas_number_text text;
+    FRACAS_PRINT(text.text, "%.32s %s%s", fracas_digits(value * prefix.factor, digits).text,
+                 unicode ? prefix.sign : prefix.symbol, unit);
+    return text;
 }
 
 enum { UNKNOWN = 3 }; /* digits of a value without interval beside values with one */
@@ -143,7 +160,7 @@ void fracas_format_estimate(const fracas_estimate *estimate, double factor, cons
     }
 }
 
-fracas_prefix fracas_prefix_for(const double *value, size_t count)
+fracas_prefix fracas_prefix_over(const double *value, size_t stride, size_t count)
 {
     static const fracas_prefix prefix[] = {
         {1e9, "n", "n"},  {1e6, "u", "\u00b5"}, {1e3, "m", "m"},  {1, "", ""},
@@ -152,9 +169,10 @@ fracas_prefix fracas_prefix_for(const double *value, size_t count)
     const int last = (int)(sizeof prefix / sizeof *prefix) - 1, none = 3;
     double least = INFINITY, greatest = 0;
     for (size_t i = 0; i < count; i++) {
-        if (!isfinite(value[i]) || value[i] <= 0) continue;
-        if (value[i] < least) least = value[i];
-        if (value[i] > greatest) greatest = value[i];
+        const double at = *(const double *)(const void *)((const char *)value + i * stride);
+        if (!isfinite(at) || at <= 0) continue;
+        least = fmin(least, at);
+        greatest = fmax(greatest, at);
     }
     if (greatest <= 0) return prefix[none];
     double middle = (log10(least) + log10(greatest)) / 2;
@@ -162,4 +180,9 @@ fracas_prefix fracas_prefix_for(const double *value, size_t count)
                                1e-9); /* 1 itself is 1, whatever the rounding of log10 */
     int i = none + thousands;
     return prefix[i < 0 ? 0 : i > last ? last : i];
+}
+
+fracas_prefix fracas_prefix_for(const double *value, size_t count)
+{
+    return fracas_prefix_over(value, sizeof *value, count);
 }

@@ -6,17 +6,26 @@
 #include "analysis/data/estimate.h"
 #include "analysis/data/text.h"
 
+#include <stdbool.h>
 #include <stddef.h>
+
+typedef struct {
+    char text[48];
+} fracas_number_text;
 
 /* "1e4", "2500", "0.33": the shorter of plain and exponent notation, to six digits; "-" if not
  * finite. */
 void fracas_format_short(double value, char *text, size_t size);
 /* "0.890", "2.0e-3": so many significant digits, zeros kept; "-" if not finite. */
 void fracas_format_digits(double value, int digits, char *text, size_t size);
+/* The same by value. */
+fracas_number_text fracas_digits(double value, int digits);
 
 /* Two significant digits, or as many more (up to five) as show on which side of the limit the value
  * is. */
-void fracas_format_beside(double value, double limit, char *text, size_t size);
+fracas_number_text fracas_beside(double value, double limit);
+/* "1.23 us": a number with so many digits and its unit; "\u00b5s" with `unicode`. */
+fracas_number_text fracas_with_unit(double value, int digits, const char *unit, bool unicode);
 
 /* "442.3 +- 5.6": the half width to two digits and the mean to the same place, both times `factor`.
  * Without a half width (one replica, or equal values) the mean to four digits, and "+- -" or "+-
@@ -44,5 +53,7 @@ typedef struct {
 /* The prefix (nano to giga) in which the geometric mean of the least and the greatest positive
  * value is between 1 and 1000. */
 fracas_prefix fracas_prefix_for(const double *value, size_t count);
+/* The same of `count` values, each `stride` bytes after the last. */
+fracas_prefix fracas_prefix_over(const double *value, size_t stride, size_t count);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "analysis/draw/facets.h"
 
+#include "analysis/data/room.h"
 #include "analysis/data/text.h"
 
 #include <math.h>
@@ -40,6 +41,7 @@ void fracas_body_picture_clear(fracas_body_picture *body)
 typedef struct {
     const fracas_body_picture *body;
     FILE *out;
+    fracas_room room;
     uint8_t *tint; /* for each facet */
     uint8_t *shade,
         *base; /* number of shades on it, and of those on its whole connected piece in this layer */
@@ -65,17 +67,16 @@ static fracas_err prepare(drawing *d, const uint8_t *tint)
 {
     const fracas_facets *facets = &d->body->facets;
     const size_t n = facets->nfacets + 1;
-    d->tint = calloc(n, sizeof *d->tint);
-    d->shade = calloc(n, sizeof *d->shade);
-    d->base = calloc(n, sizeof *d->base);
-    d->least = calloc(2 * n, sizeof *d->least);
-    d->sorted = calloc(n, sizeof *d->sorted);
-    d->member = calloc(4 * n, sizeof *d->member);
-    d->in = malloc(n * sizeof *d->in);
-    d->first = calloc(facets->nlayers + 2, sizeof *d->first);
-    if (!d->tint || !d->shade || !d->base || !d->least || !d->sorted || !d->member || !d->in ||
-        !d->first)
-        return fracas_no_memory("a picture");
+    fracas_room *room = &d->room;
+    FRACAS_TAKE(room, d->tint, n);
+    FRACAS_TAKE(room, d->shade, n);
+    FRACAS_TAKE(room, d->base, n);
+    FRACAS_TAKE(room, d->least, 2 * n);
+    FRACAS_TAKE(room, d->sorted, n);
+    FRACAS_TAKE(room, d->member, 4 * n);
+    FRACAS_TAKE(room, d->in, n);
+    FRACAS_TAKE(room, d->first, facets->nlayers + 2);
+    TRY(fracas_room_check(room, "a picture"));
     for (size_t f = 0; f < facets->nfacets; f++) {
         const fracas_facet *facet = &facets->facet[f];
         d->tint[f] = tint ? tint[facet->fragment] : 0;
@@ -175,7 +176,6 @@ static bool is_above(const drawing *d, size_t facet, int k)
     return d->base[facet] < k && k <= d->shade[facet];
 }
 
-/* Chosen members of the layer, with `attributes` around them. */
 static fracas_err fill(const drawing *d, choice *chosen, int k, const char *attributes,
                        const char *class)
 {
@@ -279,13 +279,6 @@ fracas_err fracas_body_picture_draw(const fracas_body_picture *body, const uint8
         begin_layer(&d, layer);
         err = draw_layer(&d, tint != NULL, show == FRACAS_SHOW_MESH);
     }
-    free(d.tint);
-    free(d.shade);
-    free(d.base);
-    free(d.least);
-    free(d.sorted);
-    free(d.first);
-    free(d.member);
-    free(d.in);
+    fracas_room_clear(&d.room);
     return err;
 }

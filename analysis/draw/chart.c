@@ -37,13 +37,8 @@ fracas_panel *fracas_chart_add(fracas_chart *chart, double height)
 fracas_err fracas_panel_add(fracas_panel *panel, fracas_series_kind kind, unsigned look, size_t n,
                             fracas_series **series)
 {
-    if (panel->nseries == panel->capacity) {
-        size_t capacity = panel->capacity ? 2 * panel->capacity : 8;
-        fracas_series *more = realloc(panel->series, capacity * sizeof *more);
-        if (!more) return fracas_no_memory("a figure");
-        panel->series = more;
-        panel->capacity = capacity;
-    }
+    TRY(fracas_grow(&panel->series, sizeof *panel->series, panel->nseries, &panel->capacity,
+                    "a figure"));
     fracas_series *made = &panel->series[panel->nseries++];
     *made = (fracas_series){.kind = kind, .look = look, .n = n};
     made->x = calloc(n + 1, sizeof *made->x);
@@ -86,7 +81,6 @@ static void put_field(const char *text, FILE *out)
     putc('"', out);
 }
 
-/* The labels of all axes with a label, each once. */
 static void put_label(const fracas_chart *chart, bool of_y, FILE *out)
 {
     char text[FRACAS_MAX_PANELS * (sizeof chart->panel->x.label + 4)] = "";

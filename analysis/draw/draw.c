@@ -66,7 +66,6 @@ static void fit_names(frame *f)
     }
 }
 
-/* Scales for every shown value and bar. */
 static void fit(frame *f)
 {
     double x[2] = {INFINITY, -INFINITY}, y[2] = {INFINITY, -INFINITY};
@@ -271,7 +270,6 @@ static size_t named_for(const fracas_panel *panel, size_t s)
     return s;
 }
 
-/* Opens the group of series s of the panel. */
 static void open_group(const frame *f, const char *class, size_t s)
 {
     const unsigned look = f->panel.series[s].look;
@@ -359,7 +357,6 @@ static double legend(const frame *f, bool draw)
 
 /* ---- the whole ---- */
 
-/* A panel of the chart as it is drawn with these axes. */
 static fracas_panel panel_of(const fracas_chart *chart, size_t p, fracas_axes axes)
 {
     fracas_panel panel = chart->panel[p];

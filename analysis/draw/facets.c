@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/draw/facets.h"
 
+#include "analysis/data/room.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -43,6 +45,7 @@ typedef struct {
     const fracas_surface_state *state;
     const fracas_facets_form *form;
     fracas_facets *to;
+    fracas_room room;
     bool apart;            /* fragments are drawn apart */
     size_t ngroups;        /* fragments if they are apart, else 1 */
     double (*turned)[3];   /* for each node of the mesh, in the frame of the view */
@@ -52,15 +55,6 @@ typedef struct {
                               outer and the inner one */
     int64_t (*across)[3];  /* for each element: interface at its side k, -1 at the border */
 } shaping;
-
-static void free_shaping(shaping *s)
-{
-    free(s->turned);
-    free(s->normal);
-    free(s->shift);
-    free(s->corner);
-    free(s->across);
-}
 
 static size_t group_of(const shaping *s, size_t element)
 {
@@ -90,8 +84,8 @@ static void find_normals(const shaping *s)
 static fracas_err find_shifts(shaping *s)
 {
     const size_t all = s->ngroups;
-    double *area = calloc(all + 1, sizeof *area);
-    if (!area) return fracas_no_memory("the fragments of a picture");
+    double *area;
+    if (!FRACAS_TAKE(&s->room, area, all)) return fracas_no_memory("the fragments of a picture");
     for (size_t e = 0; e < s->mesh->nelements; e++) {
         const int64_t *node = s->mesh->element[e].node;
         double normal[3];
@@ -110,7 +104,6 @@ static fracas_err find_shifts(shaping *s)
     for (size_t g = 0; g < all; g++)
         for (int i = 0; i < 3; i++)
             s->shift[g][i] = s->form->explode * (s->shift[g][i] - s->shift[all][i]);
-    free(area);
     return FRACAS_OK;
 }
 
@@ -133,12 +126,11 @@ static void find_room(const shaping *s)
 
 /* ---- nodes: every group has its own ---- */
 
-/* Elements by their group: of[first[g]] to of[first[g + 1] - 1]. */
-static fracas_err sort_elements(const shaping *s, size_t **first, size_t **of)
+static fracas_err sort_elements(shaping *s, size_t **first, size_t **of)
 {
-    *first = calloc(s->ngroups + 2, sizeof **first);
-    *of = calloc(s->mesh->nelements + 1, sizeof **of);
-    if (!*first || !*of) return fracas_no_memory("the fragments of a picture");
+    FRACAS_TAKE(&s->room, *first, s->ngroups + 1);
+    FRACAS_TAKE(&s->room, *of, s->mesh->nelements);
+    TRY(fracas_room_check(&s->room, "the fragments of a picture"));
     for (size_t e = 0; e < s->mesh->nelements; e++) (*first)[group_of(s, e) + 2]++;
     for (size_t g = 0; g < s->ngroups; g++) (*first)[g + 2] += (*first)[g + 1];
     for (size_t e = 0; e < s->mesh->nelements; e++) (*of)[(*first)[group_of(s, e) + 1]++] = e;
@@ -175,22 +167,19 @@ static void number_nodes(const shaping *s, const size_t *first, const size_t *of
         }
 }
 
-static fracas_err place_nodes(const shaping *s)
+static fracas_err place_nodes(shaping *s)
 {
     const fracas_stored_mesh *mesh = s->mesh;
-    size_t *first = NULL, *of = NULL, *last = malloc((mesh->nnodes + 1) * sizeof *last);
-    uint32_t *copy = malloc((mesh->nnodes + 1) * sizeof *copy);
+    size_t *first, *of, *last;
+    uint32_t *copy;
     const size_t most = 2 * (s->apart ? 6 * mesh->nelements : mesh->nnodes);
     s->to->node = malloc((most + 1) * sizeof *s->to->node);
-    fracas_err err = last && copy && s->to->node ? FRACAS_OK
-                                                 : fracas_no_memory("the fragments of a picture");
-    if (!err) err = sort_elements(s, &first, &of);
-    if (!err) number_nodes(s, first, of, copy, last);
-    free(first);
-    free(of);
-    free(last);
-    free(copy);
-    return err;
+    if (!s->to->node) return fracas_no_memory("the fragments of a picture");
+    FRACAS_TAKE(&s->room, last, mesh->nnodes);
+    FRACAS_TAKE(&s->room, copy, mesh->nnodes);
+    TRY(sort_elements(s, &first, &of));
+    number_nodes(s, first, of, copy, last);
+    return FRACAS_OK;
 }
 
 /* ---- facets ---- */
@@ -351,13 +340,12 @@ static fracas_err put_facets(const shaping *s)
 static fracas_err shape(shaping *s)
 {
     const fracas_stored_mesh *mesh = s->mesh;
-    s->turned = calloc(mesh->nnodes + 1, sizeof *s->turned);
-    s->normal = calloc(mesh->nnodes + 1, sizeof *s->normal);
-    s->shift = calloc(s->ngroups + 1, sizeof *s->shift);
-    s->corner = calloc(mesh->nelements + 1, sizeof *s->corner);
-    s->across = calloc(mesh->nelements + 1, sizeof *s->across);
-    if (!s->turned || !s->normal || !s->shift || !s->corner || !s->across)
-        return fracas_no_memory("a picture");
+    FRACAS_TAKE(&s->room, s->turned, mesh->nnodes);
+    FRACAS_TAKE(&s->room, s->normal, mesh->nnodes);
+    FRACAS_TAKE(&s->room, s->shift, s->ngroups);
+    FRACAS_TAKE(&s->room, s->corner, mesh->nelements);
+    FRACAS_TAKE(&s->room, s->across, mesh->nelements);
+    TRY(fracas_room_check(&s->room, "a picture"));
     for (size_t n = 0; n < mesh->nnodes; n++)
         fracas_view_turn(&s->form->view, mesh->node[n].position, s->turned[n]);
     find_normals(s);
@@ -380,7 +368,7 @@ fracas_err fracas_facets_create(const fracas_stored_mesh *mesh, const fracas_sur
                  .ngroups = apart ? state->nfragments : 1};
     *facets = (fracas_facets){0};
     const fracas_err err = shape(&s);
-    free_shaping(&s);
+    fracas_room_clear(&s.room);
     return err;
 }
 

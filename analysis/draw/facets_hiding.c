@@ -3,6 +3,7 @@
  * facets; layers. */
 #include "analysis/draw/facets.h"
 
+#include "analysis/data/room.h"
 #include "base/partition.h"
 
 #include <math.h>
@@ -20,22 +21,15 @@ typedef struct {
 
 typedef struct {
     fracas_facets *facets;
+    fracas_room room;
     double corner[2], cell; /* m: of the grid */
     size_t columns, rows;
     size_t *first; /* for each cell, in `of` */
     uint32_t *of;  /* facets */
     size_t ncovers, capacity;
-    cover *covers; /* sorted by the facet behind once found */
-    size_t *start; /* for each facet, in `covers` */
+    cover *covers, *sorted; /* as they are found; by the facet behind */
+    size_t *start;          /* for each facet, in `covers` */
 } hiding;
-
-static void free_hiding(hiding *h)
-{
-    free(h->first);
-    free(h->of);
-    free(h->covers);
-    free(h->start);
-}
 
 static const double *corner_of(const fracas_facets *facets, size_t f, int k)
 {
@@ -84,8 +78,8 @@ static fracas_err make_grid(hiding *h)
     h->rows = (size_t)(height / h->cell) + 1;
     h->corner[0] = facets->least[0];
     h->corner[1] = facets->least[1];
-    h->first = calloc(h->columns * h->rows + 2, sizeof *h->first);
-    if (!h->first) return fracas_no_memory("the facets of a picture");
+    FRACAS_TAKE(&h->room, h->first, h->columns * h->rows + 1);
+    TRY(fracas_room_check(&h->room, "the facets of a picture"));
     size_t from[2], to[2], sum = 0;
     for (size_t f = 0; f < facets->nfacets; f++) {
         cells_of(h, f, from, to);
@@ -93,8 +87,8 @@ static fracas_err make_grid(hiding *h)
             for (size_t i = from[0]; i <= to[0]; i++) h->first[j * h->columns + i + 2]++, sum++;
     }
     for (size_t c = 0; c < h->columns * h->rows; c++) h->first[c + 2] += h->first[c + 1];
-    h->of = malloc((sum + 1) * sizeof *h->of);
-    if (!h->of) return fracas_no_memory("the facets of a picture");
+    FRACAS_TAKE(&h->room, h->of, sum);
+    TRY(fracas_room_check(&h->room, "the facets of a picture"));
     for (size_t f = 0; f < facets->nfacets; f++) {
         cells_of(h, f, from, to);
         for (size_t j = from[1]; j <= to[1]; j++)
@@ -167,13 +161,8 @@ static bool depth_at(const fracas_facets *facets, size_t f, const double point[2
 
 static fracas_err add_cover(hiding *h, uint32_t behind, uint32_t front)
 {
-    if (h->ncovers == h->capacity) {
-        const size_t capacity = h->capacity ? 2 * h->capacity : 4096;
-        cover *more = realloc(h->covers, capacity * sizeof *more);
-        if (!more) return fracas_no_memory("the facets of a picture");
-        h->covers = more;
-        h->capacity = capacity;
-    }
+    TRY(fracas_grow(&h->covers, sizeof *h->covers, h->ncovers, &h->capacity,
+                    "the facets of a picture"));
     h->covers[h->ncovers++] = (cover){behind, front};
     return FRACAS_OK;
 }
@@ -221,18 +210,17 @@ static fracas_err find_covers(hiding *h)
 static fracas_err sort_covers(hiding *h)
 {
     const size_t nfacets = h->facets->nfacets;
-    cover *sorted = malloc((h->ncovers + 1) * sizeof *sorted);
-    h->start = calloc(nfacets + 2, sizeof *h->start);
-    if (!sorted || !h->start) {
-        free(sorted);
-        return fracas_no_memory("the facets of a picture");
-    }
+    cover *sorted;
+    FRACAS_TAKE(&h->room, sorted, h->ncovers);
+    FRACAS_TAKE(&h->room, h->start, nfacets + 1);
+    TRY(fracas_room_check(&h->room, "the facets of a picture"));
     for (size_t c = 0; c < h->ncovers; c++) h->start[h->covers[c].behind + 2]++;
     for (size_t f = 0; f < nfacets; f++) h->start[f + 2] += h->start[f + 1];
     for (size_t c = 0; c < h->ncovers; c++)
         sorted[h->start[h->covers[c].behind + 1]++] = h->covers[c];
     free(h->covers);
-    h->covers = sorted;
+    h->covers = NULL;
+    h->sorted = sorted;
     return FRACAS_OK;
 }
 
@@ -245,7 +233,7 @@ static bool is_covered(const hiding *h, size_t f, const double share[3])
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++) point[i] += share[k] * corner_of(h->facets, f, k)[i];
     for (size_t c = h->start[f]; c < h->start[f + 1]; c++)
-        if (depth_at(h->facets, h->covers[c].front, point, &depth) && depth > point[2]) return true;
+        if (depth_at(h->facets, h->sorted[c].front, point, &depth) && depth > point[2]) return true;
     return false;
 }
 
@@ -285,14 +273,7 @@ typedef struct {
     bool *split;    /* for each part: it hides some of itself, or a part that hides it */
 } parts;
 
-static void free_parts(parts *p)
-{
-    free(p->of);
-    free(p->layer);
-    free(p->split);
-}
-
-static fracas_err find_parts(const hiding *h, parts *p)
+static fracas_err find_parts(hiding *h, parts *p)
 {
     const fracas_facets *facets = h->facets;
     fracas_partition partition;
@@ -304,13 +285,12 @@ static fracas_err find_parts(const hiding *h, parts *p)
                 fracas_partition_unite(&partition, (uint32_t)f, (uint32_t)other);
         }
     p->count = fracas_partition_label(&partition);
-    p->of = partition.label;
-    partition.label = NULL;
+    FRACAS_TAKE(&h->room, p->of, facets->nfacets);
+    FRACAS_TAKE(&h->room, p->layer, p->count + facets->nfacets); /* room for all of them split */
+    FRACAS_TAKE(&h->room, p->split, p->count + facets->nfacets);
+    for (size_t f = 0; f < facets->nfacets && p->of; f++) p->of[f] = partition.label[f];
     fracas_partition_clear(&partition);
-    p->layer = calloc(p->count + facets->nfacets + 1,
-                      sizeof *p->layer); /* room for all of them split */
-    p->split = calloc(p->count + facets->nfacets + 1, sizeof *p->split);
-    return p->layer && p->split ? FRACAS_OK : fracas_no_memory("the facets of a picture");
+    return fracas_room_check(&h->room, "the facets of a picture");
 }
 
 /* One more than the largest layer of all facets that hide some of it. Parts hiding each other in a
@@ -323,7 +303,7 @@ static void raise_parts(const hiding *h, parts *p)
     while (grown) { /* some layer grows each time, and none beyond the last */
         grown = false;
         for (size_t c = 0; c < h->ncovers; c++) {
-            const cover *pair = &h->covers[c];
+            const cover *pair = &h->sorted[c];
             if (facet[pair->front].layer < 0 || facet[pair->behind].layer < 0) continue;
             const uint32_t front = p->of[pair->front], behind = p->of[pair->behind];
             if (front == behind || p->layer[front] + 1 >= MOST_LAYERS)
@@ -340,27 +320,24 @@ static void split_parts(const hiding *h, parts *p)
         if (p->split[p->of[f]]) p->of[f] = (uint32_t)p->count++;
 }
 
-static fracas_err find_layers(const hiding *h)
+static fracas_err find_layers(hiding *h)
 {
     fracas_facets *facets = h->facets;
     parts p = {0};
     for (size_t f = 0; f < facets->nfacets; f++)
         facets->facet[f].layer = is_edge_on(facets, f) || is_hidden(h, f) ? -1 : 0;
-    fracas_err err = find_parts(h, &p);
-    if (!err) {
-        raise_parts(h, &p);
-        split_parts(h, &p);
-        raise_parts(h, &p);
-    }
+    TRY(find_parts(h, &p));
+    raise_parts(h, &p);
+    split_parts(h, &p);
+    raise_parts(h, &p);
     facets->nlayers = 1;
-    for (size_t f = 0; f < facets->nfacets && !err; f++) {
+    for (size_t f = 0; f < facets->nfacets; f++) {
         fracas_facet *facet = &facets->facet[f];
         if (facet->layer < 0) continue;
         facet->layer = p.layer[p.of[f]];
         if (facet->layer >= (int32_t)facets->nlayers) facets->nlayers = (size_t)facet->layer + 1;
     }
-    free_parts(&p);
-    return err;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_facets_hide(fracas_facets *facets)
@@ -370,6 +347,7 @@ fracas_err fracas_facets_hide(fracas_facets *facets)
     if (!err) err = find_covers(&h);
     if (!err) err = sort_covers(&h);
     if (!err) err = find_layers(&h);
-    free_hiding(&h);
+    free(h.covers);
+    fracas_room_clear(&h.room);
     return err;
 }

@@ -62,24 +62,11 @@ static size_t dust_of(const fracas_ring_pattern *pattern)
     return dust;
 }
 
-/* "1.23 us": a value with its unit. */
-static void with_unit(double value, const char *unit, char *text, size_t size)
-{
-    double magnitude = fabs(value);
-    fracas_prefix prefix = fracas_prefix_for(&magnitude, 1);
-    char number[32];
-    fracas_format_digits(value * prefix.factor, 3, number, sizeof number);
-    snprintf(text, size, "%s %s%s", number, prefix.sign, unit);
-}
-
 static void write_caption(const fracas_analysis *analysis, size_t point, fracas_picture *picture)
 {
     const fracas_ring_pattern *pattern = &picture->pattern;
-    char time[48], speed[48], factor[32], arrows[256] = "";
+    char arrows[256] = "";
     const fracas_label label = fracas_analysis_label(analysis, point);
-    with_unit(pattern->time, "s", time, sizeof time);
-    with_unit(picture->fastest, "m/s", speed, sizeof speed);
-    FRACAS_PRINT(factor, "%.0f", picture->exaggeration);
     FRACAS_PRINT(picture->file, "pattern-point-%zu", point);
     FRACAS_PRINT(picture->title, "Crack pattern%s%.159s", *label.text ? ", " : "", label.text);
     if (picture->arrows)
@@ -87,15 +74,15 @@ static void write_caption(const fracas_analysis *analysis, size_t point, fracas_
             arrows,
             "Arrows: velocity of the centre of mass beside the uniform expansion, the longest "
             "%s; none on dust. ",
-            speed);
+            fracas_with_unit(picture->fastest, 3, "m/s", true).text);
     FRACAS_PRINT(
         picture->caption,
         "Replica %lld, the first that ended FRAGMENTED; fragments: %zu, of these dust: %zu; "
         "time: %s. Each fragment is where its centre of mass is, its displacement outward "
-        "drawn %s times as large; its own turning is not recorded and not drawn. %sDots: "
+        "drawn %.0f times as large; its own turning is not recorded and not drawn. %sDots: "
         "dust. Dashes: the ring at its start.",
-        (long long)analysis->point[point].broken_replica, pattern->n, dust_of(pattern), time,
-        factor, arrows);
+        (long long)analysis->point[point].broken_replica, pattern->n, dust_of(pattern),
+        fracas_with_unit(pattern->time, 3, "s", true).text, picture->exaggeration, arrows);
 }
 
 fracas_err fracas_picture_create(const fracas_analysis *analysis, size_t point,
@@ -161,14 +148,13 @@ static size_t colour_of(size_t i, size_t n)
 
 static void draw_title(const canvas *on, const fracas_ring_piece *piece)
 {
-    char size[48], displacement[48], outward[48], along[48];
-    with_unit(piece->size, "m", size, sizeof size);
-    with_unit(piece->displacement, "m", displacement, sizeof displacement);
-    with_unit(piece->velocity[0], "m/s", outward, sizeof outward);
-    with_unit(piece->velocity[1], "m/s", along, sizeof along);
     fprintf(on->out,
             "<title>fragment %zu%s: %s long, displaced %s, outward %s, along the ring %s</title>",
-            piece->fragment, piece->dust ? " (dust)" : "", size, displacement, outward, along);
+            piece->fragment, piece->dust ? " (dust)" : "",
+            fracas_with_unit(piece->size, 3, "m", true).text,
+            fracas_with_unit(piece->displacement, 3, "m", true).text,
+            fracas_with_unit(piece->velocity[0], 3, "m/s", true).text,
+            fracas_with_unit(piece->velocity[1], 3, "m/s", true).text);
 }
 
 static void draw_piece(const canvas *on, size_t i)
@@ -226,12 +212,10 @@ static void draw_arrow(const canvas *on, const fracas_ring_piece *piece)
 static void draw_words(const canvas *on)
 {
     const fracas_picture *picture = on->picture;
-    char line[3][96], time[48], factor[32];
-    with_unit(picture->pattern.time, "s", time, sizeof time);
-    FRACAS_PRINT(factor, "%.0f", picture->exaggeration);
+    char line[3][96];
     FRACAS_PRINT(line[0], "%zu fragment%s", picture->pattern.n, picture->pattern.n == 1 ? "" : "s");
-    FRACAS_PRINT(line[1], "at %s", time);
-    FRACAS_PRINT(line[2], "displacement \u00d7 %s", factor);
+    FRACAS_PRINT(line[1], "at %s", fracas_with_unit(picture->pattern.time, 3, "s", true).text);
+    FRACAS_PRINT(line[2], "displacement \u00d7 %.0f", picture->exaggeration);
     for (int i = 0; i < 3; i++)
         fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">%s</text>\n",
                 SIDE / 2.0, SIDE / 2.0 + (i - 1) * LINE_HEIGHT + 4.5, line[i]);

@@ -39,14 +39,9 @@ void fracas_surface_style(FILE *out)
     fprintf(out, "%s%s", style_light, style_dark);
 }
 
-void fracas_surface_time_text(double time, bool unicode, char *text, size_t size)
+fracas_number_text fracas_surface_time(double time, bool unicode)
 {
-    char number[32];
-    fracas_prefix prefix = fracas_prefix_for(&time, 1);
-    fracas_format_digits(time * prefix.factor, 4, number, sizeof number);
-    if (isfinite(time))
-        snprintf(text, size, "%s %ss", number, unicode ? prefix.sign : prefix.symbol);
-    else snprintf(text, size, "never");
+    return isfinite(time) ? fracas_with_unit(time, 4, "s", unicode) : (fracas_number_text){"never"};
 }
 
 typedef struct {
@@ -191,13 +186,13 @@ static void draw_words(const canvas *on)
     const fracas_surface_state *state = on->state;
     const double bar = scale_bar(on), x = MARGIN, y = on->frame.height + 2 * MARGIN + LINE_HEIGHT;
     const double to = x + bar * 1e-3 * on->frame.scale;
-    char time[48], dust[48] = "", apart[48] = "";
-    fracas_surface_time_text(state->time, true, time, sizeof time);
+    char dust[48] = "", apart[48] = "";
     if (state->ndust > 0) FRACAS_PRINT(dust, " (dust: %zu)", state->ndust);
     if (on->picture->explode > 0)
         FRACAS_PRINT(apart, ", fragments apart: %g", on->picture->explode);
-    fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\">%s: %zu fragment%s%s</text>\n", x, y - 5, time,
-            state->nfragments, state->nfragments == 1 ? "" : "s", dust);
+    fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\">%s: %zu fragment%s%s</text>\n", x, y - 5,
+            fracas_surface_time(state->time, true).text, state->nfragments,
+            state->nfragments == 1 ? "" : "s", dust);
     fprintf(on->out, "<path class=\"ink\" d=\"M%.1f %.1fv8m0 -4H%.1fm0 -4v8\"/>\n", x, y + 6, to);
     fprintf(on->out, "<text x=\"%.1f\" y=\"%.1f\">%g mm%s</text>\n", to + 8, y + 14.5, bar, apart);
 }

@@ -4,6 +4,7 @@
 #define FRACAS_ANALYSIS_DRAW_SURFACE_PICTURE_H
 
 #include "analysis/analysis.h"
+#include "analysis/data/format.h"
 #include "analysis/data/surface.h"
 
 #include <stdbool.h>
@@ -41,6 +42,6 @@ void fracas_surface_style(FILE *out);
 
 /* "26.5 us": a time with its unit, as pictures and messages have it; "µs" with `unicode`. "never"
  * for NaN. */
-void fracas_surface_time_text(double time, bool unicode, char *text, size_t size);
+fracas_number_text fracas_surface_time(double time, bool unicode);
 
 #endif

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/draw/facets.h"
 
+#include "analysis/data/room.h"
+
 #include <stdlib.h>
 
 enum { NONE = 255 };
@@ -8,16 +10,10 @@ enum { NONE = 255 };
 /* Interfaces by the fragments they part: those of fragment f are interface[first[f]] to
  * interface[first[f + 1] - 1]. */
 typedef struct {
+    fracas_room room;
     size_t *first, *interface;
     uint32_t *order; /* fragments, the largest first */
 } neighbours;
-
-static void free_neighbours(neighbours *of)
-{
-    free(of->first);
-    free(of->interface);
-    free(of->order);
-}
 
 static uint32_t fragment_at(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
                             size_t i, int side)
@@ -36,11 +32,10 @@ static int larger_first(const void *a, const void *b, void *state)
 static fracas_err list_neighbours(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
                                   neighbours *of)
 {
-    of->first = calloc(state->nfragments + 2, sizeof *of->first);
-    of->interface = calloc(2 * mesh->ninterfaces + 1, sizeof *of->interface);
-    of->order = calloc(state->nfragments + 1, sizeof *of->order);
-    if (!of->first || !of->interface || !of->order)
-        return fracas_no_memory("the tints of a picture");
+    FRACAS_TAKE(&of->room, of->first, state->nfragments + 1);
+    FRACAS_TAKE(&of->room, of->interface, 2 * mesh->ninterfaces);
+    FRACAS_TAKE(&of->room, of->order, state->nfragments);
+    TRY(fracas_room_check(&of->room, "the tints of a picture"));
     /* Counted one place further on: the filling below leaves each start where it belongs. */
     for (size_t i = 0; i < mesh->ninterfaces; i++)
         for (int side = 0; side < 2; side++) of->first[fragment_at(mesh, state, i, side) + 1]++;
@@ -89,7 +84,7 @@ fracas_err fracas_tint_fragments(const fracas_stored_mesh *mesh, const fracas_su
         (*tint)[f] = best_tint(mesh, state, &of, f, *tint, drawn);
         drawn[(*tint)[f]] += state->elements[f];
     }
-    free_neighbours(&of);
+    fracas_room_clear(&of.room);
     if (err) free(*tint), *tint = NULL;
     return err;
 }

@@ -1,18 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/draw/trail.h"
 
+#include "analysis/data/room.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 fracas_err fracas_trail_add(fracas_trail *trail, const int64_t node[3], bool backwards)
 {
-    if (trail->count == trail->capacity) {
-        size_t capacity = trail->capacity ? 2 * trail->capacity : 256;
-        fracas_trail_edge *more = realloc(trail->edge, capacity * sizeof *more);
-        if (!more) return fracas_no_memory("the lines of a picture");
-        trail->edge = more;
-        trail->capacity = capacity;
-    }
+    TRY(fracas_grow(&trail->edge, sizeof *trail->edge, trail->count, &trail->capacity,
+                    "the lines of a picture"));
     trail->edge[trail->count++] = (fracas_trail_edge){
         {(uint32_t)node[backwards], (uint32_t)node[!backwards]}, (int32_t)node[2]};
     return FRACAS_OK;
@@ -27,6 +24,7 @@ void fracas_trail_clear(fracas_trail *trail)
 /* ---- which edges leave a node ---- */
 
 typedef struct {
+    fracas_room room;
     size_t nnodes;
     uint32_t *node;       /* nodes with an edge, ascending; edges know them by their place here */
     uint32_t (*place)[2]; /* for the ends of each edge */
@@ -35,16 +33,6 @@ typedef struct {
     size_t *leaving;      /* 2 edge + 1 if the edge is gone through backwards */
     bool *used;           /* for each edge */
 } departures;
-
-static void free_departures(departures *from)
-{
-    free(from->node);
-    free(from->place);
-    free(from->first);
-    free(from->next);
-    free(from->leaving);
-    free(from->used);
-}
 
 static int by_number(const void *a, const void *b)
 {
@@ -55,9 +43,9 @@ static int by_number(const void *a, const void *b)
 /* A mesh has far more nodes than most trails have. */
 static fracas_err list_nodes(const fracas_trail *trail, departures *from)
 {
-    from->node = malloc((2 * trail->count + 1) * sizeof *from->node);
-    from->place = malloc((trail->count + 1) * sizeof *from->place);
-    if (!from->node || !from->place) return fracas_no_memory("the lines of a picture");
+    FRACAS_TAKE(&from->room, from->node, 2 * trail->count);
+    FRACAS_TAKE(&from->room, from->place, trail->count);
+    TRY(fracas_room_check(&from->room, "the lines of a picture"));
     for (size_t e = 0; e < trail->count; e++)
         for (int end = 0; end < 2; end++)
             from->node[2 * e + (size_t)end] = trail->edge[e].node[end];
@@ -79,12 +67,11 @@ static fracas_err list_departures(const fracas_trail *trail, bool closed, depart
     const int ends = closed ? 1 : 2;
     TRY(list_nodes(trail, from));
     const size_t nodes = from->nnodes;
-    from->first = calloc(nodes + 2, sizeof *from->first);
-    from->next = calloc(nodes + 1, sizeof *from->next);
-    from->leaving = calloc(2 * trail->count + 1, sizeof *from->leaving);
-    from->used = calloc(trail->count + 1, sizeof *from->used);
-    if (!from->first || !from->next || !from->leaving || !from->used)
-        return fracas_no_memory("the lines of a picture");
+    FRACAS_TAKE(&from->room, from->first, nodes + 1);
+    FRACAS_TAKE(&from->room, from->next, nodes);
+    FRACAS_TAKE(&from->room, from->leaving, 2 * trail->count);
+    FRACAS_TAKE(&from->room, from->used, trail->count);
+    TRY(fracas_room_check(&from->room, "the lines of a picture"));
     for (size_t e = 0; e < trail->count; e++)
         for (int end = 0; end < ends; end++) from->first[from->place[e][end] + 1]++;
     for (size_t n = 0; n < nodes; n++) {
@@ -178,7 +165,7 @@ fracas_err fracas_trail_write(const fracas_trail *trail, const fracas_spot *spot
     departures from = {0};
     fracas_err err = list_departures(trail, closed, &from);
     if (!err) put_lines(trail, spot, closed, &from, class, out);
-    free_departures(&from);
+    fracas_room_clear(&from.room);
     return err;
 }
 

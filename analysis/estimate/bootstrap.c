@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/estimate/bootstrap.h"
 
+#include "analysis/data/room.h"
+
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_sort.h>
@@ -23,6 +25,7 @@ const fracas_fields fracas_interval_fields = {interval_fields, 3},
 enum { RESAMPLES = 2000, GROUPS = 200 };
 
 typedef struct {
+    fracas_room room;
     size_t n, nvalues;
     fracas_resampled *statistic;
     void *context;
@@ -181,24 +184,13 @@ static fracas_err resample(resampling *r, const fracas_bootstrap_options *option
 }
 
 /* Room for `most` resamples, of which there may be none. */
-static fracas_err make_room(resampling *r, double **value, fracas_jackknifed **found)
+static fracas_err make_room(resampling *r, double **value)
 {
-    r->weight = malloc((r->n + 1) * sizeof *r->weight);
-    r->found = malloc((r->nvalues * r->most + 1) * sizeof *r->found);
-    r->left_out = malloc((r->nvalues * r->groups + 1) * sizeof *r->left_out);
-    *value = malloc((r->nvalues + 1) * sizeof **value);
-    if (found) *found = malloc((r->nvalues + 1) * sizeof **found);
-    return r->weight && r->found && r->left_out && *value && (!found || *found)
-               ? FRACAS_OK
-               : fracas_no_memory("a bootstrap");
-}
-
-static void clear(resampling *r, double *value)
-{
-    free(r->weight);
-    free(r->found);
-    free(r->left_out);
-    free(value);
+    FRACAS_TAKE(&r->room, r->weight, r->n);
+    FRACAS_TAKE(&r->room, r->found, r->nvalues * r->most);
+    FRACAS_TAKE(&r->room, r->left_out, r->nvalues * r->groups);
+    FRACAS_TAKE(&r->room, *value, r->nvalues);
+    return fracas_room_check(&r->room, "a bootstrap");
 }
 
 fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_resampled *statistic, void *context,
@@ -209,13 +201,14 @@ fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_resampled *statisti
                     .statistic = statistic,
                     .context = context,
                     .groups = n < GROUPS ? n : GROUPS};
-    double *value = NULL;
-    fracas_jackknifed *found = NULL;
+    double *value;
+    fracas_jackknifed *found;
+    FRACAS_TAKE(&r.room, found, nvalues);
     if (n >= FRACAS_BOOTSTRAP_LEAST)
         r.most = options->resamples > 0 ? (size_t)options->resamples : RESAMPLES;
     for (size_t v = 0; v < nvalues; v++)
         interval[v] = (fracas_interval){NAN, NAN, NAN, NAN, NAN, 0};
-    fracas_err err = make_room(&r, &value, &found);
+    fracas_err err = make_room(&r, &value);
     if (!err && n) {
         jackknife(&r, value, found);
         if (r.most) {
@@ -223,8 +216,7 @@ fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_resampled *statisti
             err = resample(&r, options, interval, value);
         } else student(&r, options, found, interval);
     }
-    clear(&r, value);
-    free(found);
+    fracas_room_clear(&r.room);
     return err;
 }
 
@@ -236,10 +228,10 @@ fracas_err fracas_jackknife(size_t n, size_t nvalues, fracas_resampled *statisti
                     .statistic = statistic,
                     .context = context,
                     .groups = n < GROUPS ? n : GROUPS};
-    double *value = NULL;
+    double *value;
     for (size_t v = 0; v < nvalues; v++) found[v] = (fracas_jackknifed){NAN, NAN, NAN, 0};
-    fracas_err err = make_room(&r, &value, NULL);
+    fracas_err err = make_room(&r, &value);
     if (!err && n) jackknife(&r, value, found);
-    clear(&r, value);
+    fracas_room_clear(&r.room);
     return err;
 }

@@ -54,7 +54,6 @@ static fracas_err run(const fracas_ensemble *ensemble, size_t n, uint64_t seed,
     return FRACAS_OK;
 }
 
-/* The same of realizations begin to end - 1 alone. */
 static fracas_err run_part(const fracas_ensemble *ensemble, size_t begin, size_t end,
                            fracas_part part[FRACAS_NHEADLINES])
 {

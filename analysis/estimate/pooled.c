@@ -134,7 +134,6 @@ static fracas_err sum_units(const fracas_ensemble *ensemble, size_t begin, size_
     return FRACAS_OK;
 }
 
-/* Sums of the first n realizations; `all` their total. */
 static fracas_err resample_sums(const fracas_ensemble *ensemble, size_t n, double cut,
                                 uint64_t seed, fracas_interval *interval, sums *all)
 {

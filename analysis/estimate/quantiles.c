@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/estimate/pooled.h"
 
+#include "analysis/data/room.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +26,7 @@ typedef struct {
  * a quantile lies: it costs units x cells, not fragments. No size is in two cells, and none of them
  * lies on both sides of the cut. */
 typedef struct {
+    fracas_room room;
     double lattice, cut;
     size_t units, count, cells;
     entry *entry;  /* count of them, ascending in size, then in unit */
@@ -80,12 +83,11 @@ static void divide(merged *all)
 
 static fracas_err prepare(const fracas_ensemble *ensemble, merged *all)
 {
-    all->entry = malloc((ensemble->nfragments + 1) * sizeof *all->entry);
-    all->begin = malloc((CELLS + 3) * sizeof *all->begin);
-    all->total = malloc((CELLS + 3) * sizeof *all->total);
-    all->part = calloc(all->units * (CELLS + 3) + 1, sizeof *all->part);
-    if (!all->entry || !all->begin || !all->total || !all->part)
-        return fracas_no_memory("the sizes of a point's fragments");
+    FRACAS_TAKE(&all->room, all->entry, ensemble->nfragments);
+    FRACAS_TAKE(&all->room, all->begin, CELLS + 2);
+    FRACAS_TAKE(&all->room, all->total, CELLS + 2);
+    FRACAS_TAKE(&all->room, all->part, all->units * (CELLS + 3));
+    TRY(fracas_room_check(&all->room, "the sizes of a point's fragments"));
     merge(ensemble, all);
     divide(all);
     for (size_t c = 0; c < all->cells; c++)
@@ -207,9 +209,6 @@ fracas_err fracas_quantiles_of(const fracas_ensemble *ensemble, double cut, uint
         memcpy(pooled->above.mass_quantile, interval + 3 * FRACAS_NQUANTILES,
                sizeof pooled->above.mass_quantile);
     }
-    free(all.entry);
-    free(all.begin);
-    free(all.total);
-    free(all.part);
+    fracas_room_clear(&all.room);
     return err;
 }

@@ -35,14 +35,8 @@ static fracas_prefix prefix_of(const fracas_table_column *column, const fracas_t
     const size_t place = column->kind == FRACAS_CELL_INTERVAL
                              ? column->offset + offsetof(fracas_interval, value)
                              : column->offset + offsetof(fracas_estimate, mean);
-    double extreme[2] = {INFINITY, 0};
-    for (size_t i = 0; i < rows->count; i++) {
-        const double value = double_at(row_at(rows, i), place);
-        if (!(value > 0)) continue;
-        extreme[0] = fmin(extreme[0], value);
-        extreme[1] = fmax(extreme[1], value);
-    }
-    return fracas_prefix_for(extreme, 2);
+    return fracas_prefix_over((const void *)((const char *)rows->first + place), rows->size,
+                              rows->count);
 }
 
 void fracas_cell_label(const fracas_analysis *analysis, size_t point, const void *row, char *text)

@@ -72,7 +72,6 @@ static void put_schema(fracas_json *json, const fracas_csv_table *table,
     fracas_json_close_object(json);
 }
 
-/* A table in the folder. */
 static fracas_err put_resource(fracas_json *json, const fracas_csv_table *table,
                                const fracas_analysis *analysis, const char *folder)
 {

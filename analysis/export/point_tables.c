@@ -86,7 +86,6 @@ static void point_fields(const fracas_csv_table *of, const fracas_analysis *anal
     visit_statistics(visit, context);
 }
 
-/* Where the lines of a point go. */
 typedef struct {
     const fracas_point_statistics *statistics;
     size_t point;

@@ -59,7 +59,6 @@ static void record_fields(const fracas_csv_table *table, const fracas_analysis *
         dataset_fields(&fracas_store_sets[table->set].column[c], visit, context);
 }
 
-/* The values of a row of a set from column `first` on, and the end of the line. */
 static void put_values(int set, size_t first, const void *row, FILE *out)
 {
     for (size_t c = first; c < fracas_store_sets[set].ncolumns; c++) {

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-const char *const fracas_slope_table_legend[] = {
+static const char *const slope_legend[] = {
     "slope: of log(mean size) against log(strain rate), weighted least squares, each point by the "
     "standard error of its mean over replicas, from one relative variance pooled over the points "
     "that have less than eight; points where no body came apart are left out; after it the half "
@@ -17,14 +17,14 @@ const char *const fracas_slope_table_legend[] = {
     "above 1 the interval is wider by its square root. Mott, Grady: exponents of the theories.",
     NULL,
 };
-const char *const fracas_window_table_legend[] = {
+static const char *const window_legend[] = {
     "slope: of log(mean size) against log(strain rate) between two neighbouring rates; after it "
     "the half width of its 95 % interval, from the standard errors of the two means (Student's t, "
     "degrees of freedom by Welch and Satterthwaite).",
     "from, to: the rates, and as parts of the characteristic rate edot0 of the material.",
     NULL,
 };
-const char *const fracas_crossover_table_legend[] = {
+static const char *const crossover_legend[] = {
     "s = s_q/(1 + (rate/crossover)^k), by least squares of log(mean size), weighted as slopes are: "
     "s_q is the size at low rates (exponent 0), -k the exponent at high rates. In brackets 95 % "
     "intervals by the parametric bootstrap: means drawn again by their standard errors, Student's. "
@@ -34,7 +34,7 @@ const char *const fracas_crossover_table_legend[] = {
     "them are needed; else the last column says what is missing.",
     NULL,
 };
-const char *const fracas_motion_table_legend[] = {
+static const char *const motion_legend[] = {
     "Velocities of the fragments' centres of mass at the end, each fragment weighed by its mass; "
     "means over replicas with their 95 % intervals, n: replicas with two fragments or more. "
     "outward: mean velocity along the direction from the centre of the ring. scatter: its standard "
@@ -44,54 +44,31 @@ const char *const fracas_motion_table_legend[] = {
     NULL,
 };
 
-/* Columns of the struct `type`. */
-#define PLACE(type, member) offsetof(type, member)
+/* ---- columns ---- */
 
-fracas_err fracas_slope_table_create(const fracas_analysis *analysis, bool unicode,
-                                     fracas_result_table *table)
-{
-#define AT(member) PLACE(fracas_size_slope, member)
-    static const fracas_table_column column[] = {
-        {"slope", "", FRACAS_CELL_PLUS_MINUS, AT(slope.slope), 0, AT(slope.half_width)},
-        {"Mott", "", FRACAS_CELL_NUMBER, AT(mott)},
-        {"Grady", "", FRACAS_CELL_NUMBER, AT(grady), 3},
-        {"points", "", FRACAS_CELL_INTEGER, AT(slope.n)},
-        {"chi2/dof", "", FRACAS_CELL_NUMBER, AT(slope.chi2), 2, AT(slope.freedom)},
-        {"series", "", FRACAS_CELL_TEXT, AT(name)},
-    };
+#define AT(member) offsetof(fracas_size_slope, member)
+static const fracas_table_column slope_column[] = {
+    {"slope", "", FRACAS_CELL_PLUS_MINUS, AT(slope.slope), 0, AT(slope.half_width)},
+    {"Mott", "", FRACAS_CELL_NUMBER, AT(mott)},
+    {"Grady", "", FRACAS_CELL_NUMBER, AT(grady), 3},
+    {"points", "", FRACAS_CELL_INTEGER, AT(slope.n)},
+    {"chi2/dof", "", FRACAS_CELL_NUMBER, AT(slope.chi2), 2, AT(slope.freedom)},
+    {"series", "", FRACAS_CELL_TEXT, AT(name)},
+};
 #undef AT
-    fracas_size_slope *list;
-    fracas_table_rows rows = {.size = sizeof *list};
-    TRY(fracas_size_slopes(analysis, &list, &rows.count));
-    rows.first = list;
-    const fracas_err err = fracas_table_make(column, FRACAS_COUNT(column), &rows, unicode, table);
-    free(list);
-    return err;
-}
 
 static const char edot0[] = "/edot0", edot0_unicode[] = "/\u03b5\u0307\u2080";
 
-fracas_err fracas_window_table_create(const fracas_analysis *analysis, bool unicode,
-                                      fracas_result_table *table)
-{
-#define AT(member) PLACE(fracas_size_window, member)
-    static const fracas_table_column column[] = {
-        {"slope", "", FRACAS_CELL_PLUS_MINUS, AT(window.slope), 0, AT(window.half_width)},
-        {"from", "[1/s]", FRACAS_CELL_NUMBER, AT(rate[0])},
-        {"to", "[1/s]", FRACAS_CELL_NUMBER, AT(rate[1])},
-        {"from", edot0, FRACAS_CELL_NUMBER, AT(normalised[0]), 3, .unicode = edot0_unicode},
-        {"to", edot0, FRACAS_CELL_NUMBER, AT(normalised[1]), 3, .unicode = edot0_unicode},
-        {"series", "", FRACAS_CELL_TEXT, AT(name)},
-    };
+#define AT(member) offsetof(fracas_size_window, member)
+static const fracas_table_column window_column[] = {
+    {"slope", "", FRACAS_CELL_PLUS_MINUS, AT(window.slope), 0, AT(window.half_width)},
+    {"from", "[1/s]", FRACAS_CELL_NUMBER, AT(rate[0])},
+    {"to", "[1/s]", FRACAS_CELL_NUMBER, AT(rate[1])},
+    {"from", edot0, FRACAS_CELL_NUMBER, AT(normalised[0]), 3, .unicode = edot0_unicode},
+    {"to", edot0, FRACAS_CELL_NUMBER, AT(normalised[1]), 3, .unicode = edot0_unicode},
+    {"series", "", FRACAS_CELL_TEXT, AT(name)},
+};
 #undef AT
-    fracas_size_window *list;
-    fracas_table_rows rows = {.size = sizeof *list};
-    TRY(fracas_size_windows(analysis, &list, &rows.count));
-    rows.first = list;
-    const fracas_err err = fracas_table_make(column, FRACAS_COUNT(column), &rows, unicode, table);
-    free(list);
-    return err;
-}
 
 /* A series of one rate has nothing to cross over from. */
 static bool has_rates(const void *row)
@@ -106,51 +83,70 @@ static void series_text(const fracas_analysis *analysis, size_t index, const voi
     snprintf(text, FRACAS_CELL, "%.60s%s%.60s", of->name, *of->reason ? ": " : "", of->reason);
 }
 
-fracas_err fracas_crossover_table_create(const fracas_analysis *analysis, bool unicode,
-                                         fracas_result_table *table)
-{
-#define AT(member) PLACE(fracas_size_crossover, member)
-    static const fracas_table_column column[] = {
-        {"crossover", "[1/s]", FRACAS_CELL_INTERVAL, AT(rate)},
-        {"crossover", edot0, FRACAS_CELL_INTERVAL, AT(rate_normalised), .unicode = edot0_unicode},
-        {"s_q", "m", FRACAS_CELL_INTERVAL, AT(size), .prefixed = 1},
-        {"s_q", "/s0", FRACAS_CELL_INTERVAL, AT(size_normalised), .unicode = "/s\u2080"},
-        {"exponent", "", FRACAS_CELL_INTERVAL, AT(exponent)},
-        {"points", "", FRACAS_CELL_INTEGER, AT(n)},
-        {"chi2/dof", "", FRACAS_CELL_NUMBER, AT(chi2), 2, AT(freedom)},
-        {"series", "", FRACAS_CELL_FORMAT, .format = series_text},
-    };
+#define AT(member) offsetof(fracas_size_crossover, member)
+static const fracas_table_column crossover_column[] = {
+    {"crossover", "[1/s]", FRACAS_CELL_INTERVAL, AT(rate)},
+    {"crossover", edot0, FRACAS_CELL_INTERVAL, AT(rate_normalised), .unicode = edot0_unicode},
+    {"s_q", "m", FRACAS_CELL_INTERVAL, AT(size), .prefixed = 1},
+    {"s_q", "/s0", FRACAS_CELL_INTERVAL, AT(size_normalised), .unicode = "/s\u2080"},
+    {"exponent", "", FRACAS_CELL_INTERVAL, AT(exponent)},
+    {"points", "", FRACAS_CELL_INTEGER, AT(n)},
+    {"chi2/dof", "", FRACAS_CELL_NUMBER, AT(chi2), 2, AT(freedom)},
+    {"series", "", FRACAS_CELL_FORMAT, .format = series_text},
+};
 #undef AT
-    fracas_size_crossover *list;
-    fracas_table_rows rows = {.size = sizeof *list, .keep = has_rates};
-    TRY(fracas_size_crossovers(analysis, true, &list, &rows.count));
-    rows.first = list;
-    const fracas_err err = fracas_table_make(column, FRACAS_COUNT(column), &rows, unicode, table);
-    free(list);
-    return err;
-}
 
 static bool is_ring(const void *row)
 {
     return ((const fracas_point_statistics *)row)->radius > 0;
 }
 
-fracas_err fracas_motion_table_create(const fracas_analysis *analysis, bool unicode,
-                                      fracas_result_table *table)
-{
-#define AT(member) PLACE(fracas_point_statistics, member)
-    static const fracas_table_column column[] = {
-        {"n", "", FRACAS_CELL_INTEGER, AT(radial_velocity.n)},
-        {"outward", "[m/s]", FRACAS_CELL_ESTIMATE, AT(radial_velocity)},
-        {"scatter", "[m/s]", FRACAS_CELL_ESTIMATE, AT(radial_scatter)},
-        {"along", "[m/s]", FRACAS_CELL_ESTIMATE, AT(circumferential_velocity)},
-        {"spin", "rad/s", FRACAS_CELL_ESTIMATE, AT(angular_velocity), .prefixed = 1},
-        {"point", "", FRACAS_CELL_FORMAT, .format = fracas_cell_label},
-    };
+#define AT(member) offsetof(fracas_point_statistics, member)
+static const fracas_table_column motion_column[] = {
+    {"n", "", FRACAS_CELL_INTEGER, AT(radial_velocity.n)},
+    {"outward", "[m/s]", FRACAS_CELL_ESTIMATE, AT(radial_velocity)},
+    {"scatter", "[m/s]", FRACAS_CELL_ESTIMATE, AT(radial_scatter)},
+    {"along", "[m/s]", FRACAS_CELL_ESTIMATE, AT(circumferential_velocity)},
+    {"spin", "rad/s", FRACAS_CELL_ESTIMATE, AT(angular_velocity), .prefixed = 1},
+    {"point", "", FRACAS_CELL_FORMAT, .format = fracas_cell_label},
+};
 #undef AT
-    const fracas_table_rows rows = {analysis->point, analysis->table->npoints,
-                                    sizeof *analysis->point, analysis, is_ring};
-    return fracas_table_make(column, FRACAS_COUNT(column), &rows, unicode, table);
+
+#define COLUMNS(name) name##_legend, name##_column, FRACAS_COUNT(name##_column)
+const fracas_side_table fracas_side_tables[FRACAS_SIDE_TABLES] = {
+    {"slopes", "Slope of log(mean size) against log(strain rate)", COLUMNS(slope),
+     sizeof(fracas_size_slope), NULL},
+    {"windows", "Slope from each strain rate to the next", COLUMNS(window),
+     sizeof(fracas_size_window), NULL},
+    {"crossovers", "Crossover from the quasi-static to the dynamic regime", COLUMNS(crossover),
+     sizeof(fracas_size_crossover), has_rates},
+    {"motion", "Velocities of the fragments of rings at the end", COLUMNS(motion),
+     sizeof(fracas_point_statistics), is_ring},
+};
+
+fracas_err fracas_side_table_create(const fracas_analysis *analysis, fracas_side_table_name name,
+                                    bool unicode, fracas_result_table *table)
+{
+    const fracas_side_table *of = &fracas_side_tables[name];
+    fracas_size_slope *slope = NULL;
+    fracas_size_window *window = NULL;
+    fracas_size_crossover *crossover = NULL;
+    fracas_table_rows rows = {analysis->point, analysis->table->npoints, of->size, analysis,
+                              of->keep};
+    fracas_err err = FRACAS_OK;
+    if (name == FRACAS_SLOPES) err = fracas_size_slopes(analysis, &slope, &rows.count);
+    if (name == FRACAS_WINDOWS) err = fracas_size_windows(analysis, &window, &rows.count);
+    if (name == FRACAS_CROSSOVERS)
+        err = fracas_size_crossovers(analysis, true, &crossover, &rows.count);
+    if (name != FRACAS_MOTION)
+        rows.first = slope    ? (const void *)slope
+                     : window ? (const void *)window
+                              : (const void *)crossover;
+    if (!err) err = fracas_table_make(of->column, of->columns, &rows, unicode, table);
+    free(slope);
+    free(window);
+    free(crossover);
+    return err;
 }
 
 const char *const fracas_fit_table_legend[] = {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Keys of a point beside its statistics: fits, convergence with replicas, energies over time. */
+/* The JSON summary. Its keys are those of fracas_statistics and of /point: they do not change. */
 #include "analysis/export/summary.h"
 
 #include "analysis/export/csv.h"
@@ -14,7 +14,6 @@
 
 /* ---- fits ---- */
 
-/* The rows of one point; they stand together. */
 static fracas_fits rows_of(const fracas_fits *fits, size_t point)
 {
     fracas_fits of = {.n = 0};
@@ -211,7 +210,6 @@ static void write_statistics(fracas_json *json, const fracas_point_statistics *s
     fracas_json_close_object(json);
 }
 
-/* Why a statistic is null, by its key. */
 static void write_reasons(fracas_json *json, const fracas_point_statistics *statistics)
 {
     fracas_json_object(json, "reasons");

@@ -144,7 +144,6 @@ static fracas_prefix parameter_prefix(const fracas_point_table *points, size_t c
     return fracas_prefix_for(extreme, 2);
 }
 
-/* The parameters by which the points differ. */
 static void fill_parameters(const fracas_point_table *points, const fracas_columns *first,
                             bool unicode, const fracas_result_table *table)
 {
@@ -188,7 +187,6 @@ fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unic
     return err;
 }
 
-/* How the replicas were decided, where they were not given. */
 static void print_decisions(const fracas_analysis *analysis, FILE *out)
 {
     char text[512];

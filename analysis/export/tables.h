@@ -88,23 +88,29 @@ const char *const *fracas_result_table_legend(const fracas_analysis *analysis);
  * false if there are none. */
 bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, size_t size);
 
-/* A row for all points and for each series with a slope, with the exponents of Mott and Grady; no
- * row, only the head, for a study without enough points. */
-FRACAS_MUST_USE fracas_err fracas_slope_table_create(const fracas_analysis *analysis, bool unicode,
-                                                     fracas_result_table *table);
+/* Tables beside the headline one. A row for all points and for each series with a slope; a row for
+ * every two neighbouring rates of a series; a row a series: its crossover, or why there is none; a
+ * row a ring: velocities of its fragments. A table without rows has only its head. */
+typedef enum {
+    FRACAS_SLOPES,
+    FRACAS_WINDOWS,
+    FRACAS_CROSSOVERS,
+    FRACAS_MOTION,
+    FRACAS_SIDE_TABLES
+} fracas_side_table_name;
 
-/* A row for every two neighbouring rates of a series. */
-FRACAS_MUST_USE fracas_err fracas_window_table_create(const fracas_analysis *analysis, bool unicode,
-                                                      fracas_result_table *table);
+typedef struct {
+    const char *id, *title;    /* on the page */
+    const char *const *legend; /* meaning of the columns, a line each; ends with NULL */
+    const fracas_table_column *column;
+    size_t columns, size;          /* size: of a row's struct [bytes] */
+    bool (*keep)(const void *row); /* as fracas_table_rows has it */
+} fracas_side_table;
 
-/* A row a series: its crossover, or why there is none. */
-FRACAS_MUST_USE fracas_err fracas_crossover_table_create(const fracas_analysis *analysis,
-                                                         bool unicode, fracas_result_table *table);
-
-/* A row a ring: mean velocity outward, its scatter, rms velocity along the ring, mean |angular
- * velocity|. */
-FRACAS_MUST_USE fracas_err fracas_motion_table_create(const fracas_analysis *analysis, bool unicode,
-                                                      fracas_result_table *table);
+extern const fracas_side_table fracas_side_tables[FRACAS_SIDE_TABLES];
+FRACAS_MUST_USE fracas_err fracas_side_table_create(const fracas_analysis *analysis,
+                                                    fracas_side_table_name name, bool unicode,
+                                                    fracas_result_table *table);
 
 /* A row a fitted family of a point, by rank: distances, their p-values, parameters. */
 FRACAS_MUST_USE fracas_err fracas_fit_table_create(const fracas_analysis *analysis,
@@ -113,8 +119,5 @@ FRACAS_MUST_USE fracas_err fracas_fit_table_create(const fracas_analysis *analys
 
 /* Meaning of the columns, a line each; ends with NULL. */
 extern const char *const fracas_fit_table_legend[];
-extern const char *const fracas_slope_table_legend[], *const fracas_window_table_legend[],
-                                                          *const fracas_crossover_table_legend[],
-                                                              *const fracas_motion_table_legend[];
 
 #endif

@@ -122,14 +122,7 @@ static fracas_err read_lines(FILE *in, const char *path, fracas_fits *fits)
                 FRACAS_DAMAGED,
                 "%s: line %zu is none of ours; remove the file, `fracas fit` makes it again", path,
                 number + 1);
-        if (!*field[0]) continue;
-        if (fits->n == fits->room) {
-            fracas_fits_row *grown = realloc(fits->row, (fits->room + 256) * sizeof *grown);
-            if (!grown) return fracas_no_memory("the fits of a study");
-            fits->row = grown;
-            fits->room += 256;
-        }
-        fits->row[fits->n++] = row;
+        if (*field[0]) TRY(fracas_fits_append(fits, &row));
     }
     return ferror(in) ? fracas_fail_system(errno, "cannot read %s", path) : FRACAS_OK;
 }

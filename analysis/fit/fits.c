@@ -15,48 +15,37 @@ void fracas_fits_destroy(fracas_fits *fits)
     free(fits);
 }
 
-/* A new row, zero but for NaNs, at the end; NULL without memory. */
-static fracas_fits_row *append(fracas_fits *fits)
+fracas_err fracas_fits_append(fracas_fits *fits, const fracas_fits_row *row)
 {
-    if (fits->n == fits->room) {
-        const size_t room = fits->room ? 2 * fits->room : 256;
-        fracas_fits_row *grown = realloc(fits->row, room * sizeof *grown);
-        if (!grown) return NULL;
-        fits->row = grown;
-        fits->room = room;
-    }
-    fracas_fits_row *row = &fits->row[fits->n++];
-    *row = (fracas_fits_row){.value = NAN, .low = NAN, .high = NAN};
-    return row;
+    TRY(fracas_grow(&fits->row, sizeof *fits->row, fits->n, &fits->room, "the fits of a study"));
+    fits->row[fits->n++] = *row;
+    return FRACAS_OK;
 }
 
-/* Common fields of the rows of a point. */
 typedef struct {
     fracas_fits *fits;
     int64_t point;
     char hash[FRACAS_HASH_HEX];
     const char *family;
-    bool full; /* no memory for a row */
+    fracas_err err;
 } rows;
 
 static void put(rows *to, const char *quantity, const char *unit, const fracas_interval *value,
                 const char *note)
 {
-    fracas_fits_row *row = append(to->fits);
-    to->full |= !row;
-    if (!row) return;
-    row->point = to->point;
-    memcpy(row->hash, to->hash, sizeof row->hash);
-    FRACAS_PRINT(row->family, "%s", to->family);
-    FRACAS_PRINT(row->quantity, "%s", quantity);
-    FRACAS_PRINT(row->unit, "%s", unit);
-    FRACAS_PRINT(row->note, "%s", note);
-    for (char *at = row->note; (at = strchr(at, ',')); at++)
+    fracas_fits_row row = {.point = to->point,
+                           .value = value->value,
+                           .low = value->low,
+                           .high = value->high,
+                           .resamples = value->resamples};
+    memcpy(row.hash, to->hash, sizeof row.hash);
+    FRACAS_PRINT(row.family, "%s", to->family);
+    FRACAS_PRINT(row.quantity, "%s", quantity);
+    FRACAS_PRINT(row.unit, "%s", unit);
+    FRACAS_PRINT(row.note, "%s", note);
+    for (char *at = row.note; (at = strchr(at, ',')); at++)
         *at = ';'; /* the file has commas between its fields alone */
-    row->value = value->value;
-    row->low = value->low;
-    row->high = value->high;
-    row->resamples = value->resamples;
+    if (!to->err) to->err = fracas_fits_append(to->fits, &row);
 }
 
 static void put_number(rows *to, const char *quantity, const char *unit, double value,
@@ -202,7 +191,7 @@ static fracas_err fit_point(const fracas_analysis *analysis, size_t p, int64_t r
     for (size_t f = 0; f < nfamilies; f++) put_family(&to, f, &found);
     put_comparison(&to, &found);
     fracas_point_fits_clear(&found);
-    return to.full ? fracas_no_memory("the fits of a study") : FRACAS_OK;
+    return to.err;
 }
 
 fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point, int64_t resamples,
@@ -279,10 +268,7 @@ fracas_err fracas_fits_complete(fracas_fits *fits, const fracas_fits *older)
         bool known = false;
         for (size_t k = 0; k < own && !known; k++)
             known = fits->row[k].point == older->row[i].point;
-        if (known) continue;
-        fracas_fits_row *row = append(fits);
-        if (!row) return fracas_no_memory("the fits of a study");
-        *row = older->row[i];
+        if (!known) TRY(fracas_fits_append(fits, &older->row[i]));
     }
     return FRACAS_OK;
 }

@@ -41,6 +41,8 @@ FRACAS_MUST_USE fracas_err fracas_fits_create(const fracas_analysis *analysis, s
                                               int64_t resamples, fracas_fits **fits);
 void fracas_fits_destroy(fracas_fits *fits); /* NULL is allowed */
 
+FRACAS_MUST_USE fracas_err fracas_fits_append(fracas_fits *fits, const fracas_fits_row *row);
+
 /* STUDY/fits.csv, whole: temporary, synced, renamed. */
 FRACAS_MUST_USE fracas_err fracas_fits_write(const fracas_fits *fits, const char *study);
 /* *fits: NULL if there is no file. FRACAS_DAMAGED, saying which line, if it is none of ours. */

@@ -92,29 +92,30 @@ fracas_err fracas_fit_carry(const fracas_fit_sample *sample, const double *proba
     *carried = *sample;
     memset(carried->count, 0, sizeof carried->count);
     carried->kept = carried->sum = carried->squares = NULL;
-    carried->first = malloc((n + 1) * sizeof *carried->first);
-    carried->cell = malloc((fragments + 1) * sizeof *carried->cell);
-    carried->times = malloc((fragments + 1) * sizeof *carried->times);
-    uint32_t *owner = malloc((fragments + 1) * sizeof *owner);
-    size_t *end = malloc((n + 1) * sizeof *end);
+    carried->room = (fracas_room){0};
+    FRACAS_TAKE(&carried->room, carried->first, n);
+    FRACAS_TAKE(&carried->room, carried->cell, fragments);
+    FRACAS_TAKE(&carried->room, carried->times, fragments);
+    uint32_t *owner;
+    size_t *end;
+    FRACAS_TAKE(&carried->room, owner, fragments);
+    FRACAS_TAKE(&carried->room, end, n);
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    const bool room = carried->first && carried->cell && carried->times && owner && end && random;
-    if (room) {
-        gsl_rng_set(random, (unsigned long)(seed ^ seed >> 32)); /* it takes 32 bits */
-        for (size_t i = 0, begin = 0; i < n; i++) {
-            carried->first[i] = begin;
-            begin += (size_t)sample->kept[i];
-        }
-        order(sample, random, place, owner);
-        move(sample, probability, owner, end, carried);
-        compact(end, carried);
-    } else {
+    if (!random || carried->room.lacking) {
+        if (random) gsl_rng_free(random);
         fracas_fit_sample_clear(carried);
+        return fracas_no_memory("a resample");
     }
-    free(owner);
-    free(end);
-    if (random) gsl_rng_free(random);
-    return room ? FRACAS_OK : fracas_no_memory("a resample");
+    gsl_rng_set(random, (unsigned long)(seed ^ seed >> 32)); /* it takes 32 bits */
+    for (size_t i = 0, begin = 0; i < n; i++) {
+        carried->first[i] = begin;
+        begin += (size_t)sample->kept[i];
+    }
+    order(sample, random, place, owner);
+    move(sample, probability, owner, end, carried);
+    compact(end, carried);
+    gsl_rng_free(random);
+    return FRACAS_OK;
 }
 
 typedef struct {

@@ -100,20 +100,19 @@ static void print_whole(const fracas_fits *fits, int64_t point, FILE *out)
 static void print_head(const fracas_fits *fits, const fracas_analysis *analysis, int64_t point,
                        FILE *out)
 {
-    char mean[32], unit[8];
+    char unit[8];
     const fracas_label label = fracas_analysis_label(analysis, (size_t)point);
     const fracas_fits_row *size = fracas_fits_find(fits, point, "data", "mean"),
                           *cv = fracas_fits_find(fits, point, "data", "cv");
     const fracas_prefix prefix = fracas_prefix_for(&size->value, 1);
     FRACAS_PRINT(unit, "%sm", prefix.symbol);
-    fracas_format_digits(value_of(fits, point, "data", "cut") * prefix.factor, 4, mean,
-                         sizeof mean);
     fprintf(out,
             "\npoint %lld%s%s: %.0f of %.0f fragments of %.0f realizations, those above %s %s; "
             "mean size ",
             (long long)point, *label.text ? ", " : "", label.text,
             value_of(fits, point, "data", "above_cut"), value_of(fits, point, "data", "fragments"),
-            value_of(fits, point, "data", "realizations"), mean, unit);
+            value_of(fits, point, "data", "realizations"),
+            fracas_digits(value_of(fits, point, "data", "cut") * prefix.factor, 4).text, unit);
     print_interval(size, prefix.factor, out);
     fprintf(out, " %s, deviation/mean ", unit);
     print_interval(cv, 1, out);

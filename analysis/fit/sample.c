@@ -12,36 +12,27 @@ static const double BEYOND =
 
 static fracas_err make_room(const fracas_ensemble *ensemble, fracas_fit_sample *sample)
 {
-    const size_t n = ensemble->nrealizations + 1, most = ensemble->nfragments + 1;
-    sample->first = calloc(n, sizeof *sample->first);
-    sample->kept = calloc(n, sizeof *sample->kept);
-    sample->sum = calloc(n, sizeof *sample->sum);
-    sample->squares = calloc(n, sizeof *sample->squares);
-    sample->cell = calloc(most, sizeof *sample->cell);
-    sample->times = calloc(most, sizeof *sample->times);
-    const bool all = sample->first && sample->kept && sample->sum && sample->squares &&
-                     sample->cell && sample->times;
-    return all ? FRACAS_OK : fracas_no_memory("the fragments of a fit");
+    fracas_room *room = &sample->room;
+    FRACAS_TAKE(room, sample->first, ensemble->nrealizations);
+    FRACAS_TAKE(room, sample->kept, ensemble->nrealizations);
+    FRACAS_TAKE(room, sample->sum, ensemble->nrealizations);
+    FRACAS_TAKE(room, sample->squares, ensemble->nrealizations);
+    FRACAS_TAKE(room, sample->cell, ensemble->nfragments);
+    FRACAS_TAKE(room, sample->times, ensemble->nfragments);
+    return fracas_room_check(room, "the fragments of a fit");
 }
 
 void fracas_fit_sample_clear(fracas_fit_sample *sample)
 {
-    free(sample->first);
-    free(sample->kept);
-    free(sample->sum);
-    free(sample->squares);
-    free(sample->cell);
-    free(sample->times);
+    fracas_room_clear(&sample->room);
     *sample = (fracas_fit_sample){0};
 }
 
-/* One piece: the body itself. */
 static bool is_whole(const fracas_ensemble *ensemble, size_t i)
 {
     return ensemble->first[i + 1] - ensemble->first[i] == 1;
 }
 
-/* Sizes above the cut: numbers and mean; the smallest and the largest size. */
 static void count_up(const fracas_ensemble *ensemble, fracas_fit_sample *sample, double *smallest,
                      double *largest)
 {

@@ -6,6 +6,7 @@
 
 #include "analysis/data/ensemble.h"
 #include "analysis/fit/family.h"
+#include "analysis/data/room.h"
 #include "base/err.h"
 
 #include <gsl/gsl_rng.h>
@@ -15,6 +16,7 @@
 enum { FRACAS_FIT_CELLS = 320 }; /* at most */
 
 typedef struct {
+    fracas_room room;
     size_t ncells;
     double edge[FRACAS_FIT_CELLS + 1]; /* over the mean, ascending: the cut first, INFINITY last */
     double count[FRACAS_FIT_CELLS];    /* fragments in each cell, (edge[k], edge[k + 1]] */

@@ -15,7 +15,6 @@ enum { LAW_VALUES = 80, TALL = 300, LOW = FRACAS_FIGURE_LOW, STRIP = 80 };
 
 static const size_t ALL_SERIES = SIZE_MAX;
 
-/* Subject of a figure against the rate, and its units. */
 typedef struct {
     const fracas_analysis *analysis;
     const fracas_columns *others; /* columns that make series */
@@ -40,7 +39,6 @@ static bool drawn(const rate_plot *plot, const fracas_point_statistics *statisti
     return plot->normalised ? has_scales(statistics) : has_mean(statistics);
 }
 
-/* The first point of the series of point p. */
 static size_t series_of(const rate_plot *plot, size_t p)
 {
     for (size_t q = 0; q < p; q++)
@@ -92,7 +90,6 @@ static fracas_err add_law(const rate_plot *plot, fracas_scaling_law_id law,
     return FRACAS_OK;
 }
 
-/* Least and greatest rate of the points drawn, in the plot's units; false without any. */
 static bool rate_range(const rate_plot *plot, double rate[2])
 {
     rate[0] = INFINITY;
@@ -217,7 +214,6 @@ static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
     return add_crossovers(plot, rate, panel);
 }
 
-/* True if a law serves the marks of some colour. */
 static bool any_law(const rate_plot *plot)
 {
     for (size_t p = 0; p < plot->analysis->table->npoints; p++)
@@ -501,10 +497,8 @@ fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
     FRACAS_PRINT(lower->x.label, "time [%ss]", time.sign);
     for (size_t p = 0; p < chart->npanels; p++)
         FRACAS_PRINT(chart->panel[p].y.label, "energy [%sJ]", joule.sign);
-    char residual[32],
-        motion[128] =
-            "Kinetic energy is that of the motion beside the imposed stretching, work likewise.";
-    fracas_format_digits(statistics->residual, 2, residual, sizeof residual);
+    char motion[128] =
+        "Kinetic energy is that of the motion beside the imposed stretching, work likewise.";
     if (kinetic_start(statistics) > 0)
         FRACAS_PRINT(motion, "Kinetic energy less the %.4g J that the %s starts with.",
                      kinetic_start(statistics), statistics->surface ? "surface" : "ring");
@@ -515,7 +509,7 @@ fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
         "%s%sBelow: |residual| of the energy balance; its largest value over all replicas is "
         "%s of the dissipated energy.",
         (long long)statistics->typical_replica, (long long)statistics->usable, motion,
-        *motion ? " " : "", residual);
+        *motion ? " " : "", fracas_digits(statistics->residual, 2).text);
     return FRACAS_OK;
 }
 
@@ -541,12 +535,12 @@ static fracas_err draw_sizes(const fracas_analysis *analysis, size_t point, frac
 }
 
 const fracas_figure fracas_figures[] = {
-    {"rate", "wide", false, draw_rate},
-    {"rate", "wide", false, draw_normalised},
-    {"sizes", "wide", false, draw_sizes},
-    {"sizes", "small", true, fracas_figure_sizes},
-    {"energies", "wide", true, fracas_figure_energies},
-    {"energies", "wide", true, fracas_figure_bands},
+    {"mean-size", "wide", false, draw_rate},
+    {"mean-size", "wide", false, draw_normalised},
+    {"fragment-sizes", "wide", false, draw_sizes},
+    {"fragment-sizes", "small", true, fracas_figure_sizes},
+    {"energies-over-time", "wide", true, fracas_figure_energies},
+    {"energies-over-time", "wide", true, fracas_figure_bands},
     {"convergence", "small", true, fracas_figure_convergence},
     {NULL, NULL, false, NULL},
 };

@@ -44,7 +44,7 @@ enum { FRACAS_PAGE_SECTIONS = 16 }; /* at most */
 
 typedef struct {
     const char *id, *title;
-    fracas_page_section *put;
+    fracas_page_section *put; /* NULL: its figures */
 } fracas_page_entry;
 
 /* The page as page->folder/index.html, with the text of its sections, and the PDFs of their
@@ -84,11 +84,11 @@ FRACAS_MUST_USE fracas_err fracas_page_table(fracas_page *page, const char *id, 
 /* ---- the sections ---- */
 
 fracas_page_section fracas_section_summary; /* summary.c */
-fracas_page_section fracas_section_rate, fracas_section_sizes, fracas_section_patterns,
-    fracas_section_surfaces, fracas_section_energies, fracas_section_fits,
-    fracas_section_convergence; /* sections.c */
-fracas_page_section fracas_section_results, fracas_section_slopes, fracas_section_motion,
-    fracas_section_files; /* tables.c */
+fracas_page_section fracas_section_rate, fracas_section_patterns, fracas_section_fits,
+    fracas_section_results, fracas_section_slopes, fracas_section_motion,
+    fracas_section_files; /* sections.c */
+/* The figures of a section: of the study, then point by point. */
+FRACAS_MUST_USE fracas_err fracas_section_figures(fracas_page *page, const char *section);
 
 /* False in a program built without librsvg: then there are no PDFs, and the page says nothing of
  * them. */
@@ -126,6 +126,6 @@ FRACAS_MUST_USE fracas_err fracas_surfaces_any(const fracas_analysis *analysis, 
  * one, at FRACAS_MOMENTS times; a figure a point, each picture also as a file of the folder, with a
  * CSV of the times at which each interface cracked and broke. After some 1.5 million drawn elements
  * it only says how to get the others. */
-FRACAS_MUST_USE fracas_err fracas_surfaces_put(fracas_page *page);
+fracas_page_section fracas_section_surfaces;
 
 #endif

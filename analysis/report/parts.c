@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parts of sections of the page: figures and tables. */
 #include "analysis/report/page.h"
 
 #include "analysis/data/output.h"
@@ -25,13 +24,8 @@ void fracas_page_grid_end(fracas_page *page)
 
 fracas_err fracas_page_drew(fracas_page *page, const char *file)
 {
-    if (page->ndrawings == page->room) {
-        const size_t room = page->room ? 2 * page->room : 16;
-        char(*more)[FRACAS_DRAWING] = realloc(page->drawing, room * sizeof *more);
-        if (!more) return fracas_no_memory("the figures of a report");
-        page->drawing = more;
-        page->room = room;
-    }
+    TRY(fracas_grow(&page->drawing, sizeof *page->drawing, page->ndrawings, &page->room,
+                    "the figures of a report"));
     snprintf(page->drawing[page->ndrawings++], FRACAS_DRAWING, "%s", file);
     return FRACAS_OK;
 }
@@ -57,7 +51,6 @@ void fracas_page_links(fracas_page *page, const char *file, bool drawn, bool csv
     fputs("</span>", page->out);
 }
 
-/* Source of a figure or a table, for citations. */
 static void put_source(fracas_page *page)
 {
     char hash[FRACAS_HASH_HEX];

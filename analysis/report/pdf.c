@@ -126,7 +126,6 @@ static _Noreturn void child(const char *folder, char (*name)[FRACAS_DRAWING], si
 
 /* ---- the parent ---- */
 
-/* Reads the child's message to its end. */
 static void listen_to(int pipe_end, char *message, size_t size)
 {
     size_t used = 0;

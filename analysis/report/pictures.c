@@ -84,13 +84,11 @@ static fracas_err check_record(const making *m, const fracas_record *record)
             m->request->replica, m->request->point, fracas_outcome_name(record->outcome));
     for (size_t k = 0; m->request->time && k < m->request->count; k++) {
         const double time = m->request->time[k];
-        char wanted[48], end[48];
         if (time >= 0 && time <= record->end_time) continue;
-        fracas_surface_time_text(time, false, wanted, sizeof wanted);
-        fracas_surface_time_text(record->end_time, false, end, sizeof end);
         return fracas_fail(FRACAS_USAGE,
-                           "time %s is outside of the realization, which goes from 0 to %s", wanted,
-                           end);
+                           "time %s is outside of the realization, which goes from 0 to %s",
+                           fracas_surface_time(time, false).text,
+                           fracas_surface_time(record->end_time, false).text);
     }
     return FRACAS_OK;
 }
@@ -107,18 +105,18 @@ static fracas_err save_pictures(const making *m, const fracas_broken_surface *su
     else count = fracas_surface_moments(&surface->record, count, time);
     fracas_err err = FRACAS_OK;
     for (size_t k = 0; !err && k < count; k++) {
-        char title[256], text[48], name[128];
-        fracas_surface_time_text(time[k], true, text, sizeof text);
+        char title[256], name[128];
         FRACAS_PRINT(title, "Point %zu, replica %" PRId64 " at %s", request->point,
-                     request->replica, text);
+                     request->replica, fracas_surface_time(time[k], true).text);
         FRACAS_PRINT(name, "surface-point-%zu-replica-%" PRId64 "-%zu.svg", request->point,
                      request->replica, k + 1);
         const fracas_surface_picture picture = {
             title,         request->show,    FRACAS_SURFACE_WIDTH, true,
             request->view, request->explode, surface->thickness};
         err = fracas_broken_surface_save(surface, time[k], &picture, m->folder, name);
-        fracas_surface_time_text(time[k], false, text, sizeof text);
-        if (!err) fprintf(m->out, "%s/%s: %s\n", m->folder, name, text);
+        if (!err)
+            fprintf(m->out, "%s/%s: %s\n", m->folder, name,
+                    fracas_surface_time(time[k], false).text);
     }
     free(time);
     return err;
@@ -132,14 +130,11 @@ static fracas_err say_times(const making *m, const fracas_broken_surface *surfac
     const double at[] = {times.onset, times.broken, fmin(times.through[0], times.through[1])};
     for (int k = 0; k < (fracas_surface_is_flat(&surface->mesh) ? 3 : 2);
          k++) { /* a body in space has no width */
-        char text[48];
-        fracas_surface_time_text(at[k], false, text, sizeof text);
-        fprintf(m->out, "%s: %s\n", what[k], text);
+        fprintf(m->out, "%s: %s\n", what[k], fracas_surface_time(at[k], false).text);
     }
     return FRACAS_OK;
 }
 
-/* One line of times-point-P.csv. */
 static fracas_err put_line(const making *m, const fracas_stored_mesh *mesh, int64_t replica,
                            fracas_record *record, FILE *out)
 {

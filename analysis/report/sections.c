@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sections of figures. */
+/* The sections of figures and tables. */
 #include "analysis/data/output.h"
 #include "analysis/draw/picture.h"
 #include "analysis/export/tables.h"
@@ -17,8 +17,7 @@ static void say_no_rate(const fracas_page *page)
           page->out);
 }
 
-/* The figures of a section: of the study, then point by point. */
-static fracas_err put_figures(fracas_page *page, const char *section)
+fracas_err fracas_section_figures(fracas_page *page, const char *section)
 {
     const size_t npoints = page->analysis->table->npoints;
     fracas_chart chart;
@@ -39,12 +38,7 @@ static fracas_err put_figures(fracas_page *page, const char *section)
 fracas_err fracas_section_rate(fracas_page *page)
 {
     say_no_rate(page);
-    return put_figures(page, "rate");
-}
-
-fracas_err fracas_section_sizes(fracas_page *page)
-{
-    return put_figures(page, "sizes");
+    return fracas_section_figures(page, "mean-size");
 }
 
 static fracas_err write_pattern(fracas_page *page, const fracas_picture *picture)
@@ -84,21 +78,6 @@ fracas_err fracas_section_patterns(fracas_page *page)
     return FRACAS_OK;
 }
 
-fracas_err fracas_section_surfaces(fracas_page *page)
-{
-    return fracas_surfaces_put(page);
-}
-
-fracas_err fracas_section_energies(fracas_page *page)
-{
-    return put_figures(page, "energies");
-}
-
-fracas_err fracas_section_convergence(fracas_page *page)
-{
-    return put_figures(page, "convergence");
-}
-
 static void put_of_point(const fracas_page *page, size_t p, const char *text)
 {
     const fracas_label label = fracas_analysis_label(page->analysis, p);
@@ -106,7 +85,6 @@ static void put_of_point(const fracas_page *page, size_t p, const char *text)
     fracas_markup(page->out, "%s: %s.</p>\n", label.text, text);
 }
 
-/* Points where some realizations are of one piece, which the fits leave out. */
 static void put_whole_bodies(const fracas_page *page)
 {
     for (size_t p = 0; p < page->analysis->table->npoints; p++) {
@@ -153,7 +131,6 @@ fracas_err fracas_section_fits(fracas_page *page)
     return FRACAS_OK;
 }
 
-/* How the replicas were decided, where they were not given. */
 static void put_decisions(const fracas_page *page)
 {
     char text[512];
@@ -170,7 +147,6 @@ static void put_decisions(const fracas_page *page)
     if (any) fputs("</ul>\n", page->out);
 }
 
-/* Parameters missing in the table. */
 static void put_beside(const fracas_page *page)
 {
     char text[768];
@@ -189,27 +165,24 @@ fracas_err fracas_section_results(fracas_page *page)
     return FRACAS_OK;
 }
 
+static fracas_err put_side_table(fracas_page *page, fracas_side_table_name name)
+{
+    const fracas_side_table *of = &fracas_side_tables[name];
+    fracas_result_table table = {0};
+    const fracas_err built = fracas_side_table_create(page->analysis, name, true, &table);
+    return fracas_page_table(page, of->id, of->title, true, &table, of->legend, built);
+}
+
 fracas_err fracas_section_slopes(fracas_page *page)
 {
-    fracas_result_table table = {0};
-    const fracas_err built = fracas_slope_table_create(page->analysis, true, &table);
-    TRY(fracas_page_table(page, "slopes", "Slope of log(mean size) against log(strain rate)", true,
-                          &table, fracas_slope_table_legend, built));
-    const fracas_err windows = fracas_window_table_create(page->analysis, true, &table);
-    TRY(fracas_page_table(page, "windows", "Slope from each strain rate to the next", true, &table,
-                          fracas_window_table_legend, windows));
-    const fracas_err crossovers = fracas_crossover_table_create(page->analysis, true, &table);
-    return fracas_page_table(page, "crossovers",
-                             "Crossover from the quasi-static to the dynamic regime", true, &table,
-                             fracas_crossover_table_legend, crossovers);
+    TRY(put_side_table(page, FRACAS_SLOPES));
+    TRY(put_side_table(page, FRACAS_WINDOWS));
+    return put_side_table(page, FRACAS_CROSSOVERS);
 }
 
 fracas_err fracas_section_motion(fracas_page *page)
 {
-    fracas_result_table table = {0};
-    const fracas_err built = fracas_motion_table_create(page->analysis, true, &table);
-    return fracas_page_table(page, "motion", "Velocities of the fragments of rings at the end",
-                             true, &table, fracas_motion_table_legend, built);
+    return put_side_table(page, FRACAS_MOTION);
 }
 
 fracas_err fracas_section_files(fracas_page *page)

@@ -68,7 +68,6 @@ static void values_of(const fracas_point_table *table, size_t c, char *text, siz
     else numbers_of(table, c, text, size);
 }
 
-/* All parameters whose path begins with `prefix`, on one line. */
 static void put_parameters(const fracas_page *page, const char *term, const char *prefix)
 {
     const fracas_point_table *table = page->analysis->table;
@@ -187,7 +186,6 @@ static fracas_err put_headlines(fracas_page *page)
                              (const char *const[]){legend, NULL}, built);
 }
 
-/* The slope of all points, and whether they are on one line at all. */
 static fracas_err put_slope(const fracas_page *page)
 {
     fracas_size_slope *list;
@@ -198,9 +196,8 @@ static fracas_err put_slope(const fracas_page *page)
         const fracas_estimate k = {
             .n = slope->n, .mean = slope->slope, .half_width = slope->half_width};
         const double scatter = slope->chi2 / slope->freedom;
-        char value[64], times[32];
+        char value[64];
         fracas_format_estimate(&k, 1, "\u00b1", value, sizeof value);
-        fracas_format_digits(sqrt(scatter), 2, times, sizeof times);
         fprintf(page->out,
                 "<p>Over %" PRId64 " points the mean size goes with the strain rate to the power "
                 "%s (Mott: -1, Grady: -2/3)",
@@ -209,7 +206,7 @@ static fracas_err put_slope(const fracas_page *page)
             fprintf(page->out,
                     ", but they are not on one line: their scatter about it is %s times what their "
                     "errors explain (<a href=\"#slopes\">slopes</a>)",
-                    times);
+                    fracas_digits(sqrt(scatter), 2).text);
         fputs(".</p>\n", page->out);
     }
     free(list);
@@ -237,7 +234,6 @@ static fracas_err put_crossover(const fracas_page *page)
     return FRACAS_OK;
 }
 
-/* The worst known mean count. */
 static void put_precision(const fracas_page *page)
 {
     const fracas_analysis *analysis = page->analysis;
@@ -251,10 +247,9 @@ static void put_precision(const fracas_page *page)
         worst = p;
     }
     if (worst == SIZE_MAX) return;
-    char value[32];
     const fracas_label label = fracas_analysis_label(analysis, worst);
-    fracas_format_digits(100 * part, 2, value, sizeof value);
-    fprintf(page->out, "<p>The mean number of fragments is known to \u00b1 %s %% or better", value);
+    fprintf(page->out, "<p>The mean number of fragments is known to \u00b1 %s %% or better",
+            fracas_digits(100 * part, 2).text);
     if (analysis->table->npoints > 1) {
         fracas_markup(page->out, ", of the points with two replicas or more (the least well: %s",
                       label.text);

@@ -83,11 +83,10 @@ static double explode_of(const fracas_stored_mesh *mesh)
 static fracas_err put_moment(const gallery *to, const fracas_broken_surface *surface, size_t p,
                              size_t k, double time)
 {
-    char title[256], moment[48], name[64], file[80];
-    fracas_surface_time_text(time, true, moment, sizeof moment);
+    char title[256], name[64], file[80];
     const fracas_label label = fracas_analysis_label(to->page->analysis, p);
-    FRACAS_PRINT(title, "Broken surface at %s%s%.159s", moment, *label.text ? ": " : "",
-                 label.text);
+    FRACAS_PRINT(title, "Broken surface at %s%s%.159s", fracas_surface_time(time, true).text,
+                 *label.text ? ": " : "", label.text);
     FRACAS_PRINT(name, "surface-point-%zu-%zu", p, k + 1);
     FRACAS_PRINT(file, "%s.svg", name);
     TRY(fracas_page_drew(to->page, name));
@@ -122,9 +121,7 @@ static fracas_err write_caption(const fracas_broken_surface *surface, int64_t re
              broken ? "the first that ended FRAGMENTED"
                     : "of typical dissipated energy, for none ended FRAGMENTED");
     for (int k = 0; k < (flat ? 3 : 2); k++) {
-        char moment[48];
-        fracas_surface_time_text(at[k], true, moment, sizeof moment);
-        fracas_append(text, size, "; ", "%s: %s", what[k], moment);
+        fracas_append(text, size, "; ", "%s: %s", what[k], fracas_surface_time(at[k], true).text);
     }
     fracas_append(text, size, ".", "%s", flat ? "" : " Seen from the direction (1, 1, 1)");
     if (explode_of(&surface->mesh) > 0)
@@ -209,7 +206,7 @@ static void say_later(const fracas_page *page)
           page->out);
 }
 
-fracas_err fracas_surfaces_put(fracas_page *page)
+fracas_err fracas_section_surfaces(fracas_page *page)
 {
     bool any;
     gallery to = {page, 0};

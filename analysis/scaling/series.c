@@ -31,7 +31,6 @@ static bool same_scales(const fracas_scales *a, const fracas_scales *b)
     return a->size == b->size && a->rate == b->rate;
 }
 
-/* The points of the series of point `first`. */
 static fracas_err gather(const fracas_analysis *analysis, const fracas_columns *others,
                          size_t first, fracas_size_series *series)
 {

@@ -78,7 +78,6 @@ static fracas_err add_history(void *context, fracas_result *result)
     return FRACAS_OK;
 }
 
-/* The energies over time of each point's realizations together, and of its typical replica. */
 static fracas_err read_histories(fracas_analysis *analysis)
 {
     fracas_bands none = {0};
@@ -219,17 +218,15 @@ bool fracas_analysis_decided(const fracas_analysis *analysis, size_t point, char
 {
     const fracas_decision *last = fracas_analysis_decision(analysis, point);
     if (!last) return false;
-    char found[32];
     const fracas_label label = fracas_analysis_label(analysis, point);
-    fracas_format_beside(100 * fracas_decision_relative(last), 100 * last->relative_half_width,
-                         found, sizeof found);
-    snprintf(text, size,
-             "%s%s%lld replicas in %lld round%s: half width of the %.4g %% interval of %s %s %%, "
-             "%.3g %% asked for%s",
-             label.text, *label.text ? ": " : "", (long long)last->replicas,
-             (long long)last->round + 1, last->round ? "s" : "", 100 * last->confidence,
-             fracas_analysis_quantity(last), found, 100 * last->relative_half_width,
-             last->stop == 2 ? " (maximum)" : "");
+    snprintf(
+        text, size,
+        "%s%s%lld replicas in %lld round%s: half width of the %.4g %% interval of %s %s %%, "
+        "%.3g %% asked for%s",
+        label.text, *label.text ? ": " : "", (long long)last->replicas, (long long)last->round + 1,
+        last->round ? "s" : "", 100 * last->confidence, fracas_analysis_quantity(last),
+        fracas_beside(100 * fracas_decision_relative(last), 100 * last->relative_half_width).text,
+        100 * last->relative_half_width, last->stop == 2 ? " (maximum)" : "");
     return true;
 }
 

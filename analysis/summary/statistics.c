@@ -172,7 +172,6 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
                                    : NAN;
 }
 
-/* Mean size of the fragments of one realization. */
 static double mean_size(const fracas_point_statistics *statistics, const fracas_record *record)
 {
     if (!statistics->surface) return statistics->length / (double)record->fragments;
@@ -272,7 +271,6 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
     return FRACAS_OK;
 }
 
-/* All fragments of the point, whichever realization they are of. */
 static fracas_err pool(fracas_point_statistics *statistics)
 {
     const fracas_ensemble *ensemble = &statistics->ensemble;

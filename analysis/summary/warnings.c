@@ -16,7 +16,6 @@ static const fracas_field fields[] = {
 };
 const fracas_fields fracas_warning_fields = FRACAS_FIELDS(fields);
 
-/* Beyond these a number is shown with a warning. */
 static const double residual_limit = 1e-3; /* for the dissipated energy */
 static const double created_limit = 1e-2;  /* for the dissipated energy */
 static const double elements_limit = 10;   /* elements of a mean fragment */
@@ -68,28 +67,25 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
 {
     if (statistics->usable == 0) warn(list, p, "no usable realization");
     warn_of_outcomes(statistics, p, list);
-    char value[32];
     if (statistics->residual > residual_limit) {
-        fracas_format_digits(statistics->residual, 2, value, sizeof value);
         warn(
             list, p,
             "ledger residual up to %s of the dissipated energy (more than 1e-3): lower time.safety",
-            value);
+            fracas_digits(statistics->residual, 2).text);
     }
     if (statistics->drifted > 0) {
-        fracas_format_digits(100 * statistics->drift, 2, value, sizeof value);
         warn(list, p,
              "energy drift above 1 %%: %lld of %lld usable realizations, their |residual| up to %s "
              "%% of their largest energy: lower time.safety (above 5 %% during its run a "
              "realization ends ENERGY_DRIFT)",
-             (long long)statistics->drifted, (long long)statistics->usable, value);
+             (long long)statistics->drifted, (long long)statistics->usable,
+             fracas_digits(100 * statistics->drift, 2).text);
     }
     if (statistics->created > created_limit) {
-        fracas_format_digits(statistics->created, 2, value, sizeof value);
         warn(list, p,
              "energy created at breaks up to %s of the dissipated energy (more than 1e-2): refine "
              "the mesh or raise cohesive.beta",
-             value);
+             fracas_digits(statistics->created, 2).text);
     }
     if (statistics->elements < elements_limit)
         warn(list, p, "a mean fragment has %.1f elements (fewer than 10): refine the mesh",
@@ -116,11 +112,9 @@ static void warn_of_convergence(const fracas_point_statistics *statistics, size_
     for (int h = 0; h < FRACAS_NHEADLINES; h++) {
         const fracas_settling *number = &all->number[h];
         if (of->converged[h] || !isfinite(number->value)) continue;
-        char width[32];
         const double relative = 0.5 * (number->high - number->low) / fabs(number->value);
-        fracas_format_digits(number->high > number->low ? 100 * relative : 0, 2, width,
-                             sizeof width);
-        fracas_append(text, sizeof text, ", ", "%s to %s %%%s", fracas_headline_key[h], width,
+        fracas_append(text, sizeof text, ", ", "%s to %s %%%s", fracas_headline_key[h],
+                      fracas_digits(number->high > number->low ? 100 * relative : 0, 2).text,
                       fracas_replica_convergence_drifts(of, (fracas_headline)h) ? " (drifts)"
                       : fracas_settling_alike(number)                           ? " (all alike)"
                                                                                 : "");
@@ -140,24 +134,20 @@ static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning
     const double dissipated = bands->energy[last][FRACAS_BAND_dissipated].mean;
     const double rise = dissipated - bands->energy[before][FRACAS_BAND_dissipated].mean;
     if (!(rise > rise_limit * dissipated)) return;
-    char value[32];
-    fracas_format_digits(100 * rise / dissipated, 2, value, sizeof value);
     warn(list, p,
          "bodies were still breaking at time.end: %s %% of the energy was dissipated in the last "
          "tenth of the time (more than 1 %%): raise time.end",
-         value);
+         fracas_digits(100 * rise / dissipated, 2).text);
 }
 
 static void warn_of_decision(const fracas_decision *last, size_t p, warning_list *list)
 {
     if (!last || last->stop != 2) return;
-    char found[32];
-    fracas_format_beside(100 * fracas_decision_relative(last), 100 * last->relative_half_width,
-                         found, sizeof found);
     warn(list, p,
          "at the maximum of %lld replicas %s is known to %s %%, not to the %.3g %% asked for: "
          "raise replicas.maximum",
-         (long long)last->maximum, fracas_analysis_quantity(last), found,
+         (long long)last->maximum, fracas_analysis_quantity(last),
+         fracas_beside(100 * fracas_decision_relative(last), 100 * last->relative_half_width).text,
          100 * last->relative_half_width);
 }
 

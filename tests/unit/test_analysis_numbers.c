@@ -122,14 +122,10 @@ static void numbers_as_text(void **state)
     assert_string_equal(text, "2.0e-3");
     fracas_format_digits(2058.7, 4, text, sizeof text);
     assert_string_equal(text, "2059");
-    fracas_format_beside(0.893, 1, text, sizeof text);
-    assert_string_equal(text, "0.89");
-    fracas_format_beside(1.002, 1, text, sizeof text);
-    assert_string_equal(text, "1.002");
-    fracas_format_beside(1, 1, text, sizeof text);
-    assert_string_equal(text, "1.0");
-    fracas_format_beside(NAN, 1, text, sizeof text);
-    assert_string_equal(text, "-");
+    assert_string_equal(fracas_beside(0.893, 1).text, "0.89");
+    assert_string_equal(fracas_beside(1.002, 1).text, "1.002");
+    assert_string_equal(fracas_beside(1, 1).text, "1.0");
+    assert_string_equal(fracas_beside(NAN, 1).text, "-");
 }
 
 static void prefixes(void **state)

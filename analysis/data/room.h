@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Arrays of one purpose, freed together. */
+#ifndef FRACAS_ANALYSIS_DATA_ROOM_H
+#define FRACAS_ANALYSIS_DATA_ROOM_H
+
+#include "base/err.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { FRACAS_ROOM_BLOCKS = 12 };
+
+typedef struct {
+    void *block[FRACAS_ROOM_BLOCKS];
+    size_t count;
+    bool lacking; /* some array could not be had */
+} fracas_room;    /* {0}: without arrays */
+
+/* Zeroed array of count + 1 elements; NULL without memory, and `lacking` is set. At most
+ * FRACAS_ROOM_BLOCKS of them. */
+void *fracas_room_array(fracas_room *room, size_t count, size_t size);
+#define FRACAS_TAKE(room, array, count) ((array) = fracas_room_array(room, count, sizeof *(array)))
+
+/* FRACAS_ENVIRONMENT with "no memory for <purpose>" if an array is lacking. */
+FRACAS_MUST_USE fracas_err fracas_room_check(const fracas_room *room, const char *what);
+void fracas_room_clear(fracas_room *room);
+
+#endif
