@@ -62,8 +62,8 @@ static void fill_bulk(const fracas_model *model, size_t e, double xi, double eta
     fracas_shell_geometry here;
     fracas_shell_geometry_at(model->surface, e, xi, eta, &here);
     for (int a = 0; a < 2; a++) {
-        c[a][0] = bulk[SHELL_XI_X + 2 * a] = fracas_shell_dot(here.dual[a], here.x);
-        c[a][1] = bulk[SHELL_XI_Y + 2 * a] = fracas_shell_dot(here.dual[a], here.y);
+        c[a][0] = bulk[SURFACE_XI_X + 2 * a] = fracas_shell_dot(here.dual[a], here.x);
+        c[a][1] = bulk[SURFACE_XI_Y + 2 * a] = fracas_shell_dot(here.dual[a], here.y);
     }
     for (int i = 0; i < 3; i++) {
         bulk[SHELL_X + i] = here.x[i];
@@ -80,7 +80,7 @@ static void fill_bulk(const fracas_model *model, size_t e, double xi, double eta
                          of[ij][b] * fracas_shell_dot(here.second[b], here.dual[a]);
             }
         }
-    bulk[SHELL_WEIGHT] = weight * here.area;
+    bulk[SURFACE_WEIGHT] = weight * here.area;
 }
 
 /* One side of an edge at a point where the edge runs along `tangent`: its normal in the surface, n

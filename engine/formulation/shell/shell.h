@@ -9,21 +9,16 @@
  * layers of the thickness. */
 enum { SHELL_NODES = 6, SHELL_UNKNOWNS = 18, SHELL_BULK = 3, SHELL_EDGE = 3, SHELL_LAYERS = 3 };
 
-/* Of a bulk point, in the orthonormal frame x, y, t of the surface there  (shell.2): derivatives of
- * xi, eta along x, y; the frame; the bending strains xx, yy, 2 xy by t . u,xixi, t . u,etaeta, t .
- * u,xieta and by t . u,xi, t . u,eta  (shell.4); the weight: area times quadrature weight [m2]. */
+/* Of a bulk point, after its head, whose x, y are those of the orthonormal frame x, y, t of the
+ * surface there  (shell.2): the frame; the bending strains xx, yy, 2 xy by t . u,xixi, t .
+ * u,etaeta, t . u,xieta and by t . u,xi, t . u,eta  (shell.4). */
 enum {
-    SHELL_XI_X,
-    SHELL_XI_Y,
-    SHELL_ETA_X,
-    SHELL_ETA_Y,
-    SHELL_X,
+    SHELL_X = SURFACE_BULK_HEAD,
     SHELL_Y = SHELL_X + 3,
     SHELL_T = SHELL_Y + 3,
     SHELL_SECOND = SHELL_T + 3,
     SHELL_FIRST = SHELL_SECOND + 9,
-    SHELL_WEIGHT = SHELL_FIRST + 6,
-    SHELL_BULK_TABLE
+    SHELL_BULK_TABLE = SHELL_FIRST + 6
 };
 
 /* Of an interface: after its head, the stiffness against shearing off [Pa]; then of

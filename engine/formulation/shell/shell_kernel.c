@@ -4,8 +4,8 @@
 #define BODY_DIMENSION 3
 #define BODY_STRESSES 6
 #define BODY_LAYERS 3
-#define BODY_LINEAR 0
-#define BODY_CONSISTENT 0
+#define BODY_PLANE 0
+#define BODY_BULK_TABLE SHELL_BULK_TABLE
 #define BODY_TAKES(bar, ring, membrane, shell, ...) FRACAS_IF_##shell(__VA_ARGS__)
 #define BODY_HEAD SHELL_POINTS
 #define BODY_POINT_TABLE SHELL_POINT_TABLE
@@ -24,16 +24,6 @@ typedef struct {
     vd carried_u[2], carried_t[2]; /* what the flux carries of the jumps [m], [1] */
 } shell_point;
 
-/* Sums over the layers of a Gauss point. */
-typedef struct {
-    vmask cracked; /* some layer is past onset: the rest holds */
-    vd n[2], m[2], carried_u[2], carried_t[2];
-    vd flux, stored, dissipated, created, rubbed; /* [J/m]; the last two: in this step */
-    vd spent, spent_bending; /* dissipated in this step, and its share by bending [J/m] */
-    vmask broken;            /* all of them */
-    vmask whole;             /* none was past its onset before this step */
-} shell_layers;
-
 LANES_FUNCTION vd shell_dot(const double *a, const vd *b)
 {
     return lanes_set(a[0]) * b[0] + lanes_set(a[1]) * b[1] + lanes_set(a[2]) * b[2];
@@ -42,20 +32,6 @@ LANES_FUNCTION vd shell_dot(const double *a, const vd *b)
 LANES_FUNCTION void shell_load(const double *from, vd u[SHELL_UNKNOWNS])
 {
     UNROLL_FOR (int i = 0; i < SHELL_UNKNOWNS; i++) u[i] = lanes_load(from + i * LANES);
-}
-
-/* ---- loads: none beside held edges ---- */
-
-LANES_FUNCTION void shell_begin(surface_context *c)
-{
-    (void)c;
-}
-
-LANES_FUNCTION vd shell_work(const surface_context *c, vd *power)
-{
-    (void)c;
-    (void)power;
-    return lanes_set(0.0);
 }
 
 /* ---- sides of interfaces and rims ---- */
@@ -78,7 +54,6 @@ LANES_FUNCTION vd shell_turn(const double *side, const vd u[SHELL_UNKNOWNS])
 LANES_FUNCTION void shell_resultants(const double *slot, const int node[3], const double *table,
                                      size_t stride, vd of[SHELL_EDGE][4])
 {
-    static const double edge_point[3] = FRACAS_EDGE_POINTS_2;
     const double *a = slot + node[0] * SHELL_RESULTANTS * LANES,
                  *b = slot + node[1] * SHELL_RESULTANTS * LANES;
     const double *o = slot + (3 - node[0] - node[1]) * SHELL_RESULTANTS * LANES;
@@ -87,7 +62,7 @@ LANES_FUNCTION void shell_resultants(const double *slot, const int node[3], cons
         const vd first = lanes_load(a + j * LANES), last = lanes_load(b + j * LANES);
         const vd half_way = lanes_set(2.0 / 3) * (first + last) -
                             lanes_set(1.0 / 3) * lanes_load(o + j * LANES);
-        const vd off = lanes_set(2 * edge_point[2] - 1) * (last - first);
+        const vd off = lanes_set(2 * surface_edge_point[1][2] - 1) * (last - first);
         at[0][j] = half_way - off;
         at[1][j] = half_way;
         at[2][j] = half_way + off;
@@ -109,7 +84,6 @@ LANES_FUNCTION void shell_resultants(const double *slot, const int node[3], cons
 LANES_FUNCTION void shell_give_side(const double *table, size_t stride, double *slot,
                                     const int node[3], const vd *turned, vd (*work)[4])
 {
-    static const double edge_point[3] = FRACAS_EDGE_POINTS_2;
     const vd zero = lanes_set(0.0);
     vd force[SHELL_UNKNOWNS], strain[SHELL_EDGE][SHELL_RESULTANTS];
     UNROLL_FOR (int i = 0; i < SHELL_UNKNOWNS; i++) force[i] = zero;
@@ -131,18 +105,16 @@ LANES_FUNCTION void shell_give_side(const double *table, size_t stride, double *
         }
     }
     double *forces = surface_at(slot, BODY_SLOT_FORCE(2));
-    UNROLL_FOR (int i = 0; i < SHELL_UNKNOWNS; i++)
-        lanes_store(surface_at(forces, i), lanes_load(surface_at(forces, i)) + force[i]);
+    UNROLL_FOR (int i = 0; i < SHELL_UNKNOWNS; i++) surface_add(surface_at(forces, i), force[i]);
     const int bulk[3] = {node[0], node[1], 3 - node[0] - node[1]};
     UNROLL_FOR (int j = 0; j < SHELL_RESULTANTS; j++) { /* as resultants are read */
         const vd sum = strain[0][j] + strain[1][j] + strain[2][j],
-                 off = lanes_set(2 * edge_point[2] - 1) * (strain[2][j] - strain[0][j]);
+                 off = lanes_set(2 * surface_edge_point[1][2] - 1) * (strain[2][j] - strain[0][j]);
         const vd share = lanes_set(2.0 / 3) * sum,
                  extra[3] = {share - off, share + off, lanes_set(-1.0 / 3) * sum};
-        UNROLL_FOR (int p = 0; p < 3; p++) {
-            double *to = surface_at(slot, BODY_SLOT_EXTRA(2) + SHELL_RESULTANTS * bulk[p] + j);
-            lanes_store(to, lanes_load(to) + extra[p]);
-        }
+        UNROLL_FOR (int p = 0; p < 3; p++)
+            surface_add(surface_at(slot, BODY_SLOT_EXTRA(2) + SHELL_RESULTANTS * bulk[p] + j),
+                        extra[p]);
     }
 }
 
@@ -176,96 +148,59 @@ LANES_FUNCTION void shell_rim(surface_context *c, int order, size_t r, const dou
 
 /* ---- elements ---- */
 
-/* Resultants and energy of element e, of displacements `at` (shell.4); the rest of its slot is
- * cleared, then its rims act. */
+static const double shell_second[3][6] = FRACAS_TRIANGLE_SECOND_2;
+
+/* (shell.4) */
 LANES_FUNCTION void shell_strain(surface_context *c, int order, size_t e, double *at, double *slot)
 {
-    static const double shape[3][6][2] = FRACAS_TRIANGLE_DERIVATIVES_2,
-                        second[3][6] = FRACAS_TRIANGLE_SECOND_2;
-    const vd zero = lanes_set(0.0);
-    const fracas_surface_constants *s = c->constants;
-    const double *bulk = c->tables->bulk + e * (size_t)(SHELL_BULK * SHELL_BULK_TABLE);
-    const vd c11 = lanes_set(s->c11), c12 = lanes_set(s->c12), c33 = lanes_set(s->c33);
-    const vd d11 = lanes_set(s->d11), d12 = lanes_set(s->d12), d33 = lanes_set(s->d33);
+    const double *bulk = surface_bulk(c, 2, e);
     vd u[SHELL_UNKNOWNS], bent[3][3];
     shell_load(at, u);
     UNROLL_FOR (int b = 0; b < 3; b++)
         UNROLL_FOR (int i = 0; i < 3; i++) {
-            bent[b][i] = zero;
+            bent[b][i] = lanes_set(0.0);
             UNROLL_FOR (int k = 0; k < SHELL_NODES; k++)
-                if (second[b][k] != 0.0) bent[b][i] += lanes_set(second[b][k]) * u[3 * k + i];
+                if (shell_second[b][k] != 0.0)
+                    bent[b][i] += lanes_set(shell_second[b][k]) * u[3 * k + i];
         }
-    UNROLL_FOR (int g = 0; g < SHELL_BULK; g++, bulk += SHELL_BULK_TABLE) {
-        vd by_xi[3], by_eta[3], by_x[3], by_y[3];
-        UNROLL_FOR (int i = 0; i < 3; i++) {
-            by_xi[i] = by_eta[i] = zero;
-            UNROLL_FOR (int k = 0; k < SHELL_NODES; k++) {
-                if (shape[g][k][0] != 0.0) by_xi[i] += lanes_set(shape[g][k][0]) * u[3 * k + i];
-                if (shape[g][k][1] != 0.0) by_eta[i] += lanes_set(shape[g][k][1]) * u[3 * k + i];
-            }
-            by_x[i] = lanes_set(bulk[SHELL_XI_X]) * by_xi[i] +
-                      lanes_set(bulk[SHELL_ETA_X]) * by_eta[i];
-            by_y[i] = lanes_set(bulk[SHELL_XI_Y]) * by_xi[i] +
-                      lanes_set(bulk[SHELL_ETA_Y]) * by_eta[i];
-        }
-        const vd xx = shell_dot(bulk + SHELL_X, by_x), yy = shell_dot(bulk + SHELL_Y, by_y);
-        const vd xy = shell_dot(bulk + SHELL_X, by_y) + shell_dot(bulk + SHELL_Y, by_x);
-        const vd out[5] = {shell_dot(bulk + SHELL_T, bent[0]), shell_dot(bulk + SHELL_T, bent[1]),
-                           shell_dot(bulk + SHELL_T, bent[2]), shell_dot(bulk + SHELL_T, by_xi),
-                           shell_dot(bulk + SHELL_T, by_eta)};
-        vd rho[3];
+    UNROLL_FOR (int g = 0; g < SHELL_BULK; g++, bulk += BODY_BULK_TABLE) {
+        const double *x = bulk + SHELL_X, *y = bulk + SHELL_Y, *t = bulk + SHELL_T;
+        vd by[4][3], r[SHELL_RESULTANTS];
+        surface_gradient(2, g, bulk, u, by);
+        const vd out[5] = {shell_dot(t, bent[0]), shell_dot(t, bent[1]), shell_dot(t, bent[2]),
+                           shell_dot(t, by[0]), shell_dot(t, by[1])};
+        vd strain[SHELL_RESULTANTS] = {shell_dot(x, by[2]), shell_dot(y, by[3]),
+                                       shell_dot(x, by[3]) + shell_dot(y, by[2])};
         UNROLL_FOR (int ij = 0; ij < 3; ij++) {
-            rho[ij] = shell_dot(bulk + SHELL_SECOND + 3 * ij, out);
-            rho[ij] += lanes_set(bulk[SHELL_FIRST + 2 * ij]) * out[3] +
-                       lanes_set(bulk[SHELL_FIRST + 2 * ij + 1]) * out[4];
+            strain[3 + ij] = shell_dot(bulk + SHELL_SECOND + 3 * ij, out);
+            strain[3 + ij] += lanes_set(bulk[SHELL_FIRST + 2 * ij]) * out[3] +
+                              lanes_set(bulk[SHELL_FIRST + 2 * ij + 1]) * out[4];
         }
-        const vd resultant[SHELL_RESULTANTS] = {
-            c11 * xx + c12 * yy,         c12 * xx + c11 * yy,         c33 * xy,
-            d11 * rho[0] + d12 * rho[1], d12 * rho[0] + d11 * rho[1], d33 * rho[2]};
-        c->strain_energy +=
-            lanes_set(bulk[SHELL_WEIGHT]) *
-            ((resultant[0] * xx + resultant[1] * yy + resultant[2] * xy) +
-             (resultant[3] * rho[0] + resultant[4] * rho[1] + resultant[5] * rho[2]));
+        surface_elastic(c->constants, strain, r);
+        c->strain_energy += lanes_set(bulk[SURFACE_WEIGHT]) *
+                            ((r[0] * strain[0] + r[1] * strain[1] + r[2] * strain[2]) +
+                             (r[3] * strain[3] + r[4] * strain[4] + r[5] * strain[5]));
         UNROLL_FOR (int i = 0; i < SHELL_RESULTANTS; i++)
-            lanes_store(surface_at(slot, SHELL_RESULTANTS * g + i), resultant[i]);
+            lanes_store(surface_at(slot, SHELL_RESULTANTS * g + i), r[i]);
     }
-    UNROLL_FOR (int i = BODY_SLOT_EXTRA(2); i < BODY_SLOT(2); i++)
-        lanes_store(surface_at(slot, i), zero);
     for (size_t rim = c->tables->rim_from[e]; rim < c->tables->rim_from[e + 1]; rim++)
         shell_rim(c, order, rim, at, slot);
 }
 
-/* Internal forces of element e: its own, what symmetrisation adds to its resultants, and its
- * interfaces'  (shell.10). */
-LANES_FUNCTION void shell_forces(const surface_context *c, int order, size_t e, vd *force)
+/* (shell.10) */
+LANES_FUNCTION void shell_forces(const surface_context *c, int order, size_t e, double *slot,
+                                 vd *force)
 {
-    static const double shape[3][6][2] = FRACAS_TRIANGLE_DERIVATIVES_2,
-                        second[3][6] = FRACAS_TRIANGLE_SECOND_2;
-    const fracas_surface_constants *s = c->constants;
-    double *slot = surface_slot(c, order, e);
-    const double *bulk = c->tables->bulk + e * (size_t)(SHELL_BULK * SHELL_BULK_TABLE);
-    const vd c11 = lanes_set(s->c11), c12 = lanes_set(s->c12), c33 = lanes_set(s->c33);
-    const vd d11 = lanes_set(s->d11), d12 = lanes_set(s->d12), d33 = lanes_set(s->d33);
+    const double *bulk = surface_bulk(c, 2, e);
     vd bent[3][3];
-    shell_load(surface_at(slot, BODY_SLOT_FORCE(2)), force);
+    (void)order;
     UNROLL_FOR (int b = 0; b < 3; b++)
         UNROLL_FOR (int i = 0; i < 3; i++) bent[b][i] = lanes_set(0.0);
-    UNROLL_FOR (int g = 0; g < SHELL_BULK; g++, bulk += SHELL_BULK_TABLE) {
-        vd r[SHELL_RESULTANTS], x[SHELL_RESULTANTS];
-        const vd weight = lanes_set(bulk[SHELL_WEIGHT]);
-        UNROLL_FOR (int j = 0; j < SHELL_RESULTANTS; j++) {
-            r[j] = weight * lanes_load(surface_at(slot, SHELL_RESULTANTS * g + j));
-            x[j] = lanes_load(surface_at(slot, BODY_SLOT_EXTRA(2) + SHELL_RESULTANTS * g + j));
-        }
-        r[0] += c11 * x[0] + c12 * x[1];
-        r[1] += c12 * x[0] + c11 * x[1];
-        r[2] += c33 * x[2];
-        r[3] += d11 * x[3] + d12 * x[4];
-        r[4] += d12 * x[3] + d11 * x[4];
-        r[5] += d33 * x[5];
-        const vd xi_x = lanes_set(bulk[SHELL_XI_X]), xi_y = lanes_set(bulk[SHELL_XI_Y]);
-        const vd eta_x = lanes_set(bulk[SHELL_ETA_X]), eta_y = lanes_set(bulk[SHELL_ETA_Y]);
-        vd by_second[3], by_first[2];
+    UNROLL_FOR (int g = 0; g < SHELL_BULK; g++, bulk += BODY_BULK_TABLE) {
+        const vd xi_x = lanes_set(bulk[SURFACE_XI_X]), xi_y = lanes_set(bulk[SURFACE_XI_Y]);
+        const vd eta_x = lanes_set(bulk[SURFACE_ETA_X]), eta_y = lanes_set(bulk[SURFACE_ETA_Y]);
+        vd r[SHELL_RESULTANTS], by_second[3], by_first[2], xi[3], eta[3];
+        surface_stresses(c, 2, g, bulk, slot, r);
         UNROLL_FOR (int b = 0; b < 3; b++)
             by_second[b] = lanes_set(bulk[SHELL_SECOND + b]) * r[3] +
                            lanes_set(bulk[SHELL_SECOND + 3 + b]) * r[4] +
@@ -277,21 +212,18 @@ LANES_FUNCTION void shell_forces(const surface_context *c, int order, size_t e, 
         UNROLL_FOR (int i = 0; i < 3; i++) {
             const vd x_i = lanes_set(bulk[SHELL_X + i]), y_i = lanes_set(bulk[SHELL_Y + i]),
                      t_i = lanes_set(bulk[SHELL_T + i]);
-            const vd along_x = r[0] * x_i + r[2] * y_i, along_y = r[2] * x_i + r[1] * y_i;
-            const vd along_xi = xi_x * along_x + xi_y * along_y + t_i * by_first[0];
-            const vd along_eta = eta_x * along_x + eta_y * along_y + t_i * by_first[1];
+            const vd x = r[0] * x_i + r[2] * y_i, y = r[2] * x_i + r[1] * y_i;
+            xi[i] = xi_x * x + xi_y * y + t_i * by_first[0];
+            eta[i] = eta_x * x + eta_y * y + t_i * by_first[1];
             UNROLL_FOR (int b = 0; b < 3; b++) bent[b][i] += t_i * by_second[b];
-            UNROLL_FOR (int k = 0; k < SHELL_NODES; k++) {
-                if (shape[g][k][0] != 0.0) force[3 * k + i] += lanes_set(shape[g][k][0]) * along_xi;
-                if (shape[g][k][1] != 0.0)
-                    force[3 * k + i] += lanes_set(shape[g][k][1]) * along_eta;
-            }
         }
+        surface_spread(2, g, xi, eta, force);
     }
     UNROLL_FOR (int b = 0; b < 3; b++)
         UNROLL_FOR (int k = 0; k < SHELL_NODES; k++)
             UNROLL_FOR (int i = 0; i < 3; i++)
-                if (second[b][k] != 0.0) force[3 * k + i] += lanes_set(second[b][k]) * bent[b][i];
+                if (shell_second[b][k] != 0.0)
+                    force[3 * k + i] += lanes_set(shell_second[b][k]) * bent[b][i];
 }
 
 /* Leapfrog: v_{n-1/2} M v_{n+1/2}  (membrane.9) */
@@ -312,7 +244,6 @@ LANES_FUNCTION void shell_kinetic(surface_context *c, int order, size_t e, const
 LANES_FUNCTION void shell_flux(const surface_context *c, int order, size_t i,
                                const surface_sides *sides, shell_point at[SHELL_EDGE])
 {
-    static const double edge_point[3] = FRACAS_EDGE_POINTS_2;
     const fracas_surface_constants *s = c->constants;
     const double *table = surface_table(c, order, i), h = s->thickness;
     const double membrane = table[SURFACE_STIFFNESS] * h, bending = membrane * (h * h / 12);
@@ -328,15 +259,12 @@ LANES_FUNCTION void shell_flux(const surface_context *c, int order, size_t i,
                          table + SHELL_POINTS + SHELL_SIDES + side * SHELL_SIDE, SHELL_POINT_TABLE,
                          means);
     }
-    UNROLL_FOR (int n = 0; n < 3; n++)
-        UNROLL_FOR (int j = 0; j < 3; j++)
-            jump[n][j] = lanes_load(sides->element[1] + (3 * sides->node[1][n] + j) * LANES) -
-                         lanes_load(sides->element[0] + (3 * sides->node[0][n] + j) * LANES);
+    surface_jumps(2, sides, jump);
     UNROLL_FOR (int g = 0; g < SHELL_EDGE; g++) {
         const double *place = table + SHELL_POINTS + g * SHELL_POINT_TABLE;
         double shape[3], spread[3], slope[3];
-        fracas_edge_shape(2, edge_point[g], shape, spread);
-        fracas_edge_slope(edge_point[g], slope);
+        fracas_edge_shape(2, surface_edge_point[1][g], shape, spread);
+        fracas_edge_slope(surface_edge_point[1][g], slope);
         vd q[3], along[3];
         const vd *mean = means[g];
         UNROLL_FOR (int j = 0; j < 3; j++) {
@@ -422,30 +350,29 @@ LANES_FUNCTION plane_input shell_input(const fracas_surface_constants *s, const 
                          .q_t = p->jump[1] + lanes_set(z) * p->turn[1]};
 }
 
-/* The layers of a Gauss point by the law  (shell.12), (shell.13), (shell.15). */
-LANES_FUNCTION shell_layers shell_layers_point(const surface_context *c,
-                                               const plane_interface *interface,
-                                               const shell_point *p, int law, double *fields,
-                                               vmask *cracks, vmask *breaks)
+/* The layers by the law, and together  (shell.12), (shell.13), (shell.14), (shell.15). */
+LANES_FUNCTION surface_opening shell_crack(const surface_context *c,
+                                           const plane_interface *interface, int law,
+                                           const double *place, shell_point *p, double *fields,
+                                           vmask *cracks, vmask *breaks)
 {
     static const double weight[SHELL_LAYERS] = SHELL_LAYER_WEIGHTS;
     const fracas_surface_constants *s = c->constants;
-    const vd zero = lanes_set(0.0), one = lanes_set(1.0);
-    shell_layers all = {.cracked = lanes_lt(one, zero),
-                        .broken = lanes_lt(zero, one),
-                        .whole = lanes_lt(zero, one),
-                        .flux = zero,
-                        .stored = zero,
-                        .dissipated = zero,
-                        .created = zero,
-                        .rubbed = zero,
-                        .spent = zero};
-    vd used_n[2], used_m[2];
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
+    const vmask none = lanes_lt(one, zero), every = lanes_lt(zero, one);
+    surface_opening all = {.flux = zero,
+                           .stored = zero,
+                           .dissipated = zero,
+                           .created = zero,
+                           .rubbed = zero,
+                           .whole = every,
+                           .broken = every};
+    vmask cracked = none, breaks_one = none, opened = none;
+    vd spent = zero, n[2], m[2], carried_u[2], carried_t[2], used_n[2], used_m[2];
     UNROLL_FOR (int j = 0; j < 2; j++)
-        all.n[j] = all.m[j] = all.carried_u[j] = all.carried_t[j] = used_n[j] = used_m[j] = zero;
-    /* The mean stress is linear through the thickness and knows nothing of a face that is open:
-     * what the layers beside it then carry, and what cracks them, is the flux  (shell.12) */
-    vmask opened = lanes_lt(one, zero);
+        n[j] = m[j] = carried_u[j] = carried_t[j] = used_n[j] = used_m[j] = zero;
+    /* The mean stress is linear through the thickness and knows nothing of an open face. The layers
+     * beside it carry the flux, and it cracks them  (shell.12). */
     UNROLL_FOR (int k = 0; k < SHELL_LAYERS; k++)
         opened = lanes_or(
             opened,
@@ -456,37 +383,37 @@ LANES_FUNCTION shell_layers shell_layers_point(const surface_context *c,
                  w = lanes_set(weight[k] * s->thickness);
         const vd share = lanes_set(weight[k]),
                  moment = lanes_set(12.0 * weight[k] * layer_place[k] / s->thickness);
-        plane_input in = shell_input(s, NULL, p, k);
+        plane_input in = shell_input(s, place, p, k);
         in.opened = opened;
-        const vd mean[2] = {in.m_n, in.m_t}, q[2] = {in.q_n, in.q_t};
         all.whole = lanes_and(all.whole,
                               lanes_le(lanes_load(surface_at(point, SURFACE_PEAK)), zero));
         const plane_result r = plane_law(law, interface, &in, point);
-        const vd flux_n = mean[0] + interface->k_n * q[0], flux_t = mean[1] + interface->k_t * q[1];
-        const vd t[2] = {lanes_select(r.cracked, r.t_n, flux_n),
-                         lanes_select(r.cracked, r.t_t, flux_t)};
-        const vd carried[2] = {lanes_select(r.cracked, r.s_n, q[0]),
-                               lanes_select(r.cracked, r.s_t, q[1])};
-        const vd used[2] = {lanes_select(r.cracked, r.midway_n, flux_n),
-                            lanes_select(r.cracked, r.midway_t, flux_t)};
+        const plane_traction flux = plane_flux(interface, &in);
+        const vd t[2] = {lanes_select(r.cracked, r.t_n, flux.n),
+                         lanes_select(r.cracked, r.t_t, flux.t)};
+        const vd carried[2] = {lanes_select(r.cracked, r.s_n, in.q_n),
+                               lanes_select(r.cracked, r.s_t, in.q_t)};
+        const vd used[2] = {lanes_select(r.cracked, r.midway_n, flux.n),
+                            lanes_select(r.cracked, r.midway_t, flux.t)};
         UNROLL_FOR (int j = 0; j < 2; j++) {
-            all.n[j] += w * t[j];
-            all.m[j] += w * z * t[j];
-            all.carried_u[j] += share * carried[j];
-            all.carried_t[j] += moment * carried[j];
+            n[j] += w * t[j];
+            m[j] += w * z * t[j];
+            carried_u[j] += share * carried[j];
+            carried_t[j] += moment * carried[j];
             used_n[j] += w * used[j];
             used_m[j] += w * z * used[j];
         }
-        const vd whole = lanes_set(0.5) * (q[0] * (mean[0] + flux_n) + q[1] * (mean[1] + flux_t));
+        const vd whole = lanes_set(0.5) * (in.q_n * (in.m_n + flux.n) + in.q_t * (in.m_t + flux.t));
         all.flux += w * lanes_select(r.cracked, r.flux, whole);
         all.stored += w * lanes_select(r.cracked, r.stored, zero);
         all.dissipated += w * r.dissipated;
         all.created += w * r.created;
         all.rubbed += w * lanes_select(r.cracked, r.rubbed, zero);
-        all.spent += w * lanes_select(r.cracked, r.spent, zero);
-        all.cracked = lanes_or(all.cracked, r.cracked);
         all.broken = lanes_and(all.broken,
                                lanes_le(one, lanes_load(surface_at(point, SURFACE_DAMAGE))));
+        spent += w * lanes_select(r.cracked, r.spent, zero);
+        cracked = lanes_or(cracked, r.cracked);
+        breaks_one = lanes_or(breaks_one, r.breaks);
         cracks[k] = r.cracks;
         breaks[k] = r.breaks;
     }
@@ -494,48 +421,27 @@ LANES_FUNCTION shell_layers shell_layers_point(const surface_context *c,
     const vd stretched = plane_max(zero, used_n[0] * p->jump[0] + used_n[1] * p->jump[1]);
     const vd bent = plane_max(zero, used_m[0] * p->turn[0] + used_m[1] * p->turn[1]),
              sum = stretched + bent;
-    all.spent_bending = all.spent * (bent / lanes_select(lanes_lt(zero, sum), sum, one));
-    return all;
-}
-
-/* The layers together  (shell.14). */
-LANES_FUNCTION surface_opening shell_crack(const surface_context *c,
-                                           const plane_interface *interface, int law,
-                                           const double *place, shell_point *p, double *fields,
-                                           vmask *cracks, vmask *breaks)
-{
-    (void)place;
-    const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
-    const shell_layers all = shell_layers_point(c, interface, p, law, fields, cracks, breaks);
-    vmask breaks_one = lanes_lt(one, zero);
-    UNROLL_FOR (int k = 0; k < SHELL_LAYERS; k++) breaks_one = lanes_or(breaks_one, breaks[k]);
-    /* the stiffness against shearing off goes with the last layer */
+    all.bending = spent * (bent / lanes_select(lanes_lt(zero, sum), sum, one));
+    /* the stiffness against shearing off goes with the last layer  (shell.14) */
     const vd sheared = p->shearing * p->lift, kept = lanes_select(all.broken, zero, sheared);
-    const surface_opening sum = {
-        .flux = lanes_select(all.cracked, two * all.flux, shell_energy(p)) + kept,
-        .stored = lanes_select(all.cracked, two * all.stored, zero),
-        .dissipated = all.dissipated,
-        .created = all.created -
-                   lanes_select(lanes_and(all.broken, breaks_one), lanes_set(0.5) * sheared, zero),
-        .rubbed = all.rubbed,
-        .bending = all.spent_bending,
-        .whole = all.whole,
-        .broken = all.broken};
+    all.flux = lanes_select(cracked, two * all.flux, shell_energy(p)) + kept;
+    all.stored = lanes_select(cracked, two * all.stored, zero);
+    all.created = all.created -
+                  lanes_select(lanes_and(all.broken, breaks_one), lanes_set(0.5) * sheared, zero);
     p->shearing = lanes_select(all.broken, zero, p->shearing);
     UNROLL_FOR (int j = 0; j < 2; j++) {
-        p->n[j] = lanes_select(all.cracked, all.n[j], p->n[j]);
-        p->m[j] = lanes_select(all.cracked, all.m[j], p->m[j]);
-        p->carried_u[j] = lanes_select(all.cracked, all.carried_u[j], p->carried_u[j]);
-        p->carried_t[j] = lanes_select(all.cracked, all.carried_t[j], p->carried_t[j]);
+        p->n[j] = lanes_select(cracked, n[j], p->n[j]);
+        p->m[j] = lanes_select(cracked, m[j], p->m[j]);
+        p->carried_u[j] = lanes_select(cracked, carried_u[j], p->carried_u[j]);
+        p->carried_t[j] = lanes_select(cracked, carried_t[j], p->carried_t[j]);
     }
-    return sum;
+    return all;
 }
 
 /* Gives the two elements forces, and strains at their bulk points  (shell.10). */
 LANES_FUNCTION void shell_give(const surface_context *c, int order, size_t i,
                                const surface_sides *sides, const shell_point at[SHELL_EDGE])
 {
-    static const double edge_point[3] = FRACAS_EDGE_POINTS_2;
     const double *table = surface_table(c, order, i) + SHELL_POINTS;
     vd force[3][3], turned[SHELL_EDGE], work[SHELL_EDGE][4];
     UNROLL_FOR (int n = 0; n < 3; n++)
@@ -549,8 +455,8 @@ LANES_FUNCTION void shell_give(const surface_context *c, int order, size_t i,
         const vd nn = lanes_set(place[SHELL_L_NN]), ns = lanes_set(place[SHELL_L_NS]),
                  ss = lanes_set(place[SHELL_L_SS]);
         double shape[3], spread[3], slope[3];
-        fracas_edge_shape(2, edge_point[g], shape, spread);
-        fracas_edge_slope(edge_point[g], slope);
+        fracas_edge_shape(2, surface_edge_point[1][g], shape, spread);
+        fracas_edge_slope(surface_edge_point[1][g], slope);
         UNROLL_FOR (int j = 0; j < 3; j++) {
             const vd out = lanes_set(place[SHELL_LIFT + j]);
             const vd pull = lanes_set(place[SHELL_N + j]) * n + lanes_set(place[SHELL_S + j]) * s +
@@ -570,12 +476,7 @@ LANES_FUNCTION void shell_give(const surface_context *c, int order, size_t i,
     UNROLL_FOR (int side = 0; side < 2; side++) {
         shell_give_side(table + SHELL_SIDES + side * SHELL_SIDE, SHELL_POINT_TABLE,
                         sides->slot[side], sides->node[side], turned, work);
-        double *forces = surface_at(sides->slot[side], BODY_SLOT_FORCE(2));
-        UNROLL_FOR (int n = 0; n < 3; n++)
-            UNROLL_FOR (int j = 0; j < 3; j++) {
-                double *to = surface_at(forces, 3 * sides->node[side][n] + j);
-                lanes_store(to, side ? lanes_load(to) + force[n][j] : lanes_load(to) - force[n][j]);
-            }
+        surface_push(2, sides, side, force);
     }
 }
 

@@ -6,13 +6,12 @@
  *   BODY_DIMENSION  components of a displacement
  *   BODY_STRESSES   stresses at a bulk point
  *   BODY_LAYERS     points through the thickness at each Gauss point of an interface
- *   BODY_LINEAR, BODY_CONSISTENT  1 where it has linear triangles, and consistent masses
+ *   BODY_PLANE      1 where it has linear triangles, consistent masses and body forces
  *   BODY_TAKES(bar, ring, membrane, shell, ...)  the last, by its column of a law's line
  *   BODY_HEAD, BODY_POINT_TABLE, BODY_MEASURE  of an interface's table: the size of the head, that
  *                   of a Gauss point, the place of its weight
  * Then it defines
  *   NAME_point      a Gauss point: jumps, mean tractions, tractions, the flux's part of the jumps
- *   NAME_begin      values of the whole step
  *   NAME_strain     stresses of an element, into its slot, and their energy
  *   NAME_flux       the points of an interface before any onset
  *   NAME_flux_energy, NAME_square  of such a point: twice the energy of the flux; square of the
@@ -21,9 +20,8 @@
  *   NAME_input      mean traction and jump at a layer, for the law
  *   NAME_crack      the law at a Gauss point
  *   NAME_give       adds forces and strains of an interface to the slots of its two elements
- *   NAME_forces     forces of an element, from its slot
+ *   NAME_forces     adds the forces of an element's own stresses
  *   NAME_kinetic    its kinetic energy
- *   NAME_work       work of the loads
  * Last it includes engine/formulation/surface/sweep_kernel.h, which visits elements and interfaces.
  */
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_KERNEL_H
@@ -131,6 +129,11 @@ LANES_FUNCTION void surface_kick(const fracas_surface_motion *m, vd dt, int begi
     }
 }
 
+LANES_FUNCTION void surface_add(double *to, vd x)
+{
+    lanes_store(to, lanes_load(to) + x);
+}
+
 LANES_FUNCTION double *surface_slot(const surface_context *c, int order, size_t e)
 {
     return c->slots + (e & c->tables->visits.window) * (size_t)(BODY_SLOT(order) * LANES);
@@ -164,6 +167,96 @@ LANES_FUNCTION surface_sides surface_sides_of(const surface_context *c, int orde
         sides.slot[side] = surface_slot(c, order, element[side]);
     }
     return sides;
+}
+
+/* ---- elements ---- */
+
+static const double surface_slope[2][3][6][2] = {FRACAS_TRIANGLE_DERIVATIVES_1,
+                                                 FRACAS_TRIANGLE_DERIVATIVES_2};
+
+LANES_FUNCTION const double *surface_bulk(const surface_context *c, int order, size_t e)
+{
+    return c->tables->bulk + e * (size_t)(SURFACE_BULK(order) * BODY_BULK_TABLE);
+}
+
+/* Derivatives of the displacements u at bulk point g by xi, eta, x, y. */
+LANES_FUNCTION void surface_gradient(int order, int g, const double *bulk, const vd *u,
+                                     vd (*by)[BODY_DIMENSION])
+{
+    UNROLL_FOR (int i = 0; i < BODY_DIMENSION; i++) {
+        by[0][i] = by[1][i] = lanes_set(0.0);
+        UNROLL_FOR (int k = 0; k < SURFACE_NODES(order); k++)
+            UNROLL_FOR (int a = 0; a < 2; a++)
+                if (surface_slope[order - 1][g][k][a] != 0.0)
+                    by[a][i] += lanes_set(surface_slope[order - 1][g][k][a]) *
+                                u[BODY_DIMENSION * k + i];
+        UNROLL_FOR (int x = 0; x < 2; x++)
+            by[2 + x][i] = lanes_set(bulk[SURFACE_XI_X + x]) * by[0][i] +
+                           lanes_set(bulk[SURFACE_ETA_X + x]) * by[1][i];
+    }
+}
+
+/* Adds to the forces of an element those that work on its derivatives by xi, eta. */
+LANES_FUNCTION void surface_spread(int order, int g, const vd *xi, const vd *eta, vd *force)
+{
+    UNROLL_FOR (int k = 0; k < SURFACE_NODES(order); k++)
+        UNROLL_FOR (int i = 0; i < BODY_DIMENSION; i++) {
+            const double *slope = surface_slope[order - 1][g][k];
+            if (slope[0] != 0.0) force[BODY_DIMENSION * k + i] += lanes_set(slope[0]) * xi[i];
+            if (slope[1] != 0.0) force[BODY_DIMENSION * k + i] += lanes_set(slope[1]) * eta[i];
+        }
+}
+
+/* Stresses of strains: xx, yy, 2 xy, then of shells those of bending  (membrane.3), (shell.4). */
+LANES_FUNCTION void surface_elastic(const fracas_surface_constants *s, const vd *strain, vd *stress)
+{
+    const double modulus[2][3] = {{s->c11, s->c12, s->c33}, {s->d11, s->d12, s->d33}};
+    UNROLL_FOR (int p = 0; p < BODY_STRESSES; p += 3) {
+        const vd m11 = lanes_set(modulus[p / 3][0]), m12 = lanes_set(modulus[p / 3][1]);
+        stress[p] = m11 * strain[p] + m12 * strain[p + 1];
+        stress[p + 1] = m12 * strain[p] + m11 * strain[p + 1];
+        stress[p + 2] = lanes_set(modulus[p / 3][2]) * strain[p + 2];
+    }
+}
+
+/* Stresses at bulk point g times its weight, with those that symmetrisation adds  (membrane.7). */
+LANES_FUNCTION void surface_stresses(const surface_context *c, int order, int g, const double *bulk,
+                                     double *slot, vd *stress)
+{
+    vd extra[BODY_STRESSES];
+    UNROLL_FOR (int j = 0; j < BODY_STRESSES; j++)
+        extra[j] = lanes_load(surface_at(slot, BODY_SLOT_EXTRA(order) + BODY_STRESSES * g + j));
+    surface_elastic(c->constants, extra, stress);
+    UNROLL_FOR (int j = 0; j < BODY_STRESSES; j++)
+        stress[j] = lanes_set(bulk[SURFACE_WEIGHT]) *
+                        lanes_load(surface_at(slot, BODY_STRESSES * g + j)) +
+                    stress[j];
+}
+
+/* ---- interfaces ---- */
+
+static const double surface_edge_point[2][3] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2};
+
+/* u+ - u- at the nodes of an interface. */
+LANES_FUNCTION void surface_jumps(int order, const surface_sides *sides, vd (*jump)[BODY_DIMENSION])
+{
+    UNROLL_FOR (int n = 0; n < order + 1; n++)
+        UNROLL_FOR (int j = 0; j < BODY_DIMENSION; j++)
+            jump[n][j] =
+                lanes_load(sides->element[1] + (BODY_DIMENSION * sides->node[1][n] + j) * LANES) -
+                lanes_load(sides->element[0] + (BODY_DIMENSION * sides->node[0][n] + j) * LANES);
+}
+
+/* Adds forces at those nodes to a side of the interface. */
+LANES_FUNCTION void surface_push(int order, const surface_sides *sides, int side,
+                                 vd (*force)[BODY_DIMENSION])
+{
+    double *forces = surface_at(sides->slot[side], BODY_SLOT_FORCE(order));
+    UNROLL_FOR (int n = 0; n < order + 1; n++)
+        UNROLL_FOR (int j = 0; j < BODY_DIMENSION; j++) {
+            double *to = surface_at(forces, BODY_DIMENSION * sides->node[side][n] + j);
+            lanes_store(to, side ? lanes_load(to) + force[n][j] : lanes_load(to) - force[n][j]);
+        }
 }
 
 #endif

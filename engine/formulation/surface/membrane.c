@@ -46,11 +46,11 @@ static void fill_bulk(const fracas_model *model, size_t e, double xi, double eta
             for (size_t k = 0; k < model->surface->corners; k++)
                 j[i][a] += x[k][i] * derivative[k][a];
     const double det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
-    bulk[MEMBRANE_XI_X] = j[1][1] / det;
-    bulk[MEMBRANE_XI_Y] = -j[0][1] / det;
-    bulk[MEMBRANE_ETA_X] = -j[1][0] / det;
-    bulk[MEMBRANE_ETA_Y] = j[0][0] / det;
-    bulk[MEMBRANE_WEIGHT] = weight * det * model->spec.geometry.thickness;
+    bulk[SURFACE_XI_X] = j[1][1] / det;
+    bulk[SURFACE_XI_Y] = -j[0][1] / det;
+    bulk[SURFACE_ETA_X] = -j[1][0] / det;
+    bulk[SURFACE_ETA_Y] = j[0][0] / det;
+    bulk[SURFACE_WEIGHT] = weight * det * model->spec.geometry.thickness;
 }
 
 /* K = beta E/(1 - nu^2)/h_s  (membrane.5) */
@@ -135,7 +135,7 @@ static const fracas_surface_body body = {.dimension = 2,
                                          .stresses = 3,
                                          .layers = 1,
                                          .layer = layer,
-                                         .bulk_table = MEMBRANE_BULK_TABLE,
+                                         .bulk_table = SURFACE_BULK_HEAD,
                                          .head = SURFACE_HEAD,
                                          .point_table = MEMBRANE_POINT_TABLE,
                                          .kernels = &fracas_membrane,

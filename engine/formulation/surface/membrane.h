@@ -5,16 +5,6 @@
 
 #include "engine/formulation/surface/surface.h"
 
-/* Of a bulk point: derivatives of xi, eta by x, y, and the weight: |Jacobian| times quadrature
- * weight times thickness [m3]. */
-enum {
-    MEMBRANE_XI_X,
-    MEMBRANE_XI_Y,
-    MEMBRANE_ETA_X,
-    MEMBRANE_ETA_Y,
-    MEMBRANE_WEIGHT,
-    MEMBRANE_BULK_TABLE
-};
 /* Of a Gauss point of an interface: the normal from element[0] to element[1], and the weight:
  * length times quadrature weight times thickness [m2]. */
 enum { MEMBRANE_NX, MEMBRANE_NY, MEMBRANE_AREA, MEMBRANE_POINT_TABLE };

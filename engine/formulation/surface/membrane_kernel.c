@@ -4,8 +4,8 @@
 #define BODY_DIMENSION 2
 #define BODY_STRESSES 3
 #define BODY_LAYERS 1
-#define BODY_LINEAR 1
-#define BODY_CONSISTENT 1
+#define BODY_PLANE 1
+#define BODY_BULK_TABLE SURFACE_BULK_HEAD
 #define BODY_TAKES(bar, ring, membrane, shell, ...) FRACAS_IF_##membrane(__VA_ARGS__)
 #define BODY_HEAD SURFACE_HEAD
 #define BODY_POINT_TABLE MEMBRANE_POINT_TABLE
@@ -20,112 +20,41 @@ typedef struct {
     vd traction[2], carried[2]; /* T [Pa], s = q - delta [m] */
 } membrane_point;
 
-/* ---- loads ---- */
-
-/* Angular velocity squared at a time. */
-LANES_FUNCTION vd membrane_spin(const fracas_surface_constants *m, vd time)
-{
-    const vd zero = lanes_set(0.0), one = lanes_set(1.0);
-    vd share = m->ramp > 0 ? plane_max(zero, plane_min(one, time / lanes_set(m->ramp))) : one;
-    vd w = lanes_set(m->speed) * share;
-    return w * w;
-}
-
-LANES_FUNCTION void membrane_begin(surface_context *c)
-{
-    c->spin = membrane_spin(c->constants, lanes_load(c->step->time + c->first));
-}
-
-/* Work of the body force since the step before [J], or its power, added to *power [W]. Central
- * difference: the work between two steps is exactly the mean of the force times dt v_{n-1/2}. */
-LANES_FUNCTION vd membrane_work(const surface_context *c, vd *power)
-{
-    const fracas_surface_constants *m = c->constants;
-    const vd half = lanes_set(0.5);
-    vd body = lanes_set(0.0);
-    if (c->tables->position && m->motion.alpha) *power += c->spin * c->moment;
-    if (c->tables->position && !m->motion.alpha) {
-        const vd before = membrane_spin(m, lanes_load(c->step->time + c->first) - c->drift);
-        body = c->drift * half * (before + c->spin) * c->moment;
-    }
-    return body;
-}
-
 /* ---- elements ---- */
 
-/* Stress and energy of element e, of displacements `at`; the rest of its slot is cleared. */
+/* (membrane.3) */
 LANES_FUNCTION void membrane_strain(surface_context *c, int order, size_t e, double *at,
                                     double *slot)
 {
-    static const double shape[2][3][6][2] = {FRACAS_TRIANGLE_DERIVATIVES_1,
-                                             FRACAS_TRIANGLE_DERIVATIVES_2};
-    const int nodes = SURFACE_NODES(order), points = SURFACE_BULK(order);
-    const vd zero = lanes_set(0.0);
+    const int points = SURFACE_BULK(order);
+    const double *bulk = surface_bulk(c, order, e);
     vd u[12];
-    UNROLL_FOR (int i = 0; i < 2 * nodes; i++) u[i] = lanes_load(surface_at(at, i));
-    const double *bulk = c->tables->bulk + e * (size_t)(points * MEMBRANE_BULK_TABLE);
-    const vd c11 = lanes_set(c->constants->c11), c12 = lanes_set(c->constants->c12),
-             c33 = lanes_set(c->constants->c33);
-    UNROLL_FOR (int g = 0; g < points; g++, bulk += MEMBRANE_BULK_TABLE) {
-        vd by_xi[2], by_eta[2], by_x[2], by_y[2];
-        UNROLL_FOR (int i = 0; i < 2; i++) {
-            by_xi[i] = by_eta[i] = zero;
-            UNROLL_FOR (int k = 0; k < nodes; k++) {
-                if (shape[order - 1][g][k][0] != 0.0)
-                    by_xi[i] += lanes_set(shape[order - 1][g][k][0]) * u[2 * k + i];
-                if (shape[order - 1][g][k][1] != 0.0)
-                    by_eta[i] += lanes_set(shape[order - 1][g][k][1]) * u[2 * k + i];
-            }
-            by_x[i] = lanes_set(bulk[MEMBRANE_XI_X]) * by_xi[i] +
-                      lanes_set(bulk[MEMBRANE_ETA_X]) * by_eta[i];
-            by_y[i] = lanes_set(bulk[MEMBRANE_XI_Y]) * by_xi[i] +
-                      lanes_set(bulk[MEMBRANE_ETA_Y]) * by_eta[i];
-        }
-        vd xx = by_x[0], yy = by_y[1], xy = by_y[0] + by_x[1];
-        vd s_xx = c11 * xx + c12 * yy, s_yy = c12 * xx + c11 * yy,
-           s_xy = c33 * xy; /* (membrane.3) */
-        c->strain_energy += lanes_set(bulk[MEMBRANE_WEIGHT]) * (s_xx * xx + s_yy * yy + s_xy * xy);
-        lanes_store(surface_at(slot, 3 * g), s_xx);
-        lanes_store(surface_at(slot, 3 * g + 1), s_yy);
-        lanes_store(surface_at(slot, 3 * g + 2), s_xy);
+    UNROLL_FOR (int i = 0; i < BODY_SIZE(order); i++) u[i] = lanes_load(surface_at(at, i));
+    UNROLL_FOR (int g = 0; g < points; g++, bulk += BODY_BULK_TABLE) {
+        vd by[4][2], s[3];
+        surface_gradient(order, g, bulk, u, by);
+        const vd strain[3] = {by[2][0], by[3][1], by[3][0] + by[2][1]};
+        surface_elastic(c->constants, strain, s);
+        c->strain_energy += lanes_set(bulk[SURFACE_WEIGHT]) *
+                            (s[0] * strain[0] + s[1] * strain[1] + s[2] * strain[2]);
+        UNROLL_FOR (int j = 0; j < 3; j++) lanes_store(surface_at(slot, 3 * g + j), s[j]);
     }
-    const int from = BODY_SLOT_EXTRA(order), end = BODY_SLOT(order);
-    UNROLL_FOR (int i = from; i < end; i++) lanes_store(surface_at(slot, i), zero);
 }
 
-/* Internal forces of element e: its own, what symmetrisation adds to its stresses, and its
- * interfaces'  (membrane.7). */
-LANES_FUNCTION void membrane_forces(const surface_context *c, int order, size_t e, vd *force)
+/* (membrane.7) */
+LANES_FUNCTION void membrane_forces(const surface_context *c, int order, size_t e, double *slot,
+                                    vd *force)
 {
-    static const double shape[2][3][6][2] = {FRACAS_TRIANGLE_DERIVATIVES_1,
-                                             FRACAS_TRIANGLE_DERIVATIVES_2};
-    const int nodes = SURFACE_NODES(order), points = SURFACE_BULK(order);
-    double *slot = surface_slot(c, order, e);
-    const double *bulk = c->tables->bulk + e * (size_t)(points * MEMBRANE_BULK_TABLE);
-    const vd c11 = lanes_set(c->constants->c11), c12 = lanes_set(c->constants->c12),
-             c33 = lanes_set(c->constants->c33);
-    UNROLL_FOR (int i = 0; i < 2 * nodes; i++)
-        force[i] = lanes_load(surface_at(slot, BODY_SLOT_FORCE(order) + i));
-    UNROLL_FOR (int g = 0; g < points; g++, bulk += MEMBRANE_BULK_TABLE) {
-        const double *extra = surface_at(slot, BODY_SLOT_EXTRA(order) + 3 * g),
-                     *stress = surface_at(slot, 3 * g);
-        const vd weight = lanes_set(bulk[MEMBRANE_WEIGHT]);
-        const vd xx = lanes_load(extra), yy = lanes_load(extra + LANES),
-                 xy = lanes_load(extra + 2 * LANES);
-        const vd n_xx = weight * lanes_load(stress) + (c11 * xx + c12 * yy);
-        const vd n_yy = weight * lanes_load(stress + LANES) + (c12 * xx + c11 * yy);
-        const vd n_xy = weight * lanes_load(stress + 2 * LANES) + c33 * xy;
-        const vd xi_x = lanes_set(bulk[MEMBRANE_XI_X]), xi_y = lanes_set(bulk[MEMBRANE_XI_Y]);
-        const vd eta_x = lanes_set(bulk[MEMBRANE_ETA_X]), eta_y = lanes_set(bulk[MEMBRANE_ETA_Y]);
-        const vd along_xi[2] = {n_xx * xi_x + n_xy * xi_y, n_xy * xi_x + n_yy * xi_y};
-        const vd along_eta[2] = {n_xx * eta_x + n_xy * eta_y, n_xy * eta_x + n_yy * eta_y};
-        UNROLL_FOR (int k = 0; k < nodes; k++)
-            UNROLL_FOR (int i = 0; i < 2; i++) {
-                if (shape[order - 1][g][k][0] != 0.0)
-                    force[2 * k + i] += lanes_set(shape[order - 1][g][k][0]) * along_xi[i];
-                if (shape[order - 1][g][k][1] != 0.0)
-                    force[2 * k + i] += lanes_set(shape[order - 1][g][k][1]) * along_eta[i];
-            }
+    const int points = SURFACE_BULK(order);
+    const double *bulk = surface_bulk(c, order, e);
+    UNROLL_FOR (int g = 0; g < points; g++, bulk += BODY_BULK_TABLE) {
+        vd n[3];
+        surface_stresses(c, order, g, bulk, slot, n);
+        const vd xi_x = lanes_set(bulk[SURFACE_XI_X]), xi_y = lanes_set(bulk[SURFACE_XI_Y]);
+        const vd eta_x = lanes_set(bulk[SURFACE_ETA_X]), eta_y = lanes_set(bulk[SURFACE_ETA_Y]);
+        const vd xi[2] = {n[0] * xi_x + n[2] * xi_y, n[2] * xi_x + n[1] * xi_y};
+        const vd eta[2] = {n[0] * eta_x + n[2] * eta_y, n[2] * eta_x + n[1] * eta_y};
+        surface_spread(order, g, xi, eta, force);
     }
 }
 
@@ -163,16 +92,12 @@ LANES_FUNCTION void membrane_kinetic(surface_context *c, int order, size_t e, co
 LANES_FUNCTION void membrane_flux(const surface_context *c, int order, size_t i,
                                   const surface_sides *sides, membrane_point at[3])
 {
-    static const double edge_point[2][3] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2};
     const fracas_surface_constants *m = c->constants;
     const int points = SURFACE_EDGE(order), bulk = SURFACE_BULK(order), nodes = order + 1;
     const double *table = surface_table(c, order, i);
     const vd stiffness = lanes_set(m->tangential * table[SURFACE_STIFFNESS]);
     vd jump[3][2], stress[3][3];
-    UNROLL_FOR (int n = 0; n < nodes; n++)
-        UNROLL_FOR (int j = 0; j < 2; j++)
-            jump[n][j] = lanes_load(sides->element[1] + (2 * sides->node[1][n] + j) * LANES) -
-                         lanes_load(sides->element[0] + (2 * sides->node[0][n] + j) * LANES);
+    surface_jumps(order, sides, jump);
     UNROLL_FOR (int p = 0; p < bulk; p++)
         UNROLL_FOR (int j = 0; j < 3; j++)
             stress[p][j] = lanes_set(0.5) *
@@ -182,7 +107,7 @@ LANES_FUNCTION void membrane_flux(const surface_context *c, int order, size_t i,
         const double *place = table + BODY_HEAD + g * MEMBRANE_POINT_TABLE;
         const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]);
         double shape[3], spread[3];
-        fracas_edge_shape(order, edge_point[order - 1][g], shape, spread);
+        fracas_edge_shape(order, surface_edge_point[order - 1][g], shape, spread);
         vd q[2], s[3];
         UNROLL_FOR (int j = 0; j < 2; j++) {
             q[j] = lanes_set(shape[0]) * jump[0][j] + lanes_set(shape[1]) * jump[1][j];
@@ -269,7 +194,6 @@ LANES_FUNCTION surface_opening membrane_crack(const surface_context *c,
 LANES_FUNCTION void membrane_give(const surface_context *c, int order, size_t i,
                                   const surface_sides *sides, const membrane_point at[3])
 {
-    static const double edge_point[2][3] = {FRACAS_EDGE_POINTS_1, FRACAS_EDGE_POINTS_2};
     const int points = SURFACE_EDGE(order), bulk = SURFACE_BULK(order), nodes = order + 1;
     const double *table = surface_table(c, order, i);
     vd force[3][2], strain[3][3];
@@ -286,7 +210,7 @@ LANES_FUNCTION void membrane_give(const surface_context *c, int order, size_t i,
         const vd sx = half * at[g].carried[0], sy = half * at[g].carried[1];
         const vd symmetric[3] = {sx * nx, sy * ny, sx * ny + sy * nx};
         double shape[3], spread[3];
-        fracas_edge_shape(order, edge_point[order - 1][g], shape, spread);
+        fracas_edge_shape(order, surface_edge_point[order - 1][g], shape, spread);
         UNROLL_FOR (int n = 0; n < nodes; n++) {
             force[n][0] += lanes_set(shape[n]) * tx;
             force[n][1] += lanes_set(shape[n]) * ty;
@@ -296,18 +220,11 @@ LANES_FUNCTION void membrane_give(const surface_context *c, int order, size_t i,
                 strain[p][j] += bulk == 1 ? symmetric[j] : lanes_set(spread[p]) * symmetric[j];
     }
     UNROLL_FOR (int side = 0; side < 2; side++) {
-        double *forces = surface_at(sides->slot[side], BODY_SLOT_FORCE(order)),
-               *extra = surface_at(sides->slot[side], BODY_SLOT_EXTRA(order));
-        UNROLL_FOR (int n = 0; n < nodes; n++)
-            UNROLL_FOR (int j = 0; j < 2; j++) {
-                double *to = surface_at(forces, 2 * sides->node[side][n] + j);
-                lanes_store(to, side ? lanes_load(to) + force[n][j] : lanes_load(to) - force[n][j]);
-            }
+        double *extra = surface_at(sides->slot[side], BODY_SLOT_EXTRA(order));
+        surface_push(order, sides, side, force);
         UNROLL_FOR (int p = 0; p < bulk; p++)
-            UNROLL_FOR (int j = 0; j < 3; j++) {
-                double *to = surface_at(extra, 3 * sides->bulk[side][p] + j);
-                lanes_store(to, lanes_load(to) + strain[p][j]);
-            }
+            UNROLL_FOR (int j = 0; j < 3; j++)
+                surface_add(surface_at(extra, 3 * sides->bulk[side][p] + j), strain[p][j]);
     }
 }
 

@@ -40,6 +40,17 @@ enum {
     SURFACE_FIELDS_ALPHA
 };
 
+/* Head of a bulk point's table: derivatives of xi, eta along x, y, and the weight, of quadrature
+ * and all that is integrated over. */
+enum {
+    SURFACE_XI_X,
+    SURFACE_XI_Y,
+    SURFACE_ETA_X,
+    SURFACE_ETA_Y,
+    SURFACE_WEIGHT,
+    SURFACE_BULK_HEAD
+};
+
 /* Head of an interface's table: stiffness K [Pa/m], its inverse. */
 enum { SURFACE_STIFFNESS, SURFACE_COMPLIANCE, SURFACE_HEAD };
 

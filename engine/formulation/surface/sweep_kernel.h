@@ -7,6 +7,34 @@
  * see an element through its displacements and the stresses at its bulk points, and give back
  * forces on nodes and strains at those points: both are few. */
 
+/* ---- loads ---- */
+
+/* Angular velocity squared at a time. */
+LANES_FUNCTION vd surface_spin(const fracas_surface_constants *m, vd time)
+{
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0);
+    vd share = m->ramp > 0 ? plane_max(zero, plane_min(one, time / lanes_set(m->ramp))) : one;
+    vd w = lanes_set(m->speed) * share;
+    return w * w;
+}
+
+/* Work of the body force since the step before [J], or its power, added to *power [W]. Central
+ * difference: the work between two steps is exactly the mean of the force times dt v_{n-1/2}. */
+LANES_FUNCTION vd surface_work(const surface_context *c, vd *power)
+{
+    const fracas_surface_constants *m = c->constants;
+    const vd half = lanes_set(0.5);
+    vd body = lanes_set(0.0);
+    if (c->tables->position && m->motion.alpha) *power += c->spin * c->moment;
+    if (c->tables->position && !m->motion.alpha) {
+        const vd before = surface_spin(m, lanes_load(c->step->time + c->first) - c->drift);
+        body = c->drift * half * (before + c->spin) * c->moment;
+    }
+    return body;
+}
+
+/* ---- interfaces ---- */
+
 /* Books the events at an interface, lane by lane. */
 __attribute__((noinline, cold, unused)) static void
 surface_book(const surface_context *c, int points, size_t i, const vmask *cracks,
@@ -125,6 +153,16 @@ LANES_FUNCTION void surface_join(surface_context *c, int order, int law, size_t 
     BODY(give)(c, order, i, &sides, at);
 }
 
+/* ---- elements ---- */
+
+/* Stresses of element e from its displacements `at`, and a slot that has nothing else. */
+LANES_FUNCTION void surface_enter(surface_context *c, int order, size_t e, double *at, double *slot)
+{
+    const int from = BODY_SLOT_EXTRA(order), end = BODY_SLOT(order);
+    UNROLL_FOR (int i = from; i < end; i++) lanes_store(surface_at(slot, i), lanes_set(0.0));
+    BODY(strain)(c, order, e, at, slot);
+}
+
 /* Accelerations from internal and body forces, 0 of held components; the power of what holds them.
  */
 LANES_FUNCTION void surface_accelerate(surface_context *c, int order, size_t e, const vd *velocity,
@@ -134,10 +172,10 @@ LANES_FUNCTION void surface_accelerate(surface_context *c, int order, size_t e, 
     const fracas_surface_tables *t = c->tables;
     const uint32_t held = t->held[e];
     const double *lumped = t->lumped + e * (size_t)(2 * nodes);
-    const double *consistent = BODY_CONSISTENT && t->consistent
+    const double *consistent = BODY_PLANE && t->consistent
                                    ? t->consistent + e * (size_t)(3 * nodes * nodes)
                                    : NULL;
-    const double *position = BODY_CONSISTENT && t->position ? t->position + e * (size_t)size : NULL;
+    const double *position = BODY_PLANE && t->position ? t->position + e * (size_t)size : NULL;
     UNROLL_FOR (int i = 0; i < size; i++) {
         if (!consistent) {
             acceleration[i] = lanes_set(-lumped[i / BODY_DIMENSION]) * force[i];
@@ -166,9 +204,11 @@ LANES_FUNCTION void surface_accelerate(surface_context *c, int order, size_t e, 
 LANES_FUNCTION void surface_finish(surface_context *c, int order, int law, size_t e)
 {
     const int size = BODY_SIZE(order);
-    double *at = c->elements + e * c->element_size;
+    double *at = c->elements + e * c->element_size, *slot = surface_slot(c, order, e);
     vd force[18], v[18], a[18], after[18];
-    BODY(forces)(c, order, e, force);
+    UNROLL_FOR (int i = 0; i < size; i++)
+        force[i] = lanes_load(surface_at(slot, BODY_SLOT_FORCE(order) + i));
+    BODY(forces)(c, order, e, slot, force);
     UNROLL_FOR (int i = 0; i < size; i++) v[i] = lanes_load(surface_at(at, SURFACE_V * size + i));
     surface_accelerate(c, order, e, v, force, a);
     if (law == SURFACE_OPERATOR) {
@@ -187,7 +227,7 @@ LANES_FUNCTION void surface_totals(const surface_context *c)
     const vd half = lanes_set(0.5);
     const int first = c->first;
     vd power = c->power;
-    const vd work = BODY(work)(c, &power);
+    const vd work = BODY_PLANE ? surface_work(c, &power) : lanes_set(0.0);
     lanes_store(step->kinetic + first, half * c->kinetic);
     lanes_store(step->elastic + first, half * (c->strain_energy + c->flux));
     lanes_store(step->cohesive + first, half * c->stored);
@@ -226,11 +266,11 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
                                .power = zero,
                                .moment = zero};
     surface_context *c = &context;
-    BODY(begin)(c);
+    if (BODY_PLANE) c->spin = surface_spin(s, lanes_load(step->time + first));
     for (size_t e = 0; e < t->nelements; e++) {
         double *at = c->elements + e * c->element_size;
         if (law != SURFACE_OPERATOR) surface_drift(&s->motion, c->drift, BODY_SIZE(order), at);
-        BODY(strain)(c, order, e, at, surface_slot(c, order, e));
+        surface_enter(c, order, e, at, surface_slot(c, order, e));
         for (size_t j = t->visits.join_from[e]; j < t->visits.join_from[e + 1]; j++)
             surface_join(c, order, law, t->visits.join[j]);
         for (size_t f = t->visits.finish_from[e]; f < t->visits.finish_from[e + 1]; f++)
@@ -253,7 +293,7 @@ LANES_FUNCTION void surface_look(const fracas_surface_constants *s, int order, s
     for (int side = 0; side < 2; side++) {
         sides.element[side] = view->u[side];
         sides.slot[side] = slot[side];
-        BODY(strain)(&c, order, s->tables->element[i][side], view->u[side], slot[side]);
+        surface_enter(&c, order, s->tables->element[i][side], view->u[side], slot[side]);
     }
     BODY(flux)(&c, order, i, &sides, at);
     for (int p = 0; p < SURFACE_EDGE(order) * BODY_LAYERS; p++) {
@@ -279,7 +319,7 @@ LANES_FUNCTION void surface_look(const fracas_surface_constants *s, int order, s
     {                                                                     \
         surface_look(constants, order, i, view);                          \
     }
-#if BODY_LINEAR
+#if BODY_PLANE
 #define SURFACE_ORDERS(DEFINE, name, law) \
     DEFINE(linear_##name, 1, law) DEFINE(quadratic_##name, 2, law)
 #define SURFACE_ENTRY(name)             \
