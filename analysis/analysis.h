@@ -4,6 +4,7 @@
 #ifndef FRACAS_ANALYSIS_ANALYSIS_H
 #define FRACAS_ANALYSIS_ANALYSIS_H
 
+#include "base/own.h"
 #include "base/err.h"
 #include "base/hash.h"
 #include "campaigns/points.h"
@@ -22,6 +23,7 @@ FRACAS_MUST_USE fracas_err fracas_analysis_create(const char *study, const fraca
                                                   const fracas_point_table *table,
                                                   fracas_analysis **analysis);
 void fracas_analysis_destroy(fracas_analysis *analysis); /* NULL is allowed */
+FRACAS_OWNER(fracas_analysis, fracas_analysis_destroy)
 
 /* The result table, one line a point, for a terminal. */
 void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out);

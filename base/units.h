@@ -4,6 +4,7 @@
 #ifndef FRACAS_BASE_UNITS_H
 #define FRACAS_BASE_UNITS_H
 
+#include "base/own.h"
 #include "base/err.h"
 
 #define FRACAS_NUMBER_TEXT 32 /* buffer of fracas_number_write, bytes */
@@ -26,6 +27,7 @@ typedef struct fracas_units fracas_units;
 /* FRACAS_ENVIRONMENT when the database cannot be loaded. Silences UDUNITS-2's own error output. */
 FRACAS_MUST_USE fracas_err fracas_units_create(fracas_units **units);
 void fracas_units_destroy(fracas_units *units); /* NULL is allowed */
+FRACAS_OWNER(fracas_units, fracas_units_destroy)
 
 /* Reads "264 MPa", "1e4 1/s" or a bare number in SI as a value in the unit `si`, rounded to 15
  * digits. `si` is "1" for a pure number, which may be written with %. A unit is a product of powers

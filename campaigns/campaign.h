@@ -3,6 +3,7 @@
 #ifndef FRACAS_CAMPAIGNS_CAMPAIGN_H
 #define FRACAS_CAMPAIGNS_CAMPAIGN_H
 
+#include "base/own.h"
 #include "base/err.h"
 #include "base/hash.h"
 #include "campaigns/points.h"
@@ -58,6 +59,7 @@ static inline int64_t fracas_point_most(const fracas_point *point)
  * for any error in it or if there is none, FRACAS_ENVIRONMENT if it cannot be opened or read. */
 FRACAS_MUST_USE fracas_err fracas_campaign_read(const char *path, fracas_campaign **campaign);
 void fracas_campaign_destroy(fracas_campaign *campaign); /* NULL is allowed */
+FRACAS_OWNER(fracas_campaign, fracas_campaign_destroy)
 
 /* Gives every point `replicas` (1 to 1e9), as if in the file: the campaign's hash changes, too.
  * FRACAS_USAGE, and no change, if a rule decides the replicas of a point. */

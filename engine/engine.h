@@ -3,6 +3,7 @@
 #ifndef FRACAS_ENGINE_ENGINE_H
 #define FRACAS_ENGINE_ENGINE_H
 
+#include "base/own.h"
 #include "base/err.h"
 #include "base/isa.h"
 #include "engine/record.h"
@@ -19,6 +20,7 @@ typedef struct fracas_batch fracas_batch;
  * parameters that do not go together, FRACAS_ENVIRONMENT means no memory. */
 FRACAS_MUST_USE fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **model);
 void fracas_model_destroy(fracas_model *model); /* NULL is allowed */
+FRACAS_OWNER(fracas_model, fracas_model_destroy)
 
 size_t fracas_model_interfaces(const fracas_model *model);
 /* 1, or the Gauss points of an interface with spec.strength_per_point. A realization needs
@@ -65,6 +67,7 @@ FRACAS_MUST_USE fracas_err fracas_batch_create(const fracas_model *model, size_t
                                                const fracas_batch_options *options,
                                                fracas_batch **batch);
 void fracas_batch_destroy(fracas_batch *batch); /* NULL is allowed */
+FRACAS_OWNER(fracas_batch, fracas_batch_destroy)
 
 /* Strengths sigma_c [Pa] of realization `lane` (lane < count), to be filled before the run:
  * strength k (fracas_model_strengths_per_interface) is strength[k*stride]. */

@@ -4,6 +4,7 @@
 #ifndef FRACAS_ANALYSIS_FIT_FITS_H
 #define FRACAS_ANALYSIS_FIT_FITS_H
 
+#include "base/own.h"
 #include "analysis/analysis.h"
 #include "analysis/fit/family.h"
 #include "base/err.h"
@@ -40,6 +41,7 @@ enum { FRACAS_FITS_RESAMPLES = 999 };
 FRACAS_MUST_USE fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point,
                                               int64_t resamples, fracas_fits **fits);
 void fracas_fits_destroy(fracas_fits *fits); /* NULL is allowed */
+FRACAS_OWNER(fracas_fits, fracas_fits_destroy)
 
 FRACAS_MUST_USE fracas_err fracas_fits_append(fracas_fits *fits, const fracas_fits_row *row);
 

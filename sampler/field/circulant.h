@@ -4,6 +4,7 @@
 #ifndef FRACAS_SAMPLER_CIRCULANT_H
 #define FRACAS_SAMPLER_CIRCULANT_H
 
+#include "base/own.h"
 #include "sampler/field/covariance.h"
 
 typedef struct fracas_circulant fracas_circulant;
@@ -19,6 +20,7 @@ FRACAS_MUST_USE fracas_err fracas_circulant_circle(const fracas_covariance *cova
 FRACAS_MUST_USE fracas_err fracas_circulant_line(const fracas_covariance *covariance, size_t n,
                                                  double spacing, fracas_circulant **circulant);
 void fracas_circulant_destroy(fracas_circulant *circulant); /* NULL is allowed */
+FRACAS_OWNER(fracas_circulant, fracas_circulant_destroy)
 
 /* Number of sites of the circle: independent normals of a realization. */
 size_t fracas_circulant_normals(const fracas_circulant *circulant);

@@ -3,6 +3,7 @@
 #ifndef FRACAS_SAMPLER_FIELD_CORRELATION_H
 #define FRACAS_SAMPLER_FIELD_CORRELATION_H
 
+#include "base/own.h"
 #include "sampler/strength.h"
 
 typedef struct fracas_correlation fracas_correlation;
@@ -13,6 +14,7 @@ FRACAS_MUST_USE fracas_err fracas_correlation_create(const fracas_strength *stre
                                                      const double (*position)[3], double period,
                                                      fracas_correlation **correlation);
 void fracas_correlation_destroy(fracas_correlation *correlation); /* NULL is allowed */
+FRACAS_OWNER(fracas_correlation, fracas_correlation_destroy)
 
 /* Independent normals of a realization, at least n: number k < n is for site k. */
 size_t fracas_correlation_normals(const fracas_correlation *correlation);

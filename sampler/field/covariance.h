@@ -3,6 +3,7 @@
 #ifndef FRACAS_SAMPLER_COVARIANCE_H
 #define FRACAS_SAMPLER_COVARIANCE_H
 
+#include "base/own.h"
 #include "sampler/strength.h"
 
 extern const fracas_kind fracas_covariance_exponential;
@@ -19,6 +20,7 @@ typedef struct fracas_covariance fracas_covariance;
 FRACAS_MUST_USE fracas_err fracas_covariance_create(const fracas_strength *strength,
                                                     fracas_covariance **covariance);
 void fracas_covariance_destroy(fracas_covariance *covariance); /* NULL is allowed */
+FRACAS_OWNER(fracas_covariance, fracas_covariance_destroy)
 
 /* rho(d), d >= 0 [m]: 1 at 0, and falling; to 3e-14, same bits on every CPU. */
 double fracas_covariance_at(const fracas_covariance *covariance, double distance);

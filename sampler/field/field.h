@@ -4,6 +4,7 @@
 #ifndef FRACAS_SAMPLER_FIELD_FIELD_H
 #define FRACAS_SAMPLER_FIELD_FIELD_H
 
+#include "base/own.h"
 #include "base/isa.h"
 #include "sampler/strength.h"
 #include "sampler/stream.h"
@@ -26,6 +27,7 @@ typedef struct fracas_field fracas_field;
 FRACAS_MUST_USE fracas_err fracas_field_create(const fracas_strength *strength,
                                                const fracas_sites *sites, fracas_field **field);
 void fracas_field_destroy(fracas_field *field); /* NULL is allowed */
+FRACAS_OWNER(fracas_field, fracas_field_destroy)
 
 /* Draws with this instruction set instead of the best of this CPU; all give the same bits.
  * FRACAS_USAGE if the CPU lacks it. */

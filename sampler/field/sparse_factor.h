@@ -3,6 +3,7 @@
 #ifndef FRACAS_SAMPLER_SPARSE_FACTOR_H
 #define FRACAS_SAMPLER_SPARSE_FACTOR_H
 
+#include "base/own.h"
 #include "sampler/field/covariance.h"
 
 enum {
@@ -17,6 +18,7 @@ FRACAS_MUST_USE fracas_err fracas_sparse_factor_create(const fracas_covariance *
                                                        size_t n, const double (*position)[3],
                                                        fracas_sparse_factor **factor);
 void fracas_sparse_factor_destroy(fracas_sparse_factor *factor); /* NULL is allowed */
+FRACAS_OWNER(fracas_sparse_factor, fracas_sparse_factor_destroy)
 
 /* The largest difference between the field's correlation and the covariance: of all pairs of up to
  * FRACAS_DENSE_SITES sites; of more, of the pairs of 128 sites with all. */

@@ -58,7 +58,7 @@ typedef struct {
 static fracas_err read_source(void *context)
 {
     const source *from = context;
-    OWNED(fracas_campaign) *campaign = NULL;
+    OWN(fracas_campaign) campaign = NULL;
     fracas_err err = fracas_campaign_read_with(from->units, from->path, &campaign);
     return err;
 }
@@ -131,7 +131,7 @@ static fracas_err print_plan(void *context)
 
 static void test_use(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_replaced("", sweep);
+    OWN(fracas_campaign) campaign = read_replaced("", sweep);
     fail_each(write_and_compare, campaign, LONG_MAX);
     /* The plan repeats short batches until the clock has seen enough: all of it would take a
      * minute. */

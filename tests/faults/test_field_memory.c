@@ -18,8 +18,6 @@ int fracas_test(void)
 
 #include <limits.h>
 
-OWNS(fracas_field)
-
 enum { MOST = FRACAS_DENSE_SITES + 20 };
 static double position[MOST][3], sigma_c[MOST], usual[MOST];
 static fracas_extent extent[MOST];
@@ -34,7 +32,7 @@ static fracas_err make_and_draw(const void *context)
     const body *b = context;
     const fracas_sites sites = {
         .n = b->n, .points = 1, .extent = extent, .position = (const double(*)[3])position};
-    OWNED(fracas_field) *field = NULL;
+    OWN(fracas_field) field = NULL;
     TRY(fracas_field_create(&b->strength, &sites, &field));
     fracas_err err = fracas_field_sample(field, &(fracas_stream){.seed = 1}, 1, sigma_c);
     return err;

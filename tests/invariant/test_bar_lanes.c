@@ -26,7 +26,7 @@ static void run(const fracas_model *model, uint64_t first, size_t count, int wid
 {
     const fracas_batch_options options = {
         .history = 20, .interfaces = true, .width = width, .isa = isa};
-    OWNED(fracas_batch) *batch;
+    OWN(fracas_batch) batch;
     OK(fracas_batch_create(model, count, &options, &batch));
     for (size_t l = 0; l < count; l++) bar_draw(batch, l, 0.05, first + l);
     for (size_t l = 0; l < count; l++) fracas_record_init(&record[l]);

@@ -57,8 +57,8 @@ static void linear_ledger_is_constant_to_round_off(void **unused)
         spec.cohesive.law = laws[i % 2];
         spec.geometry.ends = ends[i / 2 % 2];
         if (i / 4 > 0) spec.geometry.length = 0.02; /* the longest elements bear 450 MPa */
-        OWNED(fracas_model) *model = model_on(i / 4, &spec);
-        OWNED(fracas_batch) *batch = batch_of(model, 1, 1);
+        OWN(fracas_model) model = model_on(i / 4, &spec);
+        OWN(fracas_batch) batch = batch_of(model, 1, 1);
         for (size_t k = 0; k < model->interfaces; k++) bar_set_strength(batch, 0, k, 450e6);
         OK(fracas_batch_begin(batch));
         uint64_t seed = 7;
@@ -109,9 +109,9 @@ static void residual_stays_small_and_is_second_order(void **unused)
             fracas_spec spec = bar_reference(point[p].elements, point[p].rate, point[p].end);
             spec.time.safety = half ? 0.125 : 0.25;
             if (half && p == 3) continue; /* 4 s for nothing new */
-            OWNED(fracas_model) *model;
+            OWN(fracas_model) model;
             OK(fracas_model_create(&spec, &model));
-            OWNED(fracas_batch) *batch = batch_of(model, 8, 8);
+            OWN(fracas_batch) batch = batch_of(model, 8, 8);
             for (size_t l = 0; l < 8; l++) bar_draw(batch, l, 1.0 / 300, l);
             fracas_record record[8];
             for (int l = 0; l < 8; l++) fracas_record_init(&record[l]);
@@ -164,8 +164,8 @@ static void check_forces(int mesh)
     enum { N = 12 };
     fracas_spec spec = bar_reference(N, 1e4, 1);
     spec.geometry.length = N * 2e-5;
-    OWNED(fracas_model) *model = model_on(mesh, &spec);
-    OWNED(fracas_batch) *batch = batch_of(model, 1, 1);
+    OWN(fracas_model) model = model_on(mesh, &spec);
+    OWN(fracas_batch) batch = batch_of(model, 1, 1);
     bar_draw(batch, 0, 0.1, 3);
     OK(fracas_batch_begin(batch));
     batch->step.time[0] = 1.05e-7;
@@ -228,12 +228,12 @@ static void a_break_creates_what_the_flux_drops(void **unused)
     enum { N = 4 };
     fracas_spec spec = bar_reference(N, 1e4, 1);
     spec.geometry.length = N * 2e-5;
-    OWNED(fracas_model) *model;
+    OWN(fracas_model) model;
     OK(fracas_model_create(&spec, &model));
     const double delta_c = 2 * 100 / 300e6, spring = 4 * 275e9 / 2e-5;
     double potential[2], created[2], mean = 275e9 * 1e4 * 1e-7;
     for (int after = 0; after < 2; after++) {
-        OWNED(fracas_batch) *batch = batch_of(model, 1, 1);
+        OWN(fracas_batch) batch = batch_of(model, 1, 1);
         for (size_t i = 0; i < N; i++) bar_set_strength(batch, 0, i, 300e6);
         OK(fracas_batch_begin(batch));
         batch->step.time[0] = 1e-7; /* background stress 275 MPa */

@@ -59,7 +59,7 @@ static fracas_spec spec_of(const variant *v, int64_t divisions, double rate, dou
 static void run(const fracas_model *model, uint64_t first, size_t count, int width, fracas_isa isa,
                 fracas_record *record)
 {
-    OWNED(fracas_batch) *batch = batch_with(
+    OWN(fracas_batch) batch = batch_with(
         model, count,
         (fracas_batch_options){.history = 20, .interfaces = true, .width = width, .isa = isa});
     for (size_t l = 0; l < count; l++) bar_draw(batch, l, 0.3, first + l);
@@ -82,7 +82,7 @@ static void check_batch(const fracas_model *model, const fracas_record alone[8],
 static void a_lane_is_its_run_alone(void **unused)
 {
     for (int v = 0; v < VARIANTS; v++) {
-        OWNED(fracas_model) *model = distorted_model(
+        OWN(fracas_model) model = distorted_model(
             spec_of(&variants[v], variants[v].order == 1 ? 10 : 6, 3e4, 4e-7), DISTORTION, 3);
         fracas_record alone[8];
         int64_t fewest = INT64_MAX, most = 0, cracked = 0;
@@ -126,9 +126,9 @@ static void a_lane_is_its_run_alone(void **unused)
 static void momenta_are_kept_to_round_off(void **unused)
 {
     for (int v = 0; v < VARIANTS; v++) {
-        OWNED(fracas_model) *model = distorted_model(spec_of(&variants[v], 6, 3e4, 4e-7),
-                                                     DISTORTION, 3);
-        OWNED(fracas_batch) *batch = lane_of(model, 0.3, 1, 0);
+        OWN(fracas_model) model = distorted_model(spec_of(&variants[v], 6, 3e4, 4e-7), DISTORTION,
+                                                  3);
+        OWN(fracas_batch) batch = lane_of(model, 0.3, 1, 0);
         CLEARED(fracas_record) record;
         fracas_record_init(&record);
         OK(fracas_batch_begin(batch));
@@ -181,9 +181,8 @@ static void a_body_that_turns_has_that_spin(void **unused)
 {
     uint64_t state = 7;
     for (int v = 0; v < VARIANTS; v++) {
-        OWNED(fracas_model) *model = distorted_model(spec_of(&variants[v], 6, 0, 4e-7), DISTORTION,
-                                                     3);
-        OWNED(fracas_batch) *batch = lane_of(model, 0.3, 1, 0);
+        OWN(fracas_model) model = distorted_model(spec_of(&variants[v], 6, 0, 4e-7), DISTORTION, 3);
+        OWN(fracas_batch) batch = lane_of(model, 0.3, 1, 0);
         CLEARED(fracas_record) record;
         fracas_record_init(&record);
         OK(fracas_batch_begin(batch));
@@ -260,7 +259,7 @@ static double residual_of(int which, double safety, double *created, double *wor
 {
     fracas_spec spec = ledger_spec(which);
     spec.time.safety = which == RUBBING ? safety / 5 : safety; /* cohesive.md */
-    OWNED(fracas_model) *model = distorted_model(spec, DISTORTION, 3);
+    OWN(fracas_model) model = distorted_model(spec, DISTORTION, 3);
     fracas_record record[4];
     double residual = 0;
     run(model, 0, 4, 4, FRACAS_ISA_BEST, record);
@@ -332,8 +331,8 @@ static fracas_model *moved_model(const fracas_model *model, bool mirrored)
     static const size_t turned_round[6] = {0, 2, 1, 5, 4, 3};
     fracas_surface s = *model->surface;
     double(*node)[3] = malloc(s.nnodes * sizeof *node);
-    FREED uint32_t *element = malloc(s.nelements * s.corners * sizeof *element);
-    FREED fracas_surface_border *border = malloc(s.nborders * sizeof *border);
+    OWNED uint32_t *element = malloc(s.nelements * s.corners * sizeof *element);
+    OWNED fracas_surface_border *border = malloc(s.nborders * sizeof *border);
     assert_true(node && element && border);
     for (size_t n = 0; n < s.nnodes; n++) move(mirrored, s.node[n], node[n]);
     for (size_t e = 0; e < s.nelements; e++)
@@ -397,11 +396,11 @@ static void check_moved(const variant *v, bool mirrored)
     fracas_spec spec = spec_of(v, v->order == 1 ? 8 : 5, 4e4, 4e-7);
     spec.loading.ratio = 0.5;
     if (v->law != &fracas_law_nitsche.kind) spec.time.safety = 0.1;
-    OWNED(fracas_model) *model = distorted_model(spec, DISTORTION, 3),
-                        *moved = moved_model(model, mirrored);
+    OWN(fracas_model) model = distorted_model(spec, DISTORTION, 3),
+                      *moved = moved_model(model, mirrored);
     size_t *image = images_of(model, moved, mirrored), stride;
     moved->time_step = model->time_step; /* Lanczos' iteration starts from numbers of unknowns */
-    OWNED(fracas_batch) *a = lane_of(model, 0.3, 2, 0), *b = lane_of(moved, 0.3, 2, 0);
+    OWN(fracas_batch) a = lane_of(model, 0.3, 2, 0), *b = lane_of(moved, 0.3, 2, 0);
     const double *from = fracas_batch_strength(a, 0, &stride);
     double *to = fracas_batch_strength(b, 0, &stride);
     for (size_t k = 0; k < strengths_of(model); k++) to[image[k] * stride] = from[k * stride];

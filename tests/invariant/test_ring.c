@@ -386,8 +386,8 @@ typedef struct {
 
 static ledger_figures broken_up_ledger(const fracas_spec *spec)
 {
-    OWNED(fracas_model) *model;
-    OWNED(fracas_batch) *batch;
+    OWN(fracas_model) model;
+    OWN(fracas_batch) batch;
     fracas_record record[8];
     ledger_figures f = {0, 0, 0, 0};
     OK(fracas_model_create(spec, &model));

@@ -332,7 +332,7 @@ static fracas_model *lane_model(int kind)
 static void run_lanes(const fracas_model *model, uint64_t first, size_t count,
                       const fracas_batch_options *options, size_t poisoned, fracas_record *record)
 {
-    OWNED(fracas_batch) *batch;
+    OWN(fracas_batch) batch;
     OK(fracas_batch_create(model, count, options, &batch));
     for (size_t l = 0; l < count; l++) {
         bar_draw(batch, l, 0.05, first + l);

@@ -63,7 +63,7 @@ static double distortion_of(const variant *v)
 static void run(const fracas_model *model, uint64_t first, size_t count, int width, fracas_isa isa,
                 fracas_record *record)
 {
-    OWNED(fracas_batch) *batch = batch_with(
+    OWN(fracas_batch) batch = batch_with(
         model, count,
         (fracas_batch_options){.history = 20, .interfaces = true, .width = width, .isa = isa});
     for (size_t l = 0; l < count; l++) {
@@ -91,7 +91,7 @@ static void a_lane_is_its_run_alone(void **unused)
 {
     for (int v = 0; v < VARIANTS; v++) {
         const fracas_spec spec = spec_of(&variants[v]);
-        OWNED(fracas_model) *model = distorted_model(spec, distortion_of(&variants[v]), 3);
+        OWN(fracas_model) model = distorted_model(spec, distortion_of(&variants[v]), 3);
         fracas_record alone[8];
         int64_t most = 0, cracked = 0, least = INT64_MAX;
         for (size_t r = 0; r < 8; r++) {
@@ -162,8 +162,8 @@ static void momenta_are_kept_to_round_off(void **unused)
         spec.geometry.part = &fracas_part_whole;
         if (variants[v].part == &fracas_part_octant) spec.mesh.divisions = 2;
         if (spec.geometry.shape == &fracas_shape_sphere) spec.loading.rate = v < 4 ? 1e6 : 1e5;
-        OWNED(fracas_model) *model = distorted_model(spec, distortion_of(&variants[v]), 3);
-        OWNED(fracas_batch) *batch = lane_of(model, 0.3, 1);
+        OWN(fracas_model) model = distorted_model(spec, distortion_of(&variants[v]), 3);
+        OWN(fracas_batch) batch = lane_of(model, 0.3, 1);
         CLEARED(fracas_record) record;
         fracas_record_init(&record);
         OK(fracas_batch_begin(batch));
@@ -208,7 +208,7 @@ static double residual_of(fracas_spec spec, double distortion, double safety, do
                           int64_t *broken)
 {
     spec.time.safety = safety;
-    OWNED(fracas_model) *model = distorted_model(spec, distortion, 3);
+    OWN(fracas_model) model = distorted_model(spec, distortion, 3);
     fracas_record record[4];
     double residual = 0;
     run(model, 4, 3, 4, FRACAS_ISA_BEST, record);
@@ -293,7 +293,7 @@ static void a_sphere_cracks_when_its_stress_says_so(void **unused)
                 asin(sigma * (1 - m->poisson) * w /
                      (m->young * (thin + h / (2 * radius)) * spec.loading.rate)) /
                 w;
-            OWNED(fracas_model) *model = distorted_model(spec, 0, 0);
+            OWN(fracas_model) model = distorted_model(spec, 0, 0);
             error[finer] = 0;
             for (size_t weak = model->interfaces / 8; weak < model->interfaces;
                  weak += model->interfaces / 4) {

@@ -57,7 +57,7 @@ static int64_t run(const fracas_model *model, const batch_plan *plan, fracas_rec
 {
     const fracas_batch_options options = {
         .history = 20, .interfaces = true, .width = plan->width, .isa = plan->isa};
-    OWNED(fracas_batch) *batch;
+    OWN(fracas_batch) batch;
     OK(fracas_batch_create(model, plan->count, &options, &batch));
     for (size_t l = 0; l < plan->count; l++) {
         bar_draw(batch, l, 0.1, plan->first + l);
@@ -108,7 +108,7 @@ static void a_lane_is_its_run_alone(void **unused)
 {
     const int widths[] = {1, 4, 8};
     for (size_t k = 0; k < FRACAS_COUNT(cases); k++) {
-        OWNED(fracas_model) *model = model_of(&cases[k]);
+        OWN(fracas_model) model = model_of(&cases[k]);
         fracas_record alone[8], other[8];
         for (size_t r = 0; r < 8; r++)
             run(model, &(batch_plan){r, 1, 1, FRACAS_ISA_BASELINE, SIZE_MAX}, &alone[r]);

@@ -17,7 +17,7 @@ static counts count_fragments(const fracas_spec *spec, double scatter, size_t re
     double sum = 0, squares = 0;
     for (size_t first = 0; first < replicas; first += 8) {
         const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
-        OWNED(fracas_batch) *batch;
+        OWN(fracas_batch) batch;
         OK(fracas_batch_create(model, 8, &options, &batch));
         fracas_record record[8];
         for (size_t l = 0; l < 8; l++) {

@@ -11,9 +11,6 @@
 #include <gsl/gsl_cdf.h>
 #include <inttypes.h>
 
-OWNS(fracas_covariance)
-OWNS(fracas_field)
-
 #define ALPHA 1e-6
 
 enum { N = FRACAS_DENSE_SITES + 100, LINE = 80, REALIZATIONS = 3000, WATCHED = 8 };
@@ -43,7 +40,7 @@ static fracas_stream stream(uint64_t replica)
 
 static double of_covariance(const fracas_strength *strength, size_t i, size_t j, double period)
 {
-    OWNED(fracas_covariance) *covariance;
+    OWN(fracas_covariance) covariance;
     double d2 = 0;
     for (int a = 0; a < 3; a++)
         d2 += (position[i][a] - position[j][a]) * (position[i][a] - position[j][a]);
@@ -69,7 +66,7 @@ static void assert_correlated(double product, double rho, double error)
 
 static void check_covariances(const fracas_strength *strength, size_t n, double period)
 {
-    OWNED(fracas_field) *field = field_over(strength, n, 1, period);
+    OWN(fracas_field) field = field_over(strength, n, 1, period);
     double product[WATCHED][WATCHED] = {{0}};
     size_t site[WATCHED];
     for (size_t a = 0; a < WATCHED; a++)
@@ -138,7 +135,7 @@ static void each_strength_follows_its_law(void **state)
     laws[1].own[1] = 4; /* 40 in 1e-9 m3: all but e^-40 below the maximum */
     sites_scattered(N, position);
     for (size_t law = 0; law < 2; law++) {
-        OWNED(fracas_field) *field = field_over(&laws[law], N, 1, 0);
+        OWN(fracas_field) field = field_over(&laws[law], N, 1, 0);
         for (uint64_t r = 0; r < REALIZATIONS; r++) {
             const fracas_stream named = stream(r);
             OK(fracas_field_sample(field, &named, 1, sigma_c));
@@ -180,8 +177,8 @@ static void a_strength_depends_on_its_name_alone(void **state)
         if (body == 0) sites_on_line(n, 1, position);
         else if (body == 1) sites_on_circle(n, 1, position);
         else sites_scattered(N, position);
-        OWNED(fracas_field) *first = field_over(&strength, n, 1, 0),
-                            *second = field_over(&strength, n, 1, 0);
+        OWN(fracas_field) first = field_over(&strength, n, 1, 0),
+                          *second = field_over(&strength, n, 1, 0);
         uint64_t of[3];
         for (uint64_t r = 0; r < 3; r++) {
             const fracas_stream named = stream(r);

@@ -29,7 +29,7 @@ static double sum(const fracas_probability *p)
 static double mean_square(int type, size_t n, function *f)
 {
     static const uint64_t names[PARAMETERS] = {1, 2};
-    FREED fracas_probability *p = malloc(n * PARAMETERS * sizeof *p);
+    OWNED fracas_probability *p = malloc(n * PARAMETERS * sizeof *p);
     double total = 0.0;
     if (!p) abort();
     for (uint64_t seed = 0; seed < SEEDS; seed++) {

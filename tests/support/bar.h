@@ -11,9 +11,6 @@
 #include "sampler/api/sampler.h"
 #include "tests/support/test.h"
 
-OWNS(fracas_batch)
-OWNS(fracas_model)
-
 #define BAR_WAVE_SPEED 1e4                           /* m/s */
 #define BAR_STRENGTH_MEAN 300e6                      /* Pa */
 #define BAR_T0 (275e9 * 100 / (300e6 * 300e6 * 1e4)) /* s: E G_c/(sigma_c^2 c) = 30.556 ns */

@@ -9,8 +9,6 @@
 
 #include <unistd.h>
 
-OWNS(fracas_campaign)
-
 /* A complete campaign without a sweep; tests replace parts of it. */
 static const char plain_campaign[] = "name: test\n"                  /* 1 */
                                      "seed: 7\n"                     /* 2 */
@@ -114,7 +112,7 @@ static inline fracas_campaign *read_text(const char *text)
 /* The plain campaign with `find` replaced by `put`. */
 static inline fracas_campaign *read_replaced(const char *find, const char *put)
 {
-    FREED char *text = replace(plain_campaign, find, put);
+    OWNED char *text = replace(plain_campaign, find, put);
     fracas_campaign *campaign = read_text(text);
     return campaign;
 }

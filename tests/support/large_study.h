@@ -183,7 +183,7 @@ static inline fracas_err large_segment(const large_study *study, fracas_index *i
     size_t count = 0;
     fracas_writer *writer;
     fracas_file_seal seal;
-    FREED fracas_segment_row *row = calloc((size_t)(all / segments + 1), sizeof *row);
+    OWNED fracas_segment_row *row = calloc((size_t)(all / segments + 1), sizeof *row);
     if (!row) return fracas_no_memory("the rows of a segment");
     snprintf(name, sizeof name, "%06lld.h5", (long long)s);
     snprintf(path, sizeof path, "%s/segments/%s", folder, name);

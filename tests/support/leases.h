@@ -36,7 +36,7 @@ static inline fracas_scheduler_options options_for(size_t workers)
 /* `replicas` of each of `points` points for so many workers, in batches of 8 and leases of 1 s. */
 static inline fracas_scheduler *create(size_t points, size_t replicas, size_t workers)
 {
-    FREED fracas_index_row *row = rows(points, replicas);
+    OWNED fracas_index_row *row = rows(points, replicas);
     const fracas_scheduler_options options = options_for(workers);
     fracas_scheduler *scheduler = create_with(row, points * replicas, &options);
     return scheduler;

@@ -9,7 +9,7 @@ int test_run(const char *names, size_t count, const CMUnitTestFunction *test,
              CMFixtureFunction tear_down)
 {
     struct CMUnitTest *tests = calloc(count, sizeof *tests);
-    FREED char *copy = strdup(names);
+    OWNED char *copy = strdup(names);
     if (!tests || !copy) return 1;
     char *next = copy;
     for (size_t t = 0; t < count; t++) {

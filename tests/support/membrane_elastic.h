@@ -125,7 +125,7 @@ static inline void apply_stiffness(const fracas_model *model, fracas_surface_ope
                                    const double *u, double *f)
 {
     const size_t n = unknowns_of(model);
-    FREED double *a = vector_of(n);
+    OWNED double *a = vector_of(n);
     fracas_surface_operator_apply(op, u, a);
     multiply_mass(model, a, f);
     for (size_t i = 0; i < n; i++) f[i] = is_held(model, i) ? 0 : -f[i];

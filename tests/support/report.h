@@ -11,8 +11,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-OWNS(fracas_analysis)
-
 /* The record of a realization, a function of these alone. */
 typedef void report_record(const void *context, size_t point, int64_t replica,
                            fracas_record *record);
@@ -28,7 +26,7 @@ static inline void report_write_index(const char *folder, const fracas_point_tab
     OK(fracas_index_plan(index, table));
     size_t count = 0, all = 0;
     for (size_t p = 0; p < table->npoints; p++) all += (size_t)table->point[p].replicas;
-    FREED fracas_segment_row *row = calloc(all, sizeof *row);
+    OWNED fracas_segment_row *row = calloc(all, sizeof *row);
     assert_non_null(row);
     for (size_t p = 0; p < table->npoints; p++) {
         for (int64_t replica = 0; replica < table->point[p].replicas; replica++) {
@@ -71,7 +69,7 @@ static inline void report_write_study(const char *folder, const fracas_file_head
 /* table.txt, summary.json, report/ and export/ into the study's folder. */
 static inline void report_analyse(const char *folder)
 {
-    OWNED(fracas_analysis) *analysis;
+    OWN(fracas_analysis) analysis;
     OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
     char path[640];
     snprintf(path, sizeof path, "%s/table.txt", folder);

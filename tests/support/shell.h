@@ -153,9 +153,9 @@ static inline fracas_model *grid_model(const fracas_spec *spec, const shell_grid
     assert_non_null(at);
     assert_non_null(node);
     grid_places(g, at);
-    FREED uint32_t *element = grid_elements(g, at);
+    OWNED uint32_t *element = grid_elements(g, at);
     size_t ntags;
-    FREED fracas_surface_tag *tag = grid_tags(g, &ntags);
+    OWNED fracas_surface_tag *tag = grid_tags(g, &ntags);
     for (size_t n = 0; n < nodes; n++) g->map(g->how, at[n][0], at[n][1], node[n]);
     const fracas_surface_arrays arrays = {.order = 2,
                                           .nnodes = nodes,

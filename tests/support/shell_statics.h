@@ -73,8 +73,8 @@ static inline double *stiffness_blocks(shell_statics *s, uint32_t (*next)[4], co
 {
     const size_t size = SHELL_UNKNOWNS, elements = s->model->elements;
     double *block = vector_of(elements * 4 * size * size);
-    FREED double *u = vector_of(s->n), *f = vector_of(s->n);
-    FREED int *of = malloc(elements * sizeof *of);
+    OWNED double *u = vector_of(s->n), *f = vector_of(s->n);
+    OWNED int *of = malloc(elements * sizeof *of);
     assert_non_null(of);
     fracas_surface_operator *op = open_operator(s->model);
     const int colours = colour(s->model->surface, next, count, of);
@@ -108,7 +108,7 @@ static inline void fill_matrix(shell_statics *s)
 {
     const size_t elements = s->model->elements, size = SHELL_UNKNOWNS;
     uint32_t(*next)[4] = malloc(elements * sizeof *next);
-    FREED uint8_t *count = malloc(elements);
+    OWNED uint8_t *count = malloc(elements);
     assert_non_null(next);
     assert_non_null(count);
     list_neighbours(s->model->surface, next, count);

@@ -159,7 +159,7 @@ static inline bool sample_equal(const fracas_record *a, const fracas_record *b)
 {
     size_t size = fracas_record_packed_size(a);
     if (size != fracas_record_packed_size(b)) return false;
-    FREED char *bytes_a = malloc(size), *bytes_b = malloc(size);
+    OWNED char *bytes_a = malloc(size), *bytes_b = malloc(size);
     fracas_record_pack(a, bytes_a);
     fracas_record_pack(b, bytes_b);
     bool equal = memcmp(bytes_a, bytes_b, size) == 0;

@@ -13,7 +13,7 @@ static inline fracas_err sample_strengths(const fracas_strength *strength,
                                           const double *volume, const double (*position)[3],
                                           size_t stride, double *sigma_c)
 {
-    FREED fracas_extent *extent = malloc((n + 1) * sizeof *extent);
+    OWNED fracas_extent *extent = malloc((n + 1) * sizeof *extent);
     double(*origin)[3] = calloc(n + 1, sizeof *origin);
     if (!extent || !origin) abort();
     for (size_t i = 0; i < n; i++) extent[i] = (fracas_extent){volume ? volume[i] : 1.0, 1.0};

@@ -137,7 +137,7 @@ static inline void verify_finds(int64_t wanted, const char *part)
 /* Its report must contain `part`. */
 static inline void recover_says(const char *part)
 {
-    FREED char *report = NULL;
+    OWNED char *report = NULL;
     fracas_file_header header = sample_header();
     OK(fracas_study_recover(study, index_, &header, &table, &report));
     if (!report || !strstr(report, part))

@@ -8,8 +8,6 @@
 #include "engine/mesh/surface/surface.h"
 #include "tests/support/test.h"
 
-OWNS(fracas_checksum)
-
 /* The numbers 2^-32 k, 0 <= k < 2^32, spread at random. */
 static inline double next_share(uint64_t *x)
 {
@@ -31,7 +29,7 @@ static inline uint32_t corner_of(const fracas_surface *s, size_t element, size_t
  * the same nodes. */
 static inline void check_edges(const fracas_surface *s)
 {
-    FREED uint8_t *seen = calloc(3 * s->nelements, 1);
+    OWNED uint8_t *seen = calloc(3 * s->nelements, 1);
     assert_non_null(seen);
     for (size_t i = 0; i < s->ninterfaces; i++) {
         const fracas_surface_interface *f = &s->interface[i];
@@ -63,7 +61,7 @@ static inline void check_edges(const fracas_surface *s)
 /* Everything in a surface, as one number: the same on every machine. */
 static inline uint64_t checksum_of(const fracas_surface *s)
 {
-    OWNED(fracas_checksum) *sum;
+    OWN(fracas_checksum) sum;
     OK(fracas_checksum_create(&sum));
     fracas_checksum_add(sum, s->node, s->nnodes * sizeof *s->node);
     fracas_checksum_add(sum, s->element, s->nelements * s->corners * sizeof *s->element);

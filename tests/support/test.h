@@ -16,6 +16,7 @@
 #include <cmocka.h>
 
 #include "base/err.h"
+#include "base/own.h"
 
 /* The call succeeds; else its message is shown. */
 #define OK(call)                                               \
@@ -23,21 +24,8 @@
         if (call) fail_msg("%s: %s", #call, fracas_message()); \
     } while (0)
 
-/* Given back where the block ends: FREED int *x = malloc(...); CLEARED(fracas_record) record; and,
- * where OWNS(type) stands above, OWNED(fracas_model) *model. */
-#define FREED __attribute__((cleanup(free_at)))
+/* Cleared where the block ends (OWNED and OWN: base/own.h). */
 #define CLEARED(type) __attribute__((cleanup(type##_clear))) type
-#define OWNED(type) __attribute__((cleanup(type##_own))) type
-#define OWNS(type)                                \
-    static inline void type##_own(type **pointer) \
-    {                                             \
-        type##_destroy(*pointer);                 \
-    }
-
-static inline void free_at(void *pointer)
-{
-    free(*(void **)pointer);
-}
 
 /* The file's function `fracas_test` is its main; CMake gives each file's a name of its own. */
 #define TESTS(...) TESTS_RUN(NULL, NULL, NULL, NULL, __VA_ARGS__)

@@ -46,14 +46,14 @@ static void file_that_is_not_there(void **state)
 
 static void page_shows_every_key(void **state)
 {
-    FREED char *wanted;
+    OWNED char *wanted;
     size_t size;
     FILE *out = open_memstream(&wanted, &size);
     fracas_analysis_reference(out);
     fclose(out);
     static const char begin[] = "<!-- generated: fracas reference --statistics -->\n\n",
                       end[] = "\n<!-- end of generated -->\n";
-    FREED char *page = report_contents(FRACAS_SOURCE_DIR, "docs/formats/summary.md");
+    OWNED char *page = report_contents(FRACAS_SOURCE_DIR, "docs/formats/summary.md");
     const char *shown = strstr(page, begin);
     assert_non_null(shown);
     shown += strlen(begin);

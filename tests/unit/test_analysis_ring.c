@@ -281,7 +281,7 @@ static void report_of_rings(void **state)
                                  .complete = true};
     report_write_study(folder, &header, &made.table, make_record, NULL);
     report_analyse(folder);
-    FREED char *table = report_contents(folder, "table.txt"),
+    OWNED char *table = report_contents(folder, "table.txt"),
                *page = report_contents(folder, "report/index.html");
     assert_non_null(strstr(table, "radius  radial  strain rate"));
     assert_non_null(strstr(table, "  [mm]   [m/s]        [1/s]"));
@@ -458,7 +458,7 @@ static void scales_of_critical_opening(void **state)
         "310 MPa}\n"
         "loading: {type: initial-velocity, radial: 80 m/s}\ntime: {end: 100 ns}\nreplicas: 1\n"
         "sweep:\n  - cohesive: [{critical_opening: 0.6 um}, {fracture_energy: 90 J/m2}]\n";
-    OWNED(fracas_campaign) *campaign = read_text(text);
+    OWN(fracas_campaign) campaign = read_text(text);
     fracas_point_statistics opening, energy;
     fracas_point_statistics_init(&campaign->table, 0, &opening);
     fracas_point_statistics_init(&campaign->table, 1, &energy);

@@ -260,7 +260,7 @@ static void report_that_cannot_be_written(void **state)
     FILE *file = fopen(blocker, "w"); /* where the folder should be */
     assert_non_null(file);
     fclose(file);
-    OWNED(fracas_analysis) *analysis;
+    OWN(fracas_analysis) analysis;
     OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
     assert_int_equal(fracas_report_write(analysis, folder), FRACAS_ENVIRONMENT);
     assert_non_null(strstr(fracas_message(), "blocked/report"));

@@ -353,7 +353,7 @@ static void holes_stay_holes(void **state)
     CLEARED(fracas_record) record;
     grid_make(&ring, &mesh);
     grid_record(&mesh, 100, &record);
-    FREED char *svg = draw(&mesh, &record, 1, FRACAS_SHOW_CRACKS);
+    OWNED char *svg = draw(&mesh, &record, 1, FRACAS_SHOW_CRACKS);
     assert_true(fabs(measure(svg, "body").area / (784.0 * 784.0) - 63) < 0.05);
     assert_int_equal(measure(svg, "body").lines, 2);
     assert_null(strstr(svg, "class=\"t0\""));
@@ -412,7 +412,7 @@ static void flat_pictures_stay_as_they_are(void **state)
             record.interface[i].break_time = record.interface[i].onset_time + 5;
     }
     for (int show = FRACAS_SHOW_CRACKS; show <= FRACAS_SHOW_MESH; show++) {
-        FREED char *svg = draw(&mesh, &record, 60, (fracas_surface_show)show);
+        OWNED char *svg = draw(&mesh, &record, 60, (fracas_surface_show)show);
         const char *drawing = strstr(svg, "</style>");
         assert_non_null(drawing);
         assert_int_equal(fracas_checksum_of(drawing, strlen(drawing)), expected[show]);
@@ -430,7 +430,7 @@ static void neighbours_have_different_tints(void **state)
     grid_make(&large, &mesh);
     for (int round = 0; round < 20; round++) {
         CLEARED(fracas_surface_state) now;
-        FREED uint8_t *tint;
+        OWNED uint8_t *tint;
         grid_record(&mesh, 1, &record);
         for (size_t i = 0; i < mesh.ninterfaces; i++)
             if (sample_bits(&random) % 100 < 55) record.interface[i].break_time = 0.5;

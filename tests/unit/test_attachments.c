@@ -17,8 +17,6 @@
 #include <time.h>
 #include <unistd.h>
 
-OWNS(fracas_model)
-
 /* ---- strengths of a file ---- */
 
 static const fracas_kind *kind_named(const char *name)
@@ -223,7 +221,7 @@ static void test_many_places(void **state)
 {
     enum { SIDE = 200, N = SIDE * SIDE, LINE = 64 };
     double(*position)[3] = calloc(N, sizeof *position), *got = calloc(N, sizeof *got);
-    FREED char *text = malloc((size_t)N * LINE);
+    OWNED char *text = malloc((size_t)N * LINE);
     assert_true(position && got && text);
     for (int body = 0; body < 2; body++) {
         for (uint64_t i = 0; i < N; i++) {
@@ -274,7 +272,7 @@ static const char uniform[] = "  distribution: uniform\n  minimum: 299 MPa\n  ma
  * (line 26 + new lines). */
 static fracas_err read_with(const char *strength, const char *end, fracas_campaign **campaign)
 {
-    FREED char *text = replace(plain_campaign, uniform, strength), *whole = replace(text, "", end);
+    OWNED char *text = replace(plain_campaign, uniform, strength), *whole = replace(text, "", end);
     put("c.yaml", whole);
     return fracas_campaign_read(in_folder("c.yaml"), campaign);
 }
@@ -357,12 +355,10 @@ static void test_identity(void **state)
     put("s.csv", "strength\n300e6\n1,301e6\n");
     put("t.csv", "strength\n300e6\n1,301e6\n");
     put("u.csv", "strength\n300e6\n1,302e6\n");
-    OWNED(fracas_campaign) *one = good(FROM_FILE "s.csv\n", ""),
-                           *same = good(FROM_FILE "t.csv\n", "");
-    OWNED(fracas_campaign) *other = good(uniform,
-                                         "sweep:\n  - strength: [{distribution: file, file: "
-                                         "u.csv}, {distribution: file, file: t.csv}]\n"
-                                         "  - loading.rate: [1e4, 2e4]\n");
+    OWN(fracas_campaign) one = good(FROM_FILE "s.csv\n", ""), *same = good(FROM_FILE "t.csv\n", "");
+    OWN(fracas_campaign) other = good(uniform, "sweep:\n  - strength: [{distribution: file, file: "
+                                               "u.csv}, {distribution: file, file: t.csv}]\n"
+                                               "  - loading.rate: [1e4, 2e4]\n");
     const size_t column = fracas_point_table_find(&one->table, "strength.file");
     assert_int_not_equal(column, SIZE_MAX);
     assert_true(one->table.column[column].text);
@@ -394,7 +390,7 @@ static void test_round_trip(void **state)
 {
     put("s.csv", "300e6\n");
     put("t.csv", "301e6\n");
-    OWNED(fracas_campaign) *campaign = good(
+    OWN(fracas_campaign) campaign = good(
         uniform, "sweep:\n  - strength: [{distribution: file, file: s.csv}, {distribution: file, "
                  "file: t.csv}, {distribution: constant, value: 5}]\n");
     assert_int_equal(mkdir(in_folder("study"), 0777), 0);
@@ -527,7 +523,7 @@ static void test_positions_of_a_surface(void **state)
     put("c.yaml", by_position);
     fracas_campaign *campaign;
     if (fracas_campaign_read(in_folder("c.yaml"), &campaign)) fail_msg("%s", fracas_message());
-    OWNED(fracas_model) *model = model_of(campaign, x);
+    OWN(fracas_model) model = model_of(campaign, x);
     assert_int_equal(fracas_model_interfaces(model), 8);
     int sides = 0, diagonals = 0;
     for (int i = 7; i >= 0; i--) { /* middles of sides are at (0, +-0.5), (+-0.5, 0) mm, of
@@ -567,7 +563,7 @@ static void test_positions_of_a_surface(void **state)
 static void test_noise(void **state)
 {
     enum { N = 1000 };
-    OWNED(fracas_campaign) *campaign = read_replaced(
+    OWN(fracas_campaign) campaign = read_replaced(
         "", "sweep:\n  - mesh: [{elements: 50, spacing: perturbed, amplitude: 0.2}, {elements: "
             "200000, spacing: perturbed, amplitude: 0.2}]\n");
     double noise[N], begin[10], sum = 0;

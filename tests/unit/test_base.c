@@ -19,7 +19,7 @@ static void an_error_carries_its_message_up(void **unused)
     assert_string_equal(fracas_message(), "value 7");
     assert_int_equal(fracas_fail_within(FRACAS_USAGE, "file %s", "a.yaml"), FRACAS_USAGE);
     assert_string_equal(fracas_message(), "file a.yaml: value 7");
-    FREED char *huge = malloc(5000);
+    OWNED char *huge = malloc(5000);
     assert_non_null(huge);
     memset(huge, 'x', 4999);
     huge[4999] = 0;
@@ -51,7 +51,7 @@ static void hashes_are_xxh3(void **unused)
 
 static void json_is_well_formed(void **unused)
 {
-    FREED char *text = NULL;
+    OWNED char *text = NULL;
     size_t size;
     FILE *out = open_memstream(&text, &size);
     fracas_json json;

@@ -291,7 +291,7 @@ static void curved_edges_are_curved(void **state)
     body b;
     make_body(true, 6, 2, 4, false, &b);
     for (int v = 0; v < 2; v++) {
-        FREED char *svg = draw(&b, &views[v], 0, 0, FRACAS_SHOW_FRAGMENTS);
+        OWNED char *svg = draw(&b, &views[v], 0, 0, FRACAS_SHOW_FRAGMENTS);
         const double scale = 7840 / sqrt(2),
                      exact = 3 * M_PI / 4 / sqrt(3) * scale * scale; /* from x = 1 to y = 1 */
         assert_true(fabs(filled(svg, "t") / exact - 1) < 1e-4 + 0.71 * 3 * 7840 / exact);
@@ -341,7 +341,7 @@ static void flat_surfaces_can_be_looked_at_too(void **state)
     const double length = length_of(flat, "broken", &flat_edges);
     assert_null(strstr(flat, "shade"));
     for (int side = 0; side < 2; side++) {
-        FREED char *svg = draw(&b, side ? &below : &above, 0, 0, FRACAS_SHOW_FRAGMENTS);
+        OWNED char *svg = draw(&b, side ? &below : &above, 0, 0, FRACAS_SHOW_FRAGMENTS);
         assert_true(fabs(length_of(svg, "broken", &edges) - length) <= 4);
         assert_int_equal(edges, flat_edges);
         assert_non_null(strstr(svg, side ? "fill-opacity=\"0.465\"" : "fill-opacity=\"0.114\""));
@@ -364,7 +364,7 @@ static void pictures_of_bodies_stay_small(void **state)
         fracas_surface_state_clear(&b.now);
         OK(fracas_surface_state_create(&b.mesh, &b.record, 5, &b.now));
         for (int apart = 0; apart < 2; apart++) {
-            FREED char *svg = draw(&b, NULL, 0.15 * apart, 0.01, FRACAS_SHOW_FRAGMENTS);
+            OWNED char *svg = draw(&b, NULL, 0.15 * apart, 0.01, FRACAS_SHOW_FRAGMENTS);
             assert_true(strlen(svg) < (apart ? 2000000 : 1000000));
         }
     }

@@ -64,7 +64,7 @@ static void test_points(void **state)
     const fracas_uncertain rate = {.kind = kind("log-uniform"), .minimum = 1e3, .maximum = 1e5};
     const fracas_uncertain elements = {.kind = kind("uniform"), .minimum = 50.5, .maximum = 950.5};
     for (size_t t = 0; t < FRACAS_COUNT(types); t++) {
-        OWNED(fracas_campaign) *campaign = read_design(types[t], YOUNG ENERGY RATE ELEMENTS TIED);
+        OWN(fracas_campaign) campaign = read_design(types[t], YOUNG ENERGY RATE ELEMENTS TIED);
         const fracas_design design = {fracas_design_types[t], 7, 9, 4, name, tied};
         fracas_probability p[36];
         OK(fracas_design_fill(&design, p));
@@ -86,7 +86,7 @@ static void test_points(void **state)
 
 static void test_shipped(void **state)
 {
-    OWNED(fracas_campaign) *campaign;
+    OWN(fracas_campaign) campaign;
     OK(fracas_campaign_read(FRACAS_SOURCE_DIR "/campaigns/examples/bar-uncertain.yaml", &campaign));
     assert_int_equal(campaign->npoints, 64);
     assert_true(campaign->common_random_numbers);
@@ -99,9 +99,9 @@ static void test_shipped(void **state)
 /* Two designs and a list: the last axis runs fastest, and each design is as it is alone. */
 static void test_product(void **state)
 {
-    OWNED(fracas_campaign) *young = read_design("sobol\n      points: 3", YOUNG),
-                           *rate = read_design("random\n      points: 2", RATE);
-    OWNED(fracas_campaign) *both = read_design(
+    OWN(fracas_campaign) young = read_design("sobol\n      points: 3", YOUNG),
+                         *rate = read_design("random\n      points: 2", RATE);
+    OWN(fracas_campaign) both = read_design(
         "sobol\n      points: 3",
         YOUNG "  - design:\n      type: random\n      points: 2\n      parameters:\n" RATE
               "  - mesh.elements: [10, 20]\n");
@@ -117,7 +117,7 @@ static void test_product(void **state)
  * the point has. */
 static void test_drawn_with_kind(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_design(
+    OWN(fracas_campaign) campaign = read_design(
         "random\n      points: 3",
         "        strength.shape: {distribution: uniform, minimum: 5, maximum: 9}\n"
         "  - strength: [{distribution: weibull, scale: 300 MPa}, {distribution: gamma, scale: 30 "
@@ -148,8 +148,8 @@ static void test_extension(void **state)
          {"material.young is 3", "in the study (its point 0)"}},
     };
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
-        OWNED(fracas_campaign) *before = read_design(table[i].before, YOUNG),
-                               *now = read_design(table[i].after, YOUNG);
+        OWN(fracas_campaign) before = read_design(table[i].before, YOUNG),
+                             *now = read_design(table[i].after, YOUNG);
         const fracas_err err = fracas_campaign_extends(now, before);
         if (err != (table[i].words[0] ? FRACAS_DAMAGED : FRACAS_OK))
             fail_msg("%s: %d %s", table[i].after, err, fracas_message());
@@ -164,7 +164,7 @@ static void test_extension(void **state)
 static void test_hashes(void **state)
 {
     char sweep[1200];
-    OWNED(fracas_campaign) *drawn = read_design("latin-hypercube\n      points: 4", YOUNG ELEMENTS);
+    OWN(fracas_campaign) drawn = read_design("latin-hypercube\n      points: 4", YOUNG ELEMENTS);
     int used = snprintf(sweep, sizeof sweep, "sweep:\n  - cases:\n");
     for (size_t p = 0; p < 4; p++) {
         const fracas_spec *spec = &drawn->point[p].spec;
@@ -172,7 +172,7 @@ static void test_hashes(void **state)
                          "    - {material.young: %.15g, mesh.elements: %d}\n", spec->material.young,
                          (int)spec->mesh.elements);
     }
-    OWNED(fracas_campaign) *written = read_replaced("", sweep);
+    OWN(fracas_campaign) written = read_replaced("", sweep);
     assert_true(fracas_hash_equal(&drawn->hash, &written->hash));
     for (size_t p = 0; p < 4; p++)
         assert_true(fracas_hash_equal(&drawn->point[p].hash, &written->point[p].hash));
@@ -191,10 +191,10 @@ static bool same_stream(const fracas_campaign *campaign, size_t p, size_t q, uin
  * default. */
 static void test_common_random_numbers(void **state)
 {
-    OWNED(fracas_campaign) *plain = read_replaced("", "sweep:\n  - loading.rate: [1e3, 2e3]\n");
-    OWNED(fracas_campaign) *said = read_replaced(
+    OWN(fracas_campaign) plain = read_replaced("", "sweep:\n  - loading.rate: [1e3, 2e3]\n");
+    OWN(fracas_campaign) said = read_replaced(
         "", "random_numbers: independent\nsweep:\n  - loading.rate: [1e3, 2e3]\n");
-    OWNED(fracas_campaign) *common = read_replaced(
+    OWN(fracas_campaign) common = read_replaced(
         "", "random_numbers: common\nsweep:\n  - loading.rate: [1e3, 2e3]\n");
     assert_false(plain->common_random_numbers || said->common_random_numbers);
     assert_true(common->common_random_numbers);
@@ -217,7 +217,7 @@ static void test_common_random_numbers(void **state)
 static void test_common_hash(void **state)
 {
     char hex[FRACAS_HASH_HEX];
-    OWNED(fracas_campaign) *common = read_replaced("", "random_numbers: common\n");
+    OWN(fracas_campaign) common = read_replaced("", "random_numbers: common\n");
     fracas_hash_hex(&common->hash, hex);
     assert_string_equal(hex, "e2446cf15144b9e2154645bd5c8473e0");
 }

@@ -28,7 +28,7 @@ static void check_hex(const fracas_hash *hash, const char *expected)
 static void test_example(void **state)
 {
     static const double rate[] = {1e3, 1e4, 1e5, 1e6};
-    OWNED(fracas_campaign) *campaign;
+    OWN(fracas_campaign) campaign;
     assert_int_equal(fracas_campaign_read(
                          FRACAS_SOURCE_DIR "/campaigns/examples/bar-rate-sweep.yaml", &campaign),
                      0);
@@ -47,7 +47,7 @@ static void test_example(void **state)
 
 static void test_plain(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_text(plain_campaign);
+    OWN(fracas_campaign) campaign = read_text(plain_campaign);
     const fracas_spec *spec = &campaign->point[0].spec;
     assert_int_equal(campaign->npoints, 1);
     assert_int_equal(campaign->seed, 7);
@@ -89,7 +89,7 @@ static void test_windows(void **state)
         text[used++] = *c;
     }
     text[used] = '\0';
-    OWNED(fracas_campaign) *plain = read_text(plain_campaign), *windows = read_text(text);
+    OWN(fracas_campaign) plain = read_text(plain_campaign), *windows = read_text(text);
     assert_true(fracas_hash_equal(&plain->hash, &windows->hash));
 }
 
@@ -104,12 +104,12 @@ static void test_golden_hash(void **state)
         "distribution=uniform\n"
         "strength.maximum=301000000\nstrength.minimum=299000000\ntime.end=5e-07\ntime.quiet=1e-07\n"
         "time.quiet_fraction=0.001\ntime.safety=0.25\ntime.stop=settled\n";
-    OWNED(fracas_campaign) *campaign = read_text(plain_campaign);
+    OWN(fracas_campaign) campaign = read_text(plain_campaign);
     fracas_hash hash = fracas_hash_of(text, strlen(text));
     assert_true(fracas_hash_equal(&campaign->point[0].hash, &hash));
     check_hex(&hash, "53c7ff3de3ea0c8cbde3f25ea63fc3a1");
     check_hex(&campaign->hash, "dd4f4934fd1c1021f03785f89cec1baa");
-    FREED char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md");
+    OWNED char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md");
     assert_non_null(strstr(page, "# 53c7ff3de3ea0c8cbde3f25ea63fc3a1\n"));
     assert_non_null(strstr(page, "# dd4f4934fd1c1021f03785f89cec1baa\n"));
 }
@@ -144,9 +144,9 @@ static void test_hashes(void **state)
         {"stop: settled\n  end: 500 ns\n  quiet: 100 ns", "stop: time\n  end: 500 ns", false,
          false},
     };
-    OWNED(fracas_campaign) *plain = read_text(plain_campaign);
+    OWN(fracas_campaign) plain = read_text(plain_campaign);
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
-        OWNED(fracas_campaign) *other = read_replaced(table[i].find, table[i].put);
+        OWN(fracas_campaign) other = read_replaced(table[i].find, table[i].put);
         bool same_point = fracas_hash_equal(&plain->point[0].hash, &other->point[0].hash);
         bool same_campaign = fracas_hash_equal(&plain->hash, &other->hash);
         if (same_point != table[i].same_point || same_campaign != table[i].same_campaign)
@@ -159,9 +159,9 @@ static void test_hashes(void **state)
 
 static void test_product(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_replaced("",
-                                                     "sweep:\n  - loading.rate: [1e3 1/s, 1e4]\n"
-                                                     "  - material.young: [1 GPa, 2 GPa, 3 GPa]\n");
+    OWN(fracas_campaign) campaign = read_replaced("",
+                                                  "sweep:\n  - loading.rate: [1e3 1/s, 1e4]\n"
+                                                  "  - material.young: [1 GPa, 2 GPa, 3 GPa]\n");
     assert_int_equal(campaign->npoints, 6);
     for (size_t p = 0; p < 6; p++) { /* the last axis is the fastest */
         assert_true(campaign->point[p].spec.loading.rate == (p < 3 ? 1e3 : 1e4));
@@ -191,7 +191,7 @@ static void test_ranges(void **state)
 
 static void test_zip(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_replaced(
+    OWN(fracas_campaign) campaign = read_replaced(
         "", "sweep:\n  - zip:\n      loading.rate: [1, 2, 3]\n   "
             "   mesh.elements: {from: 10, to: 30, points: 3}\n"
             "      strength: [{minimum: 1 MPa}, {distribution: "
@@ -211,7 +211,7 @@ static void test_zip(void **state)
 
 static void test_cases(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_replaced(
+    OWN(fracas_campaign) campaign = read_replaced(
         "",
         "sweep:\n  - cases:\n      - name: soft\n        material: {young: 1 GPa}\n        "
         "loading.rate: 5\n"
@@ -236,7 +236,7 @@ static void test_cases(void **state)
  * keeps common ones. */
 static void test_changed_kind(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_replaced(
+    OWN(fracas_campaign) campaign = read_replaced(
         "", "sweep:\n  - strength: [{}, {distribution: weibull, scale: 300 MPa, shape: 10}]\n"
             "  - cohesive.law: [nitsche, rigid-link]\n");
     assert_int_equal(campaign->npoints, 4);
@@ -255,7 +255,7 @@ static void test_changed_kind(void **state)
  * it. */
 static void test_key_of_all_kinds(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_replaced(
+    OWN(fracas_campaign) campaign = read_replaced(
         "", "sweep:\n  - cohesive.law: [nitsche, rigid-link]\n");
     for (size_t p = 0; p < 2; p++)
         assert_true(real(campaign, p, "cohesive.fracture_energy") == 100);
@@ -290,14 +290,14 @@ static void test_supplied_by_sweep(void **state)
 {
     static const char strength[] =
         "strength:\n  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n";
-    FREED char *text = replace(plain_campaign, strength, "");
-    FREED char *bare = replace(text, "loading:\n  rate: 1e4 1/s\n", "");
-    FREED char *swept = replace(bare, "replicas: 3\n", "");
-    FREED char *full = replace(
+    OWNED char *text = replace(plain_campaign, strength, "");
+    OWNED char *bare = replace(text, "loading:\n  rate: 1e4 1/s\n", "");
+    OWNED char *swept = replace(bare, "replicas: 3\n", "");
+    OWNED char *full = replace(
         swept, "",
         "sweep:\n  - loading.rate: [1e3, 1e4]\n"
         "  - cases: [{replicas: 1, strength: {distribution: constant, value: 3 MPa}}]\n");
-    OWNED(fracas_campaign) *campaign = read_text(full);
+    OWN(fracas_campaign) campaign = read_text(full);
     assert_int_equal(campaign->npoints, 2);
     assert_int_equal(campaign->point[1].replicas, 1);
     assert_true(campaign->point[1].strength.value == 3e6);
@@ -309,7 +309,7 @@ static void test_table(void **state)
 {
     static const char sweep[] =
         "sweep:\n  - strength: [{}, {distribution: constant, value: 5 MPa}]\n";
-    OWNED(fracas_campaign) *campaign = read_replaced("", sweep);
+    OWN(fracas_campaign) campaign = read_replaced("", sweep);
     const fracas_point_table *table = &campaign->table;
     static const char *const paths[] = {"cohesive.beta",
                                         "cohesive.fracture_energy",
@@ -377,7 +377,7 @@ static void test_table(void **state)
 /* (scaling-laws.8), (scaling-laws.9): the shape by lgamma, which no code of ours uses. */
 static void test_modulus(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_replaced(
+    OWN(fracas_campaign) campaign = read_replaced(
         "", "sweep:\n  - strength: [{distribution: weibull, scale: 400 MPa, shape: 10}, "
             "{distribution: weibull, minimum: 100 MPa, mean: 300 MPa, deviation: 50 MPa}, "
             "{distribution: flaws, flaw_density: 1e15, minimum: 100 MPa, maximum: 400 MPa, "
@@ -499,10 +499,10 @@ static void test_round_trip(void **state)
          "log-uniform, minimum: 1e3, maximum: 1e5}}}\n"),
     };
     for (size_t i = 0; i < FRACAS_COUNT(sweeps); i++) {
-        OWNED(fracas_campaign) *campaign = read_replaced("", sweeps[i]);
-        FREED char *text = write_text(campaign);
-        OWNED(fracas_campaign) *back = read_text(text);
-        FREED char *again = write_text(back);
+        OWN(fracas_campaign) campaign = read_replaced("", sweeps[i]);
+        OWNED char *text = write_text(campaign);
+        OWN(fracas_campaign) back = read_text(text);
+        OWNED char *again = write_text(back);
         assert_string_equal(text, again);
         assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
         assert_string_equal(campaign->name, back->name);
@@ -537,10 +537,10 @@ static void test_largest_round_trip(void **state)
     }
     char *text = replace(sweep, "cohesive.beta: {from: 17, to: 99000",
                          "cohesive.beta: {from: 17, to: 9900");
-    OWNED(fracas_campaign) *campaign = read_replaced("", text);
+    OWN(fracas_campaign) campaign = read_replaced("", text);
     free(text);
     text = write_text(campaign);
-    OWNED(fracas_campaign) *back = read_text(text);
+    OWN(fracas_campaign) back = read_text(text);
     assert_int_equal(back->npoints, 10000);
     assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
     free(text);
@@ -549,7 +549,7 @@ static void test_largest_round_trip(void **state)
 /* A file that cannot be written is said. */
 static void test_write_fails(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_text(plain_campaign);
+    OWN(fracas_campaign) campaign = read_text(plain_campaign);
     FILE *full = fopen("/dev/full", "w");
     assert_non_null(full);
     assert_int_equal(fracas_campaign_write(campaign, full), FRACAS_ENVIRONMENT);
@@ -589,11 +589,11 @@ static void test_extends(void **state)
          "stop: time\n  end: 500 ns",
          {"time.quiet is 1e-07 s", "but nothing"}},
     };
-    FREED char *text = replace(plain_campaign, "", "sweep:\n  - loading.rate: [1e3, 1e4]\n");
-    OWNED(fracas_campaign) *before = read_text(text);
+    OWNED char *text = replace(plain_campaign, "", "sweep:\n  - loading.rate: [1e3, 1e4]\n");
+    OWN(fracas_campaign) before = read_text(text);
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
-        FREED char *changed = replace(text, table[i].find, table[i].put);
-        OWNED(fracas_campaign) *now = read_text(changed);
+        OWNED char *changed = replace(text, table[i].find, table[i].put);
+        OWN(fracas_campaign) now = read_text(changed);
         fracas_err err = fracas_campaign_extends(now, before);
         if (err != (table[i].words[0] ? FRACAS_DAMAGED : FRACAS_OK))
             fail_msg("%s: %d %s", table[i].put, err, fracas_message());
@@ -607,7 +607,7 @@ static void test_extends(void **state)
 
 static void test_reference_page(void **state)
 {
-    FREED char *text = NULL;
+    OWNED char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
@@ -615,7 +615,7 @@ static void test_reference_page(void **state)
     assert_int_equal(fclose(out), 0);
     const char *keep = getenv("FRACAS_WRITE_REFERENCE");
     if (keep) write_bytes(keep, text, size);
-    FREED char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file-keys.md");
+    OWNED char *page = read_whole(FRACAS_SOURCE_DIR "/docs/formats/campaign-file-keys.md");
     if (strcmp(page, text) != 0)
         fail_msg(
             "docs/formats/campaign-file-keys.md is not what the tables say; run this test with "

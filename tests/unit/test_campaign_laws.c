@@ -7,9 +7,6 @@
 #include "campaigns/plan/point_model.h"
 #include "tests/support/test.h"
 
-OWNS(fracas_field)
-OWNS(fracas_model)
-
 static const char uniform[] = "  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n";
 
 static size_t column(const fracas_campaign *campaign, const char *path)
@@ -26,8 +23,8 @@ static double real(const fracas_campaign *campaign, size_t point, const char *pa
 /* What is not given has no column, and so no trace in a hash; what is given has. */
 static void test_what_is_given_counts(void **state)
 {
-    OWNED(fracas_campaign) *plain = read_text(plain_campaign);
-    OWNED(fracas_campaign) *moments = read_replaced(
+    OWN(fracas_campaign) plain = read_text(plain_campaign);
+    OWN(fracas_campaign) moments = read_replaced(
         uniform, "  distribution: uniform\n  mean: 300 MPa\n  deviation: 0.5 MPa\n");
     assert_int_equal(column(plain, "strength.mean"), SIZE_MAX);
     assert_int_equal(column(plain, "strength.reference_volume"), SIZE_MAX);
@@ -73,15 +70,15 @@ static void test_field_has_the_size_effect(void **state)
     static const char sweep[] =
         "sweep:\n  - strength: [{distribution: weibull, scale: 300 MPa, shape: 8}, {distribution: "
         "weibull, scale: 300 MPa, shape: 8, reference_volume: 1 mm3}]\n";
-    OWNED(fracas_campaign) *campaign = read_replaced("", sweep);
+    OWN(fracas_campaign) campaign = read_replaced("", sweep);
     const double expected = pow(2.0, 1.0 / 8.0);
     assert_true(fabs(real(campaign, 1, "derived.strength_mean") /
                          real(campaign, 0, "derived.strength_mean") / expected -
                      1) < 1e-13);
     double drawn[2][100];
     for (size_t p = 0; p < 2; p++) {
-        OWNED(fracas_model) *model;
-        OWNED(fracas_field) *field;
+        OWN(fracas_model) model;
+        OWN(fracas_field) field;
         const fracas_stream stream = {.seed = 5, .purpose = FRACAS_PURPOSE_STRENGTH};
         OK(fracas_model_create(&campaign->point[p].spec, &model));
         OK(fracas_model_field(model, &campaign->point[p].strength, &field));

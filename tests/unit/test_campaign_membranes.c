@@ -13,10 +13,6 @@
 #include "tests/support/surface_measures.h"
 #include "tests/support/test.h"
 
-OWNS(fracas_batch)
-OWNS(fracas_model)
-OWNS(fracas_units)
-
 static const char membrane_campaign[] =
     "name: test\n"                                                /* 1 */
     "seed: 7\n"                                                   /* 2 */
@@ -34,7 +30,7 @@ static const char membrane_campaign[] =
 
 static fracas_campaign *read_membrane(const char *find, const char *put)
 {
-    FREED char *text = replace(membrane_campaign, find, put);
+    OWNED char *text = replace(membrane_campaign, find, put);
     fracas_campaign *campaign = read_text(text);
     return campaign;
 }
@@ -96,14 +92,14 @@ static void test_plate(void **state)
 
 static void test_annulus(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_membrane(
+    OWN(fracas_campaign) campaign = read_membrane(
         "geometry: {width: 10 mm, height: 5 mm, ",
         "geometry: {shape: annulus, inner: 5 mm, outer: 10 mm, outer_edge: held, ");
     const fracas_geometry *geometry = &campaign->point[0].spec.geometry;
     assert_true(geometry->inner == 0.005 && geometry->outer == 0.01 && geometry->thickness == 1e-4);
     assert_ptr_equal(geometry->edge[1], &fracas_edge_free);
     assert_ptr_equal(geometry->edge[2], &fracas_edge_held);
-    OWNED(fracas_model) *model = model_of(campaign, 0);
+    OWN(fracas_model) model = model_of(campaign, 0);
     fracas_surface_measures all;
     fracas_surface_measure(fracas_model_surface(model), &all);
     assert_true(fabs(all.area / (M_PI * 75e-6) - 1) <
@@ -125,7 +121,7 @@ static char *file_campaign(const char *path, const char *strength)
              path);
     char *text = replace(membrane_campaign,
                          "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\n", geometry);
-    FREED char *meshed = replace(text, "  divisions: 4\n", "  spacing: given\n");
+    OWNED char *meshed = replace(text, "  divisions: 4\n", "  spacing: given\n");
     free(text);
     text = replace(meshed, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n", strength);
     return text;
@@ -163,7 +159,7 @@ static void test_page_example(void **state)
 {
     FILE *in = fopen(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md", "r");
     assert_non_null(in);
-    FREED char *page = calloc(1, 1 << 16);
+    OWNED char *page = calloc(1, 1 << 16);
     assert_non_null(page);
     assert_true(fread(page, 1, (1 << 16) - 1, in) > 0);
     fclose(in);
@@ -173,14 +169,14 @@ static void test_page_example(void **state)
     *end = '\0';
     char *found = replace(begin, "plate.msh",
                           FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order2-msh41-text.msh");
-    FREED char *shown = replace(found, "edge_1: held, edge_2: held", "edges: held");
+    OWNED char *shown = replace(found, "edge_1: held, edge_2: held", "edges: held");
     free(found);
-    FREED char *text = replace(
+    OWNED char *text = replace(
         membrane_campaign,
         "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\nmesh:\n  divisions: 4\n",
         shown);
-    OWNED(fracas_campaign) *campaign = read_text(text);
-    OWNED(fracas_model) *model = model_of(campaign, 0);
+    OWN(fracas_campaign) campaign = read_text(text);
+    OWN(fracas_model) model = model_of(campaign, 0);
     assert_int_equal(fracas_model_surface(model)->order, 2);
 }
 
@@ -214,7 +210,7 @@ static void test_no_mesh(void **state)
  * squares cut in two. */
 static void test_mean_strength(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_membrane(
+    OWN(fracas_campaign) campaign = read_membrane(
         "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}",
         "strength: {distribution: flaws, flaw_density: 1e11 1/m3, minimum: 100 MPa, maximum: 400 "
         "MPa, exponent: 2}\n"
@@ -234,9 +230,9 @@ static void test_mean_strength(void **state)
 
 static void check_round_trip(const fracas_campaign *campaign)
 {
-    FREED char *text = write_text(campaign);
-    OWNED(fracas_campaign) *back = read_text(text);
-    FREED char *again = write_text(back);
+    OWNED char *text = write_text(campaign);
+    OWN(fracas_campaign) back = read_text(text);
+    OWNED char *again = write_text(back);
     assert_string_equal(text, again);
     assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
     assert_int_equal(campaign->npoints, back->npoints);
@@ -258,16 +254,16 @@ static void test_swept_model(void **state)
     free(text);
     text = replace(sliding, "  quiet: 100 ns\n", "  quiet: 100 ns\n  integrator: hulbert-chung\n");
     free(sliding);
-    FREED char *swept = replace(
+    OWNED char *swept = replace(
         text, "",
         "sweep:\n  - cases:\n      - {name: bar}\n      - {name: plate, model: membrane, time: "
         "{stop: time}, geometry: {shape: plate, width: 1, height: 1, thickness: 1}, mesh: "
         "{divisions: 2}, loading: {type: expansion, rate: 1e4}}\n");
     free(text);
     /* `model: bar` in the file, or no model: the same points */
-    FREED char *unnamed = replace(swept, "model: bar\n", "");
-    OWNED(fracas_campaign) *campaign = read_text(swept), *same = read_text(unnamed),
-                           *alone = read_text(plain_campaign);
+    OWNED char *unnamed = replace(swept, "model: bar\n", "");
+    OWN(fracas_campaign) campaign = read_text(swept), *same = read_text(unnamed),
+                         *alone = read_text(plain_campaign);
     assert_true(fracas_hash_equal(&campaign->hash, &same->hash));
     assert_true(fracas_hash_equal(&campaign->point[0].hash, &alone->point[0].hash));
     assert_true(isnan(at(campaign, 0, "material.poisson")->real) &&
@@ -338,11 +334,11 @@ static void test_refused(void **state)
         {"cohesive:\n", "cohesive:\n  law: rigid-link\n",
          ":9:8: ", "`law`: rigid-link cannot be combined with model membrane"},
     };
-    OWNED(fracas_units) *units;
+    OWN(fracas_units) units;
     OK(fracas_units_create(&units));
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
         char path[40];
-        FREED char *text = replace(membrane_campaign, table[i].find, table[i].put);
+        OWNED char *text = replace(membrane_campaign, table[i].find, table[i].put);
         fracas_campaign *campaign = NULL;
         make_path(path);
         write_bytes(path, text, strlen(text));
@@ -376,7 +372,7 @@ static void test_perturbed(void **state)
     static const char mesh[] =
         "  divisions: 4\n  amplitude: 0.3\nsweep:\n  - loading.rate: [1e4, 2e4]\n";
     fracas_campaign *campaign = read_membrane("  divisions: 4\n", mesh);
-    FREED char *text = replace(membrane_campaign, "  divisions: 4\n", mesh),
+    OWNED char *text = replace(membrane_campaign, "  divisions: 4\n", mesh),
                *reseeded = replace(text, "seed: 7", "seed: 8");
     fracas_campaign *again = read_text(text), *other = read_text(reseeded),
                     *regular = read_membrane("", "");
@@ -418,16 +414,16 @@ static void test_plan_of_fields(void **state)
                  "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2, covariance: matern, "
                  "correlation_length: %s}",
                  table[i].length);
-        OWNED(fracas_campaign) *campaign = read_membrane(strength, section);
-        FREED char *text = plan_text(campaign, 1, false);
+        OWN(fracas_campaign) campaign = read_membrane(strength, section);
+        OWNED char *text = plan_text(campaign, 1, false);
         if (table[i].words) assert_non_null(strstr(text, table[i].words));
         else assert_null(strstr(text, "correlation_length"));
         assert_null(strstr(text, "size effect"));
     }
-    OWNED(fracas_campaign) *campaign = read_membrane(
+    OWN(fracas_campaign) campaign = read_membrane(
         strength, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2, covariance: matern, "
                   "correlation_length: 2e-3, reference_volume: 1e-3 mm3}");
-    FREED char *text = plan_text(campaign, 1, false);
+    OWNED char *text = plan_text(campaign, 1, false);
     assert_non_null(strstr(
         text, "strengths are correlated, and their size effect is that of independent flaws"));
 }
@@ -462,9 +458,9 @@ static void test_plan(void **state)
     assert_non_null(strstr(text, "\"elements\": 64"));
     free(text);
     fracas_campaign_destroy(campaign);
-    FREED char *constant = replace(membrane_campaign, strength,
+    OWNED char *constant = replace(membrane_campaign, strength,
                                    "strength: {distribution: constant, value: 300 MPa}");
-    FREED char *moved = replace(constant, "  divisions: 4\n", "  size: 1 mm\n  amplitude: 0.2\n");
+    OWNED char *moved = replace(constant, "  divisions: 4\n", "  size: 1 mm\n  amplitude: 0.2\n");
     campaign = read_text(moved);
     text = plan_text(campaign, 1, false);
     assert_null(strstr(text, "follow its lines"));
@@ -482,8 +478,8 @@ static void test_plan(void **state)
 /* Rows of interfaces take what they take, 6 x 84 more numbers than there are none. */
 static void test_bytes(void **state)
 {
-    OWNED(fracas_campaign) *without = read_membrane("", ""),
-                           *with = read_membrane("", "output: {interfaces: true}\n");
+    OWN(fracas_campaign) without = read_membrane("", ""),
+                         *with = read_membrane("", "output: {interfaces: true}\n");
     fracas_forecast a, b;
     OK(fracas_forecast_all(without, 1, &a));
     OK(fracas_forecast_all(with, 1, &b));
@@ -494,7 +490,7 @@ static void test_bytes(void **state)
 /* Runs one realization in which every interface has this strength; true if any cracks. */
 static bool cracks(const fracas_model *model, double strength)
 {
-    OWNED(fracas_batch) *batch;
+    OWN(fracas_batch) batch;
     CLEARED(fracas_record) record;
     const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
     OK(fracas_batch_create(model, 1, &options, &batch));
@@ -533,17 +529,17 @@ static void test_bound(void **state)
                      table[i].loading, times[t]);
             snprintf(law, sizeof law, "  fracture_energy: 1e9\n  coupling: %s\n",
                      table[i].coupling);
-            FREED char *loaded = replace(membrane_campaign,
+            OWNED char *loaded = replace(membrane_campaign,
                                          "loading: {rate: 1e4 1/s}\ntime: {end: 0.1 us}\n", text);
-            FREED char *lawful = replace(loaded, "  fracture_energy: 150 J/m2\n", law),
+            OWNED char *lawful = replace(loaded, "  fracture_energy: 150 J/m2\n", law),
                        *square = replace(lawful, "height: 5 mm", "height: 10 mm");
-            FREED char *fine = replace(square, "divisions: 4", "divisions: 12\n  amplitude: 0.2");
-            OWNED(fracas_campaign) *campaign = read_text(fine);
+            OWNED char *fine = replace(square, "divisions: 4", "divisions: 12\n  amplitude: 0.2");
+            OWN(fracas_campaign) campaign = read_text(fine);
             fracas_forecast forecast;
             OK(fracas_forecast_make(campaign, 0, &forecast));
             assert_true(fabs(forecast.bound / (370e9 * 1e4 * times[t] * table[i].stress) - 1) <
                         1e-12);
-            OWNED(fracas_model) *model = model_of(campaign, 0);
+            OWN(fracas_model) model = model_of(campaign, 0);
             if (cracks(model, 1.05 * forecast.bound))
                 fail_msg("%s until %g: above", table[i].loading, times[t]);
             if (t == 0 && i < 4 && !cracks(model, 0.9 * forecast.bound))
@@ -573,11 +569,11 @@ static void test_steps_that_pass_strengths(void **state)
         snprintf(strength, sizeof strength,
                  "strength: {distribution: uniform, minimum: 300 MPa, maximum: %.17g}",
                  300e6 + table[i].widths * forecast.step_stress);
-        FREED char *lawful = replace(membrane_campaign, "cohesive:\n", law);
-        FREED char *strong = replace(
+        OWNED char *lawful = replace(membrane_campaign, "cohesive:\n", law);
+        OWNED char *strong = replace(
             lawful, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}", strength);
         campaign = read_text(strong);
-        FREED char *text = plan_text(campaign, 1, false);
+        OWNED char *text = plan_text(campaign, 1, false);
         assert_true((strstr(text, "interfaces that a step passes together") != NULL) ==
                     table[i].warned);
         fracas_campaign_destroy(campaign);
@@ -602,14 +598,14 @@ static void test_bounds_of_others(void **state)
         {"rate: 1e4 1/s", "type: centrifugal, speed: 1e5 rad/s", 370e9 * 0.5e10 * 1e-14 / 0.75},
     };
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
-        OWNED(fracas_campaign) *campaign = read_membrane(table[i].find, table[i].put);
+        OWN(fracas_campaign) campaign = read_membrane(table[i].find, table[i].put);
         fracas_forecast forecast;
         OK(fracas_forecast_make(campaign, 0, &forecast));
         if (!(forecast.bound == table[i].bound ||
               fabs(forecast.bound / table[i].bound - 1) < 1e-12))
             fail_msg("%s: %g", table[i].put, forecast.bound);
     }
-    OWNED(fracas_campaign) *still = read_membrane("rate: 1e4 1/s", "rate: 1e4 1/s, start: rest");
+    OWN(fracas_campaign) still = read_membrane("rate: 1e4 1/s", "rate: 1e4 1/s, start: rest");
     fracas_forecast forecast;
     assert_int_equal(fracas_forecast_make(still, 0, &forecast), FRACAS_USAGE);
     assert_non_null(strstr(fracas_message(), "nothing would ever move"));

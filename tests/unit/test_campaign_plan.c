@@ -9,8 +9,6 @@
 
 #include <time.h>
 
-OWNS(fracas_model)
-
 static const char sweep[] =
     "sweep:\n  - loading.rate: [1e3, 1e4]\n  - strength.maximum: [300 MPa, 301 MPa]\n";
 
@@ -21,8 +19,8 @@ static void expect(const char *text, const char *part)
 
 static void test_cost(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_text(plain_campaign);
-    OWNED(fracas_model) *model;
+    OWN(fracas_campaign) campaign = read_text(plain_campaign);
+    OWN(fracas_model) model;
     double cost = 0;
     OK(fracas_model_create(&campaign->point[0].spec, &model));
     OK(fracas_plan_cost(campaign, 0, &cost, NULL));
@@ -33,8 +31,8 @@ static void test_cost(void **state)
 /* Rows end at the same column, as every cell is right-aligned. */
 static void test_text(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_replaced("", sweep);
-    FREED char *text = plan_text(campaign, 2, false);
+    OWN(fracas_campaign) campaign = read_replaced("", sweep);
+    OWNED char *text = plan_text(campaign, 2, false);
     expect(text, "Campaign test: 4 points, 12 realizations\n");
     expect(text, "for 2 processes");
     const char *head = strstr(
@@ -51,8 +49,8 @@ static void test_text(void **state)
 
 static void test_json(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_replaced("", sweep);
-    FREED char *text = plan_text(campaign, 2, true);
+    OWN(fracas_campaign) campaign = read_replaced("", sweep);
+    OWNED char *text = plan_text(campaign, 2, true);
     expect(text, "\"points\": 4,");
     expect(text, "\"realizations\": 12");
     expect(text, "\"loading.rate\": 10000");
@@ -70,14 +68,14 @@ static void test_json(void **state)
  * scatter. */
 static void test_warnings(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_replaced(
+    OWN(fracas_campaign) campaign = read_replaced(
         "", "sweep:\n  - mesh.elements: [100, 1000]\n"
             "  - strength: [{distribution: constant, value: 300 MPa}, {distribution: uniform, "
             "minimum: 299 MPa, maximum: 301 MPa}]\n");
     double length = campaign->point[0].spec.geometry.length,
            softening = 275e9 * 100 / (300e6 * 300e6);
     bool coarse = length / 100 / softening > 0.5;
-    FREED char *text = plan_text(campaign, 2, false), *json = plan_text(campaign, 2, true);
+    OWNED char *text = plan_text(campaign, 2, false), *json = plan_text(campaign, 2, true);
     for (int p = 0; p < 4; p++) {
         char uniform[64], long_elements[64];
         snprintf(uniform, sizeof uniform, "point %d: all interfaces are equally strong", p);
@@ -104,7 +102,7 @@ static fracas_campaign *read_ring(const char *loading, const char *more)
 
 static double bound_of(const char *loading)
 {
-    OWNED(fracas_campaign) *campaign = read_ring(loading, "");
+    OWN(fracas_campaign) campaign = read_ring(loading, "");
     fracas_forecast forecast;
     if (fracas_forecast_make(campaign, 0, &forecast)) fail_msg("%s", fracas_message());
     assert_true(campaign->point[0].spec.time.end == 500e-9);
@@ -196,8 +194,8 @@ static void test_warnings_of_rings(void **state)
          4 | 64},
     };
     for (size_t i = 0; i < sizeof rings / sizeof *rings; i++) {
-        OWNED(fracas_campaign) *campaign = read_ring(rings[i].loading, rings[i].more);
-        FREED char *text = plan_text(campaign, 2, false);
+        OWN(fracas_campaign) campaign = read_ring(rings[i].loading, rings[i].more);
+        OWNED char *text = plan_text(campaign, 2, false);
         for (unsigned w = 0; w < sizeof says / sizeof *says; w++)
             if ((strstr(text, says[w]) != NULL) != (rings[i].expected >> w & 1))
                 fail_msg("ring %zu, \"%s\":\n%s", i, says[w], text);
@@ -207,7 +205,7 @@ static void test_warnings_of_rings(void **state)
 /* A heavy tail is refused for the strongest interface it will draw, not for its mean. */
 static void test_heavy_tail(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_replaced(
+    OWN(fracas_campaign) campaign = read_replaced(
         "", "sweep:\n  - strength: [{distribution: weibull, scale: 30 MPa, shape: 0.5}]\n");
     fracas_model *model;
     OK(fracas_model_create(&campaign->point[0].spec, &model));
@@ -226,7 +224,7 @@ static void test_heavy_tail(void **state)
  * bear 255 MPa. */
 static void test_flaws_of_small_elements(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_replaced(
+    OWN(fracas_campaign) campaign = read_replaced(
         "", "sweep:\n  - cases:\n"
             "      - {name: small, mesh: {spacing: graded, ratio: 0.001}, strength: {distribution: "
             "flaws, flaw_density: 1e11 1/m3, minimum: 100 MPa, maximum: 400 MPa, exponent: 2}}\n");
@@ -244,7 +242,7 @@ static void test_flaws_of_small_elements(void **state)
 /* What the engine refuses is refused here, with the point. */
 static void test_refused(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_replaced(
+    OWN(fracas_campaign) campaign = read_replaced(
         "", "sweep:\n  - cohesive.fracture_energy: [100, 1e-9]\n");
     FILE *out = fopen("/dev/null", "w");
     assert_non_null(out);
@@ -272,11 +270,11 @@ static fracas_campaign *refined_ring(const char *refinement)
  * it takes a tenth of a second (a second with sanitizers). */
 static void test_refined(void **state)
 {
-    OWNED(fracas_campaign) *campaign = refined_ring("1e-4");
+    OWN(fracas_campaign) campaign = refined_ring("1e-4");
     const clock_t before = clock(); /* of the processor */
-    FREED char *text = plan_text(campaign, 2, false);
+    OWNED char *text = plan_text(campaign, 2, false);
     assert_true((double)(clock() - before) < 5.0 * CLOCKS_PER_SEC);
-    OWNED(fracas_model) *model;
+    OWN(fracas_model) model;
     OK(fracas_model_create(&campaign->point[0].spec, &model));
     const double base = 15e-6 / fracas_model_time_step(model);
     assert_true(fabs((double)fracas_model_steps(model) - 1e8 * base) <= 1.0); /* rounded up */
@@ -288,7 +286,7 @@ static void test_refined_too_far(void **state)
     static const char *const refinements[] = {"5e-5", "1e-10", "1e-154",
                                               "1e-300"}; /* 9.5e3/25e-10 = 3.8e12, ... infinity */
     for (size_t r = 0; r < FRACAS_COUNT(refinements); r++) {
-        OWNED(fracas_campaign) *campaign = refined_ring(refinements[r]);
+        OWN(fracas_campaign) campaign = refined_ring(refinements[r]);
         fracas_model *model = NULL;
         assert_int_equal(fracas_model_create(&campaign->point[0].spec, &model), FRACAS_USAGE);
         assert_null(model);
@@ -298,7 +296,7 @@ static void test_refined_too_far(void **state)
 
 static void test_write_fails(void **state)
 {
-    OWNED(fracas_campaign) *campaign = read_text(plain_campaign);
+    OWN(fracas_campaign) campaign = read_text(plain_campaign);
     FILE *full = fopen("/dev/full", "w");
     assert_non_null(full);
     assert_int_equal(fracas_plan_print(campaign, 1, full, true), FRACAS_ENVIRONMENT);

@@ -14,7 +14,7 @@ static fracas_campaign *with_replicas(const char *replicas)
 {
     char line[300];
     snprintf(line, sizeof line, "replicas: %s", replicas);
-    FREED char *text = replace(plain_campaign, "replicas: 3", line);
+    OWNED char *text = replace(plain_campaign, "replicas: 3", line);
     fracas_campaign *campaign = read_text(text);
     return campaign;
 }
@@ -122,7 +122,7 @@ static void a_rule_is_written_and_hashed(void **state)
         "{minimum: 16, maximum: 256, until: {quantity: mean-count, relative-half-width: 0.02, "
         "confidence: 0.96}}",
     };
-    OWNED(fracas_campaign) *campaign = with_replicas(RULE);
+    OWN(fracas_campaign) campaign = with_replicas(RULE);
     char *text = write_text(campaign);
     assert_non_null(strstr(text, "\nreplicas: " RULE "\n"));
     fracas_campaign *back = read_text(text);
@@ -131,7 +131,7 @@ static void a_rule_is_written_and_hashed(void **state)
     fracas_campaign_destroy(back);
     free(text);
     for (size_t i = 0; i < sizeof other / sizeof *other; i++) {
-        OWNED(fracas_campaign) *changed = with_replicas(other[i]);
+        OWN(fracas_campaign) changed = with_replicas(other[i]);
         if (fracas_hash_equal(&campaign->hash, &changed->hash))
             fail_msg("the same campaign: %s", other[i]);
         assert_true(fracas_hash_equal(&campaign->point[0].hash, &changed->point[0].hash));
@@ -146,13 +146,13 @@ static void cases_have_their_own(void **state)
         plain_campaign, "",
         "sweep:\n  - cases:\n      - {name: a, loading: {rate: 1e3}, replicas: " RULE "}\n"
         "      - {name: b, loading: {rate: 2e3}}\n");
-    OWNED(fracas_campaign) *campaign = read_text(text);
+    OWN(fracas_campaign) campaign = read_text(text);
     free(text);
     assert_int_equal(campaign->point[0].rule.maximum, 256);
     assert_int_equal(campaign->point[1].rule.maximum, 0);
     assert_int_equal(campaign->point[1].replicas, 3);
     text = write_text(campaign);
-    OWNED(fracas_campaign) *back = read_text(text);
+    OWN(fracas_campaign) back = read_text(text);
     assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
     assert_true(fracas_replicas_same(&campaign->point[0], &back->point[0]) &&
                 fracas_replicas_same(&campaign->point[1], &back->point[1]));
@@ -190,8 +190,8 @@ static void only_more_extends(void **state)
         {RULE, "255", "replicas.maximum is 256 in the study (its point 0), but 255"},
     };
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
-        OWNED(fracas_campaign) *before = with_replicas(table[i].before),
-                               *now = with_replicas(table[i].now);
+        OWN(fracas_campaign) before = with_replicas(table[i].before),
+                             *now = with_replicas(table[i].now);
         const fracas_err err = fracas_campaign_extends(now, before);
         if (err != (table[i].words ? FRACAS_DAMAGED : FRACAS_OK))
             fail_msg("%s -> %s: %d", table[i].before, table[i].now, err);

@@ -96,7 +96,7 @@ static char *written(void (*write)(const fracas_chart *chart, FILE *out))
 
 static void the_csv_has_what_is_drawn(void **state)
 {
-    FREED char *text = written(fracas_chart_csv);
+    OWNED char *text = written(fracas_chart_csv);
     assert_string_equal(text,
                         "panel,series,kind,\"rate [1/s]\",\"size [mm] | energy [J]\",low,high\n"
                         "1,\"\",curve,1,1,,\n"
@@ -134,7 +134,7 @@ static void write_file(const fracas_chart *chart, FILE *out)
 
 static void drawings_have_marks_bands_and_keys(void **state)
 {
-    FREED char *page = written(write_page), *linear = written(write_linear),
+    OWNED char *page = written(write_page), *linear = written(write_linear),
                *file = written(write_file);
     assert_int_equal(count_of(page, "class=\"mark\""), 2);
     assert_int_equal(count_of(page, "class=\"bar\""), 1);
@@ -166,7 +166,7 @@ static double place_of(const char *drawing, const char *name)
 
 static void an_axis_may_have_names(void **state)
 {
-    FREED char *page = written_of(make_names, write_page),
+    OWNED char *page = written_of(make_names, write_page),
                *table = written_of(make_names, fracas_chart_csv);
     assert_string_equal(table, "panel,series,kind,\"refined\",\"change [%]\",low,high\n"
                                "1,\"as it is\",box,\"mesh\",0,-1,1\n"

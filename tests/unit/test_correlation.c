@@ -15,11 +15,6 @@
 #include <gsl/gsl_sf_bessel.h>
 #include <gsl/gsl_sf_gamma.h>
 
-OWNS(fracas_circulant)
-OWNS(fracas_correlation)
-OWNS(fracas_covariance)
-OWNS(fracas_sparse_factor)
-
 /* What a product of some hundred roundings may be wrong by. */
 #define ROUNDED 1e-12
 
@@ -56,7 +51,7 @@ static void covariances_are_those_of_gsl(void **state)
     double worst = 0;
     for (size_t s = 0; s < sizeof smoothness / sizeof *smoothness; s++) {
         const fracas_strength strength = correlated(&fracas_covariance_matern, 3e-3, smoothness[s]);
-        OWNED(fracas_covariance) *covariance = covariance_of(&strength);
+        OWN(fracas_covariance) covariance = covariance_of(&strength);
         double before = 1;
         assert_true(fracas_covariance_at(covariance, 0) == 1);
         for (double d = 3e-9; d < 3; d *= 1.013) {
@@ -72,7 +67,7 @@ static void covariances_are_those_of_gsl(void **state)
                                          &fracas_covariance_gaussian};
     for (size_t k = 0; k < 2; k++) {
         const fracas_strength strength = correlated(others[k], 3e-3, NAN);
-        OWNED(fracas_covariance) *covariance = covariance_of(&strength);
+        OWN(fracas_covariance) covariance = covariance_of(&strength);
         for (double d = 3e-9; d < 3; d *= 1.1)
             worst = fmax(worst, fabs(fracas_covariance_at(covariance, d) - exact(&strength, d)));
     }
@@ -114,7 +109,7 @@ static double *factor_of(const fracas_correlation *correlation, size_t n)
 {
     const size_t count = fracas_correlation_normals(correlation);
     double *a = calloc(n * count + 1, sizeof *a);
-    FREED double *w = calloc(count + 1, sizeof *w), *z = calloc(n + 1, sizeof *z);
+    OWNED double *w = calloc(count + 1, sizeof *w), *z = calloc(n + 1, sizeof *z);
     for (size_t k = 0; k < count; k++) {
         w[k] = 1;
         OK(fracas_correlation_apply(correlation, w, z));
@@ -127,7 +122,7 @@ static double *factor_of(const fracas_correlation *correlation, size_t n)
 /* The largest error of A A^T; distances are those of the circle where there is a period. */
 static double error_of(const fracas_strength *strength, size_t n, double period, const char *what)
 {
-    OWNED(fracas_correlation) *correlation;
+    OWN(fracas_correlation) correlation;
     OK(fracas_correlation_create(strength, n, SITES, period, &correlation));
     const size_t count = fracas_correlation_normals(correlation);
     double *a = factor_of(correlation, n), worst = 0;
@@ -172,7 +167,7 @@ static void few_sites_have_the_covariance(void **state)
 static size_t normals_of(size_t n, const fracas_kind *kind, double length)
 {
     const fracas_strength strength = correlated(kind, length, NAN);
-    OWNED(fracas_correlation) *correlation;
+    OWN(fracas_correlation) correlation;
     OK(fracas_correlation_create(&strength, n, SITES, 0, &correlation));
     const size_t count = fracas_correlation_normals(correlation);
     return count;
@@ -248,8 +243,8 @@ static void no_circle_is_long_enough(void **state)
 {
     enum { N = 1200, WAVES = 60 };
     const fracas_strength strength = correlated(&fracas_covariance_gaussian, 1.6e4, NAN);
-    OWNED(fracas_covariance) *covariance = covariance_of(&strength);
-    OWNED(fracas_circulant) *circulant;
+    OWN(fracas_covariance) covariance = covariance_of(&strength);
+    OWN(fracas_circulant) circulant;
     OK(fracas_circulant_line(covariance, N, 1.0, &circulant));
     const size_t size = fracas_circulant_normals(circulant);
     assert_int_equal(size, 1 << 17); /* no larger one is tried */
@@ -275,7 +270,7 @@ static void no_circle_is_long_enough(void **state)
 
 static fracas_sparse_factor *sparse_of(const fracas_strength *strength, size_t n)
 {
-    OWNED(fracas_covariance) *covariance = covariance_of(strength);
+    OWN(fracas_covariance) covariance = covariance_of(strength);
     fracas_sparse_factor *factor;
     OK(fracas_sparse_factor_create(covariance, n, SITES, &factor));
     return factor;
@@ -321,7 +316,7 @@ static void errors_are_stated(void **state)
                                                     cases[c].smoothness);
         double of_variance;
         sites_scattered(N, sites);
-        OWNED(fracas_sparse_factor) *factor = sparse_of(&strength, N);
+        OWN(fracas_sparse_factor) factor = sparse_of(&strength, N);
         const double stated = fracas_sparse_factor_error(factor),
                      worst = error_of_pairs(&strength, factor, N, cases[c].step, &of_variance);
         print_message("%s, length %g: error %.2e, stated %.2e, of a variance %.1e\n",
@@ -340,7 +335,7 @@ static void correlations_are_those_of_the_factor(void **state)
     const fracas_strength strength = correlated(&fracas_covariance_matern, 0.1, NAN);
     static double w[N], z[N], rho[ROWS][N], product[ROWS][N];
     sites_scattered(N, sites);
-    OWNED(fracas_sparse_factor) *factor = sparse_of(&strength, N);
+    OWN(fracas_sparse_factor) factor = sparse_of(&strength, N);
     for (size_t k = 0; k < N; k++) {
         w[k] = 1;
         OK(fracas_sparse_factor_apply(factor, w, z));
@@ -366,7 +361,7 @@ static void markov_fields_are_exact(void **state)
             sites[i][0] = fmod((double)(i / copies) * 0.6180339887498949, 1.0);
             sites[i][1] = sites[i][2] = 0;
         }
-        OWNED(fracas_sparse_factor) *factor = sparse_of(&strength, LINE);
+        OWN(fracas_sparse_factor) factor = sparse_of(&strength, LINE);
         const double worst = error_of_pairs(&strength, factor, LINE, 10, &of_variance);
         print_message("sites on a line: %.1e\n", worst);
         assert_true(worst < 1e-11 && of_variance < ROUNDED);
@@ -382,7 +377,7 @@ static void sites_may_be_at_one_place(void **state)
     sites_scattered(N, sites);
     for (size_t i = 0; i < N; i++) /* a cluster of COPIES, and the rest by twos */
         for (int a = 0; a < 3; a++) sites[i][a] = sites[i < COPIES ? 0 : i / 2 * 2][a];
-    OWNED(fracas_sparse_factor) *factor = sparse_of(&strength, N);
+    OWN(fracas_sparse_factor) factor = sparse_of(&strength, N);
     const double stated = fracas_sparse_factor_error(factor),
                  worst = error_of_pairs(&strength, factor, N, 10, &of_variance);
     print_message("sites at one place: %.1e, stated %.1e\n", worst, stated);

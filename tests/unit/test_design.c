@@ -57,7 +57,7 @@ static void test_names(void **state)
 /* Philox's u with purpose 3, use 0, the parameter's name as replica and the point as site. */
 static void test_random_is_the_stream(void **state)
 {
-    FREED fracas_probability *p = fill(RANDOM, 50, 4, NULL);
+    OWNED fracas_probability *p = fill(RANDOM, 50, 4, NULL);
     for (size_t i = 0; i < 50; i++)
         for (size_t j = 0; j < 4; j++) {
             const fracas_stream stream = {.seed = SEED, .purpose = 3, .replica = names[j]};
@@ -74,7 +74,7 @@ static void test_sobol_is_gsl_shifted(void **state)
     uint64_t many[D];
     for (size_t j = 0; j < D; j++) many[j] = 100 + j;
     const fracas_design design = {fracas_design_types[SOBOL], SEED, N, D, many, NULL};
-    FREED fracas_probability *p = room_for(N * D, sizeof *p);
+    OWNED fracas_probability *p = room_for(N * D, sizeof *p);
     OK(fracas_design_fill(&design, p));
     gsl_qrng *qrng = gsl_qrng_alloc(gsl_qrng_sobol, D);
     double x[D] = {0.0};
@@ -101,7 +101,7 @@ static void test_golden_bits(void **state)
                                               {0x475c24d0617679c7, 0x457fc82db5f4f573}};
     for (int type = 0; type < TYPES; type++)
         for (int tied = 0; tied < 2; tied++) {
-            FREED fracas_probability *p = fill(type, 300, 3, tied ? three_tied : NULL);
+            OWNED fracas_probability *p = fill(type, 300, 3, tied ? three_tied : NULL);
             const uint64_t sum = fracas_checksum_of(p, 900 * sizeof *p);
             if (sum != golden[type][tied])
                 fail_msg("type %d, tied %d: 0x%016" PRIx64, type, tied, sum);
@@ -114,7 +114,7 @@ static void test_prefix(void **state)
 {
     for (int type = 0; type < TYPES; type++)
         for (int tied = 0; tied < 2; tied++) {
-            FREED fracas_probability *few = fill(type, 16, 3, tied ? three_tied : NULL),
+            OWNED fracas_probability *few = fill(type, 16, 3, tied ? three_tied : NULL),
                                      *many = fill(type, 100, 3, tied ? three_tied : NULL);
             assert_true((memcmp(few, many, 48 * sizeof *few) == 0) == (type != LATIN_HYPERCUBE));
         }
@@ -127,9 +127,9 @@ static void test_other_parameters(void **state)
     const double two_tied[4] = {1.0, 0.6, 0.6, 1.0};
     const uint64_t turned[3] = {names[2], names[0], names[1]};
     for (int type = 0; type < TYPES; type++) {
-        FREED fracas_probability *three = fill(type, 30, 3, three_tied),
+        OWNED fracas_probability *three = fill(type, 30, 3, three_tied),
                                  *two = fill(type, 30, 2, two_tied);
-        FREED fracas_probability *free_of_ties = fill(type, 30, 3, NULL),
+        OWNED fracas_probability *free_of_ties = fill(type, 30, 3, NULL),
                                  *other = room_for(90, sizeof *other);
         const fracas_design design = {fracas_design_types[type], SEED, 30, 3, turned, NULL};
         int kept = 0;
@@ -155,7 +155,7 @@ static void test_untied_stays(void **state)
 {
     const double tied[9] = {1.0, 0.6, 0.0, 0.6, 1.0, 0.0, 0.0, 0.0, 1.0};
     for (int type = 0; type < TYPES; type++) {
-        FREED fracas_probability *p = fill(type, 30, 3, tied), *q = fill(type, 30, 3, NULL);
+        OWNED fracas_probability *p = fill(type, 30, 3, tied), *q = fill(type, 30, 3, NULL);
         int moved = 0;
         for (size_t i = 0; i < 30; i++) {
             assert_true(same(&p[3 * i], &q[3 * i]) && same(&p[3 * i + 2], &q[3 * i + 2]));
@@ -181,7 +181,7 @@ static void test_strata(void **state)
     for (size_t c = 0; c < FRACAS_COUNT(counts); c++)
         for (int tied = 0; tied < 2; tied++) {
             const size_t n = counts[c];
-            FREED fracas_probability *p = fill(LATIN_HYPERCUBE, n, 3, tied ? three_tied : NULL),
+            OWNED fracas_probability *p = fill(LATIN_HYPERCUBE, n, 3, tied ? three_tied : NULL),
                                      *column = room_for(n, sizeof *column);
             for (size_t j = 0; j < 3; j++) {
                 double inside = 0.0;
@@ -205,7 +205,7 @@ static void test_strata(void **state)
  * number of its own. */
 static void test_order_of_latin_hypercube(void **state)
 {
-    FREED fracas_probability *p = fill(LATIN_HYPERCUBE, 64, 3, three_tied),
+    OWNED fracas_probability *p = fill(LATIN_HYPERCUBE, 64, 3, three_tied),
                              *q = fill(RANDOM, 64, 3, three_tied);
     for (size_t a = 0; a < 64; a++)
         for (size_t b = 0; b < 64; b++)
@@ -282,7 +282,7 @@ static void test_correlation(void **state)
     enum { N = 16384 };
     for (int type = 0; type < TYPES; type++)
         for (int tied = 0; tied < 2; tied++) {
-            FREED fracas_probability *p = fill(type, N, 3, tied ? three_tied : NULL);
+            OWNED fracas_probability *p = fill(type, N, 3, tied ? three_tied : NULL);
             for (size_t a = 0; a < 3; a++)
                 for (size_t b = 0; b < a; b++) {
                     const double rho = tied ? three_tied[3 * a + b] : 0.0,
@@ -299,7 +299,7 @@ static void test_correlation(void **state)
 static void test_margins(void **state)
 {
     enum { N = 16384 };
-    FREED fracas_probability *p = fill(RANDOM, N, 3, three_tied),
+    OWNED fracas_probability *p = fill(RANDOM, N, 3, three_tied),
                              *column = room_for(N, sizeof *column);
     for (size_t j = 0; j < 3; j++) {
         double distance = 0.0;

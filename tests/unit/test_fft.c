@@ -7,8 +7,6 @@
 #include <float.h>
 #include <gsl/gsl_sf_bessel.h>
 
-OWNS(fracas_fft)
-
 enum { LONGEST = 1000 };
 
 /* Numbers that are alike in no way, in [-1, 1). */
@@ -29,7 +27,7 @@ static void transforms_are_the_sums(void **state)
     static double x[LONGEST][2];
     for (size_t l = 0; l < sizeof lengths / sizeof *lengths; l++) {
         const size_t n = lengths[l];
-        OWNED(fracas_fft) *fft;
+        OWN(fracas_fft) fft;
         double norm2 = 0.0, worst = 0.0;
         OK(fracas_fft_create(n, &fft));
         for (size_t k = 0; k < n; k++) {

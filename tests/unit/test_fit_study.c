@@ -10,8 +10,6 @@
 
 #include <gsl/gsl_errno.h>
 
-OWNS(fracas_fits)
-
 enum { NPOINTS = 4, NCOLUMNS = 8, RESAMPLES = 99 };
 
 static const fracas_column column[NCOLUMNS] = {
@@ -97,7 +95,7 @@ static void write_study(const char *folder, int64_t replicas)
 
 static fracas_fits *fit(const char *folder, size_t point, FILE *out)
 {
-    OWNED(fracas_analysis) *analysis;
+    OWN(fracas_analysis) analysis;
     fracas_fits *fits = NULL;
     OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
     OK(fracas_fits_create(analysis, point, RESAMPLES, &fits));
@@ -140,7 +138,7 @@ static void fits_of_a_study(void **state)
     snprintf(folder, sizeof folder, "%s/one", report_root);
     write_study(folder, 40);
     FILE *out = open_memstream(&text, &size);
-    OWNED(fracas_fits) *fits = fit(folder, SIZE_MAX, out), *read = NULL;
+    OWN(fracas_fits) fits = fit(folder, SIZE_MAX, out), *read = NULL;
     fclose(out);
     print_message("%s", text);
     assert_non_null(strstr(text, "shifted-rayleigh"));
@@ -176,7 +174,7 @@ static void fits_of_a_study(void **state)
 /* Rows that are kept of what was fitted in `folder`, in a study of so many replicas. */
 static size_t keep(const char *folder, const char *other, size_t *stale, fracas_fits **fits)
 {
-    OWNED(fracas_analysis) *analysis;
+    OWN(fracas_analysis) analysis;
     OK(fracas_fits_read(folder, fits));
     OK(fracas_analysis_create(other, NULL, NULL, &analysis));
     fracas_fits_keep(*fits, analysis, stale);
@@ -232,7 +230,7 @@ static void one_point(void **state)
     char folder[320];
     snprintf(folder, sizeof folder, "%s/two", report_root);
     write_study(folder, 12);
-    OWNED(fracas_analysis) *analysis;
+    OWN(fracas_analysis) analysis;
     fracas_fits *all = fit(folder, SIZE_MAX, NULL), *one = fit(folder, 0, NULL);
     assert_true(one->n < all->n && one->row[one->n - 1].point == 0);
     OK(fracas_fits_complete(one, all));

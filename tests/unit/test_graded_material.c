@@ -13,10 +13,6 @@
 #include "tests/support/strengths.h"
 #include "tests/support/test.h"
 
-OWNS(fracas_batch)
-OWNS(fracas_field)
-OWNS(fracas_model)
-
 /* ---- the factor ---- */
 
 static const fracas_kind *distribution(const char *name)
@@ -197,15 +193,15 @@ static void keys_go_together(void **state)
     bad(BAR("distribution: positions, file: s.csv, per: gauss-point"),
         "but the distribution `positions` gives one");
     bad(BAR(CONSTANT ", per: point"), "unknown per `point`; per can be: interface, gauss-point");
-    OWNED(fracas_campaign) *campaign = good(BAR(CONSTANT)),
-                           *same = good(BAR(CONSTANT ", per: gauss-point")),
-                           *graded = good(BAR(CONSTANT ", factor: f.csv, factor_along: radius"));
+    OWN(fracas_campaign) campaign = good(BAR(CONSTANT)),
+                         *same = good(BAR(CONSTANT ", per: gauss-point")),
+                         *graded = good(BAR(CONSTANT ", factor: f.csv, factor_along: radius"));
     assert_false(fracas_hash_equal(&campaign->point[0].hash, &same->point[0].hash));
     assert_false(fracas_hash_equal(&campaign->point[0].hash, &graded->point[0].hash));
     assert_null(campaign->point[0].strength.per);
     assert_true(fracas_strength_is_per_point(&same->point[0].strength) &&
                 !fracas_strength_is_per_point(&graded->point[0].strength));
-    OWNED(fracas_model) *model;
+    OWN(fracas_model) model;
     if (fracas_point_model_create(same, 0, &model)) fail_msg("%s", fracas_message());
     assert_int_equal(fracas_model_strengths_per_interface(model), 1);
 }
@@ -216,10 +212,10 @@ static void a_bar_opens_where_its_factor_is_least(void **state)
 {
     enum { WEAK = 59 };
     put("f.csv", "x [m], factor\n0, 1.3\n0.03, 0.9\n0.05, 1.2\n");
-    OWNED(fracas_campaign) *campaign = good(BAR(CONSTANT ", factor: f.csv, factor_along: x"));
-    OWNED(fracas_model) *model;
-    OWNED(fracas_field) *field;
-    OWNED(fracas_batch) *batch;
+    OWN(fracas_campaign) campaign = good(BAR(CONSTANT ", factor: f.csv, factor_along: x"));
+    OWN(fracas_model) model;
+    OWN(fracas_field) field;
+    OWN(fracas_batch) batch;
     size_t stride;
     assert_int_equal(fracas_point_model_create(campaign, 0, &model), 0);
     assert_int_equal(fracas_model_field(model, &campaign->point[0].strength, &field), 0);
@@ -243,7 +239,7 @@ static void a_bar_opens_where_its_factor_is_least(void **state)
 static fracas_forecast forecast_of(const char *text)
 {
     fracas_forecast forecast;
-    OWNED(fracas_campaign) *campaign = good(text);
+    OWN(fracas_campaign) campaign = good(text);
     if (fracas_forecast_make(campaign, 0, &forecast)) fail_msg("%s", fracas_message());
     return forecast;
 }
@@ -261,7 +257,7 @@ static void a_forecast_knows_the_factor(void **state)
     assert_true(plain.uniform && twice.uniform && !one.uniform);
     assert_true(plain.mean == 300e6 && twice.mean == 600e6 && fabs(one.mean / 303e6 - 1) < 1e-14);
     assert_true(fabs(twice.coarseness / plain.coarseness - 4) < 1e-12);
-    OWNED(fracas_campaign) *campaign = good(BAR(CONSTANT ", factor: large.csv, factor_along: x"));
+    OWN(fracas_campaign) campaign = good(BAR(CONSTANT ", factor: large.csv, factor_along: x"));
     fracas_forecast forecast;
     assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
     assert_non_null(
@@ -286,7 +282,7 @@ static void a_forecast_knows_the_factor(void **state)
  * stands for. */
 static void check_points(const char *text, size_t points)
 {
-    OWNED(fracas_campaign) *campaign = good(text);
+    OWN(fracas_campaign) campaign = good(text);
     CLEARED(fracas_sample) sample;
     if (fracas_sample_draw(campaign, 0, 4, &sample)) fail_msg("%s", fracas_message());
     const fracas_stream stream = fracas_point_stream(campaign, 0, FRACAS_PURPOSE_STRENGTH, 4);
@@ -312,7 +308,7 @@ static void each_gauss_point_has_its_own(void **state)
                  3);
     check_points(SURFACE("shell", "shape: sphere, radius: 2 mm", "divisions: 2", FLAWS), 3);
     put("f.csv", "0,1\n0,2\n");
-    OWNED(fracas_campaign) *campaign = good(
+    OWN(fracas_campaign) campaign = good(
         SURFACE("membrane", "width: 2 mm, height: 1 mm", "divisions: 3",
                 CONSTANT ", per: gauss-point, factor: f.csv, factor_along: x"));
     CLEARED(fracas_sample) sample;
@@ -336,7 +332,7 @@ static void a_forecast_counts_gauss_points(void **state)
     static const char *const words[] = {"the strongest of 8 interfaces",
                                         "the strongest of 16 Gauss points"};
     for (int t = 0; t < 2; t++) {
-        OWNED(fracas_campaign) *campaign = good(text[t]);
+        OWN(fracas_campaign) campaign = good(text[t]);
         fracas_forecast forecast;
         assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
         if (!strstr(fracas_message(), words[t]))

@@ -36,7 +36,7 @@ static void interfaces_share_the_body(void **unused)
 {
     for (int64_t elements = 2; elements < 2000; elements *= 3) {
         fracas_spec spec = bar_reference(elements, 1e4, 1e-6);
-        OWNED(fracas_model) *model;
+        OWN(fracas_model) model;
         OK(fracas_model_create(&spec, &model));
         const size_t n = fracas_model_interfaces(model);
         double sum = 0.0;
@@ -56,7 +56,7 @@ static void interfaces_share_the_body_on_any_mesh(void **unused)
         if (i % 2) bar_perturb(&spec, 0.45, 1, noise);
         else bar_grade(&spec, 100);
         if (i / 2) spec.geometry.ends = &fracas_ends_held;
-        OWNED(fracas_model) *model;
+        OWN(fracas_model) model;
         OK(fracas_model_create(&spec, &model));
         const size_t n = fracas_model_interfaces(model);
         const double *h = model->sizes;

@@ -78,7 +78,7 @@ static void check_values(const char *file, const fracas_campaign *plain, fracas_
 static void check_file(const fracas_campaign *campaign)
 {
     char path[200];
-    OWNED(fracas_campaign) *again;
+    OWN(fracas_campaign) again;
     if (fracas_campaign_keep(campaign, folder, "fine.yaml")) fail_msg("%s", fracas_message());
     snprintf(path, sizeof path, "%s/fine.yaml", folder);
     if (fracas_campaign_read(path, &again)) fail_msg("%s", fracas_message());
@@ -138,7 +138,7 @@ static void check_left(const char *name, fracas_refinement what, const fracas_re
 /* The same campaign on meshes of triangles that are made in no time. */
 static void coarsen(const char *file, char path[200])
 {
-    OWNED(fracas_campaign) *campaign;
+    OWN(fracas_campaign) campaign;
     if (fracas_campaign_read(file, &campaign)) fail_msg("%s", fracas_message());
     for (size_t p = 0; p < campaign->npoints; p++) {
         campaign->point[p].spec.mesh.size *= 3;

@@ -34,7 +34,7 @@ static fracas_err note(void *context, size_t to, const fracas_packet *message)
 
 static void hear(size_t from, fracas_packet_kind kind, const void *body, size_t size)
 {
-    FREED fracas_packet *message;
+    OWNED fracas_packet *message;
     OK(fracas_packet_create(kind, body, size, &message));
     fracas_director_receive(director, from, message);
 }

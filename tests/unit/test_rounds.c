@@ -16,7 +16,7 @@ static fracas_campaign *make(const char *replicas)
 {
     char line[300];
     snprintf(line, sizeof line, "replicas: %s", replicas);
-    FREED char *fixed = replace(plain_campaign, "replicas: 3", line),
+    OWNED char *fixed = replace(plain_campaign, "replicas: 3", line),
                *text = replace(fixed, "", rule);
     fracas_campaign *made = read_text(text);
     return made;
@@ -203,11 +203,11 @@ static void a_decision_that_does_not_follow_is_damage(void **state)
 /* Another rule takes up the realizations, not the decisions. */
 static void a_stronger_rule_decides_again(void **state)
 {
-    FREED fracas_decision *decision;
+    OWNED fracas_decision *decision;
     CLEARED(fracas_rounds) again;
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
-    OWNED(fracas_campaign) *now = make(
+    OWN(fracas_campaign) now = make(
         "{minimum: 8, maximum: 100, until: {quantity: dissipated, relative-half-width: 0.01}}");
     OK(fracas_index_plan(index_, &now->table));
     OK(fracas_rounds_init(&again, now, index_));
@@ -236,7 +236,7 @@ static void a_larger_maximum_goes_on(void **state)
     commit(0, 16, 23, 0.5, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
     assert_int_equal(rounds.open, 1); /* 0.216 is more than 0.1, but 24 is the maximum */
-    OWNED(fracas_campaign) *now = make(
+    OWN(fracas_campaign) now = make(
         "{minimum: 8, maximum: 25, until: {quantity: dissipated, relative-half-width: 0.1}}");
     OK(fracas_index_plan(index_, &now->table));
     OK(fracas_rounds_init(&again, now, index_));
@@ -253,12 +253,12 @@ static void a_rule_looks_at_its_quantity(void **state)
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
     for (int q = 0; q < 3; q++) {
         char text[200];
-        FREED fracas_decision *decision;
+        OWNED fracas_decision *decision;
         CLEARED(fracas_rounds) again;
         snprintf(text, sizeof text,
                  "{minimum: 8, maximum: 24, until: {quantity: %s, relative-half-width: 0.2}}",
                  quantity[q]);
-        OWNED(fracas_campaign) *now = make(text);
+        OWN(fracas_campaign) now = make(text);
         OK(fracas_rounds_init(&again, now, index_));
         look(0, &decision, 1);
         assert_int_equal(decision[0].quantity, q);

@@ -73,7 +73,7 @@ static void assert_refused(const char *replicas, int64_t given, int part, int pa
 
 static void a_rule_goes_with_neither(void **state)
 {
-    OWNED(fracas_campaign) *campaign;
+    OWN(fracas_campaign) campaign;
     assert_refused(rule, 8, 0, 0, "--replicas 8: a rule", "replicas: {minimum: 16, maximum: 64");
     assert_refused(rule, 0, 1, 2, "--part 1/2:", "a rule decides the replicas of point 0");
     assert_refused("replicas: 3", 1000000001, 0, 0, "--replicas is 1000000001", "1 to 1000000000");

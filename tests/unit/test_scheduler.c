@@ -4,13 +4,11 @@
 #include "tests/support/leases.h"
 #include "tests/support/test.h"
 
-OWNS(fracas_scheduler)
-
 /* ---- sizes and order ---- */
 
 static void one_batch_while_nothing_is_measured(void **state)
 {
-    OWNED(fracas_scheduler) *scheduler = create(POINTS, MANY, 3);
+    OWN(fracas_scheduler) scheduler = create(POINTS, MANY, 3);
     fracas_lease lease;
     for (size_t i = 0; i < 6; i++) {
         assert_true(next(scheduler, i / 2, 0, &lease));
@@ -21,7 +19,7 @@ static void one_batch_while_nothing_is_measured(void **state)
 /* Time per realization: of the point where it was measured, else in proportion to its cost. */
 static void sizes_are_by_measured_cost(void **state)
 {
-    OWNED(fracas_scheduler) *scheduler = create(POINTS, MANY, 1);
+    OWN(fracas_scheduler) scheduler = create(POINTS, MANY, 1);
     fracas_lease lease;
     assert_true(next(scheduler, 0, 0, &lease));
     computed(scheduler, 0, &lease, 0.08); /* 0.01 s each: 100 in 1 s */
@@ -53,7 +51,7 @@ static void sizes_are_by_measured_cost(void **state)
 static void sizes_shrink_with_what_is_left(void **state)
 {
     enum { WORKERS = 5 };
-    OWNED(fracas_scheduler) *scheduler = create(1, 4000, WORKERS);
+    OWN(fracas_scheduler) scheduler = create(1, 4000, WORKERS);
     fracas_lease lease;
     assert_true(next(scheduler, 0, 0, &lease));
     computed(scheduler, 0, &lease, 8e-6); /* 1e6 in 1 s: time is no bound */
@@ -73,7 +71,7 @@ static void sizes_shrink_with_what_is_left(void **state)
 static void the_last_ones_are_shared_with_who_is_free_soon(void **state)
 {
     for (int late = 0; late < 2; late++) {
-        OWNED(fracas_scheduler) *scheduler = create(1, 56, 4);
+        OWN(fracas_scheduler) scheduler = create(1, 56, 4);
         fracas_lease lease[4], last;
         for (size_t worker = 0; worker < 4; worker++) {
             assert_true(next(scheduler, worker, 0, &lease[worker]));
@@ -95,7 +93,7 @@ static void the_last_ones_are_shared_with_who_is_free_soon(void **state)
 
 static void a_lease_has_a_largest_size(void **state)
 {
-    OWNED(fracas_scheduler) *scheduler = create(1, 100000, 1);
+    OWN(fracas_scheduler) scheduler = create(1, 100000, 1);
     fracas_lease lease;
     assert_true(next(scheduler, 0, 0, &lease));
     computed(scheduler, 0, &lease, 0); /* no time at all */
@@ -108,11 +106,11 @@ static void a_lease_has_a_largest_size(void **state)
 
 static void no_lease_time_means_one_batch(void **state)
 {
-    FREED fracas_index_row *row = rows(1, 100);
+    OWNED fracas_index_row *row = rows(1, 100);
     fracas_scheduler_options options = options_for(1);
     options.seconds = 0;
     options.width = 4;
-    OWNED(fracas_scheduler) *scheduler = create_with(row, 100, &options);
+    OWN(fracas_scheduler) scheduler = create_with(row, 100, &options);
     fracas_lease lease;
     for (int i = 0; i < 25; i++) {
         assert_true(next(scheduler, 0, 0, &lease));
@@ -124,7 +122,7 @@ static void no_lease_time_means_one_batch(void **state)
 
 static void the_longest_go_first(void **state)
 {
-    FREED fracas_index_row *row = rows(POINTS, 11);
+    OWNED fracas_index_row *row = rows(POINTS, 11);
     fracas_scheduler_options options = options_for(1);
     options.seconds = 0;
     /* By cost, until point 2 turns out to be faster than point 0 is predicted to be, and point 0
@@ -132,7 +130,7 @@ static void the_longest_go_first(void **state)
     static const size_t point[2][6] = {{1, 1, 2, 2, 0, 0}, {1, 1, 2, 0, 2, 0}};
     static const double seconds[2][POINTS] = {{1e-5, 1e-3, 1e-4}, {1e-9, 1e-3, 1e-6}};
     for (int slow = 0; slow < 2; slow++) {
-        OWNED(fracas_scheduler) *scheduler = create_with(row, POINTS * 11, &options);
+        OWN(fracas_scheduler) scheduler = create_with(row, POINTS * 11, &options);
         bool begun[POINTS] = {false};
         fracas_lease lease;
         for (size_t i = 0; i < 6; i++) {
@@ -154,11 +152,11 @@ static void some_points_go_first(void **state)
 {
     static const bool first[POINTS] = {true, false, true};
     static const size_t point[] = {2, 2, 0, 0, 1, 1};
-    FREED fracas_index_row *row = rows(POINTS, 11);
+    OWNED fracas_index_row *row = rows(POINTS, 11);
     fracas_scheduler_options options = options_for(1);
     options.seconds = 0;
     options.first = first;
-    OWNED(fracas_scheduler) *scheduler = create_with(row, POINTS * 11, &options);
+    OWN(fracas_scheduler) scheduler = create_with(row, POINTS * 11, &options);
     for (size_t i = 0; i < 6; i++) {
         fracas_lease lease;
         assert_true(next(scheduler, 0, 0, &lease));
@@ -169,7 +167,7 @@ static void some_points_go_first(void **state)
 
 static void one_lease_ahead_until_the_last_ones(void **state)
 {
-    OWNED(fracas_scheduler) *scheduler = create(POINTS, 11, 2);
+    OWN(fracas_scheduler) scheduler = create(POINTS, 11, 2);
     fracas_lease lease, other;
     assert_true(next(scheduler, 0, 0, &lease));
     assert_true(next(scheduler, 0, 0, &lease)); /* one ahead */
@@ -184,7 +182,7 @@ static void one_lease_ahead_until_the_last_ones(void **state)
 
 static void what_comes_next_is_predicted(void **state)
 {
-    OWNED(fracas_scheduler) *scheduler = create(1, 1000, 1);
+    OWN(fracas_scheduler) scheduler = create(1, 1000, 1);
     fracas_lease lease, ahead;
     assert_true(isnan(fracas_scheduler_predicted(scheduler, 0, 5)));
     assert_true(next(scheduler, 0, 5, &lease));
@@ -205,7 +203,7 @@ static void what_comes_next_is_predicted(void **state)
 /* The last ones of a plan: what waits again counts too, and when nothing waits, what is held. */
 static void what_waits_again_is_predicted(void **state)
 {
-    OWNED(fracas_scheduler) *scheduler = create(1, 30, 2);
+    OWN(fracas_scheduler) scheduler = create(1, 30, 2);
     fracas_lease first, second;
     assert_true(next(scheduler, 0, 0, &first));
     assert_true(next(scheduler, 1, 0, &second));
@@ -227,7 +225,7 @@ static void what_waits_again_is_predicted(void **state)
 /* s that a lease may take: as the options say, or 600 s and 50 times its prediction. */
 static void a_lease_has_a_time_limit(void **state)
 {
-    FREED fracas_index_row *row = rows(POINTS, 100);
+    OWNED fracas_index_row *row = rows(POINTS, 100);
     fracas_scheduler_options options = options_for(1);
     fracas_scheduler *scheduler = create_with(row, POINTS * 100, &options);
     fracas_lease lease;
@@ -247,12 +245,12 @@ static void a_lease_has_a_time_limit(void **state)
 
 static void a_shuffle_changes_order_and_sizes(void **state)
 {
-    FREED fracas_index_row *row = rows(POINTS, 11);
+    OWNED fracas_index_row *row = rows(POINTS, 11);
     fracas_scheduler_options options = options_for(1);
-    OWNED(fracas_scheduler) *plain = create_with(row, POINTS * 11, &options);
+    OWN(fracas_scheduler) plain = create_with(row, POINTS * 11, &options);
     options.shuffle = true;
-    OWNED(fracas_scheduler) *shuffled = create_with(row, POINTS * 11, &options),
-                            *again = create_with(row, POINTS * 11, &options);
+    OWN(fracas_scheduler) shuffled = create_with(row, POINTS * 11, &options),
+                          *again = create_with(row, POINTS * 11, &options);
     bool point = false, size = false, order = false;
     size_t left = POINTS * 11;
     while (left > 0) {
@@ -280,7 +278,7 @@ static void a_shuffle_changes_order_and_sizes(void **state)
 static void rows_are_added(void **state)
 {
     fracas_index_row more[6];
-    OWNED(fracas_scheduler) *scheduler = create(1, 11, 1);
+    OWN(fracas_scheduler) scheduler = create(1, 11, 1);
     for (size_t i = 0; i < 6; i++)
         more[i] = (fracas_index_row){.point = i < 3 ? 2 : 1, .replica = (int64_t)(20 + i % 3)};
     more[1].status = FRACAS_DONE; /* computed before its round came */
@@ -314,14 +312,14 @@ static void rows_are_added(void **state)
 
 static void rows_may_need_nothing(void **state)
 {
-    FREED fracas_index_row *row = rows(POINTS, 11);
+    OWNED fracas_index_row *row = rows(POINTS, 11);
     for (size_t i = 0; i < POINTS * 11; i++) row[i].status = FRACAS_DONE;
     row[3].status = FRACAS_FAILED_ROW;
     row[7].status = FRACAS_QUARANTINED;
     for (size_t i = 4; i <= 6; i++) row[i].status = FRACAS_PLANNED;
     row[5].attempts = 2;
     const fracas_scheduler_options options = options_for(1);
-    OWNED(fracas_scheduler) *scheduler = create_with(row, POINTS * 11, &options);
+    OWN(fracas_scheduler) scheduler = create_with(row, POINTS * 11, &options);
     assert_counts(scheduler, POINTS * 11 - 5, 0, 2);
     /* The one that failed before is leased alone, and first. */
     fracas_lease lease;

@@ -7,8 +7,6 @@
 #include <malloc.h>
 #include <time.h>
 
-OWNS(fracas_scheduler)
-
 static bool next(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease)
 {
     bool given;
@@ -83,7 +81,7 @@ static void assert_counts(const fracas_scheduler *scheduler, int64_t done, int64
 static void an_overdue_lease_goes_to_an_idle_worker(void **state)
 {
     fracas_lease first, second, copy;
-    OWNED(fracas_scheduler) *scheduler = create_late(&first, &second);
+    OWN(fracas_scheduler) scheduler = create_late(&first, &second);
     assert_counts(scheduler, 8, 0, 0);
     assert_false(any(scheduler, 2, 9, &copy));
     assert_false(any(scheduler, 2, 32, &copy)); /* 4 times 8 s */
@@ -118,7 +116,7 @@ static void short_leases_are_overdue_after_10_s(void **state)
     fracas_index_row row[ROWS];
     for (size_t i = 0; i < ROWS; i++) row[i] = (fracas_index_row){.replica = (int64_t)i};
     const fracas_scheduler_options options = {.cost = flat, .npoints = 1, .workers = 2, .width = 8};
-    OWNED(fracas_scheduler) *scheduler;
+    OWN(fracas_scheduler) scheduler;
     fracas_lease first, ahead, other;
     OK(fracas_scheduler_create(row, ROWS, &options, &scheduler));
     assert_true(next(scheduler, 0, 0, &first) && next(scheduler, 0, 0, &ahead));
@@ -144,7 +142,7 @@ static void short_leases_are_overdue_after_10_s(void **state)
 static void a_lease_that_stays_in_memory_is_overdue(void **state)
 {
     fracas_lease first, second, copy;
-    OWNED(fracas_scheduler) *scheduler = create_late(&first, &second);
+    OWN(fracas_scheduler) scheduler = create_late(&first, &second);
     OK(fracas_scheduler_computed(scheduler, 1, second.id, 8, 8));
     fracas_scheduler_durable(scheduler, 1);
     OK(fracas_scheduler_computed(scheduler, 0, first.id, 10, 8));
@@ -180,7 +178,7 @@ static void a_loss_at_any_stage_loses_nothing(void **state)
 {
     for (int course = 0; course < NEVENTS * NEVENTS * NEVENTS * NEVENTS; course++) {
         fracas_lease first, second, copy;
-        OWNED(fracas_scheduler) *scheduler = create_late(&first, &second);
+        OWN(fracas_scheduler) scheduler = create_late(&first, &second);
         OK(fracas_scheduler_computed(scheduler, 1, second.id, 9, 8));
         fracas_scheduler_durable(scheduler, 1);
         copy_of(scheduler, 2, 50, 0, &copy);
@@ -417,7 +415,7 @@ static void any_course_of_events(void **state)
     static const double cost[POINTS] = {1, 3, 2, 5, 4};
     int64_t failed = 0, duplicates = 0;
     for (unsigned seed = 1; seed <= SEEDS; seed++) {
-        FREED world *w = calloc(1, sizeof *w);
+        OWNED world *w = calloc(1, sizeof *w);
         assert_non_null(w);
         w->dice = seed;
         w->width = seed % 3 ? 8 : 3;
@@ -459,8 +457,8 @@ static void any_course_of_events(void **state)
 static double run_million(size_t npoints, size_t *bytes)
 {
     enum { MILLION = 1000000, MANY = 64 };
-    FREED fracas_index_row *row = malloc(MILLION * sizeof *row);
-    FREED double *cost = malloc(npoints * sizeof *cost);
+    OWNED fracas_index_row *row = malloc(MILLION * sizeof *row);
+    OWNED double *cost = malloc(npoints * sizeof *cost);
     assert_true(row && cost);
     for (size_t i = 0; i < MILLION; i++)
         row[i] = (fracas_index_row){.point = i * npoints / MILLION, .replica = (int64_t)i};

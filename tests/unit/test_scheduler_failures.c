@@ -3,8 +3,6 @@
 #include "tests/support/leases.h"
 #include "tests/support/test.h"
 
-OWNS(fracas_scheduler)
-
 /* A lease of `count` of one point for one worker, measured so that it is one lease. */
 static fracas_scheduler *create_large(size_t count, fracas_lease *lease)
 {
@@ -29,7 +27,7 @@ static void a_failed_batch_is_bisected(void **state)
     enum { COUNT = 24, KEPT = 8, BAD = 13 };
     fracas_lease lease;
     bool final;
-    OWNED(fracas_scheduler) *scheduler = create_large(COUNT, &lease);
+    OWN(fracas_scheduler) scheduler = create_large(COUNT, &lease);
     OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, KEPT, 8, &lease, &final));
     assert_lease(&lease, 0, KEPT, 8); /* what was at fault */
     assert_false(final);
@@ -61,7 +59,7 @@ static void one_at_fault_has_had_an_attempt(void **state)
 {
     fracas_lease lease;
     bool final;
-    OWNED(fracas_scheduler) *scheduler = create_large(24, &lease);
+    OWN(fracas_scheduler) scheduler = create_large(24, &lease);
     OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 23, 1, &lease, &final));
     assert_lease(&lease, 0, 23, 1);
     assert_false(final);
@@ -84,7 +82,7 @@ static void a_part_of_a_batch_is_bisected_too(void **state)
 {
     fracas_lease lease;
     bool final;
-    OWNED(fracas_scheduler) *scheduler = create(1, 5, 1);
+    OWN(fracas_scheduler) scheduler = create(1, 5, 1);
     assert_true(next(scheduler, 0, 0, &lease));
     OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 0, 5, &lease, &final));
     static const int64_t first[] = {0, 3};
@@ -101,7 +99,7 @@ static void nonsense_is_refused(void **state)
 {
     fracas_lease lease, other;
     bool final;
-    OWNED(fracas_scheduler) *scheduler = create(1, 40, 2);
+    OWN(fracas_scheduler) scheduler = create(1, 40, 2);
     assert_true(next(scheduler, 0, 0, &lease));
     assert_int_equal(fracas_scheduler_computed(scheduler, 1, lease.id, 0, 1),
                      FRACAS_BUG); /* not its own */
@@ -122,7 +120,7 @@ static void nonsense_is_refused(void **state)
 
 static void a_lost_worker_costs_what_was_not_durable(void **state)
 {
-    OWNED(fracas_scheduler) *scheduler = create(1, 400, 2);
+    OWN(fracas_scheduler) scheduler = create(1, 400, 2);
     fracas_lease first, second, third, fourth, again;
     assert_true(next(scheduler, 0, 0, &first));
     computed(scheduler, 0, &first, 8);
@@ -154,7 +152,7 @@ static void halves_stay_isolated(void **state)
 {
     fracas_lease lease;
     bool final;
-    OWNED(fracas_scheduler) *scheduler = create_large(24, &lease);
+    OWN(fracas_scheduler) scheduler = create_large(24, &lease);
     fracas_scheduler_lost(scheduler, 0);
     assert_true(next(scheduler, 0, 0, &lease));
     assert_int_not_equal(lease.isolated, 0);

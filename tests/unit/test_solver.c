@@ -155,8 +155,8 @@ static void a_fragment_across_the_end_is_in_one_piece(void **unused)
 {
     fracas_spec spec = bar_reference(10, 1e4, 1);
     spec.geometry.length = 10 * 1e-4;
-    OWNED(fracas_model) *model;
-    OWNED(fracas_batch) *batch;
+    OWN(fracas_model) model;
+    OWN(fracas_batch) batch;
     OK(fracas_model_create(&spec, &model));
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
     OK(fracas_batch_create(model, 1, &options, &batch));
@@ -336,8 +336,8 @@ static void a_run_that_gains_energy_ends_as_drift(void **unused)
         fracas_spec spec = bar_reference(800, 1e5, 2e-7);
         spec.geometry.length = 5e-3;
         spec.time.safety = unstable ? 1 : 0.25;
-        OWNED(fracas_model) *model;
-        OWNED(fracas_batch) *batch;
+        OWN(fracas_model) model;
+        OWN(fracas_batch) batch;
         OK(fracas_model_create(&spec, &model));
         const fracas_batch_options options = {.history = 10, .isa = FRACAS_ISA_BEST};
         OK(fracas_batch_create(model, 1, &options, &batch));
@@ -367,8 +367,8 @@ static void events_are_counted_and_timed_inside_their_steps(void **unused)
         spec.geometry.length = 1e-2;
         spec.cohesive.law = laws[law];
         spec.time.safety = 0.1;
-        OWNED(fracas_model) *model;
-        OWNED(fracas_batch) *batch;
+        OWN(fracas_model) model;
+        OWN(fracas_batch) batch;
         OK(fracas_model_create(&spec, &model));
         const fracas_batch_options options = {.interfaces = true, .isa = FRACAS_ISA_BEST};
         OK(fracas_batch_create(model, 1, &options, &batch));
@@ -414,8 +414,8 @@ static void the_part_of_bending_is_kept(void **unused)
     for (int with = 0; with < 2; with++) {
         fracas_spec spec = bar_reference(800, 1e5, 2e-7);
         spec.geometry.length = 5e-3;
-        OWNED(fracas_model) *model;
-        OWNED(fracas_batch) *batch;
+        OWN(fracas_model) model;
+        OWN(fracas_batch) batch;
         OK(fracas_model_create(&spec, &model));
         if (with) model->formulation = &bent;
         const fracas_batch_options options = {.history = 10, .isa = FRACAS_ISA_BEST};

@@ -437,7 +437,7 @@ static void records_survive_packing(void **state)
         CLEARED(fracas_record) record, back;
         sample_record(1, replica, 9, &record);
         size_t size = fracas_record_packed_size(&record);
-        FREED char *bytes = malloc(size + 1);
+        OWNED char *bytes = malloc(size + 1);
         fracas_record_pack(&record, bytes);
         fracas_record_init(&back);
         OK(fracas_record_unpack(bytes, size, &back));

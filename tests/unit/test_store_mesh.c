@@ -8,8 +8,6 @@
 #include "analysis/draw/surface_picture.h"
 #include "tests/support/test.h"
 
-OWNS(fracas_analysis)
-
 enum {
     SURFACE = 1,
     EACH = 5
@@ -266,7 +264,7 @@ static void pictures_and_first_times(void **state)
 {
     static const double time[] = {2e-6, 9e-5};
     char *said;
-    FREED char *folder = strdup(sample_path(study, "drawn"));
+    OWNED char *folder = strdup(sample_path(study, "drawn"));
     size_t size;
     commit(4, interfaces_of(&shape));
     merge_with(&source);
@@ -285,13 +283,13 @@ static void pictures_and_first_times(void **state)
     assert_non_null(
         strstr(said, "first onset: 1.000 us\nfirst break: 1.500 us\nfirst crack through: "));
     assert_int_equal(sample_files(folder, ".svg"), 2);
-    FREED char *csv = (char *)sample_slurp(sample_path(folder, "times-point-1.csv"), &size);
+    OWNED char *csv = (char *)sample_slurp(sample_path(folder, "times-point-1.csv"), &size);
     csv[size] = '\0';
     assert_non_null(strstr(csv, "replica,outcome,first_onset,first_break,first_through,"));
     assert_non_null(strstr(csv, "\n1,INTACT,1e-06,1.5e-06,"));
     assert_non_null(strstr(csv, "\n2,FAILED,,,,,,,0,0\n"));
     assert_non_null(strstr(csv, "\n4,INTACT,4e-06,4.5e-06,"));
-    FREED char *svg = (char *)sample_slurp(sample_path(folder, "surface-point-1-replica-1-2.svg"),
+    OWNED char *svg = (char *)sample_slurp(sample_path(folder, "surface-point-1-replica-1-2.svg"),
                                            &size);
     svg[size] = '\0';
     assert_non_null(
@@ -336,7 +334,7 @@ static void bodies_are_drawn_as_asked_for(void **state)
 {
     static const fracas_view view = {225, -30};
     static const double time = 9e-6;
-    FREED char *said, *wanted, *folder = strdup(sample_path(study, "drawn"));
+    OWNED char *said, *wanted, *folder = strdup(sample_path(study, "drawn"));
     size_t size;
     CLEARED(fracas_stored_mesh) mesh = {0};
     CLEARED(fracas_record) record;
@@ -362,7 +360,7 @@ static void bodies_are_drawn_as_asked_for(void **state)
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", out);
     OK(fracas_surface_picture_write(&mesh, &now, &picture, out));
     fclose(out);
-    FREED char *svg = (char *)sample_slurp(sample_path(folder, "surface-point-1-replica-1-1.svg"),
+    OWNED char *svg = (char *)sample_slurp(sample_path(folder, "surface-point-1-replica-1-1.svg"),
                                            &size);
     svg[size] = '\0';
     assert_string_equal(svg, wanted);
@@ -372,14 +370,14 @@ static void bodies_are_drawn_as_asked_for(void **state)
 static void page_has(const char *part, bool wanted)
 {
     size_t size;
-    FREED char *page = (char *)sample_slurp(sample_path(study, "report/index.html"), &size);
+    OWNED char *page = (char *)sample_slurp(sample_path(study, "report/index.html"), &size);
     page[size] = '\0';
     assert_int_equal(strstr(page, part) != NULL, wanted);
 }
 
 static void report(void)
 {
-    OWNED(fracas_analysis) *analysis;
+    OWN(fracas_analysis) analysis;
     OK(fracas_analysis_create(study, NULL, NULL, &analysis));
     OK(fracas_report_write(analysis, study));
 }

@@ -89,7 +89,7 @@ static void test_plates(void **state)
 {
     for (size_t i = 0; i < FRACAS_COUNT(plates); i++) {
         size_t size;
-        FREED char *bytes = read_plate(i, &size);
+        OWNED char *bytes = read_plate(i, &size);
         const fracas_surface *s = NULL;
         if (fracas_surface_read_gmsh(bytes, size, &s))
             fail_msg("%s: %s", plates[i], fracas_message());

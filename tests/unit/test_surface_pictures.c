@@ -124,7 +124,7 @@ static void test_pictures(void **state)
         char path[400];
         snprintf(path, sizeof path, "%s/mesh-%s.svg",
                  folder ? folder : FRACAS_SOURCE_DIR "/docs/theory", pictures[i].name);
-        FREED char *text = paint(i), *there = calloc(1, 1 << 18);
+        OWNED char *text = paint(i), *there = calloc(1, 1 << 18);
         assert_non_null(there);
         FILE *file = fopen(path, folder ? "w" : "r");
         if (!file) fail_msg("cannot open %s", path);

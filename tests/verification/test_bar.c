@@ -48,9 +48,9 @@ static void onset_time_is_strength_over_stress_rate(void **unused)
                 fracas_spec spec = bar_reference(r < 3 ? 800 : 4000, rates[r], 1.5 * exact);
                 spec.cohesive.law = laws[law];
                 if (ends) spec.geometry.ends = &fracas_ends_held;
-                OWNED(fracas_model) *model;
+                OWN(fracas_model) model;
                 OK(fracas_model_create(&spec, &model));
-                OWNED(fracas_batch) *batch = batch_of(model, 301e6);
+                OWN(fracas_batch) batch = batch_of(model, 301e6);
                 bar_set_strength(batch, 0, 37, 300e6);
                 CLEARED(fracas_record) record = run_alone(batch);
                 assert_true(record.cracked > 0);
@@ -72,7 +72,7 @@ static crack_errors isolated_crack(double rate, double x_b, int elements_per_s0)
     int64_t elements = (int64_t)ceil(1.2 * x_b * elements_per_s0) + 8;
     fracas_spec spec = bar_reference(elements, rate, 1.2 * broken);
     spec.geometry.length = (double)elements * BAR_S0 / elements_per_s0;
-    OWNED(fracas_model) *model;
+    OWN(fracas_model) model;
     OK(fracas_model_create(&spec, &model));
     fracas_batch *batch = batch_of(model, 2.9e9);
     const size_t weak = (size_t)elements / 3;
@@ -145,11 +145,11 @@ static double wave_error(const fracas_kind *ends, double beta, int64_t elements)
     fracas_spec spec = bar_reference(elements, 1e-9, 10 * quarter);
     spec.geometry.ends = ends;
     spec.cohesive.beta = beta;
-    OWNED(fracas_model) *model;
+    OWN(fracas_model) model;
     OK(fracas_model_create(&spec, &model));
     double steps = ceil(quarter / model->time_step);
     model->time_step = quarter / steps;
-    OWNED(fracas_batch) *batch = batch_of(model, 1e8);
+    OWN(fracas_batch) batch = batch_of(model, 1e8);
     OK(fracas_batch_begin(batch));
     const double h = length / (double)elements;
     for (size_t e = 0; e < (size_t)elements;
@@ -236,7 +236,7 @@ static critical_steps critical(const fracas_kind *law, double beta)
     fracas_spec spec = bar_reference(200, 1e4, 1e-6);
     spec.cohesive.law = law;
     spec.cohesive.beta = beta;
-    OWNED(fracas_model) *model;
+    OWN(fracas_model) model;
     OK(fracas_model_create(&spec, &model));
     const double unit = model->element_size / BAR_WAVE_SPEED;
     critical_steps steps = {model->critical_closed / unit, model->critical_cracked / unit,
@@ -271,10 +271,10 @@ static void steps_blow_up_above_the_critical_one_only(void **unused)
 {
     for (int above = 0; above < 2; above++) {
         fracas_spec spec = bar_reference(64, 1e-9, 1);
-        OWNED(fracas_model) *model;
+        OWN(fracas_model) model;
         OK(fracas_model_create(&spec, &model));
         model->time_step = (above ? 1.01 : 0.99) * 0.5 * model->element_size / BAR_WAVE_SPEED;
-        OWNED(fracas_batch) *batch = batch_of(model, 1e8);
+        OWN(fracas_batch) batch = batch_of(model, 1e8);
         OK(fracas_batch_begin(batch));
         for (size_t e = 0; e < 64; e++) *field(batch, e, V_LEFT) = 1e-9 * (e % 7 == 0);
         fracas_record record;

@@ -16,7 +16,7 @@ static void lengths_of_a_graded_mesh_are_a_progression(void **unused)
             const size_t n = counts[c];
             fracas_spec spec = bar_reference((int64_t)n, 1e4, 1e-6);
             bar_grade(&spec, ratios[r]);
-            OWNED(fracas_model) *model;
+            OWN(fracas_model) model;
             OK(fracas_model_create(&spec, &model));
             long double total = 0, sum = 0;
             for (size_t e = 0; e < n; e++)
@@ -73,7 +73,7 @@ static void the_longest_element_bounds_the_strength(void **unused)
         fracas_spec spec = bar_reference(200, 1e4, 1);
         spec.geometry.length = 0.01;
         spec.cohesive.law = laws[i % 2];
-        OWNED(fracas_model) *model = model_on(&spec, i / 2);
+        OWN(fracas_model) model = model_on(&spec, i / 2);
         double longest = 0;
         for (size_t e = 0; e < 200; e++) longest = fmax(longest, model->sizes[e]);
         const double offset = 4.5 * pow(1e4, 2.0 / 3) * 275e9 * pow(100, 2.0 / 3) *
@@ -88,8 +88,8 @@ static void the_longest_element_bounds_the_strength(void **unused)
 static fracas_record run_to_fragments(fracas_spec *spec, double time_step)
 {
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    OWNED(fracas_model) *model;
-    OWNED(fracas_batch) *batch;
+    OWN(fracas_model) model;
+    OWN(fracas_batch) batch;
     fracas_record record;
     OK(fracas_model_create(spec, &model));
     assert_true(fabs(model->time_step / time_step - 1) <
@@ -153,8 +153,8 @@ static void a_uniform_stretch_moves_nothing(void **unused)
         spec.geometry.length = 0.02;
         spec.cohesive.law = laws[i % 2];
         spec.geometry.ends = ends[i / 2 % 2];
-        OWNED(fracas_model) *model = model_on(&spec, i / 4);
-        OWNED(fracas_batch) *batch = batch_of(model, 300e6);
+        OWN(fracas_model) model = model_on(&spec, i / 4);
+        OWN(fracas_batch) batch = batch_of(model, 300e6);
         fracas_record record;
         fracas_record_init(&record);
         model->time_step = fmin(model->time_step, onset / 500);
@@ -181,8 +181,8 @@ static void a_stretch_of_the_nodes_moves_no_inner_node(void **unused)
         spec.geometry.length = 0.02;
         spec.cohesive.law = laws[i % 2];
         spec.geometry.ends = &fracas_ends_held;
-        OWNED(fracas_model) *model = model_on(&spec, i / 2);
-        OWNED(fracas_batch) *batch = batch_of(model, 300e6);
+        OWN(fracas_model) model = model_on(&spec, i / 2);
+        OWN(fracas_batch) batch = batch_of(model, 300e6);
         double x = 0, least = 1;
         for (size_t e = 0; e < 400; e++) {
             *field(batch, e, W_LEFT) = strain * x;
@@ -214,10 +214,10 @@ static double wave_error(int law, int mesh, int64_t elements)
     spec.geometry.ends = &fracas_ends_held;
     spec.cohesive.law = laws[law];
     spec.time.safety = 0.9;
-    OWNED(fracas_model) *model = model_on(&spec, mesh);
+    OWN(fracas_model) model = model_on(&spec, mesh);
     const double steps = ceil(quarter / model->time_step);
     model->time_step = quarter / steps;
-    OWNED(fracas_batch) *batch = batch_of(model, 5e7);
+    OWN(fracas_batch) batch = batch_of(model, 5e7);
     double x = 0, sum = 0, norm = 0;
     for (size_t e = 0; e < model->elements;
          e++) { /* w(0) = 0, so v(-dt/2) = v(0) to second order */
@@ -271,8 +271,8 @@ static void tied_nodes_stay_together(void **unused)
         spec.geometry.length = 6e-3;
         spec.cohesive.law = &fracas_law_rigid_link.kind;
         spec.geometry.ends = ends[i % 2];
-        OWNED(fracas_model) *model = model_on(&spec, i / 2);
-        OWNED(fracas_batch) *batch = batch_of(model, 300e6);
+        OWN(fracas_model) model = model_on(&spec, i / 2);
+        OWN(fracas_batch) batch = batch_of(model, 300e6);
         bar_draw(batch, 0, 0.3, 1);
         fracas_record record;
         fracas_record_init(&record);
@@ -333,7 +333,7 @@ static void events_are_timed_inside_their_steps(void **unused)
         fracas_spec spec = bar_reference(N, 1e5, 1);
         spec.geometry.length = 6e-3;
         spec.cohesive.law = laws[i % 2];
-        OWNED(fracas_model) *model = model_on(&spec, i / 2);
+        OWN(fracas_model) model = model_on(&spec, i / 2);
         const fracas_batch_options options = {
             .width = 1, .isa = FRACAS_ISA_BEST, .interfaces = true};
         fracas_batch *batch;
@@ -422,8 +422,8 @@ static void fragments_are_sums_over_their_elements(void **unused)
         spec.geometry.length = 8e-3;
         spec.cohesive.law = laws[i % 2];
         spec.geometry.ends = ends[i / 2 % 2];
-        OWNED(fracas_model) *model = model_on(&spec, i / 4);
-        OWNED(fracas_batch) *batch = batch_of(model, 300e6);
+        OWN(fracas_model) model = model_on(&spec, i / 4);
+        OWN(fracas_batch) batch = batch_of(model, 300e6);
         bar_draw(batch, 0, 0.05, 2);
         CLEARED(fracas_record) record;
         fracas_record_init(&record);

@@ -126,7 +126,7 @@ static void critical_step_is_that_of_the_dense_operator(void **unused)
         spec.cohesive.beta = betas[i / 8 % 3];
         if (i / 4 % 2 && !large) bar_grade(&spec, ratios[i % 5]);
         else bar_perturb(&spec, large ? 0.01 : amplitudes[i % 5], (uint64_t)i, noise);
-        OWNED(fracas_model) *model;
+        OWN(fracas_model) model;
         OK(fracas_model_create(&spec, &model));
         for (int broken = 0; broken < 2; broken++) {
             const double found = broken ? model->critical_cracked : model->critical_closed;
@@ -178,7 +178,7 @@ static void press_together(const fracas_model *model, fracas_batch *batch)
 static double march(const fracas_model *model, bool broken, double factor)
 {
     const size_t n = model->elements;
-    OWNED(fracas_batch) *batch = batch_of(model, 3e8);
+    OWN(fracas_batch) batch = batch_of(model, 3e8);
     uint64_t seed = 3;
     batch->step.time[0] = 0;
     if (broken) press_together(model, batch);
@@ -204,7 +204,7 @@ static void steps_blow_up_above_the_critical_one_only(void **unused)
         spec.geometry.length = 60 * 2e-5;
         spec.cohesive.law = laws[i % 2];
         spec.geometry.ends = ends[i / 2 % 2];
-        OWNED(fracas_model) *model = model_on(&spec, i / 8);
+        OWN(fracas_model) model = model_on(&spec, i / 8);
         const double stays = march(model, i / 4 % 2, 0.99), grows = march(model, i / 4 % 2, 1.01);
         if (!(stays < 1e-7) || !(grows > 1e-5))
             fail_msg("%s, %s, %s, mesh %d: %g m/s below, %g m/s above", laws[i % 2]->name,

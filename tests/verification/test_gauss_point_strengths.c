@@ -50,7 +50,7 @@ static void run(const fracas_model *model, int width, fracas_isa isa, fracas_rec
     const fracas_batch_options options = {
         .history = 20, .interfaces = true, .width = width, .isa = isa};
     const fracas_stream stream = {.seed = 6, .purpose = FRACAS_PURPOSE_STRENGTH};
-    OWNED(fracas_batch) *batch;
+    OWN(fracas_batch) batch;
     OK(fracas_batch_create(model, (size_t)width, &options, &batch));
     for (size_t l = 0; l < (size_t)width; l++) {
         for (size_t k = 0; k < strengths_of(model); k++)
@@ -73,7 +73,7 @@ static void equal_strengths_are_as_one(void **unused)
             for (int per_point = 0; per_point < 2; per_point++) {
                 fracas_spec spec = body[b];
                 spec.strength_per_point = per_point;
-                OWNED(fracas_model) *model = distorted_model(spec, 0.1, 3);
+                OWN(fracas_model) model = distorted_model(spec, 0.1, 3);
                 assert_int_equal(fracas_model_strengths_per_interface(model),
                                  per_point ? spec.mesh.order + 1 : 1);
                 run(model, width, width == 1 ? FRACAS_ISA_BASELINE : FRACAS_ISA_BEST,
@@ -91,8 +91,8 @@ static void every_one_is_checked(void **unused)
 {
     fracas_spec spec = body_of(&fracas_formulation_membrane, &fracas_shape_plate, 1, 2);
     spec.strength_per_point = true;
-    OWNED(fracas_model) *model = distorted_model(spec, 0, 0);
-    OWNED(fracas_batch) *batch;
+    OWN(fracas_model) model = distorted_model(spec, 0, 0);
+    OWN(fracas_batch) batch;
     OK(fracas_batch_create(model, 1, &(fracas_batch_options){.isa = FRACAS_ISA_BEST}, &batch));
     for (size_t k = 0; k < strengths_of(model); k++) bar_set_strength(batch, 0, k, 300e6);
     OK(fracas_batch_begin(batch));
@@ -106,7 +106,7 @@ static void every_one_is_checked(void **unused)
 static void chains_have_one(void **unused)
 {
     fracas_spec spec = bar_reference(10, 1e4, 1e-6);
-    OWNED(fracas_model) *model;
+    OWN(fracas_model) model;
     spec.strength_per_point = true;
     OK(fracas_model_create(&spec, &model));
     assert_int_equal(fracas_model_strengths_per_interface(model), 1);
@@ -136,7 +136,7 @@ static void positions_are_those_of_gauss(void **unused)
     for (size_t b = 0; b < sizeof body / sizeof *body; b++) {
         fracas_spec spec = body[b];
         spec.strength_per_point = true;
-        OWNED(fracas_model) *model = distorted_model(spec, 0.1, 3);
+        OWN(fracas_model) model = distorted_model(spec, 0.1, 3);
         const size_t points = model->strengths;
         double(*position)[3] = malloc(strengths_of(model) * sizeof *position), worst = 0;
         assert_non_null(position);

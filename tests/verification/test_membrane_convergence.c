@@ -123,9 +123,9 @@ static double static_error(fracas_spec spec, double distortion, double *size)
 {
     hold_all(&spec, &fracas_edge_held);
     spec.material.poisson = 0.22;
-    OWNED(fracas_model) *model = distorted_model(spec, distortion, (uint64_t)spec.mesh.divisions);
+    OWN(fracas_model) model = distorted_model(spec, distortion, (uint64_t)spec.mesh.divisions);
     const size_t n = unknowns_of(model);
-    FREED double *u = vector_of(n), *f = vector_of(n);
+    OWNED double *u = vector_of(n), *f = vector_of(n);
     interpolate(model, exact, NULL, u);
     for (size_t i = 0; i < n; i++)
         if (!is_held(model, i)) u[i] = 0;
@@ -200,14 +200,14 @@ static double frequency_error(int64_t order, int64_t divisions, const fracas_kin
     spec.material.poisson = 0.22;
     spec.time.mass = mass;
     hold_all(&spec, &fracas_edge_sliding);
-    OWNED(fracas_model) *model = distorted_model(spec, DISTORTION, (uint64_t)divisions);
+    OWN(fracas_model) model = distorted_model(spec, DISTORTION, (uint64_t)divisions);
     const fracas_geometry *g = &spec.geometry;
     const wave exact_wave = {PI / g->width, PI / g->height, -0.5 * g->width, -0.5 * g->height};
     const double shear = spec.material.young /
                          (2 * (1 + spec.material.poisson) * spec.material.density);
     const double square = shear * (exact_wave.a * exact_wave.a + exact_wave.b * exact_wave.b);
     const size_t n = unknowns_of(model);
-    FREED double *u = vector_of(n), *f = vector_of(n), *momentum = vector_of(n);
+    OWNED double *u = vector_of(n), *f = vector_of(n), *momentum = vector_of(n);
     double quotient = 0;
     interpolate(model, wave_at, &exact_wave, u);
     for (int turn = 0; turn < 4; turn++) {

@@ -64,14 +64,14 @@ static double growth_of(const fracas_model *model, size_t i)
  * body/element = 40 times stress/u: 1e-14; 1e-12 of the time. */
 static void check_onsets(const fracas_spec *spec)
 {
-    OWNED(fracas_model) *model = distorted_model(*spec, DISTORTION, 9);
+    OWN(fracas_model) model = distorted_model(*spec, DISTORTION, 9);
     double fastest = 0, expected[MOST], end = 0;
     size_t weak[MOST], count = 0;
     for (size_t i = 0; i < model->interfaces; i++) fastest = fmax(fastest, growth_of(model, i));
     for (size_t i = 0; i < model->interfaces && count < MOST; i += 3)
         if (growth_of(model, i) > 0.1 * fastest) weak[count++] = i;
     assert_true(count > 3);
-    OWNED(fracas_batch) *batch = batch_with(
+    OWN(fracas_batch) batch = batch_with(
         model, count, (fracas_batch_options){.interfaces = true, .isa = FRACAS_ISA_BEST});
     for (size_t l = 0; l < count; l++) {
         const double strength = 300e6 * (1 + 0.01 * (double)l);
@@ -242,7 +242,7 @@ static void check_fate(fracas_model *model, double velocity[2][6], const double 
     const fate f[2] = {fate_of(model, &r, 0, strength[0]), fate_of(model, &r, 1, strength[1])};
     const double onset = fmin(f[0].onset, f[1].onset), broken = fmax(f[0].broken, f[1].broken);
     model->spec.time.end = broken + 1.5 * model->time_step;
-    OWNED(fracas_batch) *batch = lane_of(model, 0, 0, 0);
+    OWN(fracas_batch) batch = lane_of(model, 0, 0, 0);
     CLEARED(fracas_record) record;
     fracas_record_init(&record);
     for (size_t k = 0; k < model->strengths; k++) bar_set_strength(batch, 0, k, strength[k]);
@@ -368,8 +368,8 @@ static double energy_of_row(const fracas_batch *batch, const fracas_record *reco
 static void check_row(const fracas_model *model, int mode, int64_t in_the_row)
 {
     const double speed = 2, *size = &model->spec.geometry.width;
-    OWNED(fracas_batch) *batch = lane_of(model, 0.2, 6, 10);
-    FREED bool *in_row = calloc(model->interfaces, sizeof *in_row);
+    OWN(fracas_batch) batch = lane_of(model, 0.2, 6, 10);
+    OWNED bool *in_row = calloc(model->interfaces, sizeof *in_row);
     double(*at)[3] = malloc(model->interfaces * sizeof *at);
     assert_true(in_row && at);
     fracas_model_interface_positions(model, at);
@@ -439,7 +439,7 @@ static void a_row_of_weak_interfaces(void **unused)
             spec.cohesive.fracture_energy = 0;
             spec.cohesive.critical_opening = 1.2e-6;
         }
-        OWNED(fracas_model) *model = distorted_model(spec, 0, 0);
+        OWN(fracas_model) model = distorted_model(spec, 0, 0);
         check_row(model, which / 2 % 2,
                   which % 2 ? 8 : 16); /* squares along x: 4 times those along y */
     }
@@ -526,12 +526,12 @@ static void fragments_and_histories_of_a_plate(void **unused)
         if (which / 2 % 2) spec.time.mass = &fracas_mass_consistent;
         spec.cohesive.law = laws[which / 4];
         if (which / 4) spec.time.safety = 0.1;
-        OWNED(fracas_model) *model = distorted_model(spec, DISTORTION, 3);
-        OWNED(fracas_batch) *batch = lane_of(model, 0.3, (uint64_t)which, 60);
+        OWN(fracas_model) model = distorted_model(spec, DISTORTION, 3);
+        OWN(fracas_batch) batch = lane_of(model, 0.3, (uint64_t)which, 60);
         CLEARED(fracas_record) record;
         fracas_record_init(&record);
         OK(fracas_batch_run(batch, &record));
-        FREED size_t *label = malloc(model->elements * sizeof *label);
+        OWNED size_t *label = malloc(model->elements * sizeof *label);
         assert_non_null(label);
         assert_int_equal(record.fragments,
                          label_fragments(model, record.interface, is_not_broken, 0, label));
@@ -549,8 +549,8 @@ static void fragments_and_histories_of_a_plate(void **unused)
 static void an_interface_holds_by_its_last_point(void **unused)
 {
     fracas_spec spec = brittle_plate(2, 1, 0, 1e-7);
-    OWNED(fracas_model) *model = distorted_model(spec, 0, 0);
-    OWNED(fracas_batch) *batch = lane_of(model, 0, 0, 0);
+    OWN(fracas_model) model = distorted_model(spec, 0, 0);
+    OWN(fracas_batch) batch = lane_of(model, 0, 0, 0);
     CLEARED(fracas_record) record;
     fracas_record_init(&record);
     OK(fracas_batch_begin(batch));
@@ -571,7 +571,7 @@ static void an_interface_holds_by_its_last_point(void **unused)
 static void check_stop(const fracas_model *model, uint64_t replica)
 {
     const fracas_time *rule = &model->spec.time;
-    OWNED(fracas_batch) *batch = lane_of(model, 0.3, replica, 100000);
+    OWN(fracas_batch) batch = lane_of(model, 0.3, replica, 100000);
     CLEARED(fracas_record) record;
     fracas_record_init(&record);
     OK(fracas_batch_run(batch, &record));
@@ -599,7 +599,7 @@ static void it_stops_at_the_multiple_of_the_peak(void **unused)
         spec.time.stop = &fracas_stop_peak_multiple;
         spec.time.multiple = which ? 1 : 1.7;
         spec.time.drop = which ? 0.5 : 0.05;
-        OWNED(fracas_model) *model = distorted_model(spec, DISTORTION, 3);
+        OWN(fracas_model) model = distorted_model(spec, DISTORTION, 3);
         for (uint64_t replica = 0; replica < 4; replica++) check_stop(model, replica);
     }
 }

@@ -93,7 +93,7 @@ static void uniform_strain_is_exact(void **unused)
                                    {{{2e-3, -1e-3}, {3e-3, 1e-3}}, {1e-6, -2e-6}}};
     for (int which = 0; which < ALL_BODIES; which++)
         for (size_t f = 0; f < 4; f++) {
-            OWNED(fracas_model) *model = distorted(which, 6, 5 + f);
+            OWN(fracas_model) model = distorted(which, 6, 5 + f);
             fracas_surface_operator *op = open_operator(model);
             const size_t n = unknowns_of(model);
             double *u = vector_of(n), *force = vector_of(n), *expected = vector_of(n), stress[3],
@@ -122,7 +122,7 @@ static void rigid_motions_give_no_force(void **unused)
                                    {{{0, 0}, {0, 0}}, {0, 1e-3}},
                                    {{{0, -1e-2}, {1e-2, 0}}, {0}}};
     for (int which = 0; which < ALL_BODIES; which++) {
-        OWNED(fracas_model) *model = distorted(which, 4, 11);
+        OWN(fracas_model) model = distorted(which, 4, 11);
         fracas_surface_operator *op = open_operator(model);
         const size_t n = unknowns_of(model);
         double *u = vector_of(n), *force = vector_of(n);
@@ -281,9 +281,9 @@ static void add_interfaces(const fracas_model *model, size_t n, double *matrix)
 static void the_matrix_is_the_bilinear_form(void **unused)
 {
     for (int which = 0; which < ALL_BODIES; which++) {
-        OWNED(fracas_model) *model = distorted(which, which < 2 || which == BENT ? 3 : 1, 3);
+        OWN(fracas_model) model = distorted(which, which < 2 || which == BENT ? 3 : 1, 3);
         const size_t n = unknowns_of(model);
-        FREED double *matrix = stiffness_matrix(model, n), *expected = vector_of(n * n);
+        OWNED double *matrix = stiffness_matrix(model, n), *expected = vector_of(n * n);
         double worst = 0, skew = 0;
         add_bulk(model, n, expected);
         add_interfaces(model, n, expected);
@@ -305,10 +305,9 @@ static void the_matrix_is_the_bilinear_form(void **unused)
 static void only_rigid_motions_cost_no_energy(void **unused)
 {
     for (int which = 0; which < BODIES; which++) {
-        OWNED(fracas_model) *model = distorted_model(body_of(which, which < 2 ? 2 : 1), DISTORTION,
-                                                     7);
+        OWN(fracas_model) model = distorted_model(body_of(which, which < 2 ? 2 : 1), DISTORTION, 7);
         const size_t n = unknowns_of(model);
-        FREED double *matrix = stiffness_matrix(model, n), *value = eigenvalues_of(matrix, n);
+        OWNED double *matrix = stiffness_matrix(model, n), *value = eigenvalues_of(matrix, n);
         print_message("body %d: %.1e %.1e %.1e, then %.1e of the largest\n", which,
                       value[0] / value[n - 1], value[1] / value[n - 1], value[2] / value[n - 1],
                       value[3] / value[n - 1]);
@@ -331,7 +330,7 @@ static void masses_are_those_of_the_textbook(void **unused)
     for (int order = 1; order <= 2; order++) {
         fracas_spec spec = membrane_spec(&fracas_shape_plate, order, 3);
         spec.time.mass = &fracas_mass_consistent;
-        OWNED(fracas_model) *model = distorted_model(spec, DISTORTION, 4);
+        OWN(fracas_model) model = distorted_model(spec, DISTORTION, 4);
         const fracas_surface_tables *t = tables_of(model);
         const size_t nodes = model->surface->corners;
         for (size_t e = 0; e < model->elements; e++) {
@@ -361,14 +360,14 @@ static void masses_are_those_of_the_textbook(void **unused)
 static void the_critical_step_is_that_of_the_matrix(void **unused)
 {
     for (int which = 0; which < ALL_BODIES; which++) {
-        OWNED(fracas_model) *model = distorted(which, which < 2 || which == BENT ? 2 : 1, 3);
+        OWN(fracas_model) model = distorted(which, which < 2 || which == BENT ? 2 : 1, 3);
         const fracas_surface_tables *t = tables_of(model);
         const size_t n = unknowns_of(model), nodes = model->surface->corners;
-        FREED double *matrix = stiffness_matrix(model, n), *root = vector_of(n);
+        OWNED double *matrix = stiffness_matrix(model, n), *root = vector_of(n);
         for (size_t i = 0; i < n; i++)
             root[i] = sqrt(t->lumped[(2 * (i / (2 * nodes)) + 1) * nodes + i / 2 % nodes]);
         for (size_t i = 0; i < n * n; i++) matrix[i] /= root[i / n] * root[i % n];
-        FREED double *value = eigenvalues_of(matrix, n);
+        OWNED double *value = eigenvalues_of(matrix, n);
         const double ratio = model->critical_closed * sqrt(value[n - 1]) / 2;
         print_message("body %d: critical step by the matrix's %.6f\n", which, ratio);
         assert_true(ratio < 1 + 1e-12 && ratio > 1 - 1e-3);
@@ -399,7 +398,7 @@ static double smallest_beta(fracas_spec spec, double distortion)
     size_t n = 0;
     for (int i = 0; i < 2; i++) {
         spec.cohesive.beta = i ? 20 : 10;
-        OWNED(fracas_model) *model = distorted_model(spec, distortion, 2);
+        OWN(fracas_model) model = distorted_model(spec, distortion, 2);
         n = unknowns_of(model);
         k[i] = stiffness_matrix(model, n);
     }

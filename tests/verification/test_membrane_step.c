@@ -193,11 +193,11 @@ static void held_edges_change_nothing_else(void **unused)
     for (int order = 1; order <= 2; order++)
         for (int consistent = 0; consistent < 2; consistent++) {
             const fracas_spec spec = held_plate(order, consistent, false);
-            OWNED(fracas_model) *held = distorted_model(spec, DISTORTION, 9);
-            OWNED(fracas_model) *loose = distorted_model(
-                membrane_spec(&fracas_shape_plate, order, 3), DISTORTION, 9);
+            OWN(fracas_model) held = distorted_model(spec, DISTORTION, 9);
+            OWN(fracas_model) loose = distorted_model(membrane_spec(&fracas_shape_plate, order, 3),
+                                                      DISTORTION, 9);
             const size_t n = unknowns_of(held);
-            FREED double *u = vector_of(n), *a = vector_of(n), *force = vector_of(n),
+            OWNED double *u = vector_of(n), *a = vector_of(n), *force = vector_of(n),
                          *balance = vector_of(n);
             uint64_t noise = 5;
             for (size_t i = 0; i < n; i++) u[i] = next_share(&noise) - 0.5;

@@ -131,7 +131,7 @@ static membrane_errors turn_by(int64_t order, double size, const fracas_kind *ma
                                const fracas_kind *integrator)
 {
     const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    OWNED(fracas_model) *model = disk_model(order, size, mass, integrator);
+    OWN(fracas_model) model = disk_model(order, size, mass, integrator);
     fracas_batch *batch;
     fracas_record record;
     size_t running = 1, stride;

@@ -28,7 +28,7 @@ static void replay(const dynfrag1d_run *run, const dynfrag1d_row *reference, int
                    uint64_t seed, dynfrag1d_row *now)
 {
     const fracas_stream stream = {.seed = seed, .purpose = FRACAS_PURPOSE_STRENGTH};
-    FREED double *strength = dynfrag1d_strengths(run);
+    OWNED double *strength = dynfrag1d_strengths(run);
     for (int i = 0; i < run->elements; i++)
         strength[i] *= 1 + noise * (2 * fracas_stream_uniform(&stream, (uint64_t)i) - 1);
     dynfrag1d_replay bar;

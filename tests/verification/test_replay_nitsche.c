@@ -40,7 +40,7 @@ static double dissipated_difference(const dynfrag1d_row *ours, const dynfrag1d_r
 static void compute(const dynfrag1d_run *run, const fracas_kind *law, int refine, double courant,
                     const curve *theirs, int rows, curve *ours)
 {
-    FREED double *strength = dynfrag1d_strengths(run);
+    OWNED double *strength = dynfrag1d_strengths(run);
     dynfrag1d_replay bar;
     dynfrag1d_begin(&bar, run, law, refine, courant, strength);
     dynfrag1d_follow(&bar, theirs->at, rows, ours->at);

@@ -312,7 +312,7 @@ static double slope_error(fracas_batch *batch, const double *u, double scale,
     const size_t n = unknowns_of(batch->model);
     shell_answer here = {.force = calloc(n, sizeof(double))},
                  there = {.force = calloc(n, sizeof(double))};
-    FREED double *direction = calloc(n, sizeof *direction), *moved = calloc(n, sizeof *moved);
+    OWNED double *direction = calloc(n, sizeof *direction), *moved = calloc(n, sizeof *moved);
     double energy[2], worst = 0;
     assert_true(here.force && there.force && direction && moved);
     look_at(batch, u, &here);
@@ -349,8 +349,8 @@ static double relative(double a, double b, double scale)
 static void walk(const fracas_spec *spec, double scale, double distortion, long seen[7],
                  double worst[3])
 {
-    OWNED(fracas_model) *model = distorted_model(*spec, distortion, 3);
-    OWNED(fracas_batch) *batch = lane_of(model, 0.3, 5);
+    OWN(fracas_model) model = distorted_model(*spec, distortion, 3);
+    OWN(fracas_batch) batch = lane_of(model, 0.3, 5);
     OK(fracas_batch_begin(batch));
     const size_t n = unknowns_of(model);
     twin t = twin_of(model, batch);
@@ -518,7 +518,7 @@ static double damage_of(const fracas_batch *batch, size_t i)
  * that for an onset by what shear has over friction. */
 static void check_times(const fracas_spec *spec, double distortion, double worst[2], long counts[2])
 {
-    OWNED(fracas_model) *model = distorted_model(*spec, distortion, 3);
+    OWN(fracas_model) model = distorted_model(*spec, distortion, 3);
     const size_t n = unknowns_of(model);
     const double dt = model->time_step, speed = spec->cohesive.onset == &fracas_onset_flux ||
                                                         spec->cohesive.critical_opening > 0
@@ -526,7 +526,7 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
                                                     : 1;
     for (size_t e = 0; e < model->elements; e++)
         shell_tables(model)->held[e] = shell_tables(model)->fixed[e] = 0x3ffff;
-    FREED double *velocity = calloc(n, sizeof *velocity);
+    OWNED double *velocity = calloc(n, sizeof *velocity);
     assert_non_null(velocity);
     const fracas_stream stream = {.seed = 12, .purpose = FRACAS_PURPOSE_MESH};
     for (uint64_t trial = 0; trial < 160 / model->interfaces; trial++) {
@@ -543,7 +543,7 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
                             1.5e-3 * (node_at(model, i / 18, i % 18 / 3)[i % 3] - centre)) /
                            (200 * dt);
         }
-        OWNED(fracas_batch) *batch = lane_of(model, 0.3, trial);
+        OWN(fracas_batch) batch = lane_of(model, 0.3, trial);
         double end = 0, onset, broken;
         for (size_t i = 0; i < model->interfaces; i++) {
             if (fate_of(batch, i, velocity, &onset, &broken) && isfinite(broken))
@@ -614,8 +614,8 @@ static void onsets_and_breaks_come_when_they_must(void **unused)
  * weights sum. */
 static void an_interface_breaks_with_its_last_layer(void **unused)
 {
-    OWNED(fracas_model) *model = distorted_model(brittle_shell(&fracas_shape_plate, 1), 0, 0);
-    OWNED(fracas_batch) *batch = lane_of(model, 0, 0);
+    OWN(fracas_model) model = distorted_model(brittle_shell(&fracas_shape_plate, 1), 0, 0);
+    OWN(fracas_batch) batch = lane_of(model, 0, 0);
     OK(fracas_batch_begin(batch));
     for (int last = 0; last <= SHELL_EDGE * SHELL_LAYERS; last++) {
         for (int p = 0; p < SHELL_EDGE * SHELL_LAYERS; p++)

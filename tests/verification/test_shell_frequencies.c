@@ -28,7 +28,7 @@ static void frequencies(const vibration *v, size_t level, double beta, double be
     spec.cohesive.beta = beta;
     spec.cohesive.beta_shear = beta_shear;
     for (int tag = 1; tag < FRACAS_EDGES; tag++) spec.geometry.edge[tag] = v->edge[tag > 2];
-    OWNED(fracas_model) *model = grid_model(
+    OWN(fracas_model) model = grid_model(
         &spec,
         &(shell_grid){.nx = v->nx[level], .ny = v->ny[level], .map = flat_map, .how = v->size});
     shell_statics *s = statics_open(model);

@@ -343,11 +343,11 @@ static void the_matrix_is_the_bilinear_form(void **unused)
             spec.geometry.thickness = 0.5; /* bending as large as stretching */
             spec.cohesive.beta_shear = 3;
             spec.cohesive.coupling = edges ? 0.8 : 1.25;
-            OWNED(fracas_model) *model = body_of(which, spec, 2, 11);
+            OWN(fracas_model) model = body_of(which, spec, 2, 11);
             const size_t n = unknowns_of(model);
-            FREED double *got = stiffness_matrix(model, n), *expected = vector_of(n * n);
+            OWNED double *got = stiffness_matrix(model, n), *expected = vector_of(n * n);
             double worst = 0, asymmetry = 0;
-            FREED element_state *state = states_of(model);
+            OWNED element_state *state = states_of(model);
             add_bulk(model, state, n, expected);
             add_interfaces(model, state, n, expected, rule);
             if (edges) add_rims(model, state, n, expected, rule);

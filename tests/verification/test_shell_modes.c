@@ -25,9 +25,9 @@ static void free_bodies_have_six_rigid_motions(void **unused)
             fracas_spec spec = shell_spec(&fracas_shape_sphere);
             spec.cohesive.beta = beta[k < 3 ? k : 1];
             spec.cohesive.beta_shear = shear[k < 3 ? 1 : k == 3 ? 0 : 2];
-            OWNED(fracas_model) *model = body_of(which, spec, 3, 11);
+            OWN(fracas_model) model = body_of(which, spec, 3, 11);
             const size_t n = unknowns_of(model);
-            FREED double *matrix = stiffness_matrix(model, n),
+            OWNED double *matrix = stiffness_matrix(model, n),
                          *value = squares_of_frequencies(model, matrix, n);
             const double step = 2 / sqrt(value[n - 1]);
             print_message("%s, beta %g, beta_shear %g: eigenvalues %.1e, 6 below %.1e, next %.1e "
@@ -79,15 +79,15 @@ static double least_beta(double poisson, double distortion, double slant, int di
     spec.cohesive.beta = 10;
     spec.cohesive.beta_shear = 1e-4;
     const double how[2] = {1, slant};
-    OWNED(fracas_model) *model = grid_model(&spec, &(shell_grid){.nx = 3,
-                                                                 .ny = 3,
-                                                                 .map = slant_map,
-                                                                 .how = how,
-                                                                 .distortion = distortion,
-                                                                 .seed = 4,
-                                                                 .diagonals = diagonals});
+    OWN(fracas_model) model = grid_model(&spec, &(shell_grid){.nx = 3,
+                                                              .ny = 3,
+                                                              .map = slant_map,
+                                                              .how = how,
+                                                              .distortion = distortion,
+                                                              .seed = 4,
+                                                              .diagonals = diagonals});
     const size_t n = unknowns_of(model);
-    FREED double *stiff = stiffness_matrix(model, n);
+    OWNED double *stiff = stiffness_matrix(model, n);
     for (size_t i = 0; i < model->interfaces; i++)
         tables_of(model)->interface[i * SHELL_INTERFACE_TABLE + SURFACE_STIFFNESS] = 0;
     double *soft = stiffness_matrix(model, n), low = 0, high = 10;
@@ -133,7 +133,7 @@ static double step_of(bool even, double thickness_by_size, double beta, double b
     spec.geometry.thickness = thickness_by_size * size;
     spec.cohesive.beta = beta;
     spec.cohesive.beta_shear = beta_shear;
-    OWNED(fracas_model) *model = grid_model(
+    OWN(fracas_model) model = grid_model(
         &spec,
         &(shell_grid){.nx = n, .ny = n, .map = slant_map, .how = how, .diagonals = even ? 2 : 0});
     const double step = model->critical_closed *

@@ -21,7 +21,7 @@ static void rigid(const void *how, const double x[3], double u[3])
 static void rigid_motions_give_no_force(void **unused)
 {
     for (int which = 0; which < BODIES; which++) {
-        OWNED(fracas_model) *model = body_of(which, shell_spec(&fracas_shape_sphere), 5, 7);
+        OWN(fracas_model) model = body_of(which, shell_spec(&fracas_shape_sphere), 5, 7);
         fracas_surface_operator *op = open_operator(model);
         const size_t n = unknowns_of(model);
         double *u = vector_of(n), *f = vector_of(n), stiffness = 0, worst = 0;
@@ -122,7 +122,7 @@ static void uniform_states_are_exact(void **unused)
                                     {{{0}}, {0, 0, 1}},
                                     {{{1, 2}, {3, -1}}, {2, -1, 3}}};
     for (size_t k = 0; k < sizeof states / sizeof *states; k++) {
-        OWNED(fracas_model) *model = body_of(PLATE, shell_spec(&fracas_shape_file), 6, 5 + k);
+        OWN(fracas_model) model = body_of(PLATE, shell_spec(&fracas_shape_file), 6, 5 + k);
         fracas_surface_operator *op = open_operator(model);
         const size_t size = unknowns_of(model);
         double *u = vector_of(size), *f = vector_of(size), *expected = vector_of(size), n[3], m[3],

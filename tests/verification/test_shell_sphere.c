@@ -49,9 +49,9 @@ static void breathing_frequency(void **unused)
         for (int64_t n = 2; n < 33; n *= 2) {
             if (whole && n > 8) continue;
             const fracas_spec spec = alumina(whole ? &fracas_part_whole : &fracas_part_octant, n);
-            OWNED(fracas_model) *model = distorted_model(spec, n > 2 && !whole ? DISTORTION : 0, 5);
+            OWN(fracas_model) model = distorted_model(spec, n > 2 && !whole ? DISTORTION : 0, 5);
             const size_t size = unknowns_of(model);
-            FREED double *u = vector_of(size), *f = vector_of(size);
+            OWNED double *u = vector_of(size), *f = vector_of(size);
             double stretch = 0, mass = 0;
             fracas_surface_operator *op = open_operator(model);
             interpolate(model, radial, NULL, u);
@@ -169,7 +169,7 @@ static fracas_model *mirrored(const fracas_model *octant)
 {
     const fracas_surface *s = octant->surface;
     double(*node)[3] = calloc(8 * s->nnodes, sizeof *node);
-    FREED uint32_t *element = calloc(8 * s->nelements * 6, sizeof *element);
+    OWNED uint32_t *element = calloc(8 * s->nelements * 6, sizeof *element);
     assert_non_null(node);
     assert_non_null(element);
     size_t nodes = 0;
@@ -241,12 +241,12 @@ static void symmetry_is_a_mirror(void **unused)
 {
     fracas_spec spec = alumina(&fracas_part_octant, 4);
     spec.geometry.thickness = 1e-3; /* bending as large as stretching */
-    OWNED(fracas_model) *octant = distorted_model(spec, DISTORTION, 5), *whole = mirrored(octant);
+    OWN(fracas_model) octant = distorted_model(spec, DISTORTION, 5), *whole = mirrored(octant);
     const size_t n = unknowns_of(octant), all = unknowns_of(whole);
-    FREED double *u = vector_of(n), *f = vector_of(n), *u_all = vector_of(all),
+    OWNED double *u = vector_of(n), *f = vector_of(n), *u_all = vector_of(all),
                  *f_all = vector_of(all), *sign = vector_of(all);
     double worst = 0;
-    FREED size_t *from = calloc(all, sizeof *from);
+    OWNED size_t *from = calloc(all, sizeof *from);
     assert_non_null(from);
     match(octant, whole, from, sign);
     uint64_t noise = 9;

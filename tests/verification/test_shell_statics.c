@@ -83,12 +83,12 @@ static double hemisphere(size_t n, double beta, double beta_shear, double distor
     spec.material = (fracas_material){.young = 6.825e7, .density = 1, .poisson = 0.3};
     spec.cohesive.beta = beta;
     spec.cohesive.beta_shear = beta_shear;
-    OWNED(fracas_model) *model = grid_model(&spec, &(shell_grid){.nx = n,
-                                                                 .ny = n,
-                                                                 .map = hemisphere_map,
-                                                                 .how = &radius,
-                                                                 .distortion = distortion,
-                                                                 .seed = 3});
+    OWN(fracas_model) model = grid_model(&spec, &(shell_grid){.nx = n,
+                                                              .ny = n,
+                                                              .map = hemisphere_map,
+                                                              .how = &radius,
+                                                              .distortion = distortion,
+                                                              .seed = 3});
     shell_statics *s = statics_open_pinned(model,
                                            3 * 3 + 2); /* along z nothing holds or moves it */
     double *f = vector_of(s->n), *u = vector_of(s->n);
@@ -129,12 +129,12 @@ static double roof(size_t n, double beta, double beta_shear, double distortion)
     spec.material = (fracas_material){.young = 4.32e8, .density = 1, .poisson = 0};
     spec.cohesive.beta = beta;
     spec.cohesive.beta_shear = beta_shear;
-    OWNED(fracas_model) *model = grid_model(&spec, &(shell_grid){.nx = n,
-                                                                 .ny = n,
-                                                                 .map = roof_quarter,
-                                                                 .how = size,
-                                                                 .distortion = distortion,
-                                                                 .seed = 3});
+    OWN(fracas_model) model = grid_model(&spec, &(shell_grid){.nx = n,
+                                                              .ny = n,
+                                                              .map = roof_quarter,
+                                                              .how = size,
+                                                              .distortion = distortion,
+                                                              .seed = 3});
     shell_statics *s = statics_open(model);
     double *f = vector_of(s->n), *u = vector_of(s->n);
     load_area(model, uniform, &load, 2, f);
@@ -326,8 +326,8 @@ static void a_soft_shear_is_a_soft_plate(void **unused)
         double stiff = 0;
         for (int k = 0; k < 3; k++) {
             const double h = plate[p].thickness, shear = k ? plate[p].shear[k - 1] : 1e6;
-            OWNED(fracas_model) *model = supported_plate(plate[p].n, h, shear, 0);
-            FREED double *u = solve_plate(model, uniform, 1);
+            OWN(fracas_model) model = supported_plate(plate[p].n, h, shear, 0);
+            OWNED double *u = solve_plate(model, uniform, 1);
             const double down = read_point(model, middle, 2, u),
                          thin = down * stiffness_of(&model->spec) / 0.0040624;
             const double g = model->spec.material.young / (2 * (1 + model->spec.material.poisson));

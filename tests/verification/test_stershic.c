@@ -278,7 +278,7 @@ static void the_base_step_is_the_papers(void **unused)
     const int64_t sizes[] = {40, 41, 401, 1000, 1250, 5000};
     for (size_t i = 0; i < FRACAS_COUNT(sizes); i++) {
         const fracas_spec spec = at_rest(sizes[i]);
-        OWNED(fracas_model) *model;
+        OWN(fracas_model) model;
         OK(fracas_model_create(&spec, &model));
         const double paper = 0.8 * RING_CIRCUMFERENCE / (double)sizes[i] / BAR_WAVE_SPEED;
         const double odd = sizes[i] % 2 ? cos(0.5 * 3.14159265358979323846 / (double)sizes[i]) : 1;

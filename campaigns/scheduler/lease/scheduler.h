@@ -12,6 +12,7 @@
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_LEASE_SCHEDULER_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_LEASE_SCHEDULER_H
 
+#include "base/own.h"
 #include "base/err.h"
 #include "campaigns/scheduler/types/lease.h"
 #include "campaigns/store/store.h"
@@ -43,6 +44,7 @@ FRACAS_MUST_USE fracas_err fracas_scheduler_create(const fracas_index_row *row, 
 FRACAS_MUST_USE fracas_err fracas_scheduler_add(fracas_scheduler *scheduler,
                                                 const fracas_index_row *row, size_t count);
 void fracas_scheduler_destroy(fracas_scheduler *scheduler); /* NULL is allowed */
+FRACAS_OWNER(fracas_scheduler, fracas_scheduler_destroy)
 
 /* Leases to `worker` at time `now` [s, of a monotonic clock]; *given is false when none waits or
  * the worker has enough. It may hold two leases, or one when at most a batch waits for each worker.
