@@ -14,15 +14,15 @@ struct fracas_model {
     const fracas_formulation *formulation;
     fracas_spec spec;
     size_t elements, interfaces;
-    size_t strengths;                 /* of an interface: 1 unless model_init says more */
+    size_t strengths;                 /* per interface: 1 unless model_init says more */
     double mass;                      /* kg */
     double element_size, longest;     /* m: mean and largest length h of an element */
-    double *table;                    /* of the formulation's own; freed with the model */
+    double *table;                    /* the formulation's own; freed with the model */
     const struct fracas_chain *chain; /* fields of a chain's state; NULL of a surface */
     double
         *sizes; /* m, lengths of a chain's elements; NULL: all element_size; freed with the model */
     const struct fracas_surface *surface;     /* NULL of a chain; destroyed with the model */
-    void *plan;                               /* of the formulation's own, freed by plan_destroy */
+    void *plan;                               /* the formulation's own, freed by plan_destroy */
     double critical_closed, critical_cracked; /* s: all interfaces uncracked; broken, in contact */
     double critical_step;                     /* s, the smaller of the two */
     double time_step;                         /* s */
@@ -36,7 +36,7 @@ typedef struct {
     int lanes; /* lanes of one kernel; the batch is width/lanes such groups */
     fracas_isa isa;
     double *state; /* owned by the batch, laid out by the formulation, group after group */
-    fracas_partition partition; /* of one lane at a time, found anew for each use */
+    fracas_partition partition; /* one lane at a time, found anew for each use */
     double *onset_time;         /* [interface][lane], s; NULL unless interfaces are kept */
     double *break_time;         /* the same */
     /* in: time of the step, the time step that led to it (0 in the first), and that of velocities
@@ -53,7 +53,7 @@ typedef struct {
         double energy[FRACAS_ENERGIES][FRACAS_LANES_MAX];
     };
     double power[FRACAS_LANES_MAX];
-    /* of the formulation's own: power of the drive at the velocities after the step before [W] */
+    /* the formulation's own: power of the drive at the velocities after the step before [W] */
     double driven[FRACAS_LANES_MAX];
     /* accumulated: counts of interfaces, time of the first onset [s, NaN] */
     double first_onset[FRACAS_LANES_MAX];

@@ -99,7 +99,7 @@ static void bar_advance(const fracas_model *model, fracas_step *step)
     for (int first = 0; first < step->width; first += step->lanes) sweep(&bar, step, first);
 }
 
-/* ---- what is left of a lane ---- */
+/* ---- results of a lane ---- */
 
 /* Mean of two fields, those of an element's ends. */
 static double mean_of(const fracas_model *model, const fracas_step *step, size_t e, int left,

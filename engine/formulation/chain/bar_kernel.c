@@ -14,7 +14,7 @@ typedef struct {
     vd size;    /* h/h of all, where they are not alike: 1 */
 } bar_element;
 
-/* What an interface does to its two elements. */
+/* Action of an interface on its two elements. */
 typedef struct {
     vd traction, slip; /* T [Pa], q - delta [m] */
     vmask closed;      /* rigid-link only: both nodes move as one ... */
@@ -25,7 +25,7 @@ typedef struct {
     const fracas_bar_constants *bar;
     fracas_step *step;
     int first;                      /* lane of the step that is lane 0 here */
-    double *state;                  /* of these lanes */
+    double *state;                  /* state of these lanes */
     vd drift, kick;                 /* dt [s], dt/(nodal mass) [m/(s Pa)] */
     vd load_stress;                 /* E rate t [Pa] */
     vd spring, compliance, modulus; /* K, 1/K, E/h [Pa/m] of elements of one length */

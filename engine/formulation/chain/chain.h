@@ -10,7 +10,7 @@
 #include "engine/formulation/formulation.h"
 
 typedef struct fracas_chain {
-    int fields;   /* of an element */
+    int fields;   /* fields of an element */
     int damage;   /* number of the field delta_max/delta_c of the interface; behind it are ... */
     int strength; /* ... sigma_c [Pa], and ... */
     int law;      /* ... the law's constant */

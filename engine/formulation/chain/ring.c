@@ -43,7 +43,7 @@ static fracas_ring_constants constants_of(const fracas_model *model)
     const fracas_spec *spec = &model->spec;
     const double young = spec->material.young, h = model->element_size;
     const fracas_ring_motion motion = motion_of(model);
-    /* of a force per length: a node's, by area */
+    /* a force per length becomes a node's, by area */
     const double share = motion.drive == RING_FORCED ? 0.5 * h / spec->geometry.area : 1.0;
     return (fracas_ring_constants){
         .elements = model->elements,
@@ -82,7 +82,7 @@ static fracas_err ring_model_init(fracas_model *model)
     if (!table) return fracas_no_memory("the mesh of a ring");
     for (size_t e = 0; e < n; e++) {
         const double angle = (double)(2 * e) / (double)n,
-                     middle = (double)(2 * e + 1) / (double)n; /* of pi */
+                     middle = (double)(2 * e + 1) / (double)n; /* parts of pi */
         table[e * RING_TABLE + RING_COS] = fracas_cospi(angle);
         table[e * RING_TABLE + RING_SIN] = fracas_sinpi(angle);
         table[e * RING_TABLE + RING_COS_MIDDLE] = fracas_cospi(middle);
@@ -145,7 +145,7 @@ static void ring_advance(const fracas_model *model, fracas_step *step)
     for (int first = 0; first < step->width; first += step->lanes) sweep(&ring, step, first);
 }
 
-/* ---- what is left of a lane ---- */
+/* ---- results of a lane ---- */
 
 /* Adds one element's two nodes to its fragment's sums. */
 static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What both sweeps of the ring are made of: elements, directions, drives, over lanes
+/* Parts of both sweeps of the ring: elements, directions, drives, over lanes
  * (docs/theory/ring.md). */
 #ifndef FRACAS_ENGINE_CHAIN_RING_KINEMATICS_H
 #define FRACAS_ENGINE_CHAIN_RING_KINEMATICS_H
@@ -35,10 +35,10 @@ LANES_FUNCTION vd ring_dot(ring_vector a, ring_vector b)
 typedef struct {
     ring_vector u_left, u_right, v_left, v_right;
     ring_vector chord, tangent; /* from left to right node [m], and its direction */
-    vd strain, stress;          /* of the chord; E strain [Pa] */
+    vd strain, stress;          /* strain of the chord; E strain [Pa] */
 } ring_element;
 
-/* What an interface does to its two elements. */
+/* Action of an interface on its two elements. */
 typedef struct {
     ring_vector force;  /* on the left element's node, minus that on the right one's [Pa] */
     ring_vector couple; /* turns both chords along with the interface's direction [Pa] */
@@ -57,7 +57,7 @@ typedef struct {
     const fracas_ring_constants *ring;
     fracas_step *step;
     int first;     /* lane of the step that is lane 0 here */
-    double *state; /* of these lanes */
+    double *state; /* state of these lanes */
     vd drift,
         kick; /* dt [s]; what a velocity is advanced by, per force: dt/(nodal mass) [m/(s Pa)] */
     vd spring, modulus;   /* K, E/h [Pa/m] */

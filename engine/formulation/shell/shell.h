@@ -9,7 +9,7 @@
  * layers of the thickness. */
 enum { SHELL_NODES = 6, SHELL_UNKNOWNS = 18, SHELL_BULK = 3, SHELL_EDGE = 3, SHELL_LAYERS = 3 };
 
-/* Of a bulk point, after its head, whose x, y are those of the orthonormal frame x, y, t of the
+/* A bulk point, after its head, whose x, y are those of the orthonormal frame x, y, t of the
  * surface there  (shell.2): the frame; the bending strains xx, yy, 2 xy by t . u,xixi, t .
  * u,etaeta, t . u,xieta and by t . u,xi, t . u,eta  (shell.4). */
 enum {
@@ -21,7 +21,7 @@ enum {
     SHELL_BULK_TABLE = SHELL_FIRST + 6
 };
 
-/* Of an interface: after its head, the stiffness against shearing off [Pa]; then of
+/* An interface: after its head, the stiffness against shearing off [Pa]; then of
  * each Gauss point the frame n, s, t of the edge, 1/|dx/ds| [1/m], the weight: length times
  * quadrature weight [m], the mean curvatures L_nn, L_ns, L_ss [1/m], and for each side: half of the
  * normal's n_x^2, n_y^2, n_x n_y in the element's frame; the derivatives of its shape functions
@@ -50,7 +50,7 @@ enum {
 };
 #define SHELL_INTERFACE_TABLE (SHELL_POINTS + SHELL_EDGE * SHELL_POINT_TABLE)
 
-/* Of an edge that holds the director: the stiffness of its turn [N], then of each Gauss point the
+/* An edge that holds the director: the stiffness of its turn [N], then of each Gauss point the
  * weight, and as of a first side (but the whole of n_x^2, ...). */
 enum { SHELL_RIM_STIFFNESS, SHELL_RIM_POINTS };
 enum { SHELL_RIM_LENGTH, SHELL_RIM_SIDE, SHELL_RIM_POINT_TABLE = SHELL_RIM_SIDE + SHELL_SIDE };

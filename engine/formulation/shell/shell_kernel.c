@@ -21,7 +21,7 @@ typedef struct {
     vd jump[2], turn[2], lift;     /* [u] [m], [Dt] [1], [u].t [m] */
     vd mean_n[2], mean_m[2];       /* <N> [N/m], <M> [N] */
     vd n[2], m[2], shearing;       /* tractions N [N/m], M [N], and across the surface [N/m] */
-    vd carried_u[2], carried_t[2]; /* what the flux carries of the jumps [m], [1] */
+    vd carried_u[2], carried_t[2]; /* the flux's part of the jumps [m], [1] */
 } shell_point;
 
 LANES_FUNCTION vd shell_dot(const double *a, const vd *b)

@@ -43,7 +43,7 @@
 #define BODY_OF(name, what) BODY_PASTE(name, what)
 #define BODY_PASTE(name, what) name##_##what
 
-/* Of a slot: stresses at each bulk point, strains that symmetrisation adds there, forces. */
+/* A slot: stresses at each bulk point, strains that symmetrisation adds there, forces. */
 #define BODY_SIZE(order) (BODY_DIMENSION * SURFACE_NODES(order))
 #define BODY_SLOT_EXTRA(order) (BODY_STRESSES * SURFACE_BULK(order))
 #define BODY_SLOT_FORCE(order) (2 * BODY_STRESSES * SURFACE_BULK(order))
@@ -54,7 +54,7 @@ typedef struct {
     const fracas_surface_tables *tables;
     fracas_step *step;
     int first;                             /* lane of the step that is lane 0 here */
-    double *elements, *interfaces, *slots; /* of these lanes */
+    double *elements, *interfaces, *slots; /* state of these lanes */
     const double *strengths;
     size_t element_size, interface_size;  /* doubles */
     size_t strengths_size, strength_step; /* doubles: of an interface; from one Gauss point to the

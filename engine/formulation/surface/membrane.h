@@ -5,7 +5,7 @@
 
 #include "engine/formulation/surface/surface.h"
 
-/* Of a Gauss point of an interface: the normal from element[0] to element[1], and the weight:
+/* A Gauss point of an interface: the normal from element[0] to element[1], and the weight:
  * length times quadrature weight times thickness [m2]. */
 enum { MEMBRANE_NX, MEMBRANE_NY, MEMBRANE_AREA, MEMBRANE_POINT_TABLE };
 

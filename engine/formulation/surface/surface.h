@@ -21,7 +21,7 @@
 #include "engine/formulation/formulation.h"
 #include "engine/formulation/surface/visits.h"
 
-/* Of one order of triangles: nodes, points at which stresses are kept, Gauss points of an edge. */
+/* One order of triangles: nodes, points at which stresses are kept, Gauss points of an edge. */
 #define SURFACE_NODES(order) (3 * (order))
 #define SURFACE_BULK(order) ((order) == 1 ? 1 : 3)
 #define SURFACE_EDGE(order) ((order) + 1)
@@ -98,8 +98,8 @@ typedef struct {
     double beta_c, mu_c;       /* 1 */
     int law;                   /* its number */
     int onset_mean, friction;
-    int fields, point_fields; /* of an element, by its unknowns; of a point of an interface */
-    int strengths;            /* of an interface: 1, or one for each Gauss point */
+    int fields, point_fields; /* an element's, by its unknowns; a point's of an interface */
+    int strengths;            /* per interface: 1, or one for each Gauss point */
     double speed, ramp;       /* rad/s, s: w = speed min(1, t/ramp) */
     fracas_surface_motion motion;
     int contact; /* the operator: all interfaces broken and in contact; else whole */
@@ -109,7 +109,7 @@ typedef struct {
 typedef struct {
     double u[2][SURFACE_UNKNOWNS_MOST]; /* displacements of its two elements [m] */
     double fields[SURFACE_POINTS_MOST * SURFACE_POINT_FIELDS_MOST]; /* [point][field] of the law */
-    double strength[SURFACE_EDGE(2)];                               /* of its Gauss points [Pa] */
+    double strength[SURFACE_EDGE(2)];                               /* its Gauss points' [Pa] */
     /* At each point: traction held against the strength, opening over that of the break; 1 at the
      * onset, at the break. */
     double onset[SURFACE_POINTS_MOST], opening[SURFACE_POINTS_MOST];

@@ -13,7 +13,7 @@ typedef struct {
     const fracas_surface_arrays *arrays;
     fracas_surface_side *side;
     uint32_t (*neighbour)[3];
-    int32_t (*tag)[3]; /* of each edge of each element */
+    int32_t (*tag)[3]; /* tag of each edge of each element */
     uint32_t *order;   /* which element comes k-th */
     uint32_t *place;   /* where an element goes */
     uint32_t *node;    /* where a node goes */

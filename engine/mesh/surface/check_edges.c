@@ -65,7 +65,7 @@ static fracas_err check_edge(const fracas_surface_arrays *arrays, const fracas_s
                              size_t count)
 {
     for (size_t i = 0; i + 1 < count; i++)
-        for (size_t j = i + 1; j < count && j < 3; j++) /* of more than three, some are enough */
+        for (size_t j = i + 1; j < count && j < 3; j++) /* among more than three some are enough */
             if (node_of(arrays, &side[i], (side[i].edge + 2) % 3) ==
                 node_of(arrays, &side[j], (side[j].edge + 2) % 3))
                 return fracas_fail(FRACAS_USAGE,

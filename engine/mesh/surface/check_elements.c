@@ -8,7 +8,7 @@
 
 /* Squares of areas of such lengths neither overflow nor vanish. */
 #define LARGEST_COORDINATE 1e50
-#define LEAST_SHARE 1e-9 /* of the mean */
+#define LEAST_SHARE 1e-9 /* by the mean */
 
 static const double *node_of(const fracas_surface_arrays *arrays, size_t element, size_t corner)
 {

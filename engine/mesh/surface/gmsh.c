@@ -26,7 +26,7 @@ typedef struct {
     size_t nnodes, nelements, nlines, ncurves;
     double (*node)[3];
     entry *node_entry;    /* sorted: index of each node */
-    int64_t (*corner)[6]; /* of triangles: Gmsh's numbers */
+    int64_t (*corner)[6]; /* triangles in Gmsh's numbers */
     int64_t *element;     /* number of each triangle */
     line *line;
     entry *curve; /* sorted: physical group of each curve */
@@ -401,7 +401,7 @@ static fracas_err read_file(mesh *m)
 
 /* Input of fracas_surface_assemble. */
 typedef struct {
-    uint32_t *new_node; /* of each node of the file, UINT32_MAX: no triangle has it */
+    uint32_t *new_node; /* number of each node of the file, UINT32_MAX: no triangle has it */
     uint32_t *element;
     double (*node)[3];
     int64_t *node_number;

@@ -16,7 +16,7 @@
 #include <stdint.h>
 
 #define FRACAS_SURFACE_LARGEST ((size_t)100000000) /* elements or nodes of a mesh */
-#define FRACAS_SURFACE_AMPLITUDE 0.3 /* of a perturbation: up to it no element can invert */
+#define FRACAS_SURFACE_AMPLITUDE 0.3 /* largest perturbation by which no element can invert */
 
 /* An edge between two elements. */
 typedef struct {
@@ -74,7 +74,7 @@ typedef struct {
     double size; /* edge of the equilateral triangle with the mean area of elements [m]; or 0 and */
     size_t divisions; /* a number, see each body; 0 where there is a size */
     int order;
-    double amplitude; /* of the perturbation, in local edge lengths: to FRACAS_SURFACE_AMPLITUDE */
+    double amplitude;         /* perturbation in local edge lengths, to FRACAS_SURFACE_AMPLITUDE */
     const double (*shift)[2]; /* two numbers in [-1, 1] for every vertex; NULL: no perturbation */
     size_t nshifts;           /* as many as `nvertices` of the mesh without perturbation */
 } fracas_surface_fineness;
