@@ -39,21 +39,19 @@ enum { SURFACE_DAMAGE, SURFACE_PEAK, SURFACE_POINT_FIELDS, SURFACE_POINT_FIELDS_
 typedef struct {
     fracas_kind kind; /* first: an entry of the section `cohesive` */
     int number;       /* FRACAS_LAW_name */
-    /* True: the flux holds the interface until its onset, and the opening is in series with it.
-     * False: the interface of a chain is rigid until its onset, that of a surface leaves the flux
-     * there. */
+    /* True: the flux holds the interface until onset, the opening is in series with it. False: an
+     * interface of a chain is rigid until onset, one of a surface leaves the flux there. */
     bool flux;
-    /* Slope of its steepest softening by sigma_c/delta_c, 1 for linear softening; laws with `flux`.
-     * The stiffness of the flux must exceed it. */
+    /* Slope of its steepest softening by sigma_c/delta_c; laws with `flux`, whose stiffness must
+     * exceed it. */
     double steepest;
     int fields[2]; /* surfaces: values of a point, without and with friction */
     /* Chains. */
     double (*contact)(const fracas_cohesive *); /* stiffness of contact by E/h; NULL: at most 1 */
     bool contact_by_strength; /* contact stiffens with the strength  (cohesive.9) */
-    /* Constant of an interface, from its stiffness K [Pa/m], G_c [J/m2] and sigma_c [Pa]; NULL: 0.
-     */
+    /* Constant of an interface, of its stiffness K [Pa/m], G_c [J/m2], sigma_c [Pa]; NULL: 0. */
     double (*constant)(double stiffness, double energy, double strength);
-    /* Least factor by which the law itself refines the time step, 0 to 1; NULL: it does not. */
+    /* Least factor by which the law refines the time step, 0 to 1; NULL: it does not. */
     double (*finest)(const fracas_cohesive *);
 } fracas_law;
 

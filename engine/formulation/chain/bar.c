@@ -67,8 +67,7 @@ static fracas_err bar_model_init(fracas_model *model)
 {
     TRY(fracas_chain_model_init(model, &chain, 2));
     TRY(fill_sizes(model));
-    /* Where the stiffness of contact depends on the strength, check_strength keeps it below the
-     * elements'. */
+    /* check_strength keeps a stiffness of contact by strength below the elements'. */
     return fracas_chain_critical_step(model);
 }
 
@@ -99,7 +98,7 @@ static void bar_advance(const fracas_model *model, fracas_step *step)
     for (int first = 0; first < step->width; first += step->lanes) sweep(&bar, step, first);
 }
 
-/* ---- results of a lane ---- */
+/* ---- fragments ---- */
 
 /* Mean of two fields, those of an element's ends. */
 static double mean_of(const fracas_model *model, const fracas_step *step, size_t e, int left,
@@ -109,9 +108,8 @@ static double mean_of(const fracas_model *model, const fracas_step *step, size_t
                   *fracas_chain_field(model, step, e, right, lane));
 }
 
-/* Adds up the elements of each fragment, moved as (bar.1). In a closed bar whose last interface
- * holds, the elements after the last break belong to the fragment of element 0: they are taken one
- * circumference back, so that it is in one piece. */
+/* Adds up the elements of each fragment, moved as (bar.1). Elements after the last break of a
+ * closed bar are in the fragment of element 0: they are taken one circumference back. */
 static void add_elements(const fracas_model *model, const fracas_step *step, int lane,
                          fracas_fragment *fragment)
 {
@@ -178,12 +176,8 @@ const fracas_formulation fracas_formulation_bar = {
              FRACAS_GOES_WITH(goes_with)},
     .model_init = bar_model_init,
     .check_strength = bar_check_strength,
-    .interface_volume = fracas_chain_interface_volume,
     .interface_positions = bar_interface_positions,
-    .state_size = fracas_chain_state_size,
-    .strength = fracas_chain_strength,
     .lane_init = fracas_chain_lane_init,
     .advance = bar_advance,
-    .fragment_count = fracas_chain_fragment_count,
     .harvest = bar_harvest,
-};
+    FRACAS_CHAIN_FORMULATION};

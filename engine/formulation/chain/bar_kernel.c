@@ -17,7 +17,7 @@ typedef struct {
 /* Action of an interface on its two elements. */
 typedef struct {
     vd traction, slip; /* T [Pa], q - delta [m] */
-    vmask closed;      /* rigid-link only: both nodes move as one ... */
+    vmask closed;      /* rigid links: both nodes move as one ... */
     vd common; /* ... under this force [Pa] per mass, in units of an element's of mean length */
 } bar_link;
 
@@ -198,8 +198,7 @@ LANES_FUNCTION void bar_finish(bar_context *c, int uniform, int flux, size_t e,
     vd v_left = hold_left ? element->v_left : central_kick(element->v_left, force_left, c->kick);
     vd v_right = hold_right ? element->v_right
                             : central_kick(element->v_right, force_right, c->kick);
-    /* kinetic energy of leapfrog, v_{n-1/2} v_{n+1/2}: constant to round-off with the rest (bar.11)
-     */
+    /* kinetic energy of leapfrog, v_{n-1/2} v_{n+1/2}  (bar.11) */
     vd velocity_squared = element->v_left * v_left + element->v_right * v_right;
     vd stress_squared = element->stress * element->stress;
     c->velocity_squared += uniform ? velocity_squared : element->size * velocity_squared;
@@ -247,9 +246,8 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
                            .modulus = lanes_set(bar->young / bar->size)};
     bar_context *c = &context;
 
-    /* One pass in place: an element is written once both its interfaces are known, and what its
-     * right neighbour needs of it is kept in registers. The interface that closes a periodic bar
-     * comes first. */
+    /* One pass in place: an element is written once both its interfaces are known; registers keep
+     * the part for its right neighbour. The interface closing a periodic bar comes first. */
     bar_element element = bar_load(c, uniform, 0);
     bar_link closing = {.traction = zero, .slip = zero}, left;
     if (bar->periodic) {

@@ -1,10 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The sweep of the bar: one step of central difference for all lanes, in one pass over the
- * elements.
- *
- * State: a record of BAR_FIELDS values of `lanes` lanes for each element and the interface at its
- * right end (interface e joins elements e and e+1; the last one closes a periodic bar, and does not
- * exist with held ends). */
+ * elements. State: a chain's (chain.h). */
 #ifndef FRACAS_ENGINE_FORMULATION_BAR_SWEEP_H
 #define FRACAS_ENGINE_FORMULATION_BAR_SWEEP_H
 
@@ -14,17 +10,15 @@
 enum {
     BAR_W_LEFT, /* peculiar displacement of the element's left node [m]: u - rate t x */
     BAR_W_RIGHT,
-    BAR_V_LEFT, /* its velocity, half a step behind the displacement before the sweep, half a step
-                   ahead after [m/s] */
+    BAR_V_LEFT, /* its velocity, half a step before that, after the sweep half a step ahead [m/s] */
     BAR_V_RIGHT,
     BAR_DAMAGE,   /* delta_max/delta_c of the interface */
     BAR_STRENGTH, /* sigma_c [Pa] */
-    BAR_LAW, /* nitsche: K delta_c - sigma_c [Pa]; rigid-link: 0 closed, 1 strength exceeded, 2 open
-              */
+    BAR_LAW,      /* trait `constant`; rigid-link: 0 closed, 1 strength exceeded, 2 open */
     BAR_FIELDS
 };
 
-/* Everything a sweep needs that is the same for all lanes. */
+/* Input of a sweep, the same for all lanes. */
 typedef struct {
     size_t elements;
     int periodic;
@@ -43,9 +37,9 @@ typedef struct {
 /* Advances the lanes first .. first + lanes - 1 of the step. */
 typedef void fracas_bar_sweep(const fracas_bar_constants *bar, fracas_step *step, int first);
 
-/* A unit: [law][elements of one length: 0 no, 1 yes]. `operator` of one lane alone leaves
- * M^-1 (-K) w  (bar.6), (bar.7) where velocities are, of interfaces that are [0: tied, 1: whole by
- * their flux or in contact], with `drift` and velocities 0, `kick` 1. */
+/* A unit: [law][elements of one length: 0 no, 1 yes]. `operator`, of one lane alone, leaves
+ * M^-1 (-K) w  (bar.6), (bar.7) in place of velocities, with `drift` and velocities 0, `kick` 1;
+ * interfaces are [0: tied, 1: whole by their flux or in contact]. */
 typedef struct {
     fracas_bar_sweep *sweep[FRACAS_LAWS][2];
     fracas_bar_sweep *operator[2][2];

@@ -18,9 +18,9 @@ static inline void fracas_chain_note_onset(fracas_step *step, int l, size_t inte
 }
 
 typedef struct {
-    vmask cracks, breaks;  /* lanes in which the interface cracks or breaks in this step */
-    vd onset, broke;       /* when, where it does [s]; held within the step */
-    vd at_onset, at_break; /* energy that the event creates [J/m2] */
+    vmask cracks, breaks;  /* lanes of events in this step */
+    vd onset, broke;       /* their times [s]; held within the step */
+    vd at_onset, at_break; /* energy created by them [J/m2] */
 } chain_events;
 
 __attribute__((noinline, cold, unused)) static void chain_note_events(fracas_step *step, int first,

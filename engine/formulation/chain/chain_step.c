@@ -21,8 +21,8 @@ static double size_of(const chain_operator *o, size_t e)
     return o->bar.sizes ? o->bar.sizes[e] : o->bar.size;
 }
 
-/* The operator of a chain: all interfaces uncracked, or all broken and in contact. A regular
- * chain's largest frequency is that of a short one: it has 1024 elements at most. */
+/* The operator of a chain: all interfaces uncracked, or all broken and in contact. A regular chain
+ * has the largest frequency of a short one: 1024 elements are enough. */
 static fracas_err open_operator(const fracas_model *model, bool contact, chain_operator **out)
 {
     enum { ENOUGH = 1024 };
@@ -76,8 +76,7 @@ static void multiply_by_mass(void *context, const double *w, double *result)
 }
 
 /* The extreme modes of a regular chain (nodes of an element, or whole elements, in turn up and
- * down), a little of everything else, and most of it where elements are small. Tied nodes have
- * equal values. */
+ * down), most of it in small elements, and a little noise. Tied nodes have equal values. */
 static void fill_start(const chain_operator *o, double *start)
 {
     const size_t n = o->bar.elements;

@@ -43,7 +43,7 @@ static fracas_ring_constants constants_of(const fracas_model *model)
     const fracas_spec *spec = &model->spec;
     const double young = spec->material.young, h = model->element_size;
     const fracas_ring_motion motion = motion_of(model);
-    /* a force per length becomes a node's, by area */
+    /* a node's share of a force per length, by area */
     const double share = motion.drive == RING_FORCED ? 0.5 * h / spec->geometry.area : 1.0;
     return (fracas_ring_constants){
         .elements = model->elements,
@@ -104,9 +104,8 @@ static void ring_interface_positions(const fracas_model *model, double (*positio
 
 /* ---- state ---- */
 
-/* Velocities outward and along the ring that its nodes start with [m/s]; central difference has
- * them half a step before the start, at the acceleration of the start, Newmark at the start itself
- * (ring.10). */
+/* First velocities outward and along the ring [m/s]: of central difference half a step before the
+ * start, at the acceleration of the start, of Newmark at the start itself  (ring.10). */
 static void start_velocities(const fracas_model *model, double velocity[2])
 {
     const fracas_ring_constants ring = constants_of(model);
@@ -145,7 +144,7 @@ static void ring_advance(const fracas_model *model, fracas_step *step)
     for (int first = 0; first < step->width; first += step->lanes) sweep(&ring, step, first);
 }
 
-/* ---- results of a lane ---- */
+/* ---- fragments ---- */
 
 /* Adds one element's two nodes to its fragment's sums. */
 static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e,
@@ -196,12 +195,8 @@ const fracas_formulation fracas_formulation_ring = {
              FRACAS_GOES_WITH(goes_with)},
     .model_init = ring_model_init,
     .check_strength = fracas_chain_check_strength,
-    .interface_volume = fracas_chain_interface_volume,
     .interface_positions = ring_interface_positions,
-    .state_size = fracas_chain_state_size,
-    .strength = fracas_chain_strength,
     .lane_init = ring_lane_init,
     .advance = ring_advance,
-    .fragment_count = fracas_chain_fragment_count,
     .harvest = ring_harvest,
-};
+    FRACAS_CHAIN_FORMULATION};

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parts of both sweeps of the ring: elements, directions, drives, over lanes
- * (docs/theory/ring.md). */
+/* Elements, directions and drives of both sweeps of the ring, over lanes (docs/theory/ring.md). */
 #ifndef FRACAS_ENGINE_CHAIN_RING_KINEMATICS_H
 #define FRACAS_ENGINE_CHAIN_RING_KINEMATICS_H
 
@@ -43,7 +42,7 @@ typedef struct {
     ring_vector force;  /* on the left element's node, minus that on the right one's [Pa] */
     ring_vector couple; /* turns both chords along with the interface's direction [Pa] */
     vd slip;            /* q - delta [m] */
-    vmask open;         /* stershic only: else both nodes move as one ... */
+    vmask open;         /* stershic: if not, both nodes move as one ... */
     ring_vector common; /* ... under this force each [Pa] */
 } ring_link;
 
@@ -56,22 +55,29 @@ typedef struct {
 typedef struct {
     const fracas_ring_constants *ring;
     fracas_step *step;
-    int first;     /* lane of the step that is lane 0 here */
-    double *state; /* state of these lanes */
-    vd drift,
-        kick; /* dt [s]; what a velocity is advanced by, per force: dt/(nodal mass) [m/(s Pa)] */
+    int first;            /* lane of the step that is lane 0 here */
+    double *state;        /* state of these lanes */
+    vd drift, kick;       /* dt [s]; dt/(nodal mass) of velocities [m/(s Pa)] */
     vd spring, modulus;   /* K, E/h [Pa/m] */
     vd drive, next_drive; /* force on a node [Pa] now; velocity held half a step ahead [m/s] */
     vd inertia;           /* nodal mass/dt [Pa s/m] */
     /* sums over the body, for the ledger, 0 at first */
     vd elastic, flux_energy, opening_energy, dissipated, velocity_squared;
-    vd driven, driven_next; /* power of the drive, per area, at the velocities before and after now
-                               [W/m2] */
+    vd driven, driven_next; /* power of the drive at the velocities before and after now [W/m2] */
 } ring_context;
 
 LANES_FUNCTION ring_vector ring_read(const double *at)
 {
     return (ring_vector){lanes_load(at), lanes_load(at + LANES)};
+}
+
+/* Displacements and velocities of an element whose fields begin at `at`. */
+LANES_FUNCTION ring_element ring_read_element(const double *at)
+{
+    return (ring_element){.v_left = ring_read(at + RING_V_LEFT * LANES),
+                          .v_right = ring_read(at + RING_V_RIGHT * LANES),
+                          .u_left = ring_read(at + RING_U_LEFT * LANES),
+                          .u_right = ring_read(at + RING_U_RIGHT * LANES)};
 }
 
 LANES_FUNCTION void ring_write(double *at, ring_vector a)
@@ -124,9 +130,8 @@ LANES_FUNCTION vd ring_stress_rate(const ring_context *c, const ring_element *le
             ring_dot(right->tangent, ring_subtract(right->v_right, right->v_left)));
 }
 
-/* The velocity of a node at `vertex` once kicked by `force` [Pa], under the drive  (ring.10); books
- * the power of the drive's force, or of the reaction to a held velocity, at the velocities before
- * and after. */
+/* The velocity of a node at `vertex` kicked by `force` [Pa], under the drive  (ring.10). Books the
+ * power of the drive's force, or of the reaction to a held velocity, before and after. */
 LANES_FUNCTION ring_vector ring_drive_node(ring_context *c, size_t vertex, ring_vector u,
                                            ring_vector v, ring_vector force)
 {
@@ -160,8 +165,7 @@ LANES_FUNCTION vd ring_drive_work(const ring_context *c)
     return half * c->drift * (before + area * c->driven);
 }
 
-/* `kick` and `ahead` [s]: what velocities are advanced by, and how far beyond this step's time they
- * are then. */
+/* Velocities are advanced by `kick` [s], to `ahead` [s] beyond this step's time. */
 LANES_FUNCTION ring_context ring_context_of(const fracas_ring_constants *ring, fracas_step *step,
                                             int first, int fields, vd kick, vd ahead)
 {

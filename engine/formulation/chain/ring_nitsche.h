@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The ring's sweep with laws in series with the flux: central difference, one pass over the
- * elements. */
+/* The ring's sweep with laws in series with the flux: central difference, one pass. */
 #ifndef FRACAS_ENGINE_CHAIN_RING_NITSCHE_H
 #define FRACAS_ENGINE_CHAIN_RING_NITSCHE_H
 
@@ -8,11 +7,7 @@
 
 LANES_FUNCTION ring_element ring_load(const ring_context *c, size_t e)
 {
-    const double *at = c->state + e * RING_FIELDS * LANES;
-    ring_element element = {.v_left = ring_read(at + RING_V_LEFT * LANES),
-                            .v_right = ring_read(at + RING_V_RIGHT * LANES),
-                            .u_left = ring_read(at + RING_U_LEFT * LANES),
-                            .u_right = ring_read(at + RING_U_RIGHT * LANES)};
+    ring_element element = ring_read_element(c->state + e * RING_FIELDS * LANES);
     element.u_left = ring_add(element.u_left, ring_scale(c->drift, element.v_left));
     element.u_right = ring_add(element.u_right, ring_scale(c->drift, element.v_right));
     ring_stretch(c, e, &element);
@@ -98,7 +93,7 @@ LANES_FUNCTION void ring_flux(const fracas_ring_constants *ring, fracas_step *st
     ring_context context = ring_context_of(ring, step, first, RING_FIELDS, dt, lanes_set(0.5) * dt),
                  *c = &context;
 
-    /* One pass in place, as the bar's; the interface that closes the ring comes first. */
+    /* One pass in place, as the bar's; the closing interface comes first. */
     ring_element element = ring_load(c, 0), end = ring_load(c, last);
     const ring_link closing = ring_join(c, law, last, &end, &element);
     ring_element next = ring_load(c, 1);

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The ring's sweep with Stershic's algorithm (docs/theory/ring.md): explicit Newmark with
- * velocities at whole steps, rigid links that open at sigma_c, time step refined by critical zones,
- * fracture-limiting zone with bulk damage.
- *
- * Two passes: which links open, and how long the next step is, must be known before any force is.
- */
+ * velocities at whole steps, rigid links opening at sigma_c, time step refined by critical zones,
+ * fracture-limiting zone with bulk damage. Two passes: forces need the links that open, and the
+ * length of the next step. */
 #ifndef FRACAS_ENGINE_CHAIN_RING_STERSHIC_H
 #define FRACAS_ENGINE_CHAIN_RING_STERSHIC_H
 
@@ -17,8 +15,7 @@ typedef struct {
 
 /* ---- first pass ---- */
 
-/* Stress of an element under bulk damage, eps_d being the largest strain since both its links were
- * barred  (ring.16). */
+/* Stress of an element under bulk damage  (ring.16); largest: its eps_d. */
 LANES_FUNCTION vd stershic_stress(const ring_context *c, vd strain, vd largest, vd yield)
 {
     const vd zero = lanes_set(0.0), young = lanes_set(c->ring->young);
@@ -40,10 +37,7 @@ LANES_FUNCTION vd stershic_yield(const ring_context *c, size_t e)
 LANES_FUNCTION ring_element stershic_load(const ring_context *c, size_t e)
 {
     const double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
-    ring_element element = {.v_left = ring_read(at + RING_V_LEFT * LANES),
-                            .v_right = ring_read(at + RING_V_RIGHT * LANES),
-                            .u_left = ring_read(at + RING_U_LEFT * LANES),
-                            .u_right = ring_read(at + RING_U_RIGHT * LANES)};
+    ring_element element = ring_read_element(at);
     ring_stretch(c, e, &element);
     if (c->ring->zone > 0) {
         vd largest = lanes_load(at + RING_STRAIN * LANES);
@@ -86,9 +80,7 @@ LANES_FUNCTION void stershic_look(const ring_context *c, size_t e, const ring_el
                                 right->stress * ring_dot(right->tangent, frame.n));
     vd q = ring_dot(ring_subtract(right->u_left, left->u_right), frame.n);
     vd traction = stershic_traction(c, q, &damage, sigma_c, &delta_c);
-    vd watched = c->ring->steep
-                     ? zero
-                     : before * delta_c; /* the opening from which on a link is looked at */
+    vd watched = c->ring->steep ? zero : before * delta_c; /* least opening to look at */
     vmask softens = lanes_and(open,
                               lanes_and(lanes_le(watched, q), lanes_lt(c->modulus * q, traction)));
     vmask rises = lanes_and(closed, lanes_le(lanes_set(0.95) * sigma_c, pull));
@@ -123,7 +115,7 @@ LANES_FUNCTION stershic_watch stershic_look_around(const ring_context *c)
     return watch;
 }
 
-/* ---- links that open: rare, lane by lane ---- */
+/* ---- opening links: rare, lane by lane ---- */
 
 /* A field of one lane. */
 static inline double *stershic_value(const ring_context *c, size_t element, int field, int lane)
@@ -131,8 +123,7 @@ static inline double *stershic_value(const ring_context *c, size_t element, int 
     return c->state + (element * RING_FIELDS_STERSHIC + (size_t)field) * LANES + lane;
 }
 
-/* Time at which the stress of link e passed its strength: within the step, at the rate that the
- * velocities give [s]. */
+/* Time at which the stress of link e passed its strength, by the rate of the velocities [s]. */
 LANES_FUNCTION double stershic_onset(const ring_context *c, size_t e, int lane)
 {
     const ring_element left = stershic_load(c, e),
@@ -147,8 +138,8 @@ LANES_FUNCTION double stershic_onset(const ring_context *c, size_t e, int lane)
 }
 
 /* Opens link e, bars the closed ones within the zone, and lets elements between two barred ones
- * suffer damage from now on: those already beyond their yield stress lose E (eps - eps_y)^2/2 per
- * volume, which the ledger calls created  (ring.15). */
+ * suffer damage: those beyond their yield stress lose E (eps - eps_y)^2/2 per volume, booked as
+ * created  (ring.15). */
 __attribute__((noinline, cold)) static void stershic_open_one(const ring_context *c, size_t e,
                                                               int lane)
 {
@@ -163,8 +154,7 @@ __attribute__((noinline, cold)) static void stershic_open_one(const ring_context
         if (*ahead == RING_LINK_CLOSED) *ahead = RING_LINK_BARRED;
         if (*behind == RING_LINK_CLOSED) *behind = RING_LINK_BARRED;
     }
-    for (size_t d = 0; reach > 0 && d <= 2 * reach + 1;
-         d++) { /* every element that a link just barred touches */
+    for (size_t d = 0; reach > 0 && d <= 2 * reach + 1; d++) { /* all beside links just barred */
         const size_t i = (e + n - reach + d) % n, before = (i + n - 1) % n;
         double *largest = stershic_value(c, i, RING_STRAIN, lane);
         if (*largest >= 0 || *stershic_value(c, i, RING_LAW, lane) != RING_LINK_BARRED ||
@@ -182,8 +172,8 @@ __attribute__((noinline, cold)) static void stershic_open_one(const ring_context
     }
 }
 
-/* Opens the links of one lane that qualify: the one of largest stress by strength first, of several
- * the lowest, each unless it has been barred by then. */
+/* Opens the qualifying links of one lane, unless barred by then: the largest stress by strength
+ * first, of several the lowest number. */
 __attribute__((noinline, cold)) static void stershic_open_links(const ring_context *c, int lane)
 {
     const size_t n = c->ring->elements;
@@ -207,8 +197,7 @@ __attribute__((noinline, cold)) static void stershic_open_links(const ring_conte
     }
 }
 
-/* The time step that follows: base xi^k, k the number of critical zones that are occupied
- * (ring.12). */
+/* The next time step: base xi^k, k the number of occupied critical zones  (ring.12). */
 LANES_FUNCTION vd stershic_refine(const ring_context *c, const stershic_watch *watch)
 {
     const vd xi = lanes_set(c->ring->refinement), one = lanes_set(1.0);
@@ -248,7 +237,7 @@ LANES_FUNCTION ring_link stershic_join(ring_context *c, size_t e, const ring_ele
                                           .at_onset = zero,
                                           .at_break = zero});
     }
-    /* both nodes of a link that is not open share the forces of their two elements */
+    /* both nodes of a link share the forces of their two elements, unless it is open */
     ring_vector common = ring_scale(half, ring_subtract(ring_scale(right->stress, right->tangent),
                                                         ring_scale(left->stress, left->tangent)));
     return (ring_link){.force = ring_scale(traction, frame.n), .open = open, .common = common};

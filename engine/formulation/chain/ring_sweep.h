@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sweeps of the ring: one step of all lanes; for the law nitsche in one pass over the elements,
- * for Stershic's algorithm in two (docs/theory/ring.md).
- *
- * State: a chain's (chain.h). Vertex e of the polygon is where element e starts; interface e is at
- * vertex e + 1. */
+/* The sweeps of the ring: one step of all lanes, in one pass over the elements, for Stershic's
+ * algorithm in two (docs/theory/ring.md). State: a chain's (chain.h). Element e starts at vertex e
+ * of the polygon; interface e is at vertex e + 1. */
 #ifndef FRACAS_ENGINE_FORMULATION_RING_SWEEP_H
 #define FRACAS_ENGINE_FORMULATION_RING_SWEEP_H
 
@@ -14,24 +12,23 @@
 enum {
     RING_U_LEFT, /* displacement of the element's left node, x and y [m] */
     RING_U_RIGHT = RING_U_LEFT + 2,
-    RING_V_LEFT = RING_U_RIGHT + 2, /* its velocity, half a step behind the displacement before the
-                                       sweep, ahead after [m/s] */
+    RING_V_LEFT = RING_U_RIGHT +
+                  2, /* its velocity, half a step before that, after the sweep ahead */
     RING_V_RIGHT = RING_V_LEFT + 2,
     RING_DAMAGE = RING_V_RIGHT + 2, /* delta_max/delta_c of the interface */
     RING_STRENGTH,                  /* sigma_c [Pa] */
     RING_LAW,                  /* nitsche: K delta_c - sigma_c [Pa]; stershic: a ring_link_state */
     RING_FIELDS,               /* nitsche's */
     RING_STRESS = RING_FIELDS, /* stershic: stress of the element [Pa] */
-    RING_STRAIN, /* stershic: eps_d, largest strain since both its links are barred; -1: not barred
-                  */
-    RING_PULL,   /* stershic: stress of the interface while it is not open, along its normal [Pa] */
+    RING_STRAIN, /* stershic: eps_d, largest strain since both its links are barred; else -1 */
+    RING_PULL,   /* stershic: stress of the interface along its normal, unless it is open [Pa] */
     RING_FIELDS_STERSHIC
 };
 
 /* The values of RING_LAW for Stershic's links. */
 typedef enum { RING_LINK_CLOSED = 0, RING_LINK_OPEN = 1, RING_LINK_BARRED = 2 } ring_link_state;
 
-/* Everything a sweep needs that is the same for all lanes. */
+/* Input of a sweep, the same for all lanes. */
 typedef struct {
     size_t elements;
     const double *table; /* [elements][RING_TABLE] */
