@@ -7,7 +7,7 @@
 #include "engine/cohesive/law.h"
 #include "engine/cohesive/plane.h"
 
-/* A law at an interface of a chain, in series with the flux. */
+/* An interface of a chain, in series with the flux. */
 typedef struct {
     vd mean, jump;            /* m = <sigma> [Pa], q [m] */
     vd damage;                /* D before the step, 0 until onset, 1 once broken */

@@ -65,7 +65,7 @@ void fracas_fragment_sums_add_coupled(fracas_fragment_sums *sums, double mass, c
 
 /* ---- the rigid body ---- */
 
-enum { SWEEPS = 10 }; /* each squares what is left beside the diagonal: six are enough for 3 x 3 */
+enum { SWEEPS = 10 }; /* each squares the rest beside the diagonal: six are enough for 3 x 3 */
 
 /* Jacobi's rotations: leaves the eigenvalues of the symmetric matrix a on its diagonal, their
  * directions in the columns of axis. */

@@ -6,8 +6,7 @@
 #include <math.h>
 
 #define ROW 0.86602540378443865 /* altitude of an equilateral triangle by its edge */
-#define LEAST_NODES \
-    8.0 /* nodes of a circle: bent edges of fewer come too close to opposite vertices */
+#define LEAST_NODES 8.0 /* on a circle: bent edges of fewer come too close to opposite vertices */
 
 typedef struct {
     double inner, outer;

@@ -94,7 +94,7 @@ static fracas_err read_bytes(fracas_gmsh_scan *scan, size_t size, void *value)
     return FRACAS_OK;
 }
 
-/* False for what is no whole number of 64 bits. */
+/* False if the word is no whole number of 64 bits. */
 static bool parse_integer(const char *word, int64_t *value)
 {
     const bool is_negative = *word == '-';

@@ -17,7 +17,7 @@ typedef struct {
     bool is_binary, is_swapped; /* numbers, once the format is known */
 } fracas_gmsh_scan;
 
-/* FRACAS_USAGE with "line 3: " or "byte 120: " before what is wrong. */
+/* FRACAS_USAGE with "line 3: " or "byte 120: " before the message. */
 FRACAS_MUST_USE fracas_err fracas_gmsh_fail(const fracas_gmsh_scan *scan, const char *format, ...)
     FRACAS_PRINTF(2, 3);
 

@@ -100,7 +100,7 @@ FRACAS_MUST_USE fracas_err fracas_surface_draft_finish(const fracas_surface_draf
                                                        const fracas_surface_fineness *fineness,
                                                        const fracas_surface **surface);
 
-/* Refuses what is no length of a body. */
+/* Refuses a length that no body has. */
 FRACAS_MUST_USE fracas_err fracas_surface_check_length(const char *what, double length);
 /* Whole number of divisions of `length`, each `height` times the size of elements. */
 FRACAS_MUST_USE fracas_err fracas_surface_divide(const fracas_surface_fineness *fineness,

@@ -16,7 +16,7 @@
 #include <stdint.h>
 
 #define FRACAS_SURFACE_LARGEST ((size_t)100000000) /* elements or nodes of a mesh */
-#define FRACAS_SURFACE_AMPLITUDE 0.3 /* largest perturbation by which no element can invert */
+#define FRACAS_SURFACE_AMPLITUDE 0.3               /* largest perturbation: no element can invert */
 
 /* An edge between two elements. */
 typedef struct {
