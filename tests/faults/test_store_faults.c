@@ -568,11 +568,12 @@ static void segments_are_whole_or_not_there(void **state)
         int ends[2];
         assert_int_equal(pipe(ends), 0);
         const pid_t child = fork();
-        for (int n = 0; child == 0; n++) {
-            char path[512];
-            snprintf(path, sizeof path, "%s/k%d-%d.h5", folder, kills, n);
-            if (write_some(path, 30) || write(ends[1], "", 1) != 1) _exit(1);
-        }
+        if (child == 0)
+            for (int n = 0;; n++) {
+                char path[512];
+                snprintf(path, sizeof path, "%s/k%d-%d.h5", folder, kills, n);
+                if (write_some(path, 30) || write(ends[1], "", 1) != 1) _exit(1);
+            }
         close(ends[1]);
         for (int n = 0; n <= kills % 4; n++) assert_int_equal(read(ends[0], &byte, 1), 1);
         usleep(900 * (unsigned)kills); /* somewhere in a later segment */
