@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The shell: linear Kirchhoff-Love kinematics on a surface of quadratic triangles that share no
- * nodes (docs/theory/shell.md). */
+/* The shell: linear Kirchhoff-Love kinematics on a surface of quadratic triangles
+ * (docs/theory/shell.md). */
 #include "engine/formulation/shell/shell.h"
 
 #include "engine/formulation/shell/geometry.h"
@@ -175,12 +175,11 @@ static void fill_rim(const fracas_model *model, const fracas_surface_border *bor
     }
 }
 
-#define UPRIGHT                                                                              \
-    0.93 /* least cosine at a plane of symmetry: bent edges of coarse meshes are off by some \
-            degrees */
+/* Least cosine at a plane of symmetry: bent edges of coarse meshes are off by some degrees. */
+#define UPRIGHT 0.93
 
-/* The axis that is normal to the plane of an edge, the one nearest to the edge's own normal where
- * two are; 3: there is none, or the shell leans on it by more than its cosine `least`. */
+/* The axis normal to the plane of an edge, of two the one nearer to the edge's own normal; 3: there
+ * is none, or its cosine with the edge's normal is below `least`. */
 static int axis_of(const fracas_surface *surface, const fracas_surface_border *border, double least)
 {
     double xi, eta, tangent[3], normal[3];

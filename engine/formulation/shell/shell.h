@@ -5,12 +5,11 @@
 
 #include "engine/formulation/surface/surface.h"
 
-/* Quadratic triangles: nodes, their unknowns, points at which stresses are kept, points of an edge,
- * layers of the thickness. */
+/* Quadratic triangles: nodes, unknowns, bulk points, Gauss points of an edge, layers. */
 enum { SHELL_NODES = 6, SHELL_UNKNOWNS = 18, SHELL_BULK = 3, SHELL_EDGE = 3, SHELL_LAYERS = 3 };
 
-/* A bulk point, after its head, whose x, y are those of the orthonormal frame x, y, t of the
- * surface there  (shell.2): the frame; the bending strains xx, yy, 2 xy by t . u,xixi, t .
+/* A bulk point, after its head: the orthonormal frame x, y, t of the surface there, to which the
+ * head's x, y belong  (shell.2); the bending strains xx, yy, 2 xy by t . u,xixi, t .
  * u,etaeta, t . u,xieta and by t . u,xi, t . u,eta  (shell.4). */
 enum {
     SHELL_X = SURFACE_BULK_HEAD,
@@ -21,12 +20,11 @@ enum {
     SHELL_BULK_TABLE = SHELL_FIRST + 6
 };
 
-/* An interface: after its head, the stiffness against shearing off [Pa]; then of
- * each Gauss point the frame n, s, t of the edge, 1/|dx/ds| [1/m], the weight: length times
+/* An interface, after its head: the stiffness against shearing off [Pa]; then each Gauss point: the
+ * frame n, s, t of the edge, 1/|dx/ds| [1/m], the weight: length times
  * quadrature weight [m], the mean curvatures L_nn, L_ns, L_ss [1/m], and for each side: half of the
  * normal's n_x^2, n_y^2, n_x n_y in the element's frame; the derivatives of its shape functions
- * along the normal [1/m]; and the vector that makes a turn of them: t of the first side, -t of the
- * second. */
+ * along the normal [1/m]; the vector by which they turn: t of the first side, -t of the second. */
 enum { SHELL_SHEARING = SURFACE_HEAD, SHELL_POINTS };
 enum {
     SHELL_SQUARE_X,
@@ -50,8 +48,8 @@ enum {
 };
 #define SHELL_INTERFACE_TABLE (SHELL_POINTS + SHELL_EDGE * SHELL_POINT_TABLE)
 
-/* An edge that holds the director: the stiffness of its turn [N], then of each Gauss point the
- * weight, and as of a first side (but the whole of n_x^2, ...). */
+/* A rim, an edge whose director is held: the stiffness of its turn [N], then each Gauss point: the
+ * weight, and a first side (but the whole of n_x^2, ...). */
 enum { SHELL_RIM_STIFFNESS, SHELL_RIM_POINTS };
 enum { SHELL_RIM_LENGTH, SHELL_RIM_SIDE, SHELL_RIM_POINT_TABLE = SHELL_RIM_SIDE + SHELL_SIDE };
 #define SHELL_RIM_TABLE (SHELL_RIM_POINTS + SHELL_EDGE * SHELL_RIM_POINT_TABLE)

@@ -48,9 +48,9 @@ LANES_FUNCTION vd shell_turn(const double *side, const vd u[SHELL_UNKNOWNS])
     return shell_dot(side + SHELL_TURN, along);
 }
 
-/* Adds the resultants n_nn, n_ns, m_nn, m_ns of a side at the three Gauss points of its edge (times
- * the share that its table has) to `of`; the ends of the edge are at the bulk points node[0],
- * node[1], and resultants are linear between them  (membrane.2). */
+/* Adds the resultants n_nn, n_ns, m_nn, m_ns of a side at the Gauss points of its edge, times its
+ * table's share, to `of`. Bulk points node[0], node[1] are at the ends; resultants are linear
+ * between them  (membrane.2). */
 LANES_FUNCTION void shell_resultants(const double *slot, const int node[3], const double *table,
                                      size_t stride, vd of[SHELL_EDGE][4])
 {
@@ -79,8 +79,8 @@ LANES_FUNCTION void shell_resultants(const double *slot, const int node[3], cons
     }
 }
 
-/* Gives one side of an interface what its turn and its resultants do: `turned` is the moment [N m],
- * `work` the strains that go with n_nn, n_ns, m_nn, m_ns (times length), at each Gauss point. */
+/* Adds to a side's slot the forces of moments `turned` [N m], and the strains of `work`, those with
+ * n_nn, n_ns, m_nn, m_ns times length, at each Gauss point. */
 LANES_FUNCTION void shell_give_side(const double *table, size_t stride, double *slot,
                                     const int node[3], const vd *turned, vd (*work)[4])
 {
@@ -300,8 +300,7 @@ LANES_FUNCTION void shell_flux(const surface_context *c, int order, size_t i,
     }
 }
 
-/* Twice the flux's energy at a Gauss point that has not cracked, but for what shears it off [J/m]
- * (shell.7) */
+/* Twice the flux's energy at a whole Gauss point, without shearing off [J/m]  (shell.7) */
 LANES_FUNCTION vd shell_energy(const shell_point *p)
 {
     return p->jump[0] * (p->mean_n[0] + p->n[0]) + p->jump[1] * (p->mean_n[1] + p->n[1]) +

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sweep of a surface over lanes, first part: what a body's kernel is written with.
+/* The sweep of a surface over lanes, first part: the means of a body's kernel.
  *
  * A body is one kernel, BODY_kernel.c. Before it includes this file it defines
  *   BODY_NAME       as in the file's name; NAME below stands for it
@@ -8,8 +8,9 @@
  *   BODY_LAYERS     points through the thickness at each Gauss point of an interface
  *   BODY_PLANE      1 where it has linear triangles, consistent masses and body forces
  *   BODY_TAKES(bar, ring, membrane, shell, ...)  the last, by its column of a law's line
- *   BODY_HEAD, BODY_POINT_TABLE, BODY_MEASURE  of an interface's table: the size of the head, that
- *                   of a Gauss point, the place of its weight
+ *   BODY_BULK_TABLE  size of a bulk point's table
+ *   BODY_HEAD, BODY_POINT_TABLE, BODY_MEASURE  an interface's table: sizes of its head and of a
+ *                   Gauss point, place of the weight there
  * Then it defines
  *   NAME_point      a Gauss point: jumps, mean tractions, tractions, the flux's part of the jumps
  *   NAME_strain     stresses of an element, into its slot, and their energy
@@ -43,7 +44,7 @@
 #define BODY_OF(name, what) BODY_PASTE(name, what)
 #define BODY_PASTE(name, what) name##_##what
 
-/* A slot: stresses at each bulk point, strains that symmetrisation adds there, forces. */
+/* A slot: stresses at each bulk point, strains added there by symmetrisation, forces. */
 #define BODY_SIZE(order) (BODY_DIMENSION * SURFACE_NODES(order))
 #define BODY_SLOT_EXTRA(order) (BODY_STRESSES * SURFACE_BULK(order))
 #define BODY_SLOT_FORCE(order) (2 * BODY_STRESSES * SURFACE_BULK(order))
@@ -53,12 +54,12 @@ typedef struct {
     const fracas_surface_constants *constants;
     const fracas_surface_tables *tables;
     fracas_step *step;
-    int first;                             /* lane of the step that is lane 0 here */
+    int first;                             /* the step's lane of lane 0 here */
     double *elements, *interfaces, *slots; /* state of these lanes */
     const double *strengths;
     size_t element_size, interface_size;  /* doubles */
-    size_t strengths_size, strength_step; /* doubles: of an interface; from one Gauss point to the
-                                             next, 0 where they share one */
+    size_t strengths_size, strength_step; /* doubles: an interface's; to the next Gauss point,
+                                             0 where all share one */
     vd drift, kick;                       /* s */
     vd spin;                              /* membranes: w(t_n)^2 [1/s2] */
     int begins;                           /* the first step of all */
@@ -196,7 +197,7 @@ LANES_FUNCTION void surface_gradient(int order, int g, const double *bulk, const
     }
 }
 
-/* Adds to the forces of an element those that work on its derivatives by xi, eta. */
+/* Adds to an element's forces those on its derivatives by xi, eta. */
 LANES_FUNCTION void surface_spread(int order, int g, const vd *xi, const vd *eta, vd *force)
 {
     UNROLL_FOR (int k = 0; k < SURFACE_NODES(order); k++)
@@ -219,7 +220,7 @@ LANES_FUNCTION void surface_elastic(const fracas_surface_constants *s, const vd 
     }
 }
 
-/* Stresses at bulk point g times its weight, with those that symmetrisation adds  (membrane.7). */
+/* Weight times stresses at bulk point g, and those added by symmetrisation  (membrane.7). */
 LANES_FUNCTION void surface_stresses(const surface_context *c, int order, int g, const double *bulk,
                                      double *slot, vd *stress)
 {

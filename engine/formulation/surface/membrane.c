@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The membrane: plane stress on a flat surface of triangles that share no nodes
- * (docs/theory/membrane.md). */
+/* The membrane: plane stress on a flat surface of triangles (docs/theory/membrane.md). */
 #include "engine/formulation/surface/membrane.h"
 
 #include "engine/loading/loading.h"
@@ -113,8 +112,8 @@ static double mass_at(const fracas_surface_tables *t, size_t e, size_t k, size_t
     return k == l ? t->lumped[(2 * e + 1) * nodes + k] : 0;
 }
 
-/* By the masses that the element moves with: lumped ones of quadratic elements give another
- * momentum, which is not kept. */
+/* By the element's own masses: lumped ones would give quadratic elements another momentum, which
+ * is not kept. */
 static void add_node(const fracas_surface_tables *t, size_t e, size_t k, const double (*x)[3],
                      const double (*v)[3], fracas_fragment_sums *sums)
 {

@@ -141,7 +141,7 @@ fracas_err fracas_surface_model_init(fracas_model *model)
 }
 
 /* K >= 2 sigma_c/delta_c at the softest interface: twice the least stiffness of a linear law
- * (cohesive.7), so that no peak as small as the strength is cut  (cohesive.13) */
+ * (cohesive.7), so no peak as small as the strength is cut  (cohesive.13) */
 fracas_err fracas_surface_check_strength(const fracas_model *model, double strength)
 {
     const fracas_spec *spec = &model->spec;
@@ -227,8 +227,8 @@ double *fracas_surface_strength(const fracas_model *model, const fracas_step *st
     return fracas_surface_field(&c, step, fracas_surface_strengths_at(&c), lane);
 }
 
-/* Velocity of unknown i of element e at the start [m/s]: that of the expansion, everywhere or where
- * it is held, none where it is fixed  (membrane.17) */
+/* Velocity of unknown i of element e at the start [m/s]: the expansion's, everywhere or where it
+ * is held; 0 where it is fixed  (membrane.17) */
 static double start_velocity(const fracas_model *model, size_t e, size_t i)
 {
     const fracas_surface_tables *t = tables_of(model);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Surfaces of triangles that share no nodes: the common part of membranes and shells
+/* Surfaces of triangles without common nodes: the common part of membranes and shells
  * (docs/theory/membrane.md).
  *
  * The bodies differ in strains, fluxes, jumps and inertia. A body describes itself to the host by a
@@ -10,8 +10,8 @@
  *                             ..., node 1 x, ...)
  *   [interface][point][field][lane]  values of the law (engine/cohesive/law.h)
  *   [strength][lane]          sigma_c [Pa], one for each interface, or for each of its Gauss points
- *   [slot][field][lane]       stresses and forces that an element collects while it is under way:
- *                             slot = element & window */
+ *   [slot][field][lane]       stresses and forces of an element under way, slot = element & window
+ */
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_SURFACE_H
 #define FRACAS_ENGINE_FORMULATION_SURFACE_SURFACE_H
 
@@ -21,7 +21,7 @@
 #include "engine/formulation/formulation.h"
 #include "engine/formulation/surface/visits.h"
 
-/* One order of triangles: nodes, points at which stresses are kept, Gauss points of an edge. */
+/* By the order of triangles: nodes, bulk points (of stresses), Gauss points of an edge. */
 #define SURFACE_NODES(order) (3 * (order))
 #define SURFACE_BULK(order) ((order) == 1 ? 1 : 3)
 #define SURFACE_EDGE(order) ((order) + 1)
@@ -40,8 +40,8 @@ enum {
     SURFACE_FIELDS_ALPHA
 };
 
-/* Head of a bulk point's table: derivatives of xi, eta along x, y, and the weight, of quadrature
- * and all that is integrated over. */
+/* Head of a bulk point's table: derivatives of xi, eta along x, y, and the weight: of quadrature
+ * times area, or times volume where stresses are no resultants. */
 enum {
     SURFACE_XI_X,
     SURFACE_XI_Y,
@@ -73,7 +73,7 @@ typedef struct {
     uint32_t *held, *fixed; /* [element]: bit dimension node + component is set where the velocity
                                is held, and where it is held at 0 */
     bool moves;             /* some edge is held, and not fixed */
-    /* Edges that hold the director of a shell. */
+    /* A shell's edges whose director is held. */
     size_t nrims;
     double *rim;        /* [rim][body->rim_table] */
     uint8_t *rim_edge;  /* [rim]: which of its element's edges */
@@ -86,7 +86,7 @@ typedef struct {
     double alpha_m, b, g; /* 1 */
 } fracas_surface_motion;
 
-/* Everything a sweep needs that is the same for all lanes. */
+/* Input of a sweep, the same for all lanes. */
 typedef struct {
     const fracas_surface_tables *tables;
     double thickness;     /* m */
@@ -98,8 +98,8 @@ typedef struct {
     double beta_c, mu_c;       /* 1 */
     int law;                   /* its number */
     int onset_mean, friction;
-    int fields, point_fields; /* an element's, by its unknowns; a point's of an interface */
-    int strengths;            /* per interface: 1, or one for each Gauss point */
+    int fields, point_fields; /* an element's, by its unknowns; an interface's point's */
+    int strengths;            /* an interface's: 1, or one for each Gauss point */
     double speed, ramp;       /* rad/s, s: w = speed min(1, t/ramp) */
     fracas_surface_motion motion;
     int contact; /* the operator: all interfaces broken and in contact; else whole */
@@ -109,7 +109,7 @@ typedef struct {
 typedef struct {
     double u[2][SURFACE_UNKNOWNS_MOST]; /* displacements of its two elements [m] */
     double fields[SURFACE_POINTS_MOST * SURFACE_POINT_FIELDS_MOST]; /* [point][field] of the law */
-    double strength[SURFACE_EDGE(2)];                               /* its Gauss points' [Pa] */
+    double strength[SURFACE_EDGE(2)];                               /* at its Gauss points [Pa] */
     /* At each point: traction held against the strength, opening over that of the break; 1 at the
      * onset, at the break. */
     double onset[SURFACE_POINTS_MOST], opening[SURFACE_POINTS_MOST];
@@ -118,7 +118,7 @@ typedef struct {
 typedef void fracas_surface_look(const fracas_surface_constants *constants, size_t interface,
                                  fracas_surface_view *view);
 
-/* Number of the sweep that applies the linear operator, after those of the laws. */
+/* Number of the linear operator's sweep, after those of the laws. */
 enum { SURFACE_OPERATOR = FRACAS_LAWS, SURFACE_SWEEPS };
 
 /* Advances the lanes first .. first + lanes - 1 of the step. */
@@ -134,7 +134,7 @@ typedef struct {
 typedef const fracas_surface_kernel
     *const fracas_surface_kernels[FRACAS_NISAS][FRACAS_LANES_MAX + 1];
 
-/* A body: the traits of its formulation. Functions fill tables that the caller allocates. */
+/* A body: the traits of its formulation. Its functions fill tables of the caller's. */
 struct fracas_surface_body {
     int dimension;       /* components of a displacement */
     int stresses;        /* values of stress at a bulk point */
@@ -143,7 +143,7 @@ struct fracas_surface_body {
     bool resultants;     /* stresses are integrals over the thickness */
     size_t bulk_table, head, point_table, rim_table; /* doubles; no rims: 0 */
     const fracas_surface_kernels *kernels;
-    /* FRACAS_USAGE for a mesh that is none of this body; once its tables are there. */
+    /* FRACAS_USAGE for a mesh unfit for this body; before and after its tables are filled. */
     fracas_err (*check_mesh)(const fracas_surface *surface);
     fracas_err (*check_tables)(const fracas_model *model); /* NULL: nothing to check */
     /* A bulk point at xi, eta of an element, of quadrature weight `weight`. */
@@ -155,11 +155,11 @@ struct fracas_surface_body {
     void (*fill_point)(const fracas_model *model, const fracas_surface_interface *interface,
                        double s, double weight, double *point);
     void (*fill_rim)(const fracas_model *model, const fracas_surface_border *border, double *rim);
-    /* Components that an edge of this kind holds, by bits; FRACAS_USAGE where it cannot. */
+    /* Components held by an edge of this kind, as bits; FRACAS_USAGE where it cannot be. */
     fracas_err (*hold_edge)(const fracas_model *model, const fracas_surface_border *border,
                             const fracas_kind *kind, unsigned *components);
-    /* Adds a node of an element to its fragment's sums, with the inertia that it moves with: x and
-     * v of all its nodes [m], [m/s]. */
+    /* Adds node k of an element to its fragment's sums, with its inertia in the sweep; x and v
+     * are those of all its nodes [m], [m/s]. */
     void (*add_node)(const fracas_surface_tables *tables, size_t element, size_t k,
                      const double (*x)[3], const double (*v)[3], fracas_fragment_sums *sums);
 };
@@ -194,7 +194,7 @@ static inline size_t fracas_surface_slots_at(const fracas_surface_constants *c)
 {
     return fracas_surface_strengths_at(c) + c->tables->ninterfaces * (size_t)c->strengths;
 }
-/* A slot: stresses at the bulk points, strains that symmetrisation adds to them, forces. */
+/* A slot: stresses at the bulk points, strains added there by symmetrisation, forces. */
 static inline size_t fracas_surface_slot(const fracas_surface_tables *t)
 {
     return (size_t)(2 * t->body->stresses * SURFACE_BULK(t->order)) + fracas_surface_unknowns(t);
@@ -248,7 +248,7 @@ double fracas_surface_inverse_size(const fracas_surface *surface, size_t interfa
 /* ---- events: onset and break of points within a step, lane by lane; they are rare ---- */
 
 typedef struct {
-    int cracks[SURFACE_POINTS_MOST], breaks[SURFACE_POINTS_MOST]; /* points that do so */
+    int cracks[SURFACE_POINTS_MOST], breaks[SURFACE_POINTS_MOST]; /* by point */
     int opens, parts; /* the interface's first point cracks, its last one breaks */
 } fracas_surface_event;
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sweep of a surface over lanes, second part: the visits of elements and interfaces, the same
- * for every body (engine/formulation/surface/kernel.h), and the unit that a kernel exports.
+/* The sweep of a surface over lanes, second part: visits of elements and interfaces, the same for
+ * every body (engine/formulation/surface/kernel.h), and the kernel's unit.
  *
  * An element is drifted and strained when its turn comes. Then come the interfaces with elements
  * before it. Once an element has all its interfaces it gets its forces and is kicked. Interfaces
@@ -155,7 +155,7 @@ LANES_FUNCTION void surface_join(surface_context *c, int order, int law, size_t 
 
 /* ---- elements ---- */
 
-/* Stresses of element e from its displacements `at`, and a slot that has nothing else. */
+/* Stresses of element e from its displacements `at`; the rest of its slot is cleared. */
 LANES_FUNCTION void surface_enter(surface_context *c, int order, size_t e, double *at, double *slot)
 {
     const int from = BODY_SLOT_EXTRA(order), end = BODY_SLOT(order);
@@ -163,8 +163,7 @@ LANES_FUNCTION void surface_enter(surface_context *c, int order, size_t e, doubl
     BODY(strain)(c, order, e, at, slot);
 }
 
-/* Accelerations from internal and body forces, 0 of held components; the power of what holds them.
- */
+/* Accelerations by internal and body forces, 0 of held components; power of their reactions. */
 LANES_FUNCTION void surface_accelerate(surface_context *c, int order, size_t e, const vd *velocity,
                                        const vd *force, vd *acceleration)
 {

@@ -62,7 +62,7 @@ static void invert(double *m, int n)
     }
 }
 
-/* Inverse of the mass among the nodes that are not held in a component; 0 for those that are. */
+/* Inverse of the mass among the nodes free in a component; 0 for held ones. */
 static void invert_free(const double *mass, int nodes, unsigned held, int component,
                         double *inverse)
 {
@@ -112,7 +112,7 @@ static const fracas_kind *edge_kind(const fracas_spec *spec, int32_t tag)
     return kind ? kind : &fracas_edge_free;
 }
 
-/* Tags of a mesh file that the campaign holds must exist. */
+/* Each edge of a mesh file held by the campaign must exist. */
 static fracas_err check_edge_tags(const fracas_model *model)
 {
     const fracas_surface *surface = model->surface;

@@ -15,7 +15,7 @@ typedef struct {
     size_t window; /* 2^k - 1: elements under way at one time differ in (number & window) */
 } fracas_surface_visits;
 
-/* FRACAS_ENVIRONMENT without memory; what was allocated by then is the caller's to clear. */
+/* FRACAS_ENVIRONMENT without memory; the caller clears in any case. */
 FRACAS_MUST_USE fracas_err fracas_surface_visits_init(fracas_surface_visits *visits,
                                                       const fracas_surface *surface);
 void fracas_surface_visits_clear(fracas_surface_visits *visits);
