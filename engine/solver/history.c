@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/solver/history.h"
 
+#include "base/own.h"
+
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 fracas_err fracas_history_init(fracas_history *history, int64_t intervals, double end)
 {
@@ -66,12 +66,9 @@ static int by_step(const void *a, const void *b)
 
 fracas_err fracas_history_harvest(const fracas_history *history, fracas_record *record)
 {
-    fracas_history_entry *all = malloc((history->count + 3) * sizeof *all);
+    OWNED fracas_history_entry *all = malloc((history->count + 3) * sizeof *all);
     record->history = malloc((history->count + 3) * sizeof *record->history);
-    if (!all || !record->history) {
-        free(all);
-        return fracas_no_memory("the history of a realization");
-    }
+    if (!all || !record->history) return fracas_no_memory("the history of a realization");
     size_t count = history->count;
     memcpy(all, history->entry, count * sizeof *all);
     all[count++] = history->last;
@@ -82,6 +79,5 @@ fracas_err fracas_history_harvest(const fracas_history *history, fracas_record *
     for (size_t i = 0; i < count; i++)
         if (i == 0 || all[i].step != all[i - 1].step)
             record->history[record->nhistory++] = all[i].row;
-    free(all);
     return FRACAS_OK;
 }

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The critical time step of a chain: Lanczos' iteration on the bar's sweep as an operator. */
 #include "engine/formulation/chain/bar_sweep.h"
+
+#include "base/own.h"
 #include "engine/formulation/chain/chain.h"
 #include "engine/integrator/integrator.h"
 #include "engine/integrator/lanczos.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 FRACAS_KERNEL_TABLE(const fracas_bar_kernel, fracas_bar);
 
@@ -101,14 +102,14 @@ static fracas_err critical_step(const fracas_model *model, bool contact, double 
     chain_operator *o = NULL;
     TRY(open_operator(model, contact, &o));
     const size_t n = 2 * o->bar.elements;
-    double omega_squared = 0, *start = malloc(n * sizeof *start);
+    double omega_squared = 0;
+    OWNED double *start = malloc(n * sizeof *start);
     fracas_err err = start ? FRACAS_OK : fracas_no_memory("the critical time step");
     if (!err) {
         fill_start(o, start);
         err = fracas_lanczos(&(fracas_lanczos_problem){apply, multiply_by_mass, o, n, 1e-9}, start,
                              &omega_squared);
     }
-    free(start);
     free(o->step.state);
     free(o);
     *step = FRACAS_CENTRAL_DIFFERENCE_LIMIT / sqrt(omega_squared);

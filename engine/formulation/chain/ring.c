@@ -3,13 +3,13 @@
 #include "engine/formulation/chain/ring_sweep.h"
 
 #include "base/elementary.h"
+#include "base/own.h"
 #include "engine/cohesive/law.h"
 #include "engine/formulation/chain/chain.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 FRACAS_KERNEL_TABLE(const fracas_ring_kernel, fracas_ring);
 
@@ -174,13 +174,12 @@ static fracas_err ring_harvest(const fracas_model *model, fracas_step *step, int
                                fracas_record *record)
 {
     const size_t count = fracas_chain_partition(model, step, lane);
-    fracas_fragment_sums *sums = calloc(count, sizeof *sums);
+    OWNED fracas_fragment_sums *sums = calloc(count, sizeof *sums);
     if (!sums) return fracas_no_memory("the fragments of a realization");
     for (size_t e = 0; e < model->elements; e++)
         add_element(model, step, lane, e, &sums[step->partition.label[e]]);
-    fracas_err err = fracas_fragments_take(sums, count, 1, record);
-    free(sums);
-    return err ? err : fracas_chain_harvest_interfaces(model, step, lane, record);
+    TRY(fracas_fragments_take(sums, count, 1, record));
+    return fracas_chain_harvest_interfaces(model, step, lane, record);
 }
 
 static const fracas_kind *const goes_with[] = {&fracas_shape_ring,

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Faults between elements: the edges shared by them. */
+#include "base/own.h"
 #include "engine/mesh/surface/parts.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 
 #define FOLDED -0.5 /* cosine of the angle between two normals: 120 degrees */
 
@@ -191,15 +191,10 @@ fracas_err fracas_surface_check_edges(const fracas_surface_arrays *arrays,
         TRY(check_edge(arrays, side + first, next - first));
     }
     if (arrays->order == 2) {
-        uint32_t *owner = malloc(arrays->nnodes * sizeof *owner);
+        OWNED uint32_t *owner = malloc(arrays->nnodes * sizeof *owner);
         if (!owner) return fracas_no_memory("the nodes of a mesh");
-        fracas_err err = check_middles(arrays, side, owner);
-        free(owner);
-        TRY(err);
+        TRY(check_middles(arrays, side, owner));
     }
-    uint8_t *count = malloc(arrays->nelements);
-    if (!count) return fracas_no_memory("the elements of a mesh");
-    fracas_err err = check_sides(arrays, side, count);
-    free(count);
-    return err;
+    OWNED uint8_t *count = malloc(arrays->nelements);
+    return count ? check_sides(arrays, side, count) : fracas_no_memory("the elements of a mesh");
 }

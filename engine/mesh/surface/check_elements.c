@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Faults of an element by itself. */
+#include "base/own.h"
 #include "engine/mesh/surface/parts.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 
 /* Squares of areas of such lengths neither overflow nor vanish. */
 #define LARGEST_COORDINATE 1e50
@@ -115,12 +115,10 @@ static fracas_err check_shapes(const fracas_surface_arrays *arrays)
 fracas_err fracas_surface_check_elements(const fracas_surface_arrays *arrays)
 {
     TRY(check_sizes(arrays));
-    bool *is_used = calloc(arrays->nnodes + 1, sizeof *is_used); /* 0 bytes may give NULL */
+    OWNED bool *is_used = calloc(arrays->nnodes + 1, sizeof *is_used); /* 0 bytes may give NULL */
     if (!is_used) return fracas_no_memory("the nodes of a mesh");
-    fracas_err err = check_names(arrays, is_used);
-    if (!err) err = check_nodes(arrays, is_used);
-    free(is_used);
-    TRY(err);
+    TRY(check_names(arrays, is_used));
+    TRY(check_nodes(arrays, is_used));
     return check_shapes(arrays);
 }
 
