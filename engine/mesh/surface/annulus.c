@@ -103,10 +103,8 @@ fracas_err fracas_surface_annulus(double inner, double outer,
     for (double circle = 1.0; circle <= body.layers && vertices <= (double)FRACAS_SURFACE_LARGEST;
          circle++)
         vertices += nodes_of(&body, circle);
-    fracas_surface_draft draft;
+    FRACAS_SURFACE_DRAFT draft = {0};
     TRY(fracas_surface_draft_init(&draft, vertices, 2.0 * vertices - ends, ends));
     fill(&body, &draft);
-    fracas_err err = fracas_surface_draft_finish(&draft, fineness, surface);
-    fracas_surface_draft_clear(&draft);
-    return err;
+    return fracas_surface_draft_finish(&draft, fineness, surface);
 }

@@ -205,9 +205,8 @@ fracas_err fracas_surface_assemble(const fracas_surface_arrays *arrays,
 {
     fracas_surface *made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("a mesh");
-    assembly work = {.arrays = arrays};
+    __attribute__((cleanup(clear))) assembly work = {.arrays = arrays};
     fracas_err err = assemble(&work, made);
-    clear(&work);
     if (err) fracas_surface_destroy(made);
     else *surface = made;
     return err;

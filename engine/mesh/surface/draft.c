@@ -48,9 +48,7 @@ fracas_err fracas_surface_draft_init(fracas_surface_draft *draft, double nvertic
     draft->node = malloc(draft->nvertices * sizeof *draft->node);
     draft->element = malloc(3 * draft->nelements * sizeof *draft->element);
     draft->tag = malloc((draft->ntags + 1) * sizeof *draft->tag); /* there may be none */
-    if (draft->node && draft->element && draft->tag) return FRACAS_OK;
-    fracas_surface_draft_clear(draft);
-    return fracas_no_memory("a mesh");
+    return draft->node && draft->element && draft->tag ? FRACAS_OK : fracas_no_memory("a mesh");
 }
 
 void fracas_surface_draft_clear(fracas_surface_draft *draft)

@@ -472,12 +472,12 @@ static fracas_err resolve_lines(const mesh *m, resolved *out)
 
 fracas_err fracas_surface_read_gmsh(const void *bytes, size_t size, const fracas_surface **surface)
 {
-    mesh m = {.scan = {.text = bytes, .size = size}};
-    resolved out = {0};
-    fracas_err err = read_file(&m);
-    if (!err) err = allocate_resolved(&m, &out);
-    if (!err) err = resolve_elements(&m, &out);
-    if (!err) err = resolve_lines(&m, &out);
+    __attribute__((cleanup(clear))) mesh m = {.scan = {.text = bytes, .size = size}};
+    __attribute__((cleanup(clear_resolved))) resolved out = {0};
+    TRY(read_file(&m));
+    TRY(allocate_resolved(&m, &out));
+    TRY(resolve_elements(&m, &out));
+    TRY(resolve_lines(&m, &out));
     const fracas_surface_arrays arrays = {.order = m.order,
                                           .nnodes = out.nnodes,
                                           .nelements = m.nelements,
@@ -487,8 +487,5 @@ fracas_err fracas_surface_read_gmsh(const void *bytes, size_t size, const fracas
                                           .tag = out.tag,
                                           .node_number = out.node_number,
                                           .element_number = m.element};
-    if (!err) err = fracas_surface_assemble(&arrays, surface);
-    clear_resolved(&out);
-    clear(&m);
-    return err;
+    return fracas_surface_assemble(&arrays, surface);
 }

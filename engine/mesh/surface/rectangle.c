@@ -54,10 +54,8 @@ fracas_err fracas_surface_rectangle(double width, double height,
     TRY(fracas_surface_divide(fineness, shorter, LEG, &few));
     const double many = floor(longer * (few / shorter) + 0.5);
     const double nx = width < height ? few : many, ny = width < height ? many : few;
-    fracas_surface_draft draft;
+    FRACAS_SURFACE_DRAFT draft = {0};
     TRY(fracas_surface_draft_init(&draft, (nx + 1.0) * (ny + 1.0), 2.0 * nx * ny, 2.0 * (nx + ny)));
     fill(&draft, width, height, (size_t)nx, (size_t)ny);
-    fracas_err err = fracas_surface_draft_finish(&draft, fineness, surface);
-    fracas_surface_draft_clear(&draft);
-    return err;
+    return fracas_surface_draft_finish(&draft, fineness, surface);
 }

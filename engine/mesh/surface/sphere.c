@@ -149,7 +149,7 @@ static fracas_err make(const polyhedron *solid, double radius,
     const double solid_angle = is_closed ? 4.0 * FRACAS_PI : 0.5 * FRACAS_PI;
     double n; /* n^2 equilateral triangles are as large as the part of the sphere over a face */
     TRY(fracas_surface_divide(fineness, radius, sqrt(EQUILATERAL * faces / solid_angle), &n));
-    fracas_surface_draft draft;
+    FRACAS_SURFACE_DRAFT draft = {0};
     TRY(fracas_surface_draft_init(
         &draft, (double)solid->nvertices + edges * (n - 1.0) + faces * (n - 1.0) * (n - 2.0) / 2.0,
         faces * n * n, is_closed ? 0.0 : 3.0 * n));
@@ -158,9 +158,7 @@ static fracas_err make(const polyhedron *solid, double radius,
     for (size_t face = 0; face < solid->nfaces; face++)
         fill_face(solid, face, (size_t)n, radius, &draft);
     if (!is_closed) fill_tags(solid, (size_t)n, draft.tag);
-    fracas_err err = fracas_surface_draft_finish(&draft, fineness, surface);
-    fracas_surface_draft_clear(&draft);
-    return err;
+    return fracas_surface_draft_finish(&draft, fineness, surface);
 }
 
 fracas_err fracas_surface_sphere(double radius, const fracas_surface_fineness *fineness,
