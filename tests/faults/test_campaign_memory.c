@@ -68,14 +68,13 @@ static void test_read(void **state)
     source from;
     make_path(from.path);
     OK(fracas_units_create(&from.units));
-    fracas_campaign *campaign = read_replaced("", sweep);
+    OWN(fracas_campaign) campaign = read_replaced("", sweep);
     FILE *out = fopen(from.path, "w");
     assert_non_null(out);
     OK(fracas_campaign_write(campaign, out)); /* in SI */
     assert_int_equal(fclose(out), 0);
     fail_each(read_source, &from, LONG_MAX);
     unlink(from.path);
-    fracas_campaign_destroy(campaign);
     fracas_units_destroy(from.units);
 }
 
@@ -90,22 +89,19 @@ static void test_read_file(void **state)
     OK(fracas_units_create(&from.units));
     snprintf(named, sizeof named, "sweep:\n  - strength: [{distribution: file, file: %s}]\n",
              strengths);
-    fracas_campaign *campaign = read_replaced("", named);
-    char *text = NULL;
+    OWN(fracas_campaign) campaign = read_replaced("", named);
+    OWNED char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
     OK(fracas_campaign_write(campaign, out)); /* in SI */
     assert_int_equal(fclose(out), 0);
     snprintf(copy, sizeof copy, FRACAS_ATTACHMENTS "/%s", campaign->point[0].strength.file->digest);
-    char *there = replace(text, copy, strengths);
+    OWNED char *there = replace(text, copy, strengths);
     write_bytes(from.path, there, strlen(there));
     fail_each(read_source, &from, LONG_MAX);
     unlink(from.path);
     unlink(strengths);
-    free(text);
-    free(there);
-    fracas_campaign_destroy(campaign);
     fracas_units_destroy(from.units);
 }
 
@@ -161,11 +157,10 @@ static void test_surface(void **state)
     write_bytes(from.path, text, strlen(text));
     OK(fracas_units_create(&from.units));
     fail_each(read_source, &from, LONG_MAX);
-    fracas_campaign *campaign = read_text(text);
+    OWN(fracas_campaign) campaign = read_text(text);
     fail_each(count_cost, campaign, LONG_MAX);
     fail_each(print_plan, campaign, LONG_MAX);
     unlink(from.path);
-    fracas_campaign_destroy(campaign);
     fracas_units_destroy(from.units);
 }
 

@@ -129,8 +129,7 @@ static void momenta_are_kept_to_round_off(void **unused)
         OWN(fracas_model) model = distorted_model(spec_of(&variants[v], 6, 3e4, 4e-7), DISTORTION,
                                                   3);
         OWN(fracas_batch) batch = lane_of(model, 0.3, 1, 0);
-        CLEARED(fracas_record) record;
-        fracas_record_init(&record);
+        RECORD(record);
         OK(fracas_batch_begin(batch));
         const double spin = 2e4,
                      drift[2] = {20,
@@ -183,8 +182,7 @@ static void a_body_that_turns_has_that_spin(void **unused)
     for (int v = 0; v < VARIANTS; v++) {
         OWN(fracas_model) model = distorted_model(spec_of(&variants[v], 6, 0, 4e-7), DISTORTION, 3);
         OWN(fracas_batch) batch = lane_of(model, 0.3, 1, 0);
-        CLEARED(fracas_record) record;
-        fracas_record_init(&record);
+        RECORD(record);
         OK(fracas_batch_begin(batch));
         const double spin = v % 2 ? 2e4 : -3e4, drift[2] = {20, -35};
         for (size_t e = 0; e < model->elements; e++)
@@ -330,10 +328,9 @@ static fracas_model *moved_model(const fracas_model *model, bool mirrored)
 {
     static const size_t turned_round[6] = {0, 2, 1, 5, 4, 3};
     fracas_surface s = *model->surface;
-    double(*node)[3] = malloc(s.nnodes * sizeof *node);
-    OWNED uint32_t *element = malloc(s.nelements * s.corners * sizeof *element);
-    OWNED fracas_surface_border *border = malloc(s.nborders * sizeof *border);
-    assert_true(node && element && border);
+    double(*node)[3] = taken(s.nnodes * sizeof *node);
+    OWNED uint32_t *element = taken(s.nelements * s.corners * sizeof *element);
+    OWNED fracas_surface_border *border = taken(s.nborders * sizeof *border);
     for (size_t n = 0; n < s.nnodes; n++) move(mirrored, s.node[n], node[n]);
     for (size_t e = 0; e < s.nelements; e++)
         for (size_t k = 0; k < s.corners; k++)

@@ -164,8 +164,7 @@ static void momenta_are_kept_to_round_off(void **unused)
         if (spec.geometry.shape == &fracas_shape_sphere) spec.loading.rate = v < 4 ? 1e6 : 1e5;
         OWN(fracas_model) model = distorted_model(spec, distortion_of(&variants[v]), 3);
         OWN(fracas_batch) batch = lane_of(model, 0.3, 1);
-        CLEARED(fracas_record) record;
-        fracas_record_init(&record);
+        RECORD(record);
         OK(fracas_batch_begin(batch));
         const double spin[3] = {0.5 * spec.loading.rate, -0.7 * spec.loading.rate,
                                 spec.loading.rate},

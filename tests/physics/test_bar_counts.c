@@ -12,7 +12,7 @@ typedef struct {
 
 static counts count_fragments(const fracas_spec *spec, double scatter, size_t replicas)
 {
-    fracas_model *model;
+    OWN(fracas_model) model;
     OK(fracas_model_create(spec, &model));
     double sum = 0, squares = 0;
     for (size_t first = 0; first < replicas; first += 8) {
@@ -34,7 +34,6 @@ static counts count_fragments(const fracas_spec *spec, double scatter, size_t re
             fracas_record_clear(&record[l]);
         }
     }
-    fracas_model_destroy(model);
     const double n = (double)replicas, mean = sum / n;
     return (counts){mean, (squares - n * mean * mean) / (n - 1)};
 }

@@ -45,9 +45,8 @@ static double of_covariance(const fracas_strength *strength, size_t i, size_t j,
     for (int a = 0; a < 3; a++)
         d2 += (position[i][a] - position[j][a]) * (position[i][a] - position[j][a]);
     OK(fracas_covariance_create(strength, &covariance));
-    const double rho = fracas_covariance_at(
+    return fracas_covariance_at(
         covariance, period > 0 ? period / M_PI * fabs(sin(M_PI * sqrt(d2) / period)) : sqrt(d2));
-    return rho;
 }
 
 /* z_i z_j = ((z_i + z_j)^2 - (z_i - z_j)^2)/4, and the two squares are independent, 2 (1 + r) and 2

@@ -134,7 +134,7 @@ static void repeat(size_t n, bool apart, int repetitions, const double truth[NNU
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(random, (unsigned long)(20261122 + n + apart));
-    fracas_ensemble ensemble;
+    CLEARED(fracas_ensemble) ensemble;
     fracas_ensemble_init(&ensemble, 0);
     *of = (tally){.repetitions = repetitions};
     for (int r = 0; r < repetitions; r++) {
@@ -158,7 +158,6 @@ static void repeat(size_t n, bool apart, int repetitions, const double truth[NNU
             count_one(of, (number)v, truth[v], interval[v]->value, interval[v]->low,
                       interval[v]->high);
     }
-    fracas_ensemble_clear(&ensemble);
     gsl_rng_free(random);
 }
 

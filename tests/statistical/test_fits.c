@@ -57,14 +57,12 @@ static void a_wrong_law_is_found(void **state)
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     const fracas_family *family = &fracas_family_exponential;
-    fracas_ensemble ensemble;
-    fracas_point_fits fits;
+    CLEARED(fracas_ensemble) ensemble;
+    CLEARED(fracas_point_fits) fits;
     OK(synthetic_ensemble(&truth[1], random, &ensemble));
     OK(fracas_point_fits_of(&ensemble, &family, 1, RESAMPLES, 1, &fits));
     assert_true(fits.family[0].goodness.ks_p == 1.0 / (RESAMPLES + 1) &&
                 fits.family[0].goodness.ad_p == 1.0 / (RESAMPLES + 1));
-    fracas_point_fits_clear(&fits);
-    fracas_ensemble_clear(&ensemble);
     gsl_rng_free(random);
 }
 
@@ -109,8 +107,8 @@ static void not_nested_families(void **state)
                       .realizations = 200,
                       .fragments = 40};
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    fracas_ensemble ensemble;
-    fracas_fit_sample sample;
+    CLEARED(fracas_ensemble) ensemble;
+    CLEARED(fracas_fit_sample) sample;
     fracas_fit fit[2], swapped[2];
     fracas_fit_comparison comparison, other;
     OK(synthetic_ensemble(&what, random, &ensemble));
@@ -126,8 +124,6 @@ static void not_nested_families(void **state)
     assert_true(!comparison.nested && comparison.statistic < -5 && comparison.p < 1e-6);
     assert_true(fabs(other.statistic + comparison.statistic) < 1e-9 * fabs(other.statistic) &&
                 other.p > 0);
-    fracas_fit_sample_clear(&sample);
-    fracas_ensemble_clear(&ensemble);
     gsl_rng_free(random);
 }
 

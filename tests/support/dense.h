@@ -10,8 +10,7 @@
 /* n zeros; the caller frees. */
 static inline double *vector_of(size_t n)
 {
-    double *v = calloc(n, sizeof *v);
-    assert_non_null(v);
+    double *v = zeroed(n, sizeof *v);
     return v;
 }
 

@@ -18,8 +18,7 @@ static inline fracas_model *distorted_model(fracas_spec spec, double distortion,
     size_t count = 0;
     spec.mesh.amplitude = distortion;
     if (spec.mesh.spacing == &fracas_spacing_triangles) OK(fracas_mesh_noise_count(&spec, &count));
-    OWNED double *noise = malloc((count + 1) * sizeof *noise);
-    assert_non_null(noise);
+    OWNED double *noise = taken((count + 1) * sizeof *noise);
     for (size_t i = 0; i < count; i++) noise[i] = 2 * fracas_stream_uniform(&stream, i) - 1;
     spec.mesh.noise = count ? noise : NULL;
     spec.mesh.nnoise = count;

@@ -60,9 +60,8 @@ static inline FILE *dynfrag1d_open(const dynfrag1d_run *run, const char *end)
 static inline double *dynfrag1d_strengths(const dynfrag1d_run *run)
 {
     FILE *file = dynfrag1d_open(run, "_strength.csv");
-    double *strength = calloc((size_t)run->elements, sizeof *strength);
+    double *strength = zeroed((size_t)run->elements, sizeof *strength);
     char head[256];
-    assert_non_null(strength);
     assert_non_null(fgets(head, sizeof head, file));
     for (int i = 0; i < run->elements; i++) {
         int interface;
@@ -145,8 +144,7 @@ static inline void dynfrag1d_begin(dynfrag1d_replay *replay, const dynfrag1d_run
                          i % m ? DYNFRAG1D_UNBREAKABLE : strength[i / m - 1]);
     OK(fracas_batch_begin(replay->batch));
     fracas_record_init(&replay->record);
-    replay->before = calloc(2 * replay->model->elements, sizeof *replay->before);
-    assert_non_null(replay->before);
+    replay->before = zeroed(2 * replay->model->elements, sizeof *replay->before);
 }
 
 static inline void dynfrag1d_end(dynfrag1d_replay *replay)

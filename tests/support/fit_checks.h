@@ -40,9 +40,8 @@ static inline fit_check fit_check_of(const synthetic *what, size_t repetitions, 
 {
     const size_t np = what->family->nparameters;
     fit_check found = {0};
-    double *p = malloc(2 * repetitions * sizeof *p), sum[FRACAS_FAMILY_PARAMETERS] = {0},
+    double *p = taken(2 * repetitions * sizeof *p), sum[FRACAS_FAMILY_PARAMETERS] = {0},
            squares[FRACAS_FAMILY_PARAMETERS] = {0};
-    assert_non_null(p);
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(random, seed);
     for (size_t r = 0; r < repetitions; r++) {

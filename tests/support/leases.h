@@ -12,8 +12,7 @@ static const double cost[POINTS] = {1, 100, 10};
 /* `replicas` of each of `points` points, from point 0. Freed by the caller. */
 static inline fracas_index_row *rows(size_t points, size_t replicas)
 {
-    fracas_index_row *row = calloc(points * replicas, sizeof *row);
-    assert_non_null(row);
+    fracas_index_row *row = zeroed(points * replicas, sizeof *row);
     for (size_t i = 0; i < points * replicas; i++)
         row[i] = (fracas_index_row){.point = i / replicas, .replica = (int64_t)(i % replicas)};
     return row;

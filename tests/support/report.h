@@ -26,8 +26,7 @@ static inline void report_write_index(const char *folder, const fracas_point_tab
     OK(fracas_index_plan(index, table));
     size_t count = 0, all = 0;
     for (size_t p = 0; p < table->npoints; p++) all += (size_t)table->point[p].replicas;
-    OWNED fracas_segment_row *row = calloc(all, sizeof *row);
-    assert_non_null(row);
+    OWNED fracas_segment_row *row = zeroed(all, sizeof *row);
     for (size_t p = 0; p < table->npoints; p++) {
         for (int64_t replica = 0; replica < table->point[p].replicas; replica++) {
             CLEARED(fracas_record) record;
@@ -128,8 +127,7 @@ static inline char *report_contents(const char *folder, const char *name)
     snprintf(path, sizeof path, "%s/%s", folder, name);
     FILE *file = fopen(path, "r");
     assert_non_null(file);
-    char *text = calloc(1, 1 << 20);
-    assert_non_null(text);
+    char *text = zeroed(1, 1 << 20);
     size_t used = fread(text, 1, (1 << 20) - 1, file);
     assert_true(used > 0);
     fclose(file);

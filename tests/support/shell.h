@@ -104,8 +104,7 @@ static inline bool goes_up(const shell_grid *g, size_t i, size_t j)
 /* Tags: 1 s = 0, 2 s = 1, 3 t = 0, 4 t = 1. The caller frees. */
 static inline fracas_surface_tag *grid_tags(const shell_grid *g, size_t *count)
 {
-    fracas_surface_tag *tag = malloc(2 * (g->nx + g->ny) * sizeof *tag), *put = tag;
-    assert_non_null(tag);
+    fracas_surface_tag *tag = taken(2 * (g->nx + g->ny) * sizeof *tag), *put = tag;
     for (size_t j = 0; j < g->ny; j++)
         for (int side = 0; side < 2; side++) {
             const size_t i = side ? 2 * g->nx : 0;
@@ -124,8 +123,7 @@ static inline fracas_surface_tag *grid_tags(const shell_grid *g, size_t *count)
 
 static inline uint32_t *grid_elements(const shell_grid *g, double (*at)[2])
 {
-    uint32_t *element = malloc(12 * g->nx * g->ny * sizeof *element), *put = element;
-    assert_non_null(element);
+    uint32_t *element = taken(12 * g->nx * g->ny * sizeof *element), *put = element;
     for (size_t j = 0; j < g->ny; j++)
         for (size_t i = 0; i < g->nx; i++) {
             const size_t corner[4][2] = {
@@ -149,9 +147,7 @@ static inline uint32_t *grid_elements(const shell_grid *g, double (*at)[2])
 static inline fracas_model *grid_model(const fracas_spec *spec, const shell_grid *g)
 {
     const size_t nodes = (2 * g->nx + 1) * (2 * g->ny + 1);
-    double(*at)[2] = calloc(nodes, sizeof *at), (*node)[3] = calloc(nodes, sizeof *node);
-    assert_non_null(at);
-    assert_non_null(node);
+    double(*at)[2] = zeroed(nodes, sizeof *at), (*node)[3] = zeroed(nodes, sizeof *node);
     grid_places(g, at);
     OWNED uint32_t *element = grid_elements(g, at);
     size_t ntags;

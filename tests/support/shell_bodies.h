@@ -50,15 +50,14 @@ static inline fracas_model *body_of(int which, fracas_spec spec, size_t n, uint6
 static inline double *stiffness_matrix(const fracas_model *model, size_t n)
 {
     fracas_surface_operator *op = open_operator(model);
-    double *unit = vector_of(n), *column = vector_of(n), *matrix = vector_of(n * n);
+    OWNED double *unit = vector_of(n), *column = vector_of(n);
+    double *matrix = vector_of(n * n);
     for (size_t j = 0; j < n; j++) {
         unit[j] = 1;
         apply_stiffness(model, op, unit, column);
         unit[j] = 0;
         for (size_t i = 0; i < n; i++) matrix[i * n + j] = column[i];
     }
-    free(unit);
-    free(column);
     fracas_surface_operator_close(op);
     return matrix;
 }

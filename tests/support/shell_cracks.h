@@ -133,8 +133,7 @@ static inline void evaluate(fracas_batch *batch, const double *u, shell_answer *
 static inline void look_at(fracas_batch *batch, const double *u, shell_answer *answer)
 {
     const size_t bytes = batch->model->formulation->state_size(batch->model) * sizeof(double);
-    OWNED double *kept = malloc(bytes);
-    assert_non_null(kept);
+    OWNED double *kept = taken(bytes);
     memcpy(kept, batch->step.state, bytes);
     const fracas_step step = batch->step;
     evaluate(batch, u, answer);

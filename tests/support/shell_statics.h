@@ -58,10 +58,8 @@ static inline int colour(const fracas_surface *surface, uint32_t (*next)[4], con
  * none. */
 static inline void number_free(shell_statics *s, size_t pin)
 {
-    s->row = malloc(s->n * sizeof *s->row);
-    s->unknown = malloc(s->n * sizeof *s->unknown);
-    assert_non_null(s->row);
-    assert_non_null(s->unknown);
+    s->row = taken(s->n * sizeof *s->row);
+    s->unknown = taken(s->n * sizeof *s->unknown);
     for (size_t i = 0; i < s->n; i++) {
         s->row[i] = i == pin || is_held(s->model, i) ? -1 : (int)s->nfree;
         if (s->row[i] >= 0) s->unknown[s->nfree++] = i;
@@ -74,8 +72,7 @@ static inline double *stiffness_blocks(shell_statics *s, uint32_t (*next)[4], co
     const size_t size = SHELL_UNKNOWNS, elements = s->model->elements;
     double *block = vector_of(elements * 4 * size * size);
     OWNED double *u = vector_of(s->n), *f = vector_of(s->n);
-    OWNED int *of = malloc(elements * sizeof *of);
-    assert_non_null(of);
+    OWNED int *of = taken(elements * sizeof *of);
     fracas_surface_operator *op = open_operator(s->model);
     const int colours = colour(s->model->surface, next, count, of);
     for (int c = 0; c < colours; c++)
@@ -107,10 +104,8 @@ static inline double entry_of(const double *block, const uint32_t (*next)[4], si
 static inline void fill_matrix(shell_statics *s)
 {
     const size_t elements = s->model->elements, size = SHELL_UNKNOWNS;
-    uint32_t(*next)[4] = malloc(elements * sizeof *next);
-    OWNED uint8_t *count = malloc(elements);
-    assert_non_null(next);
-    assert_non_null(count);
+    uint32_t(*next)[4] = taken(elements * sizeof *next);
+    OWNED uint8_t *count = taken(elements);
     list_neighbours(s->model->surface, next, count);
     double *block = stiffness_blocks(s, next, count), largest = 0, difference = 0;
     cholmod_triplet *t = cholmod_allocate_triplet(s->nfree, s->nfree, elements * 4 * size * size, 1,
@@ -139,8 +134,7 @@ static inline void fill_matrix(shell_statics *s)
 
 static inline shell_statics *statics_open_pinned(const fracas_model *model, size_t pin)
 {
-    shell_statics *s = calloc(1, sizeof *s);
-    assert_non_null(s);
+    shell_statics *s = zeroed(1, sizeof *s);
     s->model = model;
     s->n = unknowns_of(model);
     cholmod_start(&s->common);

@@ -162,8 +162,7 @@ static inline bool sample_equal(const fracas_record *a, const fracas_record *b)
     OWNED char *bytes_a = malloc(size), *bytes_b = malloc(size);
     fracas_record_pack(a, bytes_a);
     fracas_record_pack(b, bytes_b);
-    bool equal = memcmp(bytes_a, bytes_b, size) == 0;
-    return equal;
+    return memcmp(bytes_a, bytes_b, size) == 0;
 }
 
 /* A file's bytes; freed by the caller. */

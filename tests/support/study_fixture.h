@@ -70,14 +70,13 @@ static inline void commit_everything(uint64_t seed)
 /* Computes what is planned (again). */
 static inline void compute_planned(const char *name)
 {
-    fracas_index_row *row;
+    OWNED fracas_index_row *row;
     size_t count, missing = 0;
     sample_realization what[ALL];
     OK(fracas_index_rows(index_, &table, &row, &count));
     for (size_t i = 0; i < count; i++)
         if (row[i].status == FRACAS_PLANNED)
             what[missing++] = (sample_realization){row[i].point, row[i].replica};
-    free(row);
     if (missing) commit_segment(name, what, missing);
 }
 

@@ -29,8 +29,7 @@ static inline uint32_t corner_of(const fracas_surface *s, size_t element, size_t
  * the same nodes. */
 static inline void check_edges(const fracas_surface *s)
 {
-    OWNED uint8_t *seen = calloc(3 * s->nelements, 1);
-    assert_non_null(seen);
+    OWNED uint8_t *seen = zeroed(3 * s->nelements, 1);
     for (size_t i = 0; i < s->ninterfaces; i++) {
         const fracas_surface_interface *f = &s->interface[i];
         assert_true(f->element[0] < f->element[1] && f->element[1] < s->nelements &&

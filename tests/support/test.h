@@ -27,6 +27,26 @@
 /* Cleared where the block ends (OWNED and OWN: base/own.h). */
 #define CLEARED(type) __attribute__((cleanup(type##_clear))) type
 
+/* A record that is initialised here, and cleared where the block ends. */
+#define RECORD(name)             \
+    CLEARED(fracas_record) name; \
+    fracas_record_init(&name)
+
+/* Memory; the test fails without. */
+static inline void *taken(size_t size)
+{
+    void *memory = malloc(size);
+    assert_non_null(memory);
+    return memory;
+}
+
+static inline void *zeroed(size_t count, size_t size)
+{
+    void *memory = calloc(count, size);
+    assert_non_null(memory);
+    return memory;
+}
+
 /* The file's function `fracas_test` is its main; CMake gives each file's a name of its own. */
 #define TESTS(...) TESTS_RUN(NULL, NULL, NULL, NULL, __VA_ARGS__)
 /* The same with a fixture around each test, or around all together. */

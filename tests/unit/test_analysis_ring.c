@@ -199,8 +199,7 @@ static void make_fragments(size_t p, uint64_t *state, fracas_record *record)
 {
     double radius = radius_of(p), speed = speed_of(p);
     int64_t n = record->fragments, last = 0;
-    record->fragment = calloc((size_t)n, sizeof *record->fragment);
-    assert_non_null(record->fragment);
+    record->fragment = zeroed((size_t)n, sizeof *record->fragment);
     record->nfragment = (size_t)n;
     for (int64_t k = 0; k < n; k++) {
         int64_t cut = llrint(((double)k + 1 + 0.9 * (next(state) - 0.5)) * ELEMENTS / (double)n);
@@ -260,8 +259,7 @@ static void make_record(const void *context, size_t p, int64_t replica, fracas_r
     record->momentum[0] = record->momentum[1] = record->momentum[2] = 0;
     make_fragments(p, &state, record);
     record->nhistory = 2;
-    record->history = calloc(2, sizeof *record->history);
-    assert_non_null(record->history);
+    record->history = zeroed(2, sizeof *record->history);
     for (size_t i = 0; i < 2; i++)
         record->history[i] = (fracas_history_row){.time = (double)i * record->end_time,
                                                   .kinetic = record->kinetic,
@@ -310,7 +308,7 @@ static void assert_columns(const double real[][3], size_t npoints, const char *e
         row[p] = (fracas_point_row){.value = value[p]};
     }
     fracas_point_table table = {.ncolumns = 3, .column = columns, .npoints = npoints, .point = row};
-    fracas_columns shown, others;
+    CLEARED(fracas_columns) shown, others;
     char text[128] = "";
     OK(fracas_columns_create(&table, &shown));
     OK(fracas_columns_without_rate(&table, &shown, &others));
@@ -319,8 +317,6 @@ static void assert_columns(const double real[][3], size_t npoints, const char *e
     strcat(text, "|");
     for (size_t i = 0; i < others.count; i++)
         strcat(strcat(text, fracas_columns_name(&table, &others, i)), ",");
-    fracas_columns_clear(&shown);
-    fracas_columns_clear(&others);
     assert_string_equal(text, expected);
 }
 

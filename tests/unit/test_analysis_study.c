@@ -107,8 +107,7 @@ static double next(uint64_t *state)
 static void make_fragments(const truth *of, size_t p, uint64_t *state, fracas_record *record)
 {
     int64_t n = record->fragments, elements = of->elements[p], last = 0;
-    record->fragment = calloc((size_t)n, sizeof *record->fragment);
-    assert_non_null(record->fragment);
+    record->fragment = zeroed((size_t)n, sizeof *record->fragment);
     record->nfragment = (size_t)n;
     for (int64_t k = 0; k < n; k++) {
         double place = ((double)k + 1 + 0.9 * (next(state) - 0.5)) * (double)elements / (double)n;
@@ -127,8 +126,7 @@ static void make_fragments(const truth *of, size_t p, uint64_t *state, fracas_re
 
 static void make_history(double end, fracas_record *record)
 {
-    record->history = calloc(HISTORY, sizeof *record->history);
-    assert_non_null(record->history);
+    record->history = zeroed(HISTORY, sizeof *record->history);
     record->nhistory = HISTORY;
     for (size_t i = 0; i < HISTORY; i++) {
         double part = (double)i / (HISTORY - 1), after = fmax(0, part - 0.4) / 0.6;
@@ -207,7 +205,7 @@ static void table_of_a_sweep(void **state)
 {
     char folder[512];
     make_study(&sweep, folder, sizeof folder);
-    char *table = report_contents(folder, "table.txt");
+    OWNED char *table = report_contents(folder, "table.txt");
     assert_non_null(strstr(table, "58.0 +- 1.1"));
     assert_non_null(
         strstr(table, "1600.0 +- 2.7")); /* 8 replicas: t = 2.3646, 2.3646 3/sqrt(7) = 2.681 */
@@ -220,7 +218,6 @@ static void table_of_a_sweep(void **state)
         lines++;
     }
     assert_int_equal(lines, 2 + NPOINTS);
-    free(table);
     report_check(folder);
 }
 
@@ -230,7 +227,7 @@ static void table_of_awkward_points(void **state)
 {
     char folder[512];
     make_study(&awkward, folder, sizeof folder);
-    char *table = report_contents(folder, "table.txt");
+    OWNED char *table = report_contents(folder, "table.txt");
     assert_non_null(strstr(table, "58.00 +- -")); /* one replica: 60 - 2 */
     assert_non_null(strstr(table, "3 TIME_LIMIT, 1 FAILED"));
     assert_non_null(strstr(table, "2 FRAGMENTED, 1 INTACT"));
@@ -238,7 +235,6 @@ static void table_of_awkward_points(void **state)
     assert_non_null(strstr(table, "no usable realization"));
     assert_non_null(
         strstr(table, "warning: rate 1e5 1/s, young 275 GPa: ledger residual up to 2.0e-3"));
-    free(table);
     report_check(folder);
 }
 

@@ -49,7 +49,7 @@ static void a_plate_is_cut_in_two_and_in_four(void **state)
 {
     CLEARED(fracas_stored_mesh) mesh;
     CLEARED(fracas_record) record;
-    fracas_surface_state now;
+    CLEARED(fracas_surface_state) now;
     fracas_surface_times times;
     grid_make(&plate, &mesh);
     assert_null(fracas_stored_mesh_fault(&mesh));
@@ -73,7 +73,6 @@ static void a_plate_is_cut_in_two_and_in_four(void **state)
         assert_int_equal(now.fragment[e], e / 2 % plate.nx >= 2);
     assert_int_equal(now.elements[0], 2 * 2 * 4);
     assert_int_equal(now.ndust, 0);
-    fracas_surface_state_clear(&now);
     OK(fracas_surface_times_of(&mesh, &record, &times));
     assert_true(times.onset == 9.5 && times.broken == 10);
     assert_true(times.through[1] == 13); /* bottom to top */

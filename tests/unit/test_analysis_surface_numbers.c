@@ -109,7 +109,7 @@ static void surfaces_have_no_laws_of_one_dimension(void **state)
     for (size_t k = 0; k < 3; k++) {
         fracas_point_statistics point[NPOINTS];
         fracas_analysis analysis;
-        fracas_size_slope *slope;
+        OWNED fracas_size_slope *slope;
         size_t count, marks;
         char names[512];
         make_analysis(expected[k].bars, 0, point, &analysis);
@@ -132,7 +132,6 @@ static void surfaces_have_no_laws_of_one_dimension(void **state)
         OK(fracas_size_slopes(&analysis, &slope, &count));
         assert_int_equal(count, expected[k].slopes);
         if (count) assert_int_equal(slope->slope.n, expected[k].bars);
-        free(slope);
         names_of(&analysis, names);
         assert_string_equal(names, expected[k].names);
         for (size_t p = 0; p < NPOINTS; p++) fracas_point_statistics_clear(&point[p]);
@@ -173,12 +172,11 @@ static void fragments_of_surfaces_fly_and_turn(void **state)
     record.outcome = FRACAS_INTACT;
     record.fragments = (int64_t)(record.nfragment = 1);
     record.fragment = &whole;
-    fracas_point_statistics one;
+    CLEARED(fracas_point_statistics) one;
     fracas_point_statistics_init(analysis.table, 1, &one);
     OK(fracas_point_statistics_add(&one, 0, 0, &record));
     OK(fracas_point_statistics_finish(&one));
     assert_true(one.usable == 1 && one.translation.n == 0 && one.rotation.n == 0);
-    fracas_point_statistics_clear(&one);
     for (size_t p = 0; p < NPOINTS; p++) fracas_point_statistics_clear(&point[p]);
     fracas_columns_clear(&analysis.shown);
 }

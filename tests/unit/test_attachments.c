@@ -220,9 +220,8 @@ static void test_bad_places(void **state)
 static void test_many_places(void **state)
 {
     enum { SIDE = 200, N = SIDE * SIDE, LINE = 64 };
-    double(*position)[3] = calloc(N, sizeof *position), *got = calloc(N, sizeof *got);
-    OWNED char *text = malloc((size_t)N * LINE);
-    assert_true(position && got && text);
+    double(*position)[3] = zeroed(N, sizeof *position), *got = zeroed(N, sizeof *got);
+    OWNED char *text = taken((size_t)N * LINE);
     for (int body = 0; body < 2; body++) {
         for (uint64_t i = 0; i < N; i++) {
             const fracas_stream stream = {.seed = 3};
@@ -332,8 +331,8 @@ static void test_empirical(void **state)
 {
     put("m.csv", "strength\n3e8\n5e8\n4e8\n");
     put("bad.csv", "3e8\n5e8\n4e8;\n");
-    fracas_campaign *campaign = good("  distribution: empirical\n  file: m.csv\n",
-                                     "sweep:\n  - strength.interpolation: [linear, steps]\n");
+    OWN(fracas_campaign) campaign = good("  distribution: empirical\n  file: m.csv\n",
+                                         "sweep:\n  - strength.interpolation: [linear, steps]\n");
     const size_t mean = fracas_point_table_find(&campaign->table, "derived.strength_mean");
     assert_true(campaign->table.point[0].value[mean].real == 4e8 &&
                 campaign->table.point[1].value[mean].real == 4e8);
@@ -341,7 +340,6 @@ static void test_empirical(void **state)
     assert_true(quantile_of(&campaign->point[0].strength, 1.0, u) == 3.5e8 &&
                 quantile_of(&campaign->point[1].strength, 1.0, u) == 3e8);
     assert_false(fracas_strength_is_given(&campaign->point[0].strength));
-    fracas_campaign_destroy(campaign);
     bad("  distribution: empirical\n  file: bad.csv\n", "", 17, 9,
         "`strength`: bad.csv:3: found `4e8;`");
     bad("  distribution: empirical\n", "", 16, 17,

@@ -19,8 +19,7 @@ static void an_error_carries_its_message_up(void **unused)
     assert_string_equal(fracas_message(), "value 7");
     assert_int_equal(fracas_fail_within(FRACAS_USAGE, "file %s", "a.yaml"), FRACAS_USAGE);
     assert_string_equal(fracas_message(), "file a.yaml: value 7");
-    OWNED char *huge = malloc(5000);
-    assert_non_null(huge);
+    OWNED char *huge = taken(5000);
     memset(huge, 'x', 4999);
     huge[4999] = 0;
     assert_int_equal(fracas_fail(FRACAS_BUG, "%s", huge), FRACAS_BUG);

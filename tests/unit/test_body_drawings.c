@@ -58,8 +58,7 @@ typedef struct {
 /* The opaque areas of a drawing of straight lines, in the order in which they are painted. */
 static painting *read_areas(const char *svg)
 {
-    painting *all = calloc(1, sizeof *all);
-    assert_non_null(all);
+    painting *all = zeroed(1, sizeof *all);
     for (const char *found = strstr(svg, "<path class=\""); found;
          found = strstr(found + 1, "<path class=\"")) {
         const char *class = found + strlen("<path class=\"");
@@ -148,12 +147,12 @@ static void drawings_show_the_nearest(void **state)
         size_t seen = 0;
         fracas_frame frame;
         make_body(looks[l].octant, looks[l].octant ? 16 : 8, 1, 25, false, &b);
-        fracas_facets facets = look(&b, looks[l].view.azimuth, looks[l].view.elevation,
-                                    looks[l].explode, looks[l].thickness);
+        CLEARED(fracas_facets) facets = look(&b, looks[l].view.azimuth, looks[l].view.elevation,
+                                             looks[l].explode, looks[l].thickness);
         OK(fracas_tint_fragments(&b.mesh, &b.now, &tint));
-        char *svg = draw(&b, &looks[l].view, looks[l].explode, looks[l].thickness,
-                         FRACAS_SHOW_FRAGMENTS);
-        painting *all = read_areas(svg);
+        OWNED char *svg = draw(&b, &looks[l].view, looks[l].explode, looks[l].thickness,
+                               FRACAS_SHOW_FRAGMENTS);
+        OWNED painting *all = read_areas(svg);
         fracas_frame_fit(facets.least, facets.largest, 800, &frame);
         for (int p = 0; p < 1500; p++) {
             const double pixel[2] = {800 * (double)(sample_bits(&x) >> 11) * 0x1p-53,
@@ -167,10 +166,7 @@ static void drawings_show_the_nearest(void **state)
             seen += painted != 99;
         }
         assert_true(seen > 400);
-        free(all);
-        free(svg);
         free(tint);
-        fracas_facets_clear(&facets);
         clear_body(&b);
     }
 }
@@ -313,11 +309,9 @@ static void cuts_are_shaded(void **state)
     static const fracas_view behind = {225, -35.264389682754654};
     body b;
     make_body(true, 10, 1, 0, false, &b);
-    char *thin = draw(&b, &behind, 0, 0, FRACAS_SHOW_FRAGMENTS),
-         *thick = draw(&b, &behind, 0, 0.02, FRACAS_SHOW_FRAGMENTS);
+    OWNED char *thin = draw(&b, &behind, 0, 0, FRACAS_SHOW_FRAGMENTS),
+               *thick = draw(&b, &behind, 0, 0.02, FRACAS_SHOW_FRAGMENTS);
     assert_true(count_of(thick, " fill-opacity=\"0.") >= count_of(thin, " fill-opacity=\"0.") + 3);
-    free(thin);
-    free(thick);
     clear_body(&b);
 }
 
@@ -337,7 +331,7 @@ static void flat_surfaces_can_be_looked_at_too(void **state)
         assert_true(grid_crack(&b.mesh, &b.record, grid_vertex(&plate, 2, j),
                                grid_vertex(&plate, 2, j + 1), 1, 2));
     OK(fracas_surface_state_create(&b.mesh, &b.record, 5, &b.now));
-    char *flat = draw(&b, NULL, 0, 0, FRACAS_SHOW_FRAGMENTS);
+    OWNED char *flat = draw(&b, NULL, 0, 0, FRACAS_SHOW_FRAGMENTS);
     const double length = length_of(flat, "broken", &flat_edges);
     assert_null(strstr(flat, "shade"));
     for (int side = 0; side < 2; side++) {
@@ -347,7 +341,6 @@ static void flat_surfaces_can_be_looked_at_too(void **state)
         assert_non_null(strstr(svg, side ? "fill-opacity=\"0.465\"" : "fill-opacity=\"0.114\""));
         assert_non_null(strstr(svg, "M2693 ")); /* 8 + 784/3 pixels from the left, either way up */
     }
-    free(flat);
     clear_body(&b);
 }
 

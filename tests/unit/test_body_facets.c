@@ -144,15 +144,14 @@ static void the_nearest_is_drawn_last(void **state)
     for (size_t l = 0; l < sizeof looks / sizeof *looks; l++) {
         body b;
         make_body(looks[l].octant, looks[l].octant ? 16 : 8, 2, 25, false, &b);
-        fracas_facets facets = look(&b, looks[l].view[0], looks[l].view[1], looks[l].explode,
-                                    looks[l].thickness);
+        CLEARED(fracas_facets) facets = look(&b, looks[l].view[0], looks[l].view[1],
+                                             looks[l].explode, looks[l].thickness);
         size_t hidden = 0;
         for (size_t f = 0; f < facets.nfacets; f++) hidden += facets.facet[f].layer < 0;
         if (!looks[l].octant)
             assert_true(hidden > 50); /* through gaps some of the inner side shows */
         assert_true(facets.nlayers < 32);
         assert_nearest_last(&facets, 1000);
-        fracas_facets_clear(&facets);
         clear_body(&b);
     }
 }
@@ -165,11 +164,10 @@ static void fragments_move_apart(void **state)
 {
     body b;
     make_body(true, 20, 2, 9, false, &b);
-    fracas_facets still = look(&b, 45, 35, 0, 0), apart = look(&b, 45, 35, 0.3, 0);
+    CLEARED(fracas_facets) still = look(&b, 45, 35, 0, 0), apart = look(&b, 45, 35, 0.3, 0);
     const fracas_view view = {45, 35};
     const size_t nfragments = b.now.nfragments;
-    double(*centre)[4] = calloc(nfragments + 1, sizeof *centre); /* the last one of all */
-    assert_non_null(centre);
+    double(*centre)[4] = zeroed(nfragments + 1, sizeof *centre); /* the last one of all */
     for (size_t e = 0; e < b.mesh.nelements; e++) {
         const double *p[3];
         double n[3], middle[3], turned[3];
@@ -218,8 +216,6 @@ static void fragments_move_apart(void **state)
     assert_true(parted > 40);
     assert_int_equal(sides, parted); /* dust has no lines */
     free(centre);
-    fracas_facets_clear(&still);
-    fracas_facets_clear(&apart);
     clear_body(&b);
 }
 
@@ -231,9 +227,9 @@ static void the_thickness_shows_at_borders(void **state)
     body b;
     make_body(true, 20, 2, 0, false, &b);
     const double t = 0.04, exact = M_PI / 2 * t;
-    fracas_facets back = look(&b, 225, -35.264389682754654, 0, t),
-                  front = look(&b, 45, 35.264389682754654, 0, t);
-    fracas_facets side = look(&b, 180, 0, 0, t);
+    CLEARED(fracas_facets) back = look(&b, 225, -35.264389682754654, 0, t),
+                           front = look(&b, 45, 35.264389682754654, 0, t);
+    CLEARED(fracas_facets) side = look(&b, 180, 0, 0, t);
     double area = 0;
     size_t lines = 0;
     for (size_t f = back.nskin; f < back.nfacets; f++) {
@@ -260,9 +256,6 @@ static void the_thickness_shows_at_borders(void **state)
         if (there) assert_int_equal(side.facet[f].layer, 0);
     }
     assert_true(fabs(area / exact - 1) < 0.002);
-    fracas_facets_clear(&back);
-    fracas_facets_clear(&front);
-    fracas_facets_clear(&side);
     clear_body(&b);
 }
 

@@ -126,8 +126,7 @@ static void test_whole_files(void **state)
                 fail_msg("no \"%s\" in: %s", table[i].words[w], fracas_message());
     }
     size_t size = (16 << 20) + 1;
-    char *large = malloc(size);
-    assert_non_null(large);
+    OWNED char *large = taken(size);
     memset(large, '#', size);
     write_bytes(path, large, size);
     assert_int_equal(fracas_campaign_read(path, &campaign), FRACAS_USAGE);
@@ -135,7 +134,6 @@ static void test_whole_files(void **state)
     memcpy(large, "a: [", 4);
     for (size_t i = 4; i + 1 < size; i += 2) memcpy(large + i, "1,", 2);
     write_bytes(path, large, size / 4);
-    free(large);
     assert_int_equal(fracas_campaign_read(path, &campaign), FRACAS_USAGE);
     assert_non_null(strstr(fracas_message(), "more than 1000000 values"));
     unlink(path);

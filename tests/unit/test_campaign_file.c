@@ -68,8 +68,7 @@ static char *read_whole(const char *path)
 {
     FILE *in = fopen(path, "r");
     if (!in) fail_msg("cannot open %s", path);
-    char *text = calloc(1, 1 << 20);
-    assert_non_null(text);
+    char *text = zeroed(1, 1 << 20);
     assert_true(fread(text, 1, (1 << 20) - 1, in) > 0);
     fclose(in);
     return text;

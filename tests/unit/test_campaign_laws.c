@@ -51,12 +51,10 @@ static void test_sweeps_of_moments(void **state)
     }
     assert_int_equal(campaign->npoints, 4);
     fracas_campaign_destroy(campaign);
-    char *text = replace(plain_campaign, uniform,
-                         "  distribution: weibull\n  mean: 300 MPa\n  deviation: 30 MPa\n");
-    char *whole = replace(text, "", "sweep:\n  - strength.deviation: [10 MPa, 20 MPa]\n");
+    OWNED char *text = replace(plain_campaign, uniform,
+                               "  distribution: weibull\n  mean: 300 MPa\n  deviation: 30 MPa\n");
+    OWNED char *whole = replace(text, "", "sweep:\n  - strength.deviation: [10 MPa, 20 MPa]\n");
     campaign = read_text(whole);
-    free(text);
-    free(whole);
     assert_int_equal(campaign->npoints, 2);
     assert_true(campaign->point[0].strength.deviation == 10e6 &&
                 campaign->point[1].strength.deviation == 20e6);

@@ -78,11 +78,10 @@ static void test_plate(void **state)
     assert_true(at(campaign, 0, "derived.surface")->real == 1);
     assert_true(at(campaign, 0, "derived.lattice")->real == 0);
     assert_true(isnan(at(campaign, 0, "derived.length")->real));
-    fracas_model *model = model_of(campaign, 0);
+    OWN(fracas_model) model = model_of(campaign, 0);
     assert_int_equal(fracas_model_elements(model), 2 * 8 * 4);
     assert_int_equal(fracas_model_interfaces(model),
                      8 * 3 + 4 * 7 + 8 * 4); /* lines between squares, diagonals */
-    fracas_model_destroy(model);
     fracas_campaign_destroy(campaign);
     campaign = read_membrane("loading: {rate: 1e4 1/s}",
                              "loading: {type: centrifugal, speed: 1e3 rad/s, ramp: 1 us}");
@@ -132,8 +131,9 @@ static void test_file(void **state)
     char path[40];
     make_path(path);
     write_bytes(path, two_triangles, strlen(two_triangles));
-    char *text = file_campaign(path, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n");
-    fracas_campaign *campaign = read_text(text);
+    OWNED char *text = file_campaign(path,
+                                     "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n");
+    OWN(fracas_campaign) campaign = read_text(text);
     const fracas_geometry *geometry = &campaign->point[0].spec.geometry;
     assert_ptr_equal(geometry->edge[0], &fracas_edge_free);
     assert_ptr_equal(geometry->edge[2], &fracas_edge_held);
@@ -143,14 +143,11 @@ static void test_file(void **state)
     fracas_hash_hex(&digest, hex);
     assert_string_equal(at(campaign, 0, "geometry.file")->text,
                         hex); /* its content names it, not its path */
-    fracas_model *model = model_of(campaign, 0);
+    OWN(fracas_model) model = model_of(campaign, 0);
     assert_int_equal(fracas_model_elements(model), 2);
     assert_int_equal(fracas_model_interfaces(model), 1);
     assert_true(fabs(fracas_model_interface_volume(model, 0) - 1e-9 / 3) <
                 1e-24); /* all of the square, 1 mm thick */
-    fracas_model_destroy(model);
-    fracas_campaign_destroy(campaign);
-    free(text);
     unlink(path);
 }
 
@@ -159,18 +156,16 @@ static void test_page_example(void **state)
 {
     FILE *in = fopen(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md", "r");
     assert_non_null(in);
-    OWNED char *page = calloc(1, 1 << 16);
-    assert_non_null(page);
+    OWNED char *page = zeroed(1, 1 << 16);
     assert_true(fread(page, 1, (1 << 16) - 1, in) > 0);
     fclose(in);
     char *begin = strstr(page, "geometry: {shape: file, file: plate.msh"),
          *end = begin ? strstr(begin, "```") : NULL;
     assert_non_null(end);
     *end = '\0';
-    char *found = replace(begin, "plate.msh",
-                          FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order2-msh41-text.msh");
+    OWNED char *found = replace(begin, "plate.msh",
+                                FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order2-msh41-text.msh");
     OWNED char *shown = replace(found, "edge_1: held, edge_2: held", "edges: held");
-    free(found);
     OWNED char *text = replace(
         membrane_campaign,
         "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\nmesh:\n  divisions: 4\n",
@@ -250,10 +245,9 @@ static void test_swept_model(void **state)
 {
     char *text = replace(plain_campaign, "  density: 2750 kg/m3\n",
                          "  density: 2750 kg/m3\n  poisson: 0.25\n");
-    char *sliding = replace(text, "  law: nitsche\n", "  law: nitsche\n  coupling: 2\n");
+    OWNED char *sliding = replace(text, "  law: nitsche\n", "  law: nitsche\n  coupling: 2\n");
     free(text);
     text = replace(sliding, "  quiet: 100 ns\n", "  quiet: 100 ns\n  integrator: hulbert-chung\n");
-    free(sliding);
     OWNED char *swept = replace(
         text, "",
         "sweep:\n  - cases:\n      - {name: bar}\n      - {name: plate, model: membrane, time: "
@@ -499,8 +493,7 @@ static bool cracks(const fracas_model *model, double strength)
     for (size_t i = 0; i < fracas_model_interfaces(model); i++) sigma_c[i * stride] = strength;
     fracas_record_init(&record);
     if (fracas_batch_run(batch, &record)) fail_msg("%s", fracas_message());
-    const bool cracked = record.cracked > 0;
-    return cracked;
+    return record.cracked > 0;
 }
 
 /* No stress exceeds the bound, and even stretching reaches it: plates of strength 1.05 bound stay

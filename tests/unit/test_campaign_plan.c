@@ -207,12 +207,11 @@ static void test_heavy_tail(void **state)
 {
     OWN(fracas_campaign) campaign = read_replaced(
         "", "sweep:\n  - strength: [{distribution: weibull, scale: 30 MPa, shape: 0.5}]\n");
-    fracas_model *model;
+    OWN(fracas_model) model;
     OK(fracas_model_create(&campaign->point[0].spec, &model));
     const fracas_point *point = &campaign->point[0];
     double mean = mean_of_strength(&point->strength, fracas_model_interface_volume(model, 0));
     OK(fracas_model_check_strength(model, mean));
-    fracas_model_destroy(model);
     double cost;
     assert_int_equal(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE);
     expect(fracas_message(), "point 0: the strongest of ");
@@ -229,11 +228,10 @@ static void test_flaws_of_small_elements(void **state)
             "      - {name: small, mesh: {spacing: graded, ratio: 0.001}, strength: {distribution: "
             "flaws, flaw_density: 1e11 1/m3, minimum: 100 MPa, maximum: 400 MPa, exponent: 2}}\n");
     const fracas_point *point = &campaign->point[0];
-    fracas_model *model;
+    OWN(fracas_model) model;
     OK(fracas_model_create(&point->spec, &model));
     double first = quantile_of(&point->strength, fracas_model_interface_volume(model, 0), 1 - 1e-6);
     OK(fracas_model_check_strength(model, first));
-    fracas_model_destroy(model);
     double cost;
     assert_int_equal(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE);
     expect(fracas_message(), "point 0: the strongest of ");

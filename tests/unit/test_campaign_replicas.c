@@ -90,13 +90,12 @@ static void wrong_rules_are_refused(void **state)
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         char line[300], path[40];
         snprintf(line, sizeof line, "replicas: %s", table[i].replicas);
-        char *text = replace(plain_campaign, "replicas: 3", line);
+        OWNED char *text = replace(plain_campaign, "replicas: 3", line);
         fracas_campaign *campaign = NULL;
         make_path(path);
         write_bytes(path, text, strlen(text));
         const fracas_err err = fracas_campaign_read(path, &campaign);
         unlink(path);
-        free(text);
         if (err != FRACAS_USAGE || campaign) fail_msg("accepted: %s", line);
         if (!strstr(fracas_message(), ":25:")) fail_msg("no place: %s", fracas_message());
         for (int w = 0; w < 3 && table[i].words[w]; w++)
@@ -123,13 +122,11 @@ static void a_rule_is_written_and_hashed(void **state)
         "confidence: 0.96}}",
     };
     OWN(fracas_campaign) campaign = with_replicas(RULE);
-    char *text = write_text(campaign);
+    OWNED char *text = write_text(campaign);
     assert_non_null(strstr(text, "\nreplicas: " RULE "\n"));
-    fracas_campaign *back = read_text(text);
+    OWN(fracas_campaign) back = read_text(text);
     assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
     assert_true(fracas_replicas_same(&campaign->point[0], &back->point[0]));
-    fracas_campaign_destroy(back);
-    free(text);
     for (size_t i = 0; i < sizeof other / sizeof *other; i++) {
         OWN(fracas_campaign) changed = with_replicas(other[i]);
         if (fracas_hash_equal(&campaign->hash, &changed->hash))

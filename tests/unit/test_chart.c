@@ -79,12 +79,11 @@ static char *written_of(void (*make)(fracas_chart *chart),
 {
     char *text;
     size_t size;
-    fracas_chart chart;
+    CLEARED(fracas_chart) chart;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
     make(&chart);
     write(&chart, out);
-    fracas_chart_clear(&chart);
     assert_int_equal(fclose(out), 0);
     return text;
 }

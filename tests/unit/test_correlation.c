@@ -169,8 +169,7 @@ static size_t normals_of(size_t n, const fracas_kind *kind, double length)
     const fracas_strength strength = correlated(kind, length, NAN);
     OWN(fracas_correlation) correlation;
     OK(fracas_correlation_create(&strength, n, SITES, 0, &correlation));
-    const size_t count = fracas_correlation_normals(correlation);
-    return count;
+    return fracas_correlation_normals(correlation);
 }
 
 static void lines_are_told_from_others(void **state)
@@ -218,8 +217,8 @@ static void singular_covariances_are_factorised(void **state)
     for (int way = 0; way < 2; way++) {
         const fracas_strength strength = correlated(
             way ? &fracas_covariance_gaussian : &fracas_covariance_exponential, way ? 3 : 0.3, NAN);
-        fracas_covariance *covariance = covariance_of(&strength);
-        fracas_dense_factor factor;
+        OWN(fracas_covariance) covariance = covariance_of(&strength);
+        CLEARED(fracas_dense_factor) factor;
         uint32_t order[N];
         sites_scattered(N, sites);
         for (size_t i = 0; i < N; i++) {
@@ -229,8 +228,6 @@ static void singular_covariances_are_factorised(void **state)
         OK(fracas_dense_factor_init(covariance, SITES, N, order, &factor));
         print_message("%d sites, rank %zu\n", N, factor.rank);
         assert_true(way ? factor.rank > PLACES && factor.rank < N / 2 : factor.rank == PLACES);
-        fracas_dense_factor_clear(&factor);
-        fracas_covariance_destroy(covariance);
         assert_true(error_of(&strength, N, 0, "singular") < ROUNDED);
     }
 }

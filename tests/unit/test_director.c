@@ -57,11 +57,9 @@ static fracas_director *director;
  * of its own. */
 static void prepare(const char *replicas, const char *sweep)
 {
-    char *counted = replace(plain_campaign, "replicas: 3", replicas),
-         *text = replace(counted, "", sweep);
+    OWNED char *counted = replace(plain_campaign, "replicas: 3", replicas),
+               *text = replace(counted, "", sweep);
     campaign = read_text(text);
-    free(text);
-    free(counted);
     fracas_run_options_init(&options);
     options.width = 8;
     fracas_channel_init(&channel);

@@ -141,7 +141,7 @@ static void estimates_at_their_ends(void **state)
 static void numbers_that_settle_and_others(void **state)
 {
     CLEARED(fracas_ensemble) ensemble;
-    fracas_replica_convergence of;
+    CLEARED(fracas_replica_convergence) of;
     fracas_ensemble_init(&ensemble, 0);
     for (int i = 0; i < 40; i++) {
         const fracas_replica_values value = {.count = i % 2 ? 101 : 99,
@@ -177,7 +177,6 @@ static void numbers_that_settle_and_others(void **state)
     assert_string_equal(warning->text, "unconverged with 40 replicas, known size to 1.5 % "
                                        "(drifts), dissipated to 16 %: raise replicas");
     free(warning);
-    fracas_replica_convergence_clear(&of);
 
     /* Of two, count is 100 -+ t_(0.975, 1) = 12.7 and dissipated 2 -+ 12.7; what they have alike
      * may be so by chance, and nothing says whether halves differ. */
@@ -215,8 +214,7 @@ static void make_history(int64_t replica, fracas_record *record)
     record->outcome = FRACAS_FRAGMENTED;
     record->fragments = 0;
     record->fragments_dust = 0;
-    record->history = calloc(8, sizeof *record->history);
-    assert_non_null(record->history);
+    record->history = zeroed(8, sizeof *record->history);
     const int last = replica % 2 ? 2 : 3;
     for (int j = 0; j <= last; j++) {
         record->history[record->nhistory++] = (fracas_history_row){

@@ -146,14 +146,12 @@ static fracas_fit fit_of(const synthetic *what, const fracas_family *family, uns
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(random, seed);
-    fracas_ensemble ensemble;
-    fracas_fit_sample sample;
+    CLEARED(fracas_ensemble) ensemble;
+    CLEARED(fracas_fit_sample) sample;
     fracas_fit fit;
     OK(synthetic_ensemble(what, random, &ensemble));
     OK(fracas_fit_sample_create(&ensemble, &sample));
     fracas_fit_of(family, &sample, &fit);
-    fracas_fit_sample_clear(&sample);
-    fracas_ensemble_clear(&ensemble);
     gsl_rng_free(random);
     return fit;
 }
@@ -200,8 +198,8 @@ static void cells_of_a_lattice(void **state)
     what.realizations = 30;
     what.fragments = 50;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    fracas_ensemble ensemble;
-    fracas_fit_sample sample;
+    CLEARED(fracas_ensemble) ensemble;
+    CLEARED(fracas_fit_sample) sample;
     uint32_t once[30];
     double count[FRACAS_FIT_CELLS], mean, cv, total = 0, expected = 0;
     OK(synthetic_ensemble(&what, random, &ensemble));
@@ -223,8 +221,6 @@ static void cells_of_a_lattice(void **state)
     }
     assert_true(total == expected && fabs(mean / sample.mean - 1) < 1e-14 &&
                 fabs(cv / sample.cv - 1) < 1e-12);
-    fracas_fit_sample_clear(&sample);
-    fracas_ensemble_clear(&ensemble);
     gsl_rng_free(random);
 }
 
@@ -249,8 +245,8 @@ static void whole_bodies_are_left_out(void **state)
 {
     enum { BROKEN = 20, PIECES = 50 };
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    fracas_ensemble with, without, alone;
-    fracas_fit_sample a, b, c;
+    CLEARED(fracas_ensemble) with, without, alone;
+    CLEARED(fracas_fit_sample) a, b, c;
     fracas_fit fit_a, fit_b, fit_c;
     fracas_ensemble_init(&with, 0);
     fracas_ensemble_init(&without, 0);
@@ -281,12 +277,6 @@ static void whole_bodies_are_left_out(void **state)
     assert_true(fit_a.parameter[0] == fit_b.parameter[0] &&
                 fit_a.log_likelihood == fit_b.log_likelihood && !*fit_a.why);
     assert_true(c.whole == 7 && c.total == 0 && strstr(fit_c.why, "0 fragments above the cut"));
-    fracas_fit_sample_clear(&a);
-    fracas_fit_sample_clear(&b);
-    fracas_fit_sample_clear(&c);
-    fracas_ensemble_clear(&with);
-    fracas_ensemble_clear(&without);
-    fracas_ensemble_clear(&alone);
     gsl_rng_free(random);
 }
 
@@ -319,8 +309,8 @@ static void carried_samples_have_the_law(void **state)
     what.realizations = 30;
     what.fragments = 50;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    fracas_ensemble ensemble;
-    fracas_fit_sample sample, carried;
+    CLEARED(fracas_ensemble) ensemble;
+    CLEARED(fracas_fit_sample) sample, carried;
     fracas_fit fit;
     double probability[FRACAS_FIT_CELLS], seen = 0, law_below = 0;
     OK(synthetic_ensemble(&what, random, &ensemble));
@@ -343,9 +333,6 @@ static void carried_samples_have_the_law(void **state)
         }
         assert_true(kept == sample.kept[i]);
     }
-    fracas_fit_sample_clear(&carried);
-    fracas_fit_sample_clear(&sample);
-    fracas_ensemble_clear(&ensemble);
     gsl_rng_free(random);
 }
 

@@ -57,8 +57,7 @@ static void add_node(fracas_fragment_sums *sums, double mass, vector centre, vec
 
 static fracas_fragment only(const fracas_fragment_sums *sums)
 {
-    CLEARED(fracas_record) record;
-    fracas_record_init(&record);
+    RECORD(record);
     record.fragments_dust = 0;
     OK(fracas_fragments_take(sums, 1, 2, &record));
     assert_true(record.nfragment == 1 && record.fragments == 1);
@@ -257,8 +256,7 @@ static void momenta_are_those_of_the_nodes(void **unused)
         momentum = plus(momentum, mass, v);
         moment = plus(moment, mass, turned(x, v));
     }
-    CLEARED(fracas_record) record;
-    fracas_record_init(&record);
+    RECORD(record);
     OK(fracas_fragments_take(sums, COUNT, 2, &record));
     assert_int_equal(record.nfragment, COUNT);
     assert_int_equal(record.fragments, COUNT);

@@ -227,8 +227,7 @@ static void a_bar_opens_where_its_factor_is_least(void **state)
     assert_int_equal(fracas_field_sample(field, &(fracas_stream){0}, stride, sigma_c), 0);
     assert_true(fabs(sigma_c[WEAK * stride] / 270e6 - 1) < 1e-15 &&
                 fabs(sigma_c[29 * stride] / 330e6 - 1) < 1e-15); /* x = 15 mm: 1.1 */
-    CLEARED(fracas_record) record;
-    fracas_record_init(&record);
+    RECORD(record);
     assert_int_equal(fracas_batch_run(batch, &record), 0);
     assert_true(record.cracked > 0 && record.onset_time == record.interface[WEAK].onset_time);
     assert_true(fabs(record.onset_time / (270e6 / (275e9 * 1e4)) - 1) < 1e-12);

@@ -144,7 +144,7 @@ static void what_failed_does_not_count(void **state)
  * turn, and what is too much goes. */
 static void rounds_that_are_there_already_are_decided_at_once(void **state)
 {
-    fracas_decision *decision;
+    OWNED fracas_decision *decision;
     fracas_point_row all = campaign->table.point[1];
     all.replicas = 24;
     OK(fracas_index_plan_point(index_, &all));
@@ -155,7 +155,6 @@ static void rounds_that_are_there_already_are_decided_at_once(void **state)
     OK(fracas_rounds_advance(&rounds, index_, 1));
     look(1, &decision, 3);
     assert_int_equal(decision[2].stop, FRACAS_PRECISE);
-    free(decision);
     all = campaign->table.point[0];
     all.replicas = 24;
     OK(fracas_index_plan_point(index_, &all));
@@ -220,7 +219,13 @@ static void a_stronger_rule_decides_again(void **state)
 static void mean_size_by_hand(void **state)
 {
     fracas_fragment fragment[4] = {{.size = 1}, {.size = 2}, {.size = 3}, {.size = 6}};
-    const fracas_record record = {.fragment = fragment, .nfragment = 4}, none = {.fragment = NULL};
+    const fracas_record record = {.fragment = fragment,
+                                  .nfragment = 4,
+                                  .dissipated = 7,
+                                  .residual = 8},
+                        none = {.fragment = NULL};
+    const fracas_summary whole = fracas_summary_of(&record);
+    assert_true(whole.size == 3 && whole.dissipated == 7 && whole.residual == 8);
     assert_true(fracas_record_mean_size(&record) == 3);
     assert_true(isnan(fracas_record_mean_size(&none)));
 }

@@ -44,10 +44,8 @@ static void replicas_are_as_if_the_file_said_so(void **state)
         assert_int_equal(given->point[p].replicas, 8);
         assert_int_equal(given->table.point[p].replicas, 8);
     }
-    char *a = write_text(given), *b = write_text(said);
+    OWNED char *a = write_text(given), *b = write_text(said);
     assert_string_equal(a, b);
-    free(a);
-    free(b);
     fracas_campaign_destroy(said);
     assert_int_equal(read_run("output:\n", sweep, 0, 0, 0, &said),
                      FRACAS_OK); /* without the option */

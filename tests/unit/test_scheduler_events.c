@@ -415,8 +415,7 @@ static void any_course_of_events(void **state)
     static const double cost[POINTS] = {1, 3, 2, 5, 4};
     int64_t failed = 0, duplicates = 0;
     for (unsigned seed = 1; seed <= SEEDS; seed++) {
-        OWNED world *w = calloc(1, sizeof *w);
-        assert_non_null(w);
+        OWNED world *w = zeroed(1, sizeof *w);
         w->dice = seed;
         w->width = seed % 3 ? 8 : 3;
         const fracas_scheduler_options options = {.cost = cost,
@@ -457,9 +456,8 @@ static void any_course_of_events(void **state)
 static double run_million(size_t npoints, size_t *bytes)
 {
     enum { MILLION = 1000000, MANY = 64 };
-    OWNED fracas_index_row *row = malloc(MILLION * sizeof *row);
-    OWNED double *cost = malloc(npoints * sizeof *cost);
-    assert_true(row && cost);
+    OWNED fracas_index_row *row = taken(MILLION * sizeof *row);
+    OWNED double *cost = taken(npoints * sizeof *cost);
     for (size_t i = 0; i < MILLION; i++)
         row[i] = (fracas_index_row){.point = i * npoints / MILLION, .replica = (int64_t)i};
     for (size_t p = 0; p < npoints; p++) cost[p] = 1 + (double)(p * 7919 % npoints);
@@ -468,7 +466,7 @@ static double run_million(size_t npoints, size_t *bytes)
     struct timespec a, b;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &a);
     const struct mallinfo2 before = mallinfo2();
-    fracas_scheduler *scheduler;
+    OWN(fracas_scheduler) scheduler;
     fracas_lease lease;
     OK(fracas_scheduler_create(row, MILLION, &options, &scheduler));
     *bytes = 0;
@@ -485,7 +483,6 @@ static double run_million(size_t npoints, size_t *bytes)
     }
     for (size_t worker = 0; worker < MANY; worker++) fracas_scheduler_durable(scheduler, worker);
     assert_int_equal(fracas_scheduler_count(scheduler).done, MILLION);
-    fracas_scheduler_destroy(scheduler);
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &b);
     return (double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec);
 }

@@ -84,8 +84,7 @@ static void settled_waits_for_quiet_after_the_first_onset(void **unused)
 static void history_keeps_intervals_onset_peak_and_end(void **unused)
 {
     CLEARED(fracas_history) history;
-    CLEARED(fracas_record) record;
-    fracas_record_init(&record);
+    RECORD(record);
     OK(fracas_history_init(&history, 2, 1.0));
     for (int step = 0; step <= 12; step++) {
         fracas_history_row row = {.time = 0.09 * step, .elastic = step == 7 ? 5 : 1, .cohesive = 1};
@@ -165,8 +164,7 @@ static void a_fragment_across_the_end_is_in_one_piece(void **unused)
     batch->step.state[2 * 7 + 4] = batch->step.state[6 * 7 + 4] =
         1.0;                    /* damage of interfaces 2 and 6 */
     batch->step.time[0] = 1e-5; /* stretched by 1.1 */
-    CLEARED(fracas_record) record;
-    fracas_record_init(&record);
+    RECORD(record);
     OK(model->formulation->harvest(model, &batch->step, 0, &record));
     assert_int_equal(record.nfragment, 2);
     assert_int_equal(record.fragment[0].elements, 6);
@@ -342,8 +340,7 @@ static void a_run_that_gains_energy_ends_as_drift(void **unused)
         const fracas_batch_options options = {.history = 10, .isa = FRACAS_ISA_BEST};
         OK(fracas_batch_create(model, 1, &options, &batch));
         bar_draw(batch, 0, 1.0 / 300, 1);
-        CLEARED(fracas_record) record;
-        fracas_record_init(&record);
+        RECORD(record);
         OK(fracas_batch_run(batch, &record));
         assert_int_equal(record.outcome, unstable ? FRACAS_ENERGY_DRIFT : FRACAS_FRAGMENTED);
         assert_true(record.end_time == (double)record.steps * record.time_step);
@@ -373,8 +370,7 @@ static void events_are_counted_and_timed_inside_their_steps(void **unused)
         const fracas_batch_options options = {.interfaces = true, .isa = FRACAS_ISA_BEST};
         OK(fracas_batch_create(model, 1, &options, &batch));
         bar_draw(batch, 0, 0.02, 1);
-        CLEARED(fracas_record) record;
-        fracas_record_init(&record);
+        RECORD(record);
         OK(fracas_batch_run(batch, &record));
         int64_t cracked = 0, broken = 0, at_step = 0;
         double first = INFINITY;
@@ -443,7 +439,7 @@ static void a_batch_refuses_what_it_cannot_run(void **unused)
 {
     fracas_spec spec = bar_reference(50, 1e4, 1e-6); /* h = 1 mm: too long for 300 MPa at G_c 100 */
     fracas_model *model;
-    fracas_batch *batch;
+    OWN(fracas_batch) batch;
     OK(fracas_model_create(&spec, &model));
     fracas_batch_options options = {.width = 4, .isa = FRACAS_ISA_BEST};
     assert_int_equal(fracas_batch_create(model, 5, &options, &batch), FRACAS_USAGE);
@@ -464,7 +460,6 @@ static void a_batch_refuses_what_it_cannot_run(void **unused)
     assert_int_equal(fracas_batch_begin(batch), FRACAS_USAGE);
     bar_set_strength(batch, 1, 30, 1e-200); /* its square is 0 */
     OK(fracas_batch_begin(batch));
-    fracas_batch_destroy(batch);
     fracas_model_destroy(model);
     spec.time.end = 1e20;
     assert_int_equal(fracas_model_create(&spec, &model), FRACAS_USAGE);

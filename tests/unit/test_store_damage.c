@@ -33,7 +33,7 @@ static void a_flipped_byte_of_a_segment_is_computed_again(void **state)
     merge();
     uint64_t random = 12;
     for (int i = 0; i < 16; i++) {
-        char *path;
+        OWNED char *path;
         int64_t rows;
         fracas_known_segment *segment;
         size_t nsegments;
@@ -53,7 +53,6 @@ static void a_flipped_byte_of_a_segment_is_computed_again(void **state)
         assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
         OK(fracas_study_sound(study, index_, &sound));
         assert_true(sound);
-        free(path);
         fracas_index_segments_free(segment, nsegments);
     }
     verify_finds(0, "");

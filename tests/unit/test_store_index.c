@@ -64,13 +64,12 @@ static void leases_end_with_the_next_plan(void **state)
     counts = count_all();
     assert_int_equal(counts.leased, 0);
     assert_int_equal(counts.planned, ALL - 1);
-    fracas_index_row *row;
+    OWNED fracas_index_row *row;
     size_t count;
     OK(fracas_index_rows(index_, &table, &row, &count));
     assert_int_equal(row[2 * REPLICAS + 6].attempts, 1);
     assert_int_equal(row[2 * REPLICAS + 6].status, FRACAS_PLANNED);
     assert_int_equal(row[2 * REPLICAS + 7].status, FRACAS_FAILED_ROW);
-    free(row);
     char said[100] = "";
     OK(fracas_index_failures(index_, &table, note_failure, said));
     assert_string_equal(said, "point 2 replica 7 attempts 1: signal 9;");

@@ -92,8 +92,7 @@ static size_t interfaces_of(const grid_shape *of)
 {
     CLEARED(fracas_stored_mesh) mesh;
     grid_make(of, &mesh);
-    const size_t count = mesh.ninterfaces;
-    return count;
+    return mesh.ninterfaces;
 }
 
 static void meshes_come_back_bit_by_bit(void **state)

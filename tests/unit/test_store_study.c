@@ -41,11 +41,10 @@ static void segments_of_another_are_left_and_not_merged(void **state)
     OK(fracas_index_open(study, true, &index_));
     for (int other = 0; other < OTHERS; other++) {
         fracas_file_header header = other_header(other);
-        char *report;
+        OWNED char *report;
         OK(fracas_study_recover(study, index_, &header, &table, &report));
         assert_non_null(strstr(report, difference[other]));
         assert_null(strstr(report, "adopted"));
-        free(report);
         assert_int_equal(count_all().planned, ALL);
     }
     recover_says("adopted"); /* nothing was lost */
@@ -174,7 +173,7 @@ static void segments_without_provenance_are_adopted(void **state)
     for (int i = 0; i < 2; i++) {
         fracas_file_header header = sample_header();
         fracas_writer *writer;
-        fracas_record record;
+        CLEARED(fracas_record) record;
         fracas_file_seal seal;
         char name[32];
         snprintf(name, sizeof name, "segments/old%d.h5", i);
@@ -182,7 +181,6 @@ static void segments_without_provenance_are_adopted(void **state)
         if (tells[i]) OK(fracas_writer_provenance(writer, tells[i]));
         sample_record(0, i, MOST, &record);
         OK(fracas_writer_append(writer, 0, i, &record));
-        fracas_record_clear(&record);
         OK(fracas_writer_finish(writer, false, &seal));
     }
     recover_says("old1.h5 with 1 realizations");
@@ -207,7 +205,7 @@ static void half_written_files_go_and_foreign_ones_stay(void **state)
     fracas_point_row more_row[SAMPLE_POINTS];
     fracas_point_table more = sample_table(more_row, REPLICAS + 1);
     sample_segment(study, "more.h5", &more, what, 2, MOST, &seal, row);
-    char *report;
+    OWNED char *report;
     fracas_file_header header = sample_header();
     OK(fracas_study_recover(study, index_, &header, &table, &report));
     assert_int_equal(strstr(report, "good.h5") != NULL, 0);
@@ -217,7 +215,6 @@ static void half_written_files_go_and_foreign_ones_stay(void **state)
         strstr(report, "foreign.h5, which has realizations that this campaign does not ask for"));
     assert_non_null(
         strstr(report, "more.h5, which has realizations that this campaign does not ask for"));
-    free(report);
     assert_int_equal(sample_files(sample_path(study, "segments"), ".h5"), 3);
     assert_int_equal(sample_files(sample_path(study, "segments"), "good.h5"), 1);
     assert_int_equal(sample_files(sample_path(study, "segments"), "torn.h5"), 0);

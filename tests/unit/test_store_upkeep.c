@@ -86,11 +86,10 @@ static void a_segment_wins_over_a_failure(void **state)
     sample_realization what[] = {{0, 5}, {1, 7}};
     fracas_file_seal seal;
     fracas_segment_row row[2];
-    fracas_record record;
+    CLEARED(fracas_record) record;
     sample_segment(study, "a.h5", &table, what, 2, MOST, &seal, row);
     sample_record(0, 5, MOST, &record);
     assert_int_not_equal(record.outcome, FRACAS_FAILED);
-    fracas_record_clear(&record);
     OK(fracas_index_fail(index_, &point_row[0].hash, 5, "signal 9", true));
     OK(reindex());
     failures_are("");

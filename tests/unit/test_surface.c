@@ -362,8 +362,7 @@ static void test_locality(void **state)
     const fracas_surface_fineness fineness = {.divisions = 60, .order = 1};
     const fracas_surface *plain, *surface;
     OK(fracas_surface_rectangle(1.0, 1.0, &fineness, &plain));
-    OWNED uint32_t *element = malloc(3 * plain->nelements * sizeof *element);
-    assert_non_null(element);
+    OWNED uint32_t *element = taken(3 * plain->nelements * sizeof *element);
     memcpy(element, plain->element, 3 * plain->nelements * sizeof *element);
     uint64_t x = 1;
     for (size_t e = plain->nelements - 1; e > 0; e--) {

@@ -100,8 +100,7 @@ static const fracas_surface *perturbed(const body *b, size_t divisions, int orde
                                        bool ends)
 {
     const fracas_surface *plain = made(b, divisions, 1), *surface = NULL;
-    double(*shift)[2] = malloc(plain->nvertices * sizeof *shift);
-    assert_non_null(shift);
+    double(*shift)[2] = taken(plain->nvertices * sizeof *shift);
     for (size_t v = 0; v < plain->nvertices; v++)
         for (int i = 0; i < 2; i++) {
             shift[v][i] = 2.0 * next_share(&seed) - 1.0;
@@ -288,9 +287,8 @@ static void test_never_inverts(void **state)
         for (size_t n = 1; n <= 9; n += 2) {
             const body *b = &bodies[i];
             const fracas_surface *plain = made(b, n, 1);
-            double(*shift)[2] = calloc(plain->nvertices, sizeof *shift);
-            const double(**corner)[3] = calloc(4, sizeof *corner);
-            assert_true(shift && corner);
+            double(*shift)[2] = zeroed(plain->nvertices, sizeof *shift);
+            const double(**corner)[3] = zeroed(4, sizeof *corner);
             /* Positions for the four corners of the square; elements and vertices stand in the same
              * order in all meshes. */
             const fracas_surface *at[4];
@@ -370,8 +368,7 @@ static void test_annuli(void **state)
                 const fracas_surface *plain, *s;
                 if (fracas_surface_annulus(inner, 1.0, &fineness, &plain))
                     fail_msg("%g: %s", inner, fracas_message());
-                double(*shift)[2] = malloc(plain->nvertices * sizeof *shift), area = 0.0;
-                assert_non_null(shift);
+                double(*shift)[2] = taken(plain->nvertices * sizeof *shift), area = 0.0;
                 uint64_t seed = divisions;
                 for (size_t v = 0; v < plain->nvertices; v++)
                     for (int i = 0; i < 2; i++) shift[v][i] = next_share(&seed) < 0.5 ? -1.0 : 1.0;

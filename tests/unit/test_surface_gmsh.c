@@ -78,8 +78,7 @@ static char *read_plate(size_t which, size_t *size)
     snprintf(path, sizeof path, FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-%s.msh", plates[which]);
     FILE *in = fopen(path, "rb");
     if (!in) fail_msg("cannot open %s", path);
-    char *bytes = malloc(1 << 16);
-    assert_non_null(bytes);
+    char *bytes = taken(1 << 16);
     *size = fread(bytes, 1, 1 << 16, in);
     fclose(in);
     return bytes;
@@ -254,12 +253,10 @@ static void test_refused_binary(void **state)
 /* Reads an exact copy, so that the sanitizer sees a byte too far. */
 static bool survives(const char *bytes, size_t size)
 {
-    char *copy = malloc(size + (size == 0));
-    assert_non_null(copy);
+    OWNED char *copy = taken(size + (size == 0));
     memcpy(copy, bytes, size);
     const fracas_surface *s = NULL;
     fracas_err err = fracas_surface_read_gmsh(copy, size, &s);
-    free(copy);
     if (err ? err != FRACAS_USAGE || s || !*fracas_message() : !s)
         fail_msg("%d: %s", err, fracas_message());
     if (!err) check_edges(s);

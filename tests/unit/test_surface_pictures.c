@@ -98,8 +98,7 @@ static char *paint(size_t picture)
     fracas_surface_fineness fineness = {.divisions = pictures[picture].divisions, .order = 2};
     const fracas_surface *plain, *moved;
     assert_int_equal(pictures[picture].make(&fineness, &plain), FRACAS_OK);
-    double(*shift)[2] = malloc(plain->nvertices * sizeof *shift);
-    assert_non_null(shift);
+    double(*shift)[2] = taken(plain->nvertices * sizeof *shift);
     uint64_t x = 4;
     for (size_t v = 0; v < plain->nvertices; v++)
         for (int i = 0; i < 2; i++) shift[v][i] = 2.0 * next_share(&x) - 1.0;
@@ -124,8 +123,7 @@ static void test_pictures(void **state)
         char path[400];
         snprintf(path, sizeof path, "%s/mesh-%s.svg",
                  folder ? folder : FRACAS_SOURCE_DIR "/docs/theory", pictures[i].name);
-        OWNED char *text = paint(i), *there = calloc(1, 1 << 18);
-        assert_non_null(there);
+        OWNED char *text = paint(i), *there = zeroed(1, 1 << 18);
         FILE *file = fopen(path, folder ? "w" : "r");
         if (!file) fail_msg("cannot open %s", path);
         if (folder) fputs(text, file);

@@ -115,10 +115,9 @@ static void nearly_equal_lengths_give_the_uniform_run(void **unused)
         fracas_spec spec = bar_reference(500, 1e5, 2e-7);
         spec.geometry.length = 5e-3;
         spec.cohesive.law = laws[i % 2];
-        fracas_model *model;
+        OWN(fracas_model) model;
         OK(fracas_model_create(&spec, &model));
         const double time_step = model->time_step;
-        fracas_model_destroy(model);
         CLEARED(fracas_record) uniform = run_to_fragments(&spec, time_step);
         if (i / 2) bar_perturb(&spec, 1e-14, 1, noise);
         else bar_grade(&spec, 1);
@@ -425,8 +424,7 @@ static void fragments_are_sums_over_their_elements(void **unused)
         OWN(fracas_model) model = model_on(&spec, i / 4);
         OWN(fracas_batch) batch = batch_of(model, 300e6);
         bar_draw(batch, 0, 0.05, 2);
-        CLEARED(fracas_record) record;
-        fracas_record_init(&record);
+        RECORD(record);
         for (size_t running = 1; running > 0;) OK(fracas_batch_step(batch, &record, &running));
         static piece pieces[401];
         assert_int_equal(record.nfragment, walk(batch, pieces));

@@ -138,8 +138,7 @@ static void positions_are_those_of_gauss(void **unused)
         spec.strength_per_point = true;
         OWN(fracas_model) model = distorted_model(spec, 0.1, 3);
         const size_t points = model->strengths;
-        double(*position)[3] = malloc(strengths_of(model) * sizeof *position), worst = 0;
-        assert_non_null(position);
+        double(*position)[3] = taken(strengths_of(model) * sizeof *position), worst = 0;
         fracas_model_interface_positions(model, position);
         for (size_t k = 0; k < strengths_of(model); k++)
             for (int side = 0; side < 2; side++) {

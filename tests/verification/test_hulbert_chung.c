@@ -146,7 +146,7 @@ static body body_of(const fracas_spec *spec)
     fracas_surface_operator *op;
     OK(fracas_surface_operator_open(b.model, 0, &op));
     gsl_matrix *matrix = gsl_matrix_alloc(b.n, b.n), *scaled = gsl_matrix_alloc(b.n, b.n);
-    double *u = calloc(b.n, sizeof *u), *a = calloc(b.n, sizeof *a);
+    OWNED double *u = calloc(b.n, sizeof *u), *a = calloc(b.n, sizeof *a);
     for (size_t j = 0; j < b.n; j++) {
         u[j] = 1;
         fracas_surface_operator_apply(op, u, a);
@@ -177,8 +177,6 @@ static body body_of(const fracas_spec *spec)
     gsl_vector_complex_free(value);
     gsl_matrix_free(matrix);
     gsl_matrix_free(scaled);
-    free(u);
-    free(a);
     fracas_surface_operator_close(op);
     return b;
 }
@@ -230,8 +228,7 @@ static void follow(body *b, size_t which, double omega_dt)
                  dt = b->model->time_step = omega_dt / sqrt(b->value[0]),
                  square = b->value[which] * dt * dt;
     const double u = 1e-10, v = 0.3 * u / dt;
-    fracas_record record;
-    fracas_record_init(&record);
+    RECORD(record);
     size_t running;
     double largest = 0, most = 0;
     start(b, mode, u, v);
@@ -265,7 +262,6 @@ static void follow(body *b, size_t which, double omega_dt)
                          b->batch->step.elastic[0] * kinetic) < 1e-8 * most * largest * largest);
         assert_true(b->batch->step.cracked[0] == 0 && b->batch->step.dissipated[0] == 0);
     }
-    fracas_record_clear(&record);
     fracas_batch_destroy(b->batch);
 }
 
@@ -310,8 +306,7 @@ static void the_batch_blows_up_above_the_limit_only(void **unused)
         const bool above = i % 2;
         b.model->time_step = (above ? 1.001 : 0.999) * fracas_hulbert_chung_of(radii[i / 2]).limit /
                              sqrt(b.value[0]);
-        fracas_record record;
-        fracas_record_init(&record);
+        RECORD(record);
         start(&b, b.mode, 1e-16, 0);
         double largest = 0;
         size_t running = 1;
@@ -320,7 +315,6 @@ static void the_batch_blows_up_above_the_limit_only(void **unused)
             largest = apart(&b, b.mode, SURFACE_U, 0);
         }
         assert_true(above ? largest >= 1e-12 : largest < 1e-15);
-        fracas_record_clear(&record);
         fracas_batch_destroy(b.batch);
         body_end(&b);
     }

@@ -49,8 +49,8 @@ static void solve(const fracas_model *model, const double *f, double *u)
     const size_t n = unknowns_of(model), nodes = model->surface->corners;
     const fracas_surface_tables *t = tables_of(model);
     fracas_surface_operator *op = open_operator(model);
-    double *r = vector_of(n), *z = vector_of(n), *p = vector_of(n), *kp = vector_of(n), before = 1,
-           first = 0;
+    OWNED double *r = vector_of(n), *z = vector_of(n), *p = vector_of(n), *kp = vector_of(n);
+    double before = 1, first = 0;
     apply_stiffness(model, op, u, r);
     for (size_t i = 0; i < n; i++) r[i] = is_held(model, i) ? 0 : f[i] - r[i];
     for (int step = 0; step < 20000; step++) {
@@ -69,10 +69,6 @@ static void solve(const fracas_model *model, const double *f, double *u)
         }
         assert_true(step < 19999);
     }
-    free(r);
-    free(z);
-    free(p);
-    free(kp);
     fracas_surface_operator_close(op);
 }
 

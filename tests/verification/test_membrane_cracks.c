@@ -243,8 +243,7 @@ static void check_fate(fracas_model *model, double velocity[2][6], const double 
     const double onset = fmin(f[0].onset, f[1].onset), broken = fmax(f[0].broken, f[1].broken);
     model->spec.time.end = broken + 1.5 * model->time_step;
     OWN(fracas_batch) batch = lane_of(model, 0, 0, 0);
-    CLEARED(fracas_record) record;
-    fracas_record_init(&record);
+    RECORD(record);
     for (size_t k = 0; k < model->strengths; k++) bar_set_strength(batch, 0, k, strength[k]);
     OK(fracas_batch_begin(batch));
     for (size_t side = 0; side < 2; side++)
@@ -369,9 +368,8 @@ static void check_row(const fracas_model *model, int mode, int64_t in_the_row)
 {
     const double speed = 2, *size = &model->spec.geometry.width;
     OWN(fracas_batch) batch = lane_of(model, 0.2, 6, 10);
-    OWNED bool *in_row = calloc(model->interfaces, sizeof *in_row);
-    double(*at)[3] = malloc(model->interfaces * sizeof *at);
-    assert_true(in_row && at);
+    OWNED bool *in_row = zeroed(model->interfaces, sizeof *in_row);
+    double(*at)[3] = taken(model->interfaces * sizeof *at);
     fracas_model_interface_positions(model, at);
     int64_t row = 0;
     for (size_t i = 0; i < model->interfaces; i++) {
@@ -379,8 +377,7 @@ static void check_row(const fracas_model *model, int mode, int64_t in_the_row)
         row += in_row[i];
         bar_set_strength(batch, 0, i, in_row[i] ? (120 + 5.0 * (double)(i % 13)) * 1e6 : 8e8);
     }
-    CLEARED(fracas_record) record;
-    fracas_record_init(&record);
+    RECORD(record);
     OK(fracas_batch_begin(batch));
     move_halves(batch, mode, speed);
     run_to_end(batch, &record);
@@ -528,11 +525,9 @@ static void fragments_and_histories_of_a_plate(void **unused)
         if (which / 4) spec.time.safety = 0.1;
         OWN(fracas_model) model = distorted_model(spec, DISTORTION, 3);
         OWN(fracas_batch) batch = lane_of(model, 0.3, (uint64_t)which, 60);
-        CLEARED(fracas_record) record;
-        fracas_record_init(&record);
+        RECORD(record);
         OK(fracas_batch_run(batch, &record));
-        OWNED size_t *label = malloc(model->elements * sizeof *label);
-        assert_non_null(label);
+        OWNED size_t *label = taken(model->elements * sizeof *label);
         assert_int_equal(record.fragments,
                          label_fragments(model, record.interface, is_not_broken, 0, label));
         print_message("order %d, %s, %s: %lld fragments, %zu rows\n", model->surface->order,
@@ -551,8 +546,7 @@ static void an_interface_holds_by_its_last_point(void **unused)
     fracas_spec spec = brittle_plate(2, 1, 0, 1e-7);
     OWN(fracas_model) model = distorted_model(spec, 0, 0);
     OWN(fracas_batch) batch = lane_of(model, 0, 0, 0);
-    CLEARED(fracas_record) record;
-    fracas_record_init(&record);
+    RECORD(record);
     OK(fracas_batch_begin(batch));
     for (size_t i = 0; i < model->interfaces; i++)
         for (int g = 0; g < 3; g++) {
@@ -572,8 +566,7 @@ static void check_stop(const fracas_model *model, uint64_t replica)
 {
     const fracas_time *rule = &model->spec.time;
     OWN(fracas_batch) batch = lane_of(model, 0.3, replica, 100000);
-    CLEARED(fracas_record) record;
-    fracas_record_init(&record);
+    RECORD(record);
     OK(fracas_batch_run(batch, &record));
     assert_int_equal(record.nhistory, record.steps + 1);
     double peak = 0, time = 0;

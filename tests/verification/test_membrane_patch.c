@@ -16,8 +16,7 @@ static fracas_model *bent_plate(int64_t divisions, uint64_t seed)
     fracas_spec spec = membrane_spec(&fracas_shape_plate, 2, divisions);
     fracas_model *flat = distorted_model(spec, DISTORTION, seed), *model;
     fracas_surface bent = *flat->surface;
-    double(*node)[3] = malloc(bent.nnodes * sizeof *node);
-    assert_non_null(node);
+    double(*node)[3] = taken(bent.nnodes * sizeof *node);
     for (size_t n = 0; n < bent.nnodes; n++) {
         const double *x = bent.node[n];
         node[n][0] = x[0] + 0.4e-3 * sin(400 * x[1] + 1);
@@ -96,8 +95,8 @@ static void uniform_strain_is_exact(void **unused)
             OWN(fracas_model) model = distorted(which, 6, 5 + f);
             fracas_surface_operator *op = open_operator(model);
             const size_t n = unknowns_of(model);
-            double *u = vector_of(n), *force = vector_of(n), *expected = vector_of(n), stress[3],
-                   g[2][2], worst = 0;
+            OWNED double *u = vector_of(n), *force = vector_of(n), *expected = vector_of(n);
+            double stress[3], g[2][2], worst = 0;
             memcpy(g, fields[f].g, sizeof g);
             hooke(&model->spec.material, g, stress);
             interpolate(model, linear_at, &fields[f], u);
@@ -107,9 +106,6 @@ static void uniform_strain_is_exact(void **unused)
             print_message("body %d, field %zu: %zu elements, forces within %.1e of the largest\n",
                           which, f, model->elements, worst / largest_of(expected, n));
             assert_true(worst < 1e-12 * largest_of(expected, n));
-            free(u);
-            free(force);
-            free(expected);
             fracas_surface_operator_close(op);
         }
 }
@@ -125,7 +121,7 @@ static void rigid_motions_give_no_force(void **unused)
         OWN(fracas_model) model = distorted(which, 4, 11);
         fracas_surface_operator *op = open_operator(model);
         const size_t n = unknowns_of(model);
-        double *u = vector_of(n), *force = vector_of(n);
+        OWNED double *u = vector_of(n), *force = vector_of(n);
         u[n / 2] = 1;
         apply_stiffness(model, op, u, force);
         const double stiffness = largest_of(force, n);
@@ -136,8 +132,6 @@ static void rigid_motions_give_no_force(void **unused)
                           largest_of(force, n) / (stiffness * largest_of(u, n)));
             assert_true(largest_of(force, n) < 1e-14 * stiffness * largest_of(u, n));
         }
-        free(u);
-        free(force);
         fracas_surface_operator_close(op);
     }
 }
@@ -402,7 +396,7 @@ static double smallest_beta(fracas_spec spec, double distortion)
         n = unknowns_of(model);
         k[i] = stiffness_matrix(model, n);
     }
-    double *work = vector_of(n * n);
+    OWNED double *work = vector_of(n * n);
     const double lift = 1e-9 * largest_of(k[0], n * n);
     while (high - low > 1e-3) {
         const double beta = 0.5 * (low + high);
@@ -411,7 +405,6 @@ static double smallest_beta(fracas_spec spec, double distortion)
         if (is_positive(work, n)) high = beta;
         else low = beta;
     }
-    free(work);
     free(k[0]);
     free(k[1]);
     return high;
@@ -423,9 +416,8 @@ static gmsh_file equilateral(size_t n, int order)
 {
     const size_t step = (size_t)order, row = step * n + 1;
     const fracas_surface *surface = NULL;
-    double(*node)[3] = malloc(row * row * sizeof *node);
-    uint32_t *element = malloc(12 * n * n * sizeof *element), *put = element;
-    assert_true(node && element);
+    double(*node)[3] = taken(row * row * sizeof *node);
+    uint32_t *element = taken(12 * n * n * sizeof *element), *put = element;
     for (size_t j = 0; j < row; j++)
         for (size_t i = 0; i < row; i++) {
             node[row * j + i][0] = 1e-3 / order * ((double)i + 0.5 * (double)j);

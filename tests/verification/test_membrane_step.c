@@ -53,8 +53,9 @@ static void check_first_step(fracas_spec spec, int width)
     spec.cohesive.fracture_energy = 1e12;
     membrane_run run = begin(&spec, width);
     const size_t n = unknowns_of(run.model);
-    double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n), *a = vector_of(n),
-           *momentum = vector_of(n), worst = 0;
+    OWNED double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n), *a = vector_of(n),
+                 *momentum = vector_of(n);
+    double worst = 0;
     uint64_t noise = 3;
     for (size_t i = 0; i < n; i++) {
         *value_of(&run, i,
@@ -80,11 +81,6 @@ static void check_first_step(fracas_spec spec, int width)
     assert_true(fabs(run.batch->step.elastic[0] / elastic - 1) < 1e-12);
     assert_true(fabs(run.batch->step.kinetic[0] - kinetic) < 1e-12 * fabs(kinetic));
     fracas_surface_operator_close(op);
-    free(u);
-    free(v);
-    free(f);
-    free(a);
-    free(momentum);
     clear(&run);
 }
 

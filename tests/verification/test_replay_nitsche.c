@@ -117,7 +117,7 @@ static void write_figure(const dynfrag1d_run *run, const curve *const *curves, i
     snprintf(path, sizeof path, "%s/replay-%s.svg", folder, run->name);
     FILE *file = fopen(path, "w");
     if (!file) fail_msg("cannot write %s", path);
-    fracas_chart chart;
+    CLEARED(fracas_chart) chart;
     fracas_chart_init(&chart);
     snprintf(chart.title, sizeof chart.title, "Dissipated energy and fragments of run %s",
              run->name);
@@ -130,7 +130,6 @@ static void write_figure(const dynfrag1d_run *run, const curve *const *curves, i
         OK(add_curve(count, curves[k], rows, false));
     }
     fracas_chart_write(&chart, true, file);
-    fracas_chart_clear(&chart);
     assert_int_equal(fclose(file), 0);
 }
 

@@ -355,8 +355,9 @@ static void walk(const fracas_spec *spec, double scale, double distortion, long 
     const size_t n = unknowns_of(model);
     twin t = twin_of(model, batch);
     shell_answer answer = {.force = calloc(n, sizeof(double))};
-    double *from = calloc(n, sizeof *from), *to = calloc(n, sizeof *to), *u = calloc(n, sizeof *u),
-           size = 0, largest = 0, bending[2] = {0};
+    OWNED double *from = calloc(n, sizeof *from), *to = calloc(n, sizeof *to),
+                 *u = calloc(n, sizeof *u);
+    double size = 0, largest = 0, bending[2] = {0};
     assert_true(answer.force && from && to && u);
     const fracas_stream stream = {.seed = 8, .purpose = FRACAS_PURPOSE_MESH};
     uint64_t draw = 0;
@@ -405,9 +406,6 @@ static void walk(const fracas_spec *spec, double scale, double distortion, long 
         spec->cohesive.friction, spec->cohesive.critical_opening > 0 ? "delta_c" : "G_c",
         model->strengths, worst[0], worst[1], worst[2], bending[0] / bending[1], t.seen[0],
         t.seen[1], t.seen[2], t.seen[3], t.seen[4], t.seen[5], t.seen[6]);
-    free(from);
-    free(to);
-    free(u);
     free(answer.force);
     twin_clear(&t);
 }
@@ -526,8 +524,7 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
                                                     : 1;
     for (size_t e = 0; e < model->elements; e++)
         shell_tables(model)->held[e] = shell_tables(model)->fixed[e] = 0x3ffff;
-    OWNED double *velocity = calloc(n, sizeof *velocity);
-    assert_non_null(velocity);
+    OWNED double *velocity = zeroed(n, sizeof *velocity);
     const fracas_stream stream = {.seed = 12, .purpose = FRACAS_PURPOSE_MESH};
     for (uint64_t trial = 0; trial < 160 / model->interfaces; trial++) {
         const bool pressed = spec->cohesive.friction > 0 && trial % 2; /* and sheared at random */
@@ -621,8 +618,7 @@ static void an_interface_breaks_with_its_last_layer(void **unused)
         for (int p = 0; p < SHELL_EDGE * SHELL_LAYERS; p++)
             *fracas_surface_point(model, &batch->step, 0, p, SURFACE_DAMAGE,
                                   0) = p == last ? 1 - 0x1p-53 : 1;
-        CLEARED(fracas_record) record;
-        fracas_record_init(&record);
+        RECORD(record);
         batch->step.broken[0] = 1;
         OK(model->formulation->harvest(model, &batch->step, 0, &record));
         assert_true((record.interface[0].damage == 1) == (last == SHELL_EDGE * SHELL_LAYERS));

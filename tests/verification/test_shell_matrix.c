@@ -152,8 +152,7 @@ static element_state *states_of(const fracas_model *model)
 {
     static const double at[3][2] = {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}};
     const double h = model->spec.geometry.thickness;
-    element_state *state = calloc(model->elements, sizeof *state);
-    assert_non_null(state);
+    element_state *state = zeroed(model->elements, sizeof *state);
     for (size_t e = 0; e < model->elements; e++)
         for (int g = 0; g < 3; g++) {
             strains_at(model, e, at[g][0], at[g][1], state[e].eps[g], state[e].rho[g]);

@@ -136,9 +136,8 @@ static double step_of(bool even, double thickness_by_size, double beta, double b
     OWN(fracas_model) model = grid_model(
         &spec,
         &(shell_grid){.nx = n, .ny = n, .map = slant_map, .how = how, .diagonals = even ? 2 : 0});
-    const double step = model->critical_closed *
-                        sqrt(spec.material.young / (spec.material.density * (1 - 0.09))) / size;
-    return step;
+    return model->critical_closed *
+           sqrt(spec.material.young / (spec.material.density * (1 - 0.09))) / size;
 }
 
 /* dt_c = k2 h_s^2/(c_p h) where bending governs, k h_s/c_p where stretching does, h_s

@@ -24,7 +24,8 @@ static void rigid_motions_give_no_force(void **unused)
         OWN(fracas_model) model = body_of(which, shell_spec(&fracas_shape_sphere), 5, 7);
         fracas_surface_operator *op = open_operator(model);
         const size_t n = unknowns_of(model);
-        double *u = vector_of(n), *f = vector_of(n), stiffness = 0, worst = 0;
+        OWNED double *u = vector_of(n), *f = vector_of(n);
+        double stiffness = 0, worst = 0;
         for (size_t i = 0; i < SHELL_UNKNOWNS; i++) {
             u[n / SHELL_UNKNOWNS / 2 * SHELL_UNKNOWNS + i] = 1;
             apply_stiffness(model, op, u, f);
@@ -41,8 +42,6 @@ static void rigid_motions_give_no_force(void **unused)
         print_message("%s: %zu elements, forces of rigid motions within %.1e of max|K| max|u|\n",
                       body_name[which], model->elements, worst);
         assert_true(worst < 1e-14);
-        free(u);
-        free(f);
         fracas_surface_operator_close(op);
     }
 }
@@ -125,8 +124,8 @@ static void uniform_states_are_exact(void **unused)
         OWN(fracas_model) model = body_of(PLATE, shell_spec(&fracas_shape_file), 6, 5 + k);
         fracas_surface_operator *op = open_operator(model);
         const size_t size = unknowns_of(model);
-        double *u = vector_of(size), *f = vector_of(size), *expected = vector_of(size), n[3], m[3],
-               worst = 0;
+        OWNED double *u = vector_of(size), *f = vector_of(size), *expected = vector_of(size);
+        double n[3], m[3], worst = 0;
         const uniform_state *s = &states[k];
         resultants(&model->spec, s, n, m);
         interpolate(model, uniform_at, s, u);
@@ -141,9 +140,6 @@ static void uniform_states_are_exact(void **unused)
                       worst / largest_of(expected, size), energy);
         assert_true(worst < (m[0] == 0 && m[2] == 0 ? 1e-13 : 1e-10) * largest_of(expected, size));
         assert_true(fabs(energy) < 1e-12);
-        free(u);
-        free(f);
-        free(expected);
         fracas_surface_operator_close(op);
     }
 }

@@ -168,10 +168,8 @@ static uint32_t find_node(const double (*node)[3], size_t count, const double x[
 static fracas_model *mirrored(const fracas_model *octant)
 {
     const fracas_surface *s = octant->surface;
-    double(*node)[3] = calloc(8 * s->nnodes, sizeof *node);
-    OWNED uint32_t *element = calloc(8 * s->nelements * 6, sizeof *element);
-    assert_non_null(node);
-    assert_non_null(element);
+    double(*node)[3] = zeroed(8 * s->nnodes, sizeof *node);
+    OWNED uint32_t *element = zeroed(8 * s->nelements * 6, sizeof *element);
     size_t nodes = 0;
     for (size_t image = 0; image < 8; image++)
         for (size_t e = 0; e < s->nelements; e++)
@@ -246,8 +244,7 @@ static void symmetry_is_a_mirror(void **unused)
     OWNED double *u = vector_of(n), *f = vector_of(n), *u_all = vector_of(all),
                  *f_all = vector_of(all), *sign = vector_of(all);
     double worst = 0;
-    OWNED size_t *from = calloc(all, sizeof *from);
-    assert_non_null(from);
+    OWNED size_t *from = zeroed(all, sizeof *from);
     match(octant, whole, from, sign);
     uint64_t noise = 9;
     for (size_t i = 0; i < n; i++) u[i] = is_held(octant, i) ? 0 : next_share(&noise) - 0.5;

@@ -91,15 +91,13 @@ static double hemisphere(size_t n, double beta, double beta_shear, double distor
                                                               .seed = 3});
     shell_statics *s = statics_open_pinned(model,
                                            3 * 3 + 2); /* along z nothing holds or moves it */
-    double *f = vector_of(s->n), *u = vector_of(s->n);
+    OWNED double *f = vector_of(s->n), *u = vector_of(s->n);
     load_point(model, a, out, f);
     load_point(model, b, in, f);
     statics_solve(s, f, u);
     const double out_there = read_point(model, a, 0, u), in_there = -read_point(model, b, 1, u);
     assert_true(fabs(out_there / in_there - 1) <
                 0.02); /* the mesh alone is not the same from both */
-    free(f);
-    free(u);
     statics_close(s);
     return 0.5 * (out_there + in_there);
 }
@@ -136,12 +134,10 @@ static double roof(size_t n, double beta, double beta_shear, double distortion)
                                                               .distortion = distortion,
                                                               .seed = 3});
     shell_statics *s = statics_open(model);
-    double *f = vector_of(s->n), *u = vector_of(s->n);
+    OWNED double *f = vector_of(s->n), *u = vector_of(s->n);
     load_area(model, uniform, &load, 2, f);
     statics_solve(s, f, u);
     const double down = -read_point(model, at, 2, u);
-    free(f);
-    free(u);
     statics_close(s);
     return down;
 }
@@ -290,12 +286,10 @@ static void bending_converges_with_order_2(void **unused)
     for (int distorted = 0; distorted < 2; distorted++) {
         plate_errors errors[4];
         for (size_t k = 0; k < 4; k++) {
-            fracas_model *model = supported_plate((size_t)4 << k, 1e-3, 1,
-                                                  distorted ? DISTORTION : 0);
-            double *u = solve_plate(model, sine, 4 * pow(PI, 4) * stiffness_of(&model->spec));
+            OWN(fracas_model) model = supported_plate((size_t)4 << k, 1e-3, 1,
+                                                      distorted ? DISTORTION : 0);
+            OWNED double *u = solve_plate(model, sine, 4 * pow(PI, 4) * stiffness_of(&model->spec));
             errors[k] = errors_of(model, u);
-            free(u);
-            fracas_model_destroy(model);
             print_message("plate, %zu cells, moved by %g: L2 %.3e, energy %.3e", (size_t)4 << k,
                           distorted ? DISTORTION : 0, errors[k].l2, errors[k].energy);
             if (k > 0)

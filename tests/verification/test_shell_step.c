@@ -24,8 +24,8 @@ static void a_step_is_the_operator(void **unused)
                 spec.geometry.edge[1] = spec.geometry.edge[3] = &fracas_edge_clamped;
             shell_run run = shell_begin(body_of(which, spec, 3, 5), widths[w], 1e3);
             const size_t n = unknowns_of(run.model);
-            double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n), worst = 0, kinetic = 0,
-                   largest = 0;
+            OWNED double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n);
+            double worst = 0, kinetic = 0, largest = 0;
             uint64_t noise = 3;
             for (size_t i = 0; i < n; i++) {
                 *value_of(&run, i, SURFACE_U) = u[i] = is_held(run.model, i)
@@ -54,9 +54,6 @@ static void a_step_is_the_operator(void **unused)
             assert_true(fabs(run.batch->step.elastic[0] / elastic - 1) < 1e-12);
             assert_true(fabs(run.batch->step.kinetic[0] - kinetic) < 1e-12 * fabs(kinetic));
             fracas_surface_operator_close(op);
-            free(u);
-            free(v);
-            free(f);
             shell_clear(&run);
         }
 }

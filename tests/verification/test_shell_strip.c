@@ -70,8 +70,7 @@ static strip strip_of(const fracas_spec *spec, bool sliding, double strength)
     s.batch = lane_of(s.model, 0, 0);
     bar_set_strength(s.batch, 0, 0, strength);
     OK(fracas_batch_begin(s.batch));
-    s.answer.force = calloc(36, sizeof(double));
-    assert_non_null(s.answer.force);
+    s.answer.force = zeroed(36, sizeof(double));
     s.length = sqrt(2) * spec->geometry.width;
     s.span[0] = spec->geometry.width * spec->geometry.height / s.length;
     s.span[1] = (sliding ? 2 : 1) * s.span[0];
