@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/compare/methods.h"
+#include "analysis/data/room.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_sort.h>
 #include <math.h>
-#include <stdlib.h>
 
 static void put_intervals(double error, double relative_error, fracas_compared_value *value)
 {
@@ -69,23 +69,22 @@ void fracas_difference_of_pairs(const double *a, const double *b, size_t n, size
 /* (compare.10) */
 fracas_err fracas_holm(const double *p, size_t count, size_t stride, double *corrected)
 {
-    double *value = calloc(count + 1, sizeof *value);
-    size_t *order = malloc((count + 1) * sizeof *order), tests = 0;
-    if (value && order) {
-        for (size_t i = 0; i < count; i++) {
-            corrected[i * stride] = NAN;
-            value[i] = isfinite(p[i * stride]) ? p[i * stride] : 2; /* behind all tests */
-            tests += isfinite(p[i * stride]);
-        }
-        gsl_sort_index(order, value, 1, count);
-        double most = 0;
-        for (size_t k = 0; k < tests; k++) {
-            most = fmax(most, fmin(1, (double)(tests - k) * value[order[k]]));
-            corrected[order[k] * stride] = most;
-        }
+    fracas_room room = {0};
+    double *value, most = 0;
+    size_t *order, tests = 0;
+    FRACAS_TAKE(&room, value, count);
+    FRACAS_TAKE(&room, order, count);
+    const fracas_err err = fracas_room_check(&room, "the corrections of p");
+    for (size_t i = 0; i < count && !err; i++) {
+        corrected[i * stride] = NAN;
+        value[i] = isfinite(p[i * stride]) ? p[i * stride] : 2; /* behind all tests */
+        tests += isfinite(p[i * stride]);
     }
-    const bool room = value && order;
-    free(value);
-    free(order);
-    return room ? FRACAS_OK : fracas_no_memory("the corrections of p");
+    if (!err) gsl_sort_index(order, value, 1, count);
+    for (size_t k = 0; k < tests; k++) {
+        most = fmax(most, fmin(1, (double)(tests - k) * value[order[k]]));
+        corrected[order[k] * stride] = most;
+    }
+    fracas_room_clear(&room);
+    return err;
 }

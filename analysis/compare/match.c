@@ -2,6 +2,7 @@
 #include "analysis/compare/methods.h"
 
 #include "analysis/data/format.h"
+#include "analysis/data/room.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -126,15 +127,16 @@ static fracas_err match(const fracas_point_table *a, const fracas_point_table *b
 fracas_err fracas_match_points(const fracas_point_table *a, const fracas_point_table *b,
                                const char *by, size_t *partner, char *how, size_t size)
 {
-    char *names = by ? strdup(by) : NULL;
-    const char **path = malloc((a->ncolumns + (by ? strlen(by) : 0) + 1) * sizeof *path);
-    bool *taken = calloc(b->npoints + 1, sizeof *taken);
-    fracas_err err = path && taken && (names || !by)
-                         ? match(a, b, names, path, taken, partner, how, size)
-                         : fracas_no_memory("the points");
-    free(names);
-    free(path);
-    free(taken);
+    fracas_room room = {0};
+    char *names = NULL;
+    const char **path;
+    bool *taken;
+    FRACAS_TAKE(&room, path, a->ncolumns + (by ? strlen(by) : 0));
+    FRACAS_TAKE(&room, taken, b->npoints);
+    if (by && FRACAS_TAKE(&room, names, strlen(by))) memcpy(names, by, strlen(by));
+    fracas_err err = fracas_room_check(&room, "the points");
+    if (!err) err = match(a, b, names, path, taken, partner, how, size);
+    fracas_room_clear(&room);
     return err;
 }
 

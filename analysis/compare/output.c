@@ -8,7 +8,6 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- for a terminal ---- */
@@ -131,10 +130,7 @@ fracas_err fracas_comparison_print(const fracas_comparison *comparison, const fr
 
 /* ---- JSON ---- */
 
-#define NUMBER(key, doc)                                                         \
-    {                                                                            \
-#key, FRACAS_FIELD_NUMBER, "", doc, offsetof(fracas_compared_value, key) \
-    }
+#define NUMBER(key, doc) FRACAS_FIELD(fracas_compared_value, NUMBER, #key, "", doc, key)
 static const fracas_field value_field[] = {
     {"a", FRACAS_FIELD_OBJECT, "", "number in A", offsetof(fracas_compared_value, a),
      &fracas_estimate_fields},
@@ -153,10 +149,8 @@ static const fracas_field value_field[] = {
 static const fracas_fields value_fields = FRACAS_FIELDS(value_field);
 #undef NUMBER
 
-#define POINT(key, type, doc, member)                                              \
-    {                                                                              \
-        key, FRACAS_FIELD_##type, "", doc, offsetof(fracas_compared_point, member) \
-    }
+#define POINT(key, type, doc, member) \
+    FRACAS_FIELD(fracas_compared_point, type, key, "", doc, member)
 static const fracas_field point_field[] = {
     POINT("point_a", INDEX, "number of the point in A", a),
     POINT("point_b", INDEX, "number of the point in B", b),

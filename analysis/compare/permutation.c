@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/compare/methods.h"
+#include "analysis/data/room.h"
 
 #include <gsl/gsl_combination.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double hair = 1e-10; /* statistics equal to rounding are equal */
 
 typedef struct {
+    fracas_room room;
     const fracas_two_samples *of;
     size_t n;      /* na + nb */
     double *value; /* as given, less their mean and over their deviation: equal in statistic, better
@@ -211,31 +212,22 @@ fracas_err fracas_permutation_test(const fracas_two_samples *samples, int64_t pe
     *count = 0;
     *exact = false;
     if (samples->na == 0 || samples->nb == 0) return FRACAS_OK;
-    double *room = calloc(n * nv + 6 * nv + 2 * (nc + 1) + 3 * (nv + 1), sizeof *room);
-    bool *in_a = calloc(n, sizeof *in_a);
-    fracas_err err = room && in_a ? FRACAS_OK : fracas_no_memory("a permutation test");
-    if (!err) {
-        double *at = room + n * nv;
-        permuter p = {.of = samples,
-                      .n = n,
-                      .value = room,
-                      .in_a = in_a,
-                      .sum = at,
-                      .square = at + nv,
-                      .known = at + 2 * nv,
-                      .all_sum = at + 3 * nv,
-                      .all_square = at + 4 * nv,
-                      .all_known = at + 5 * nv};
-        at += 6 * nv;
-        p.cut = at;
-        p.all_cut = at + nc + 1;
-        at += 2 * (nc + 1);
-        p.statistic = at;
-        p.observed = at + nv + 1;
-        p.reached = at + 2 * (nv + 1);
-        err = test(&p, permutations, seed, result, count, exact);
-    }
-    free(room);
-    free(in_a);
+    permuter p = {.of = samples, .n = n};
+    FRACAS_TAKE(&p.room, p.value, n * nv);
+    FRACAS_TAKE(&p.room, p.in_a, n);
+    FRACAS_TAKE(&p.room, p.sum, nv);
+    FRACAS_TAKE(&p.room, p.square, nv);
+    FRACAS_TAKE(&p.room, p.known, nv);
+    FRACAS_TAKE(&p.room, p.all_sum, nv);
+    FRACAS_TAKE(&p.room, p.all_square, nv);
+    FRACAS_TAKE(&p.room, p.all_known, nv);
+    FRACAS_TAKE(&p.room, p.cut, nc);
+    FRACAS_TAKE(&p.room, p.all_cut, nc);
+    FRACAS_TAKE(&p.room, p.statistic, nv);
+    FRACAS_TAKE(&p.room, p.observed, nv);
+    FRACAS_TAKE(&p.room, p.reached, nv);
+    fracas_err err = fracas_room_check(&p.room, "a permutation test");
+    if (!err) err = test(&p, permutations, seed, result, count, exact);
+    fracas_room_clear(&p.room);
     return err;
 }

@@ -3,6 +3,7 @@
 
 #include "analysis/compare/methods.h"
 #include "base/param.h"
+#include "analysis/data/room.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -200,14 +201,13 @@ fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t be
                                       const fracas_ensemble *b, const fracas_refinement_map *map)
 {
     const fracas_ensemble *a = &convergence->study->point[before].ensemble;
-    two_samples samples = {
-        .value = {malloc((a->nrealizations + 1) * sizeof(double)),
-                  malloc((a->nrealizations + b->nrealizations + 1) * sizeof(double))}};
-    fracas_err err = samples.value[0] && samples.value[1]
-                         ? compare_point(convergence, before, b, map, &samples)
-                         : fracas_no_memory("the realizations of two points");
-    free(samples.value[0]);
-    free(samples.value[1]);
+    two_samples samples;
+    fracas_room room = {0};
+    FRACAS_TAKE(&room, samples.value[0], a->nrealizations);
+    FRACAS_TAKE(&room, samples.value[1], a->nrealizations + b->nrealizations);
+    fracas_err err = fracas_room_check(&room, "the realizations of two points");
+    if (!err) err = compare_point(convergence, before, b, map, &samples);
+    fracas_room_clear(&room);
     return err;
 }
 

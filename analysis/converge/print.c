@@ -292,10 +292,7 @@ static const fracas_field mean_field[] = {
 };
 static const fracas_fields mean_fields = FRACAS_FIELDS(mean_field);
 
-#define FIELD(key, type, member)                                    \
-    {                                                               \
-        key, FRACAS_FIELD_##type, "", "", offsetof(printed, member) \
-    }
+#define FIELD(key, type, member) FRACAS_FIELD(printed, type, key, "", "", member)
 #define NUMBER(key) FIELD(#key, NUMBER, value.key)
 static const fracas_field place_field[] = {
     FIELD("refinement", TEXT, refinement),

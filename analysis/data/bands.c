@@ -2,7 +2,6 @@
 #include "analysis/data/bands.h"
 
 #include <gsl/gsl_sort.h>
-#include <math.h>
 #include <stdlib.h>
 
 static const fracas_field band_fields[] = {

@@ -39,6 +39,16 @@ typedef struct fracas_fields {
     size_t count;
 } fracas_fields;
 
+/* A field in the struct `row`. */
+#define FRACAS_FIELD(row, kind, key, unit, doc, member)            \
+    {                                                              \
+        key, FRACAS_FIELD_##kind, unit, doc, offsetof(row, member) \
+    }
+#define FRACAS_FIELD_OF(row, members, key, unit, doc, member)                  \
+    {                                                                          \
+        key, FRACAS_FIELD_OBJECT, unit, doc, offsetof(row, member), &(members) \
+    }
+
 /* The table of an array of fields. */
 #define FRACAS_FIELDS(array)                      \
     {                                             \

@@ -4,7 +4,6 @@
 #include <errno.h>
 #include <stdbool.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 fracas_err fracas_output_open(const char *folder, const char *name, fracas_output_file *output)

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { FRACAS_ROOM_BLOCKS = 12 };
+enum { FRACAS_ROOM_BLOCKS = 16 };
 
 typedef struct {
     void *block[FRACAS_ROOM_BLOCKS];

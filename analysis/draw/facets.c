@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* From above on the left, in the frame of the view; of length 1. */
 static const double lamp[3] = {-0.36, 0.48, 0.8};

@@ -32,10 +32,17 @@ static const fracas_field running_fields[] = {
     FRACAS_HEADLINES(HEADLINE)};
 const fracas_fields fracas_running_fields = FRACAS_FIELDS(running_fields);
 
-static void settle(const double *value, size_t n, fracas_settling *number)
+/* Places of the headline numbers of a replica, those before the pooled ones. */
+static const size_t place[FRACAS_HEADLINE_MEAN] = {
+    [FRACAS_HEADLINE_COUNT] = offsetof(fracas_replica_values, count),
+    [FRACAS_HEADLINE_SIZE] = offsetof(fracas_replica_values, size),
+    [FRACAS_HEADLINE_DISSIPATED] = offsetof(fracas_replica_values, dissipated),
+    [FRACAS_HEADLINE_LARGEST_SHARE] = offsetof(fracas_replica_values, largest_share),
+};
+
+static const double *values_of(const fracas_replica_values *first, int headline)
 {
-    const fracas_estimate of = fracas_estimate_of(value, FRACAS_REPLICA_STRIDE, n);
-    *number = (fracas_settling){of.mean, of.mean - of.half_width, of.mean + of.half_width};
+    return (const void *)((const char *)first + place[headline]);
 }
 
 /* From the first n realizations, n > 0. */
@@ -43,10 +50,11 @@ static fracas_err run(const fracas_ensemble *ensemble, size_t n, uint64_t seed,
                       fracas_settling number[FRACAS_NHEADLINES])
 {
     fracas_interval pooled[FRACAS_NPOOLED];
-    settle(&ensemble->value->count, n, &number[FRACAS_HEADLINE_COUNT]);
-    settle(&ensemble->value->size, n, &number[FRACAS_HEADLINE_SIZE]);
-    settle(&ensemble->value->dissipated, n, &number[FRACAS_HEADLINE_DISSIPATED]);
-    settle(&ensemble->value->largest_share, n, &number[FRACAS_HEADLINE_LARGEST_SHARE]);
+    for (int h = 0; h < FRACAS_HEADLINE_MEAN; h++) {
+        const fracas_estimate of = fracas_estimate_of(values_of(ensemble->value, h),
+                                                      FRACAS_REPLICA_STRIDE, n);
+        number[h] = (fracas_settling){of.mean, of.mean - of.half_width, of.mean + of.half_width};
+    }
     TRY(fracas_pooled_first(ensemble, n, seed, pooled));
     for (int v = 0; v < FRACAS_NPOOLED; v++)
         number[FRACAS_HEADLINE_MEAN + v] = (fracas_settling){pooled[v].value, pooled[v].low,
@@ -57,13 +65,9 @@ static fracas_err run(const fracas_ensemble *ensemble, size_t n, uint64_t seed,
 static fracas_err run_part(const fracas_ensemble *ensemble, size_t begin, size_t end,
                            fracas_part part[FRACAS_NHEADLINES])
 {
-    const fracas_replica_values *of = ensemble->value + begin;
-    const size_t n = end - begin;
-    part[FRACAS_HEADLINE_COUNT] = fracas_part_of(&of->count, FRACAS_REPLICA_STRIDE, n);
-    part[FRACAS_HEADLINE_SIZE] = fracas_part_of(&of->size, FRACAS_REPLICA_STRIDE, n);
-    part[FRACAS_HEADLINE_DISSIPATED] = fracas_part_of(&of->dissipated, FRACAS_REPLICA_STRIDE, n);
-    part[FRACAS_HEADLINE_LARGEST_SHARE] = fracas_part_of(&of->largest_share, FRACAS_REPLICA_STRIDE,
-                                                         n);
+    for (int h = 0; h < FRACAS_HEADLINE_MEAN; h++)
+        part[h] = fracas_part_of(values_of(ensemble->value + begin, h), FRACAS_REPLICA_STRIDE,
+                                 end - begin);
     return fracas_pooled_part(ensemble, begin, end, part + FRACAS_HEADLINE_MEAN);
 }
 

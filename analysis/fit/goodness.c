@@ -5,7 +5,6 @@
 
 #include <gsl/gsl_randist.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* (fits.9), (fits.10) */

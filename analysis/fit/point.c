@@ -4,7 +4,6 @@
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
 #include <math.h>
-#include <stdlib.h>
 
 static const fracas_interval NO_INTERVAL = {NAN, NAN, NAN, NAN, NAN, 0};
 

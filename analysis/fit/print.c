@@ -7,7 +7,6 @@
 #include "base/json.h"
 
 #include <math.h>
-#include <string.h>
 
 static double value_of(const fracas_fits *fits, int64_t point, const char *family,
                        const char *quantity)
@@ -159,10 +158,7 @@ void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis,
             print_point(fits, analysis, (int64_t)p, out);
 }
 
-#define FIELD(key, type)                                                  \
-    {                                                                     \
-#key, FRACAS_FIELD_##type, "", "", offsetof(fracas_fits_row, key) \
-    }
+#define FIELD(key, type) FRACAS_FIELD(fracas_fits_row, type, #key, "", "", key)
 static const fracas_field row_field[] = {
     FIELD(point, INTEGER),     FIELD(hash, CHARS),   FIELD(family, CHARS), FIELD(quantity, CHARS),
     FIELD(unit, CHARS),        FIELD(value, NUMBER), FIELD(low, NUMBER),   FIELD(high, NUMBER),

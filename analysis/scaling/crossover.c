@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/scaling/scaling.h"
+#include "analysis/data/room.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit_nlinear.h>
@@ -10,15 +11,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define NUMBER(key, doc, member)                                                    \
-    {                                                                               \
-        key, FRACAS_FIELD_NUMBER, "1", doc, offsetof(fracas_size_crossover, member) \
-    }
-#define INTERVAL(key, unit, doc, member)                                              \
-    {                                                                                 \
-        key, FRACAS_FIELD_OBJECT, unit, doc, offsetof(fracas_size_crossover, member), \
-            &fracas_interval_error_fields                                             \
-    }
+#define NUMBER(key, doc, member) FRACAS_FIELD(fracas_size_crossover, NUMBER, key, "1", doc, member)
+#define INTERVAL(key, unit, doc, member) \
+    FRACAS_FIELD_OF(fracas_size_crossover, fracas_interval_error_fields, key, unit, doc, member)
 static const fracas_field fields[] = {
     {"series", FRACAS_FIELD_CHARS, "", "name of the series", offsetof(fracas_size_crossover, name)},
     {"points", FRACAS_FIELD_INTEGER, "1", "points in the fit", offsetof(fracas_size_crossover, n)},
@@ -301,20 +296,19 @@ static fracas_err fit_series(const fracas_size_series *series, int64_t resamples
                                          .pooled = NAN,
                                          .inflation = NAN};
     FRACAS_PRINT(crossover->name, "%s", series->name);
-    double *value = malloc((3 * series->n + 1) * sizeof *value);
-    fitter of = {.mean = malloc((series->n + 1) * sizeof *of.mean),
-                 .known = malloc((series->n + 1) * sizeof *of.known)};
-    fracas_err err = value && of.mean && of.known ? FRACAS_OK : fracas_no_memory("a crossover");
-    of.x = value;
-    of.y = value ? value + series->n : NULL;
-    of.error = value ? value + 2 * series->n : NULL;
+    fitter of = {0};
+    fracas_room room = {0};
+    FRACAS_TAKE(&room, of.x, series->n);
+    FRACAS_TAKE(&room, of.y, series->n);
+    FRACAS_TAKE(&room, of.error, series->n);
+    FRACAS_TAKE(&room, of.mean, series->n);
+    FRACAS_TAKE(&room, of.known, series->n);
+    fracas_err err = fracas_room_check(&room, "a crossover");
     if (!err) err = fit_taken(series, resamples, seed, &of, crossover);
     crossover->rate_normalised = scaled(&crossover->rate, 1 / series->scales.rate);
     crossover->size_normalised = scaled(&crossover->size, 1 / series->scales.size);
     crossover->low_exponent = *crossover->reason ? NAN : 0;
-    free(value);
-    free(of.mean);
-    free(of.known);
+    fracas_room_clear(&room);
     return err;
 }
 

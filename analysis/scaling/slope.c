@@ -2,16 +2,13 @@
 #include "analysis/scaling/scaling.h"
 
 #include "analysis/summary/study.h"
+#include "analysis/data/room.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
-#define NUMBER(key, doc, member)                                                \
-    {                                                                           \
-        key, FRACAS_FIELD_NUMBER, "1", doc, offsetof(fracas_size_slope, member) \
-    }
+#define NUMBER(key, doc, member) FRACAS_FIELD(fracas_size_slope, NUMBER, key, "1", doc, member)
 static const fracas_field fields[] = {
     {"series", FRACAS_FIELD_CHARS, "", "name of the series, or all points",
      offsetof(fracas_size_slope, name)},
@@ -169,20 +166,19 @@ fracas_err fracas_size_slopes(const fracas_analysis *analysis, fracas_size_slope
     *list = NULL;
     fracas_columns others;
     TRY(fracas_columns_without_rate(analysis->table, &analysis->shown, &others));
-    double *value = calloc(2 * npoints + 1, sizeof *value);
-    fracas_mean *mean = calloc(npoints + 1, sizeof *mean);
-    fracas_mean_error *error = calloc(npoints + 1, sizeof *error);
+    fracas_room room = {0};
+    fitter of = {.analysis = analysis, .others = &others};
+    FRACAS_TAKE(&room, of.x, npoints);
+    FRACAS_TAKE(&room, of.y, npoints);
+    FRACAS_TAKE(&room, of.mean, npoints);
+    FRACAS_TAKE(&room, of.error, npoints);
     fracas_size_slope *made = calloc(npoints + 2, sizeof *made);
-    const bool room = value && mean && error && made;
-    if (room) {
-        fitter of = {analysis, &others, value, value + npoints, mean, error};
-        fit_all(&of, made, count);
-    }
+    fracas_err err = made ? fracas_room_check(&room, "the slopes of the study")
+                          : fracas_no_memory("the slopes of the study");
+    if (!err) fit_all(&of, made, count);
+    if (err) free(made);
+    else *list = made;
     fracas_columns_clear(&others);
-    free(value);
-    free(mean);
-    free(error);
-    if (room) *list = made;
-    else free(made);
-    return *list ? FRACAS_OK : fracas_no_memory("the slopes of the study");
+    fracas_room_clear(&room);
+    return err;
 }

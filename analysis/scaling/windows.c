@@ -8,10 +8,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define NUMBER(key, unit, doc, member)                                            \
-    {                                                                             \
-        key, FRACAS_FIELD_NUMBER, unit, doc, offsetof(fracas_size_window, member) \
-    }
+#define NUMBER(key, unit, doc, member) \
+    FRACAS_FIELD(fracas_size_window, NUMBER, key, unit, doc, member)
 static const fracas_field fields[] = {
     {"series", FRACAS_FIELD_CHARS, "", "name of the series", offsetof(fracas_size_window, name)},
     {"from_point", FRACAS_FIELD_INDEX, "1", "point of the lower rate",

@@ -9,10 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COUNT(key, doc)                                                      \
-    {                                                                        \
-#key, FRACAS_FIELD_INTEGER, "1", doc, offsetof(fracas_progress, key) \
-    }
+#define COUNT(key, doc) FRACAS_FIELD(fracas_progress, INTEGER, #key, "1", doc, key)
 static const fracas_field progress_fields[] = {
     COUNT(planned, "realizations planned, by now where a rule decides their number"),
     COUNT(done, "realizations that are there"),

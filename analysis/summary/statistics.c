@@ -11,18 +11,12 @@
 #include <string.h>
 
 #define PLACE(member) offsetof(fracas_point_statistics, member)
-#define NUMBER(key, unit, doc, member)                     \
-    {                                                      \
-        key, FRACAS_FIELD_NUMBER, unit, doc, PLACE(member) \
-    }
-#define COUNTED(key, doc, member)                          \
-    {                                                      \
-        key, FRACAS_FIELD_INTEGER, "1", doc, PLACE(member) \
-    }
-#define INTERVAL(key, unit, doc, member)                                            \
-    {                                                                               \
-        key, FRACAS_FIELD_OBJECT, unit, doc, PLACE(member), &fracas_interval_fields \
-    }
+#define NUMBER(key, unit, doc, member) \
+    FRACAS_FIELD(fracas_point_statistics, NUMBER, key, unit, doc, member)
+#define COUNTED(key, doc, member) \
+    FRACAS_FIELD(fracas_point_statistics, INTEGER, key, "1", doc, member)
+#define INTERVAL(key, unit, doc, member) \
+    FRACAS_FIELD_OF(fracas_point_statistics, fracas_interval_fields, key, unit, doc, member)
 #define ESTIMATE(key, unit, doc) \
     {#key, FRACAS_FIELD_OBJECT, unit, doc, PLACE(key), &fracas_estimate_fields},
 #define CONVERGED(name, key, unit)                      \
@@ -30,11 +24,8 @@
      "1 if " key " is converged with replicas, else 0", \
      PLACE(convergence.converged[FRACAS_HEADLINE_##name])},
 
-#define SIZES(key, unit, doc, member)                                        \
-    {                                                                        \
-        key, FRACAS_FIELD_OBJECT, unit, doc, offsetof(fracas_sizes, member), \
-            &fracas_interval_fields                                          \
-    }
+#define SIZES(key, unit, doc, member) \
+    FRACAS_FIELD_OF(fracas_sizes, fracas_interval_fields, key, unit, doc, member)
 static const fracas_field sizes_fields[] = {
     SIZES("mean", "m", "mean size of %s", mean),
     SIZES("mass_mean", "m", "mean size, weighed by mass, of %s", mass_mean),
