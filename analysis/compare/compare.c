@@ -4,6 +4,7 @@
 #include "analysis/compare/methods.h"
 #include "analysis/data/room.h"
 #include "analysis/summary/study.h"
+#include "base/own.h"
 
 #include <gsl/gsl_sort.h>
 #include <math.h>
@@ -20,7 +21,6 @@ const fracas_compared_quantity fracas_compared_quantities[FRACAS_COMPARED_VALUES
 
 /* The compared realizations of both points, those of A first. */
 typedef struct {
-    fracas_room room;
     size_t na, nb;
     const fracas_ensemble *a, *b;
     size_t *index;             /* na + nb: which of the ensemble */
@@ -71,16 +71,16 @@ static void forget_rounding(gathered *of, bool paired)
 }
 
 static fracas_err gather(const fracas_ensemble *a, const fracas_ensemble *b, bool paired,
-                         gathered *of)
+                         fracas_room *room, gathered *of)
 {
     *of = (gathered){.na = a->nrealizations, .nb = b->nrealizations, .a = a, .b = b};
     const size_t n = of->na + of->nb;
-    FRACAS_TAKE(&of->room, of->index, n);
-    FRACAS_TAKE(&of->room, of->value, n * FRACAS_COMPARED_VALUES);
-    FRACAS_TAKE(&of->room, of->below, n * CUTS);
-    FRACAS_TAKE(&of->room, of->fragments, n);
-    FRACAS_TAKE(&of->room, of->cut, CUTS);
-    TRY(fracas_room_check(&of->room, "the realizations of two points"));
+    FRACAS_TAKE(room, of->index, n);
+    FRACAS_TAKE(room, of->value, n * FRACAS_COMPARED_VALUES);
+    FRACAS_TAKE(room, of->below, n * CUTS);
+    FRACAS_TAKE(room, of->fragments, n);
+    FRACAS_TAKE(room, of->cut, CUTS);
+    TRY(fracas_room_check(room, "the realizations of two points"));
     for (size_t i = 0; i < n; i++) of->index[i] = i < of->na ? i : i - of->na;
     if (paired) pair_up(of);
     for (size_t i = 0; i < of->na + of->nb; i++) {
@@ -173,23 +173,19 @@ static fracas_err compare_points(const fracas_analysis *a, const fracas_analysis
     point->label = fracas_analysis_label(a, point->a);
     fracas_match_differs(a->table, point->a, b->table, point->b, point->differs,
                          sizeof point->differs);
-    gathered of;
-    fracas_err err = gather(&a->point[point->a].ensemble, &b->point[point->b].ensemble,
-                            point->paired, &of);
-    if (!err) {
-        const size_t nv = FRACAS_COMPARED_VALUES;
-        point->used_a = (int64_t)of.na;
-        point->used_b = (int64_t)of.nb;
-        for (size_t v = 0; v < nv; v++) {
-            const double *first = of.value + v, *second = of.value + of.na * nv + v;
-            if (point->paired)
-                fracas_difference_of_pairs(first, second, of.na, nv, &point->value[v]);
-            else fracas_difference_of(first, of.na, second, of.nb, nv, &point->value[v]);
-        }
-        err = test(&of, options, point);
+    const size_t nv = FRACAS_COMPARED_VALUES;
+    gathered of = {.na = 0};
+    FRACAS_CLEARED(fracas_room) room = {0};
+    TRY(gather(&a->point[point->a].ensemble, &b->point[point->b].ensemble, point->paired, &room,
+               &of));
+    point->used_a = (int64_t)of.na;
+    point->used_b = (int64_t)of.nb;
+    for (size_t v = 0; v < nv; v++) {
+        const double *first = of.value + v, *second = of.value + of.na * nv + v;
+        if (point->paired) fracas_difference_of_pairs(first, second, of.na, nv, &point->value[v]);
+        else fracas_difference_of(first, of.na, second, of.nb, nv, &point->value[v]);
     }
-    fracas_room_clear(&of.room);
-    return err;
+    return test(&of, options, point);
 }
 
 static fracas_err correct(fracas_comparison *comparison)
@@ -232,7 +228,7 @@ fracas_err fracas_compare(const fracas_analysis *a, const fracas_analysis *b,
                           const fracas_compare_options *options, fracas_comparison *comparison)
 {
     *comparison = (fracas_comparison){0};
-    size_t *partner = malloc((a->table->npoints + 1) * sizeof *partner);
+    OWNED size_t *partner = malloc((a->table->npoints + 1) * sizeof *partner);
     if (!partner) return fracas_no_memory("the points of two studies");
     fracas_err err = fracas_match_points(a->table, b->table, options->by, partner, comparison->how,
                                          sizeof comparison->how);
@@ -240,7 +236,6 @@ fracas_err fracas_compare(const fracas_analysis *a, const fracas_analysis *b,
     for (size_t i = 0; i < comparison->npoints && !err; i++)
         err = compare_points(a, b, options, &comparison->point[i]);
     if (!err) err = correct(comparison);
-    free(partner);
     if (err) fracas_comparison_clear(comparison);
     return err;
 }

@@ -3,6 +3,7 @@
 
 #include "analysis/data/format.h"
 #include "analysis/data/room.h"
+#include "base/own.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -87,22 +88,20 @@ static fracas_err match_values(const fracas_point_table *a, const fracas_point_t
                                const char *const *path, size_t count, const char *how,
                                size_t *partner, const bool *taken)
 {
-    size_t *owner = malloc((b->npoints + 1) * sizeof *owner);
+    OWNED size_t *owner = malloc((b->npoints + 1) * sizeof *owner);
     if (!owner) return fracas_no_memory("the points");
-    fracas_err err = FRACAS_OK;
     for (size_t q = 0; q < b->npoints; q++) owner[q] = SIZE_MAX;
-    for (size_t p = 0; p < a->npoints && !err; p++) {
+    for (size_t p = 0; p < a->npoints; p++) {
         if (partner[p] != SIZE_MAX) continue;
-        for (size_t q = 0; q < b->npoints && !err; q++) {
+        for (size_t q = 0; q < b->npoints; q++) {
             if (taken[q] || !alike(a, p, b, q, path, count)) continue;
-            if (partner[p] != SIZE_MAX) err = ambiguous("second", partner[p], q, how);
-            else if (owner[q] != SIZE_MAX) err = ambiguous("first", owner[q], p, how);
+            if (partner[p] != SIZE_MAX) return ambiguous("second", partner[p], q, how);
+            if (owner[q] != SIZE_MAX) return ambiguous("first", owner[q], p, how);
             partner[p] = q;
             owner[q] = p;
         }
     }
-    free(owner);
-    return err;
+    return FRACAS_OK;
 }
 
 static fracas_err match(const fracas_point_table *a, const fracas_point_table *b, char *by,
@@ -127,17 +126,15 @@ static fracas_err match(const fracas_point_table *a, const fracas_point_table *b
 fracas_err fracas_match_points(const fracas_point_table *a, const fracas_point_table *b,
                                const char *by, size_t *partner, char *how, size_t size)
 {
-    fracas_room room = {0};
+    FRACAS_CLEARED(fracas_room) room = {0};
     char *names = NULL;
     const char **path;
     bool *taken;
     FRACAS_TAKE(&room, path, a->ncolumns + (by ? strlen(by) : 0));
     FRACAS_TAKE(&room, taken, b->npoints);
     if (by && FRACAS_TAKE(&room, names, strlen(by))) memcpy(names, by, strlen(by));
-    fracas_err err = fracas_room_check(&room, "the points");
-    if (!err) err = match(a, b, names, path, taken, partner, how, size);
-    fracas_room_clear(&room);
-    return err;
+    TRY(fracas_room_check(&room, "the points"));
+    return match(a, b, names, path, taken, partner, how, size);
 }
 
 static void show(const fracas_value *value, char text[64])

@@ -11,7 +11,6 @@
 static const double hair = 1e-10; /* statistics equal to rounding are equal */
 
 typedef struct {
-    fracas_room room;
     const fracas_two_samples *of;
     size_t n;      /* na + nb */
     double *value; /* as given, less their mean and over their deviation: equal in statistic, better
@@ -213,21 +212,20 @@ fracas_err fracas_permutation_test(const fracas_two_samples *samples, int64_t pe
     *exact = false;
     if (samples->na == 0 || samples->nb == 0) return FRACAS_OK;
     permuter p = {.of = samples, .n = n};
-    FRACAS_TAKE(&p.room, p.value, n * nv);
-    FRACAS_TAKE(&p.room, p.in_a, n);
-    FRACAS_TAKE(&p.room, p.sum, nv);
-    FRACAS_TAKE(&p.room, p.square, nv);
-    FRACAS_TAKE(&p.room, p.known, nv);
-    FRACAS_TAKE(&p.room, p.all_sum, nv);
-    FRACAS_TAKE(&p.room, p.all_square, nv);
-    FRACAS_TAKE(&p.room, p.all_known, nv);
-    FRACAS_TAKE(&p.room, p.cut, nc);
-    FRACAS_TAKE(&p.room, p.all_cut, nc);
-    FRACAS_TAKE(&p.room, p.statistic, nv);
-    FRACAS_TAKE(&p.room, p.observed, nv);
-    FRACAS_TAKE(&p.room, p.reached, nv);
-    fracas_err err = fracas_room_check(&p.room, "a permutation test");
-    if (!err) err = test(&p, permutations, seed, result, count, exact);
-    fracas_room_clear(&p.room);
-    return err;
+    FRACAS_CLEARED(fracas_room) room = {0};
+    FRACAS_TAKE(&room, p.value, n * nv);
+    FRACAS_TAKE(&room, p.in_a, n);
+    FRACAS_TAKE(&room, p.sum, nv);
+    FRACAS_TAKE(&room, p.square, nv);
+    FRACAS_TAKE(&room, p.known, nv);
+    FRACAS_TAKE(&room, p.all_sum, nv);
+    FRACAS_TAKE(&room, p.all_square, nv);
+    FRACAS_TAKE(&room, p.all_known, nv);
+    FRACAS_TAKE(&room, p.cut, nc);
+    FRACAS_TAKE(&room, p.all_cut, nc);
+    FRACAS_TAKE(&room, p.statistic, nv);
+    FRACAS_TAKE(&room, p.observed, nv);
+    FRACAS_TAKE(&room, p.reached, nv);
+    TRY(fracas_room_check(&room, "a permutation test"));
+    return test(&p, permutations, seed, result, count, exact);
 }

@@ -202,13 +202,11 @@ fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t be
 {
     const fracas_ensemble *a = &convergence->study->point[before].ensemble;
     two_samples samples;
-    fracas_room room = {0};
+    FRACAS_CLEARED(fracas_room) room = {0};
     FRACAS_TAKE(&room, samples.value[0], a->nrealizations);
     FRACAS_TAKE(&room, samples.value[1], a->nrealizations + b->nrealizations);
-    fracas_err err = fracas_room_check(&room, "the realizations of two points");
-    if (!err) err = compare_point(convergence, before, b, map, &samples);
-    fracas_room_clear(&room);
-    return err;
+    TRY(fracas_room_check(&room, "the realizations of two points"));
+    return compare_point(convergence, before, b, map, &samples);
 }
 
 static fracas_err find_point(const fracas_analysis *study, const fracas_hash *hash, size_t *point)
@@ -239,21 +237,16 @@ static fracas_err note_refined(fracas_convergence *convergence, size_t before,
 fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *study,
                                   const fracas_refinement_map *map)
 {
-    fracas_analysis *refined;
+    OWN(fracas_analysis) refined = NULL;
     TRY(fracas_analysis_create(study, NULL, NULL, &refined));
-    fracas_err err = FRACAS_OK;
-    for (size_t i = 0; i < map->npoints && !err; i++) {
+    for (size_t i = 0; i < map->npoints; i++) {
         size_t before, after;
-        err = find_point(convergence->study, &map->before[i], &before);
-        if (!err) err = find_point(refined, &map->after[i], &after);
-        if (!err)
-            err = fracas_convergence_compare(convergence, before, &refined->point[after].ensemble,
-                                             map);
-        if (!err) err = note_refined(convergence, before, &refined->point[after], map);
+        TRY(find_point(convergence->study, &map->before[i], &before));
+        TRY(find_point(refined, &map->after[i], &after));
+        TRY(fracas_convergence_compare(convergence, before, &refined->point[after].ensemble, map));
+        TRY(note_refined(convergence, before, &refined->point[after], map));
     }
-    if (!err) err = fracas_convergence_note_study(convergence, map->name, refined, study);
-    fracas_analysis_destroy(refined);
-    return err;
+    return fracas_convergence_note_study(convergence, map->name, refined, study);
 }
 
 void fracas_convergence_leave(fracas_convergence *convergence, const char *refinement,

@@ -25,4 +25,7 @@ void *fracas_room_array(fracas_room *room, size_t count, size_t size);
 FRACAS_MUST_USE fracas_err fracas_room_check(const fracas_room *room, const char *what);
 void fracas_room_clear(fracas_room *room);
 
+/* `FRACAS_CLEARED(fracas_room) room = {0};`: cleared at the end of its scope. */
+#define FRACAS_CLEARED(type) __attribute__((cleanup(type##_clear))) type
+
 #endif

@@ -2,6 +2,8 @@
 #include "analysis/data/surface.h"
 
 #include "base/partition.h"
+#include "base/own.h"
+#include "analysis/data/room.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -132,22 +134,18 @@ static double break_through(const fracas_stored_mesh *mesh, const breaking *sort
 fracas_err fracas_surface_through(const fracas_stored_mesh *mesh, const fracas_record *record,
                                   const int64_t tag[2], double *time)
 {
-    fracas_partition cracks = {0};
-    breaking *sorted = NULL;
+    FRACAS_CLEARED(fracas_partition) cracks = {0};
     size_t count = 0;
     *time = NAN;
     TRY(check(mesh, record));
-    uint8_t *touches = calloc(mesh->nnodes + 1, 1);
-    fracas_err err = touches ? FRACAS_OK : fracas_no_memory("the vertices of a surface");
-    if (!err && mark_sides(mesh, tag, touches)) {
-        err = sort_breaks(record, &sorted, &count);
-        if (!err) err = fracas_partition_init(&cracks, mesh->nnodes);
-        if (!err) *time = break_through(mesh, sorted, count, &cracks, touches);
-    }
-    fracas_partition_clear(&cracks);
-    free(sorted);
-    free(touches);
-    return err;
+    OWNED breaking *sorted = NULL;
+    OWNED uint8_t *touches = calloc(mesh->nnodes + 1, 1);
+    if (!touches) return fracas_no_memory("the vertices of a surface");
+    if (!mark_sides(mesh, tag, touches)) return FRACAS_OK;
+    TRY(sort_breaks(record, &sorted, &count));
+    TRY(fracas_partition_init(&cracks, mesh->nnodes));
+    *time = break_through(mesh, sorted, count, &cracks, touches);
+    return FRACAS_OK;
 }
 
 fracas_err fracas_surface_times_of(const fracas_stored_mesh *mesh, const fracas_record *record,

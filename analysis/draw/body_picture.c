@@ -147,16 +147,14 @@ static fracas_err add_side(fracas_trail *trail, const fracas_facet *facet, int s
 }
 
 /* Lines or areas, in a group with these attributes; nothing without an edge. */
-static fracas_err draw(const drawing *d, fracas_trail *trail, fracas_err err, bool closed,
+static fracas_err draw(const drawing *d, const fracas_trail *trail, bool closed,
                        const char *attributes, const char *class)
 {
-    if (!err && trail->count > 0) {
-        fprintf(d->out, "<g%s>\n", attributes);
-        err = fracas_trail_write(trail, d->body->spot, closed, class, d->out);
-        fputs("</g>\n", d->out);
-    }
-    fracas_trail_clear(trail);
-    return err;
+    if (trail->count == 0) return FRACAS_OK;
+    fprintf(d->out, "<g%s>\n", attributes);
+    TRY(fracas_trail_write(trail, d->body->spot, closed, class, d->out));
+    fputs("</g>\n", d->out);
+    return FRACAS_OK;
 }
 
 typedef bool choice(const drawing *d, size_t facet, int k);
@@ -179,17 +177,16 @@ static bool is_above(const drawing *d, size_t facet, int k)
 static fracas_err fill(const drawing *d, choice *chosen, int k, const char *attributes,
                        const char *class)
 {
-    fracas_trail trail = {0};
-    fracas_err err = FRACAS_OK;
-    for (size_t m = 0; !err && m < d->count; m++) {
+    FRACAS_CLEARED(fracas_trail) trail = {0};
+    for (size_t m = 0; m < d->count; m++) {
         const fracas_facet *facet = &d->body->facets.facet[d->member[m]];
-        for (int side = 0; !err && side < 3 && chosen(d, d->member[m], k); side++) {
+        for (int side = 0; side < 3 && chosen(d, d->member[m], k); side++) {
             const int32_t other = facet->neighbour[side];
             if (other >= 0 && d->in[other] == d->layer && chosen(d, (size_t)other, k)) continue;
-            err = add_side(&trail, facet, side);
+            TRY(add_side(&trail, facet, side));
         }
     }
-    return draw(d, &trail, err, true, attributes, class);
+    return draw(d, &trail, true, attributes, class);
 }
 
 static fracas_err draw_tints(const drawing *d, bool tinted)
@@ -232,17 +229,16 @@ static bool draws(const drawing *d, size_t f, int side)
 
 static fracas_err draw_sides(const drawing *d, fracas_side what, const char *class, double width)
 {
-    fracas_trail trail = {0};
-    fracas_err err = FRACAS_OK;
+    FRACAS_CLEARED(fracas_trail) trail = {0};
     for (size_t k = d->first[d->layer]; k < d->first[d->layer + 1]; k++) {
         const fracas_facet *facet = &d->body->facets.facet[d->sorted[k]];
-        for (int side = 0; !err && side < 3; side++)
+        for (int side = 0; side < 3; side++)
             if (facet->side[side] == what && draws(d, d->sorted[k], side))
-                err = add_side(&trail, facet, side);
+                TRY(add_side(&trail, facet, side));
     }
     char attributes[64];
     FRACAS_PRINT(attributes, " stroke-width=\"%.1f\"", width * d->line);
-    return draw(d, &trail, err, false, attributes, class);
+    return draw(d, &trail, false, attributes, class);
 }
 
 static fracas_err draw_layer(const drawing *d, bool tinted, bool mesh)

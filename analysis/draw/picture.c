@@ -4,6 +4,7 @@
 #include "analysis/data/format.h"
 #include "analysis/draw/chart.h"
 #include "analysis/data/field.h"
+#include "analysis/data/room.h"
 
 #include <math.h>
 
@@ -90,15 +91,13 @@ fracas_err fracas_picture_create(const fracas_analysis *analysis, size_t point,
 {
     const fracas_point_statistics *statistics = &analysis->point[point];
     *picture = (fracas_picture){0};
-    fracas_record record;
+    FRACAS_CLEARED(fracas_record) record;
     fracas_record_init(&record);
     size_t of;
     int64_t replica;
-    fracas_err err = fracas_results_record(analysis->results, statistics->broken_row,
-                                           FRACAS_READ_FRAGMENTS, &of, &replica, &record);
-    if (!err) err = fracas_ring_pattern_create(&record, statistics->radius, &picture->pattern);
-    fracas_record_clear(&record);
-    TRY(err);
+    TRY(fracas_results_record(analysis->results, statistics->broken_row, FRACAS_READ_FRAGMENTS, &of,
+                              &replica, &record));
+    TRY(fracas_ring_pattern_create(&record, statistics->radius, &picture->pattern));
     picture->exaggeration = fracas_picture_exaggeration(&picture->pattern);
     picture->fastest = fastest_of(&picture->pattern);
     picture->arrows = picture->pattern.n <= ARROWS_MOST && picture->fastest > 0;

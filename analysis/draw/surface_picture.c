@@ -6,6 +6,7 @@
 #include "analysis/draw/chart.h"
 #include "analysis/draw/trail.h"
 #include "analysis/draw/facets.h"
+#include "analysis/data/room.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -100,36 +101,26 @@ static double line_width(const canvas *on)
 
 /* ---- lines ---- */
 
-static fracas_err draw(const canvas *on, fracas_trail *trail, fracas_err err, bool closed,
-                       const char *class)
-{
-    if (!err) err = fracas_trail_write(trail, on->spot, closed, class, on->out);
-    fracas_trail_clear(trail);
-    return err;
-}
-
 /* Interfaces in one state; the width is relative to the line of a broken one. */
 static fracas_err draw_interfaces(const canvas *on, fracas_interface_state state, const char *class,
                                   double width)
 {
-    fracas_trail trail = {0};
-    fracas_err err = FRACAS_OK;
-    for (size_t i = 0; !err && i < on->mesh->ninterfaces; i++)
+    FRACAS_CLEARED(fracas_trail) trail = {0};
+    for (size_t i = 0; i < on->mesh->ninterfaces; i++)
         if (on->state->interface[i] == state)
-            err = fracas_trail_add(&trail, on->mesh->interface[i].node, false);
+            TRY(fracas_trail_add(&trail, on->mesh->interface[i].node, false));
     fprintf(on->out, "<g stroke-width=\"%.1f\">\n", width * on->line);
-    err = draw(on, &trail, err, false, class);
+    TRY(fracas_trail_write(&trail, on->spot, false, class, on->out));
     fputs("</g>\n", on->out);
-    return err;
+    return FRACAS_OK;
 }
 
 static fracas_err draw_outline(const canvas *on)
 {
-    fracas_trail trail = {0};
-    fracas_err err = FRACAS_OK;
-    for (size_t b = 0; !err && b < on->mesh->nborders; b++)
-        err = fracas_trail_add(&trail, on->mesh->border[b].node, false);
-    return draw(on, &trail, err, false, "outline");
+    FRACAS_CLEARED(fracas_trail) trail = {0};
+    for (size_t b = 0; b < on->mesh->nborders; b++)
+        TRY(fracas_trail_add(&trail, on->mesh->border[b].node, false));
+    return fracas_trail_write(&trail, on->spot, false, "outline", on->out);
 }
 
 /* ---- areas ---- */
@@ -144,19 +135,18 @@ static int tint_of(const canvas *on, int64_t element)
  * edge between two of them would be traversed both ways, and is no boundary. */
 static fracas_err fill(const canvas *on, int tint, const char *class)
 {
-    fracas_trail trail = {0};
-    fracas_err err = FRACAS_OK;
-    for (size_t i = 0; !err && i < on->mesh->ninterfaces; i++) {
+    FRACAS_CLEARED(fracas_trail) trail = {0};
+    for (size_t i = 0; i < on->mesh->ninterfaces; i++) {
         const fracas_stored_interface *interface = &on->mesh->interface[i];
         const int first = tint_of(on, interface->element[0]),
                   second = tint_of(on, interface->element[1]);
         if (first == second || (first != tint && second != tint)) continue;
-        err = fracas_trail_add(&trail, interface->node, second == tint);
+        TRY(fracas_trail_add(&trail, interface->node, second == tint));
     }
-    for (size_t b = 0; !err && b < on->mesh->nborders; b++)
+    for (size_t b = 0; b < on->mesh->nborders; b++)
         if (tint_of(on, on->mesh->border[b].element) == tint)
-            err = fracas_trail_add(&trail, on->mesh->border[b].node, false);
-    return draw(on, &trail, err, true, class);
+            TRY(fracas_trail_add(&trail, on->mesh->border[b].node, false));
+    return fracas_trail_write(&trail, on->spot, true, class, on->out);
 }
 
 static fracas_err draw_areas(const canvas *on)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/estimate/pooled.h"
+#include "base/own.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -141,10 +142,9 @@ static fracas_err resample_sums(const fracas_ensemble *ensemble, size_t n, doubl
     TRY(sum_units(ensemble, 0, n, cut, &context));
     *all = (sums){0};
     for (size_t u = 0; u < context.units; u++) add(all, &context.of[u], 1);
-    fracas_err err = fracas_bootstrap(context.units, NVALUES, of_sums, &context,
-                                      &(fracas_bootstrap_options){.seed = seed}, interval);
-    free(context.of);
-    return err;
+    OWNED sums *of = context.of;
+    return fracas_bootstrap(context.units, NVALUES, of_sums, &context,
+                            &(fracas_bootstrap_options){.seed = seed}, interval);
 }
 
 static void put_means(const fracas_interval *interval, fracas_sizes *sizes)
@@ -193,14 +193,14 @@ fracas_err fracas_pooled_part(const fracas_ensemble *ensemble, size_t begin, siz
     fracas_jackknifed found[NVALUES];
     summed context;
     TRY(sum_units(ensemble, begin, end - begin, 0, &context));
-    fracas_err err = fracas_jackknife(context.units, NVALUES, of_sums, &context, found);
+    OWNED sums *of = context.of;
+    TRY(fracas_jackknife(context.units, NVALUES, of_sums, &context, found));
     const double n = (double)(end - begin);
-    for (int v = 0; v < FRACAS_NPOOLED && !err; v++) {
+    for (int v = 0; v < FRACAS_NPOOLED; v++) {
         const bool known = isfinite(found[v].standard_error);
         part[v] = (fracas_part){found[v].value, n,
                                 known ? n * found[v].standard_error * found[v].standard_error : NAN,
                                 known ? (double)(found[v].groups - 1) : 0};
     }
-    free(context.of);
-    return err;
+    return FRACAS_OK;
 }

@@ -26,7 +26,6 @@ typedef struct {
  * a quantile lies: it costs units x cells, not fragments. No size is in two cells, and none of them
  * lies on both sides of the cut. */
 typedef struct {
-    fracas_room room;
     double lattice, cut;
     size_t units, count, cells;
     entry *entry;  /* count of them, ascending in size, then in unit */
@@ -81,13 +80,13 @@ static void divide(merged *all)
     all->begin[all->cells] = all->count;
 }
 
-static fracas_err prepare(const fracas_ensemble *ensemble, merged *all)
+static fracas_err prepare(const fracas_ensemble *ensemble, fracas_room *room, merged *all)
 {
-    FRACAS_TAKE(&all->room, all->entry, ensemble->nfragments);
-    FRACAS_TAKE(&all->room, all->begin, CELLS + 2);
-    FRACAS_TAKE(&all->room, all->total, CELLS + 2);
-    FRACAS_TAKE(&all->room, all->part, all->units * (CELLS + 3));
-    TRY(fracas_room_check(&all->room, "the sizes of a point's fragments"));
+    FRACAS_TAKE(room, all->entry, ensemble->nfragments);
+    FRACAS_TAKE(room, all->begin, CELLS + 2);
+    FRACAS_TAKE(room, all->total, CELLS + 2);
+    FRACAS_TAKE(room, all->part, all->units * (CELLS + 3));
+    TRY(fracas_room_check(room, "the sizes of a point's fragments"));
     merge(ensemble, all);
     divide(all);
     for (size_t c = 0; c < all->cells; c++)
@@ -196,19 +195,15 @@ fracas_err fracas_quantiles_of(const fracas_ensemble *ensemble, double cut, uint
                   .cut = cut,
                   .units = fracas_pooled_units(ensemble->nrealizations)};
     fracas_interval interval[NVALUES];
-    fracas_err err = prepare(ensemble, &all);
-    if (!err)
-        err = fracas_bootstrap(all.units, NVALUES, quantiles, &all,
-                               &(fracas_bootstrap_options){.seed = seed}, interval);
-    if (!err) {
-        memcpy(pooled->all.quantile, interval, sizeof pooled->all.quantile);
-        memcpy(pooled->all.mass_quantile, interval + FRACAS_NQUANTILES,
-               sizeof pooled->all.mass_quantile);
-        memcpy(pooled->above.quantile, interval + 2 * FRACAS_NQUANTILES,
-               sizeof pooled->above.quantile);
-        memcpy(pooled->above.mass_quantile, interval + 3 * FRACAS_NQUANTILES,
-               sizeof pooled->above.mass_quantile);
-    }
-    fracas_room_clear(&all.room);
-    return err;
+    FRACAS_CLEARED(fracas_room) room = {0};
+    TRY(prepare(ensemble, &room, &all));
+    TRY(fracas_bootstrap(all.units, NVALUES, quantiles, &all,
+                         &(fracas_bootstrap_options){.seed = seed}, interval));
+    memcpy(pooled->all.quantile, interval, sizeof pooled->all.quantile);
+    memcpy(pooled->all.mass_quantile, interval + FRACAS_NQUANTILES,
+           sizeof pooled->all.mass_quantile);
+    memcpy(pooled->above.quantile, interval + 2 * FRACAS_NQUANTILES, sizeof pooled->above.quantile);
+    memcpy(pooled->above.mass_quantile, interval + 3 * FRACAS_NQUANTILES,
+           sizeof pooled->above.mass_quantile);
+    return FRACAS_OK;
 }

@@ -2,6 +2,7 @@
 #include "analysis/fit/point.h"
 
 #include "analysis/fit/sample.h"
+#include "analysis/data/room.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -52,21 +53,19 @@ static fracas_err likelihood_ratio(const fracas_fit_sample *sample,
     const double widen = (double)n / (double)(n - 1);
     comparison->statistic = 2 * (fit[1]->log_likelihood - fit[0]->log_likelihood);
     if (n < LEAST) return FRACAS_OK;
-    fracas_fit_sample carried;
-    fracas_fit_draw draw;
+    FRACAS_CLEARED(fracas_fit_sample) carried = {.ncells = 0};
+    FRACAS_CLEARED(fracas_fit_draw) draw = {.n = 0};
     int64_t as_large = 0;
     TRY(fracas_fit_carry(sample, probability, seed, &carried));
-    fracas_err err = fracas_fit_draw_create(n, seed, &draw);
-    for (int64_t b = 0; b < resamples && !err; b++) {
+    TRY(fracas_fit_draw_create(n, seed, &draw));
+    for (int64_t b = 0; b < resamples; b++) {
         const double gain = gain_of(&carried, fracas_fit_draw_next(&draw), family, fit);
         comparison->resamples += isfinite(gain);
         as_large += widen * gain >= comparison->statistic;
     }
-    fracas_fit_draw_clear(&draw);
-    fracas_fit_sample_clear(&carried);
     if (comparison->resamples > 0)
         comparison->p = (double)(1 + as_large) / (double)(1 + comparison->resamples);
-    return err;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_fit_compare(const fracas_fit_sample *sample, const fracas_family *const family[2],

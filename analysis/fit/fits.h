@@ -9,6 +9,7 @@
 #include "analysis/fit/family.h"
 #include "base/err.h"
 #include "base/hash.h"
+#include "base/own.h"
 
 #include <stdbool.h>
 #include <stddef.h>

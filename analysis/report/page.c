@@ -7,6 +7,8 @@
 #include "analysis/export/summary.h"
 #include "analysis/draw/chart.h"
 #include "base/param.h"
+#include "base/own.h"
+#include "campaigns/store/file/disk.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -149,19 +151,15 @@ static fracas_err write_page(const fracas_analysis *analysis, const char *folder
 
 fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study)
 {
-    char *folder;
-    if (asprintf(&folder, "%s/report", study) < 0) return fracas_no_memory("a path");
-    fracas_err err = FRACAS_OK;
-    if (mkdir(folder, 0777) && errno != EEXIST)
-        err = fracas_fail(FRACAS_ENVIRONMENT, "cannot make the folder %s: %s", folder,
-                          strerror(errno));
-    fracas_fits *fits = NULL;
+    OWNED char *folder = NULL;
+    OWN(fracas_fits) fits = NULL;
     size_t stale = 0;
-    if (!err) err = fracas_fits_read(study, &fits);
-    if (!err && fits) fracas_fits_keep(fits, analysis, &stale);
-    if (!err) err = write_tables(analysis, folder, fits, stale);
-    if (!err) err = write_page(analysis, folder, fits, stale);
-    fracas_fits_destroy(fits);
-    free(folder);
-    return err;
+    TRY(fracas_disk_join(study, "report", &folder));
+    if (mkdir(folder, 0777) && errno != EEXIST)
+        return fracas_fail(FRACAS_ENVIRONMENT, "cannot make the folder %s: %s", folder,
+                           strerror(errno));
+    TRY(fracas_fits_read(study, &fits));
+    if (fits) fracas_fits_keep(fits, analysis, &stale);
+    TRY(write_tables(analysis, folder, fits, stale));
+    return write_page(analysis, folder, fits, stale);
 }

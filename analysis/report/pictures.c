@@ -4,6 +4,8 @@
 #include "analysis/data/field.h"
 #include "analysis/data/output.h"
 #include "analysis/report/page.h"
+#include "base/own.h"
+#include "analysis/data/room.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -98,13 +100,12 @@ static fracas_err check_record(const making *m, const fracas_record *record)
 static fracas_err save_pictures(const making *m, const fracas_broken_surface *surface)
 {
     const fracas_picture_request *request = m->request;
-    double *time = calloc(request->count + 1, sizeof *time);
+    OWNED double *time = calloc(request->count + 1, sizeof *time);
     if (!time) return fracas_no_memory("the times of pictures");
     size_t count = request->count;
     if (request->time) memcpy(time, request->time, count * sizeof *time);
     else count = fracas_surface_moments(&surface->record, count, time);
-    fracas_err err = FRACAS_OK;
-    for (size_t k = 0; !err && k < count; k++) {
+    for (size_t k = 0; k < count; k++) {
         char title[256], name[128];
         FRACAS_PRINT(title, "Point %zu, replica %" PRId64 " at %s", request->point,
                      request->replica, fracas_surface_time(time[k], true).text);
@@ -113,13 +114,10 @@ static fracas_err save_pictures(const making *m, const fracas_broken_surface *su
         const fracas_surface_picture picture = {
             title,         request->show,    FRACAS_SURFACE_WIDTH, true,
             request->view, request->explode, surface->thickness};
-        err = fracas_broken_surface_save(surface, time[k], &picture, m->folder, name);
-        if (!err)
-            fprintf(m->out, "%s/%s: %s\n", m->folder, name,
-                    fracas_surface_time(time[k], false).text);
+        TRY(fracas_broken_surface_save(surface, time[k], &picture, m->folder, name));
+        fprintf(m->out, "%s/%s: %s\n", m->folder, name, fracas_surface_time(time[k], false).text);
     }
-    free(time);
-    return err;
+    return FRACAS_OK;
 }
 
 static fracas_err say_times(const making *m, const fracas_broken_surface *surface)
@@ -190,19 +188,17 @@ static fracas_err make_folder(making *m)
 
 static fracas_err make(making *m)
 {
-    fracas_broken_surface surface;
     m->table = fracas_results_points(m->results);
     TRY(check_point(m));
     TRY(check_replica(m));
-    fracas_err err = fracas_broken_surface_read(
-        m->results, m->request->point, m->first_row + (size_t)m->request->replica, &surface);
-    if (!err) err = check_record(m, &surface.record);
-    if (!err) err = make_folder(m);
-    if (!err) err = save_pictures(m, &surface);
-    if (!err && m->request->table) err = save_table(m, &surface.mesh);
-    if (!err) err = say_times(m, &surface);
-    fracas_broken_surface_clear(&surface);
-    return err;
+    FRACAS_CLEARED(fracas_broken_surface) surface = {.thickness = 0};
+    TRY(fracas_broken_surface_read(m->results, m->request->point,
+                                   m->first_row + (size_t)m->request->replica, &surface));
+    TRY(check_record(m, &surface.record));
+    TRY(make_folder(m));
+    TRY(save_pictures(m, &surface));
+    if (m->request->table) TRY(save_table(m, &surface.mesh));
+    return say_times(m, &surface);
 }
 
 fracas_err fracas_pictures_write(const char *study, const fracas_picture_request *request,

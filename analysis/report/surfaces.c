@@ -4,6 +4,7 @@
 #include "analysis/data/field.h"
 #include "analysis/data/output.h"
 #include "analysis/draw/chart.h"
+#include "analysis/data/room.h"
 
 #include <math.h>
 
@@ -36,11 +37,9 @@ void fracas_broken_surface_clear(fracas_broken_surface *surface)
 static fracas_err write_picture(const fracas_broken_surface *surface, double time,
                                 const fracas_surface_picture *picture, FILE *out)
 {
-    fracas_surface_state state;
-    fracas_err err = fracas_surface_state_create(&surface->mesh, &surface->record, time, &state);
-    if (!err) err = fracas_surface_picture_write(&surface->mesh, &state, picture, out);
-    fracas_surface_state_clear(&state);
-    return err;
+    FRACAS_CLEARED(fracas_surface_state) state = {.time = time};
+    TRY(fracas_surface_state_create(&surface->mesh, &surface->record, time, &state));
+    return fracas_surface_picture_write(&surface->mesh, &state, picture, out);
 }
 
 fracas_err fracas_broken_surface_save(const fracas_broken_surface *surface, double time,
@@ -185,13 +184,11 @@ static fracas_err put_point(gallery *to, size_t p)
                 p, p);
         return FRACAS_OK;
     }
-    fracas_broken_surface surface;
-    fracas_err err = fracas_broken_surface_read(
-        to->page->analysis->results, p, broken ? statistics->broken_row : statistics->typical_row,
-        &surface);
-    if (!err) err = put_row(to, &surface, p, replica, broken);
-    fracas_broken_surface_clear(&surface);
-    return err;
+    FRACAS_CLEARED(fracas_broken_surface) surface = {.thickness = 0};
+    TRY(fracas_broken_surface_read(to->page->analysis->results, p,
+                                   broken ? statistics->broken_row : statistics->typical_row,
+                                   &surface));
+    return put_row(to, &surface, p, replica, broken);
 }
 
 /* Meshes come with study.h5. */

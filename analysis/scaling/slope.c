@@ -164,21 +164,17 @@ fracas_err fracas_size_slopes(const fracas_analysis *analysis, fracas_size_slope
     size_t npoints = analysis->table->npoints;
     *count = 0;
     *list = NULL;
-    fracas_columns others;
+    FRACAS_CLEARED(fracas_columns) others = {0};
     TRY(fracas_columns_without_rate(analysis->table, &analysis->shown, &others));
-    fracas_room room = {0};
+    FRACAS_CLEARED(fracas_room) room = {0};
     fitter of = {.analysis = analysis, .others = &others};
     FRACAS_TAKE(&room, of.x, npoints);
     FRACAS_TAKE(&room, of.y, npoints);
     FRACAS_TAKE(&room, of.mean, npoints);
     FRACAS_TAKE(&room, of.error, npoints);
-    fracas_size_slope *made = calloc(npoints + 2, sizeof *made);
-    fracas_err err = made ? fracas_room_check(&room, "the slopes of the study")
-                          : fracas_no_memory("the slopes of the study");
-    if (!err) fit_all(&of, made, count);
-    if (err) free(made);
-    else *list = made;
-    fracas_columns_clear(&others);
-    fracas_room_clear(&room);
-    return err;
+    TRY(fracas_room_check(&room, "the slopes of the study"));
+    *list = calloc(npoints + 2, sizeof **list);
+    if (!*list) return fracas_no_memory("the slopes of the study");
+    fit_all(&of, *list, count);
+    return FRACAS_OK;
 }
