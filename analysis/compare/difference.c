@@ -69,22 +69,21 @@ void fracas_difference_of_pairs(const double *a, const double *b, size_t n, size
 /* (compare.10) */
 fracas_err fracas_holm(const double *p, size_t count, size_t stride, double *corrected)
 {
-    fracas_room room = {0};
+    FRACAS_CLEARED(fracas_room) room = {0};
     double *value, most = 0;
     size_t *order, tests = 0;
     FRACAS_TAKE(&room, value, count);
     FRACAS_TAKE(&room, order, count);
-    const fracas_err err = fracas_room_check(&room, "the corrections of p");
-    for (size_t i = 0; i < count && !err; i++) {
+    TRY(fracas_room_check(&room, "the corrections of p"));
+    for (size_t i = 0; i < count; i++) {
         corrected[i * stride] = NAN;
         value[i] = isfinite(p[i * stride]) ? p[i * stride] : 2; /* behind all tests */
         tests += isfinite(p[i * stride]);
     }
-    if (!err) gsl_sort_index(order, value, 1, count);
+    gsl_sort_index(order, value, 1, count);
     for (size_t k = 0; k < tests; k++) {
         most = fmax(most, fmin(1, (double)(tests - k) * value[order[k]]));
         corrected[order[k] * stride] = most;
     }
-    fracas_room_clear(&room);
-    return err;
+    return FRACAS_OK;
 }

@@ -4,6 +4,7 @@
 #include "analysis/compare/methods.h"
 #include "base/param.h"
 #include "analysis/data/room.h"
+#include "base/own.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
@@ -292,17 +293,17 @@ static void find_levels(fracas_convergence *convergence)
 fracas_err fracas_convergence_judge(fracas_convergence *convergence)
 {
     find_levels(convergence);
-    double *p = calloc(2 * convergence->nrows + 1, sizeof *p), *corrected = p + convergence->nrows;
+    OWNED double *p = calloc(2 * convergence->nrows + 1, sizeof *p);
     if (!p) return fracas_no_memory("the p-values");
+    double *corrected = p + convergence->nrows;
     for (size_t i = 0; i < convergence->nrows; i++) p[i] = convergence->row[i].value.p;
-    fracas_err err = fracas_holm(p, convergence->nrows, 1, corrected);
-    for (size_t i = 0; i < convergence->nrows && !err; i++) {
+    TRY(fracas_holm(p, convergence->nrows, 1, corrected));
+    for (size_t i = 0; i < convergence->nrows; i++) {
         fracas_convergence_row *row = &convergence->row[i];
         row->value.p_holm = corrected[i];
         row->verdict = judge(row, convergence->tolerance);
     }
-    free(p);
-    return err;
+    return FRACAS_OK;
 }
 
 /* An interval falls as n^(-1/2), and its quantile to the normal one  (convergence.4) */

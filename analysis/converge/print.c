@@ -7,13 +7,13 @@
 #include "analysis/export/tables.h"
 #include "base/json.h"
 #include "base/param.h"
+#include "base/own.h"
 
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static fracas_err add_note(fracas_convergence *convergence, const char *refinement, size_t point,
@@ -64,10 +64,9 @@ fracas_err fracas_convergence_note_study(fracas_convergence *convergence, const 
                                          const fracas_analysis *analysis, const char *study)
 {
     fracas_convergence_note *note;
-    fracas_warning *warning;
+    OWNED fracas_warning *warning = NULL;
     size_t count;
     TRY(fracas_analysis_warnings(analysis, &warning, &count));
-    free(warning);
     if (count == 0) return FRACAS_OK;
     TRY(add_note(convergence, refinement, SIZE_MAX, &note));
     FRACAS_PRINT(note->text, "its report has %zu warning%s: fracas report %s", count,

@@ -5,11 +5,12 @@
 #include "analysis/export/sha256.h"
 
 #include "base/json.h"
+#include "base/own.h"
+#include "campaigns/store/file/disk.h"
 
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -74,13 +75,12 @@ static void put_schema(fracas_json *json, const fracas_csv_table *table,
 static fracas_err put_resource(fracas_json *json, const fracas_csv_table *table,
                                const fracas_analysis *analysis, const char *folder)
 {
-    char name[64], digest[FRACAS_SHA256_HEX], hash[FRACAS_SHA256_HEX + 8], *path;
+    char name[64], digest[FRACAS_SHA256_HEX], hash[FRACAS_SHA256_HEX + 8];
+    OWNED char *path = NULL;
     uint64_t bytes;
     FRACAS_PRINT(name, "%s.csv", table->name);
-    if (asprintf(&path, "%s/%s", folder, name) < 0) return fracas_no_memory("a path");
-    const fracas_err err = fracas_sha256_of_file(path, digest, &bytes);
-    free(path);
-    TRY(err);
+    TRY(fracas_disk_join(folder, name, &path));
+    TRY(fracas_sha256_of_file(path, digest, &bytes));
     FRACAS_PRINT(hash, "sha256:%s", digest);
     fracas_json_object(json, NULL);
     fracas_json_text(json, "profile", "tabular-data-resource");
@@ -144,17 +144,13 @@ static fracas_err put_package(const fracas_analysis *analysis, const fracas_csv_
  * others. */
 static fracas_err remove_package(const char *folder)
 {
-    const char *const name[] = {package_file, fracas_csv_table_histories.name};
+    const char *const name[] = {package_file, "histories.csv"};
     for (size_t i = 0; i < 2; i++) {
-        char *path;
-        if (asprintf(&path, "%s/%s%s", folder, name[i], i ? ".csv" : "") < 0)
-            return fracas_no_memory("a path");
+        OWNED char *path = NULL;
+        TRY(fracas_disk_join(folder, name[i], &path));
         const int reason = unlink(path) ? errno : 0;
-        const fracas_err err = reason && reason != ENOENT
-                                   ? fracas_fail_system(reason, "cannot replace %s", path)
-                                   : FRACAS_OK;
-        free(path);
-        TRY(err);
+        if (reason && reason != ENOENT)
+            return fracas_fail_system(reason, "cannot replace %s", path);
         if (reason) break; /* no package was there: a histories.csv would be somebody else's */
     }
     return FRACAS_OK;

@@ -3,11 +3,11 @@
 #include "analysis/export/csv.h"
 
 #include "analysis/scaling/scaling.h"
+#include "base/own.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #define POINT                                                           \
     {                                                                   \
@@ -129,15 +129,15 @@ static void put_slope(const slope_row *row, FILE *out)
 static fracas_err slope_rows(const fracas_csv_table *table, const fracas_analysis *analysis,
                              FILE *out)
 {
-    fracas_size_slope *line;
-    fracas_size_window *window = NULL;
+    OWNED fracas_size_slope *line = NULL;
+    OWNED fracas_size_window *window = NULL;
     size_t lines, windows = 0;
     (void)table;
     TRY(fracas_size_slopes(analysis, &line, &lines));
-    fracas_err err = fracas_size_windows(analysis, &window, &windows);
-    for (size_t i = 0; i < lines && !err; i++)
+    TRY(fracas_size_windows(analysis, &window, &windows));
+    for (size_t i = 0; i < lines; i++)
         put_slope(&(slope_row){line[i].name, "line", {NAN, NAN}, line[i].slope}, out);
-    for (size_t i = 0; i < windows && !err; i++) {
+    for (size_t i = 0; i < windows; i++) {
         const fracas_size_window *w = &window[i];
         const fracas_slope between = {.n = 2,
                                       .slope = w->window.slope,
@@ -148,9 +148,7 @@ static fracas_err slope_rows(const fracas_csv_table *table, const fracas_analysi
                                       .pooled = NAN};
         put_slope(&(slope_row){w->name, "window", {w->rate[0], w->rate[1]}, between}, out);
     }
-    free(line);
-    if (!err) free(window);
-    return err;
+    return FRACAS_OK;
 }
 
 const fracas_csv_table fracas_csv_table_slopes = {

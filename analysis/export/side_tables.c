@@ -3,10 +3,10 @@
 #include "analysis/export/tables.h"
 #include "analysis/scaling/scaling.h"
 #include "base/param.h"
+#include "base/own.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 static const char *const slope_legend[] = {
     "slope: of log(mean size) against log(strain rate), weighted least squares, each point by the "
@@ -128,25 +128,20 @@ fracas_err fracas_side_table_create(const fracas_analysis *analysis, fracas_side
                                     bool unicode, fracas_result_table *table)
 {
     const fracas_side_table *of = &fracas_side_tables[name];
-    fracas_size_slope *slope = NULL;
-    fracas_size_window *window = NULL;
-    fracas_size_crossover *crossover = NULL;
+    OWNED fracas_size_slope *slope = NULL;
+    OWNED fracas_size_window *window = NULL;
+    OWNED fracas_size_crossover *crossover = NULL;
     fracas_table_rows rows = {analysis->point, analysis->table->npoints, of->size, analysis,
                               of->keep};
-    fracas_err err = FRACAS_OK;
-    if (name == FRACAS_SLOPES) err = fracas_size_slopes(analysis, &slope, &rows.count);
-    if (name == FRACAS_WINDOWS) err = fracas_size_windows(analysis, &window, &rows.count);
+    if (name == FRACAS_SLOPES) TRY(fracas_size_slopes(analysis, &slope, &rows.count));
+    if (name == FRACAS_WINDOWS) TRY(fracas_size_windows(analysis, &window, &rows.count));
     if (name == FRACAS_CROSSOVERS)
-        err = fracas_size_crossovers(analysis, true, &crossover, &rows.count);
+        TRY(fracas_size_crossovers(analysis, true, &crossover, &rows.count));
     if (name != FRACAS_MOTION)
         rows.first = slope    ? (const void *)slope
                      : window ? (const void *)window
                               : (const void *)crossover;
-    if (!err) err = fracas_table_make(of->column, of->columns, &rows, unicode, table);
-    free(slope);
-    free(window);
-    free(crossover);
-    return err;
+    return fracas_table_make(of->column, of->columns, &rows, unicode, table);
 }
 
 const char *const fracas_fit_table_legend[] = {

@@ -360,11 +360,10 @@ void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fi
 
 fracas_err fracas_analysis_write_json(const fracas_analysis *analysis, const char *study, FILE *out)
 {
-    fracas_fits *fits;
+    OWN(fracas_fits) fits = NULL;
     size_t stale = 0;
     TRY(fracas_fits_read(study, &fits));
     if (fits) fracas_fits_keep(fits, analysis, &stale);
     fracas_summary_write(analysis, fits, stale, out);
-    fracas_fits_destroy(fits);
     return FRACAS_OK;
 }

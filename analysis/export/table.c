@@ -2,11 +2,12 @@
 #include "analysis/export/tables.h"
 
 #include "analysis/data/format.h"
+#include "base/own.h"
+#include "analysis/data/room.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const char *const legend_of_chains[] = {
@@ -165,7 +166,7 @@ static void fill_parameters(const fracas_point_table *points, const fracas_colum
 fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unicode,
                                       fracas_result_table *table)
 {
-    fracas_columns first;
+    FRACAS_CLEARED(fracas_columns) first = {0};
     fracas_table_column shown[NCOLUMNS];
     size_t count = 0, laws = 0, first_law = 0;
     TRY(fracas_columns_with_rate(analysis->table, &analysis->shown, &first));
@@ -176,15 +177,12 @@ fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unic
     }
     const fracas_table_rows rows = {analysis->point, analysis->table->npoints,
                                     sizeof *analysis->point, analysis, NULL};
-    fracas_err err = fracas_table_empty(rows.count, first.count + count, NULL, table);
-    if (!err) {
-        fill_parameters(analysis->table, &first, unicode, table);
-        fracas_table_fill(table, first.count, shown, count, &rows, unicode);
-        table->laws = laws;
-        table->first_law = first_law;
-    }
-    fracas_columns_clear(&first);
-    return err;
+    TRY(fracas_table_empty(rows.count, first.count + count, NULL, table));
+    fill_parameters(analysis->table, &first, unicode, table);
+    fracas_table_fill(table, first.count, shown, count, &rows, unicode);
+    table->laws = laws;
+    table->first_law = first_law;
+    return FRACAS_OK;
 }
 
 static void print_decisions(const fracas_analysis *analysis, FILE *out)
@@ -197,7 +195,7 @@ static void print_decisions(const fracas_analysis *analysis, FILE *out)
 
 static void print_warnings(const fracas_analysis *analysis, FILE *out)
 {
-    fracas_warning *warning;
+    OWNED fracas_warning *warning = NULL;
     size_t count;
     if (fracas_analysis_warnings(analysis, &warning, &count)) {
         fprintf(out, "%s\n", fracas_message());
@@ -207,7 +205,6 @@ static void print_warnings(const fracas_analysis *analysis, FILE *out)
         const fracas_label label = fracas_analysis_label(analysis, warning[i].point);
         fprintf(out, "warning: %s%s%s\n", label.text, *label.text ? ": " : "", warning[i].text);
     }
-    free(warning);
 }
 
 void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out)

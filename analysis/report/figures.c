@@ -3,10 +3,11 @@
 
 #include "analysis/scaling/scaling.h"
 #include "analysis/data/format.h"
+#include "analysis/data/room.h"
+#include "base/own.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LAW_VALUES = 80, TALL = 300, LOW = FRACAS_FIGURE_LOW, STRIP = 80 };
@@ -167,11 +168,10 @@ static fracas_err add_laws(const rate_plot *plot, const double rate[2], size_t f
 /* The fitted crossover of each series, in the colour of its marks. */
 static fracas_err add_crossovers(const rate_plot *plot, const double rate[2], fracas_panel *panel)
 {
-    fracas_size_crossover *list;
+    OWNED fracas_size_crossover *list = NULL;
     size_t count;
     TRY(fracas_size_crossovers(plot->analysis, false, &list, &count));
-    fracas_err err = FRACAS_OK;
-    for (size_t i = 0; i < count && !err; i++) {
+    for (size_t i = 0; i < count; i++) {
         const fracas_scales *scales = &list[i].scales;
         const double x_unit = plot->normalised ? scales->rate : 1,
                      y_unit = plot->normalised ? scales->size : 1 / plot->size_factor;
@@ -182,15 +182,14 @@ static fracas_err add_crossovers(const rate_plot *plot, const double rate[2], fr
         const unsigned look = marks < panel->nseries
                                   ? panel->series[marks].look + FRACAS_CHART_COLOURS
                                   : 0; /* ZMR has the other dashes */
-        err = fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, &series);
-        for (size_t v = 0; !err && v < LAW_VALUES; v++) {
+        TRY(fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, &series));
+        for (size_t v = 0; v < LAW_VALUES; v++) {
             series->x[v] = rate[0] / 2 * pow(4 * rate[1] / rate[0], (double)v / (LAW_VALUES - 1));
             series->y[v] = fracas_crossover_at(&list[i], series->x[v] * x_unit) / y_unit;
         }
-        if (!err && count == 1) FRACAS_PRINT(series->name, "fitted crossover");
+        if (count == 1) FRACAS_PRINT(series->name, "fitted crossover");
     }
-    free(list);
-    return err;
+    return FRACAS_OK;
 }
 
 static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
@@ -279,16 +278,14 @@ fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, 
         extreme[1] = fmax(extreme[1], analysis->point[p].size.mean);
     }
     fracas_prefix prefix = fracas_prefix_for(extreme, 2);
-    fracas_columns others;
+    FRACAS_CLEARED(fracas_columns) others = {0};
     TRY(fracas_columns_without_rate(analysis->table, &analysis->shown, &others));
     rate_plot plot = {.analysis = analysis,
                       .others = &others,
                       .normalised = normalised,
                       .size_factor = prefix.factor};
-    fracas_err err = draw_against_rate(&plot, chart);
+    TRY(draw_against_rate(&plot, chart));
     bool one_law = same_scales(&plot, ALL_SERIES), some_law = any_law(&plot);
-    fracas_columns_clear(&others);
-    TRY(err);
     FRACAS_PRINT(chart->file, "size-against-rate%s", normalised ? "-normalised" : "");
     FRACAS_PRINT(chart->title, "%s",
                  normalised ? "Normalised mean fragment size against strain rate"

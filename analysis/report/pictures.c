@@ -156,17 +156,16 @@ static fracas_err save_table(const making *m, const fracas_stored_mesh *mesh)
 {
     char name[64];
     fracas_output_file output;
-    fracas_record record;
+    FRACAS_CLEARED(fracas_record) record;
+    fracas_record_init(&record);
     fracas_err err = FRACAS_OK;
     FRACAS_PRINT(name, "times-point-%zu.csv", m->request->point);
     TRY(fracas_output_open(m->folder, name, &output));
-    fracas_record_init(&record);
     fputs("replica,outcome,first_onset,first_break,first_through,through_1_2,through_3_4,end_time,"
           "fragments,fragments_dust\n",
           output.file);
     for (int64_t r = 0; !err && r < m->table->point[m->request->point].replicas; r++)
         err = put_line(m, mesh, r, &record, output.file);
-    fracas_record_clear(&record);
     TRY(fracas_output_close(&output, err));
     fprintf(m->out, "%s/%s: all replicas of point %zu\n", m->folder, name, m->request->point);
     return FRACAS_OK;

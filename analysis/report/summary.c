@@ -4,11 +4,11 @@
 
 #include "analysis/scaling/scaling.h"
 #include "analysis/data/format.h"
+#include "base/own.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* ---- the campaign ---- */
@@ -188,7 +188,7 @@ static fracas_err put_headlines(fracas_page *page)
 
 static fracas_err put_slope(const fracas_page *page)
 {
-    fracas_size_slope *list;
+    OWNED fracas_size_slope *list = NULL;
     size_t count;
     TRY(fracas_size_slopes(page->analysis, &list, &count));
     if (count > 0) {
@@ -209,14 +209,13 @@ static fracas_err put_slope(const fracas_page *page)
                     fracas_digits(sqrt(scatter), 2).text);
         fputs(".</p>\n", page->out);
     }
-    free(list);
     return FRACAS_OK;
 }
 
 /* Where the sizes of a study of one series bend, if they do. */
 static fracas_err put_crossover(const fracas_page *page)
 {
-    fracas_size_crossover *list;
+    OWNED fracas_size_crossover *list = NULL;
     size_t count;
     TRY(fracas_size_crossovers(page->analysis, true, &list, &count));
     if (count == 1 && !*list->reason && list->rate.low > 0) {
@@ -230,7 +229,6 @@ static fracas_err put_crossover(const fracas_page *page)
                 "ones (<a href=\"#crossovers\">crossover</a>).</p>\n",
                 rate, exponent);
     }
-    free(list);
     return FRACAS_OK;
 }
 
@@ -262,7 +260,7 @@ static void put_precision(const fracas_page *page)
 
 static fracas_err put_warnings(const fracas_page *page)
 {
-    fracas_warning *warning;
+    OWNED fracas_warning *warning = NULL;
     size_t count;
     TRY(fracas_analysis_warnings(page->analysis, &warning, &count));
     if (count > 1) fprintf(page->out, "<h3 id=\"warnings\">Warnings: %zu</h3>\n", count);
@@ -284,7 +282,6 @@ static fracas_err put_warnings(const fracas_page *page)
         }
         fputs("</ul>\n", page->out);
     }
-    free(warning);
     return FRACAS_OK;
 }
 

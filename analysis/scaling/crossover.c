@@ -297,7 +297,7 @@ static fracas_err fit_series(const fracas_size_series *series, int64_t resamples
                                          .inflation = NAN};
     FRACAS_PRINT(crossover->name, "%s", series->name);
     fitter of = {0};
-    fracas_room room = {0};
+    FRACAS_CLEARED(fracas_room) room = {0};
     FRACAS_TAKE(&room, of.x, series->n);
     FRACAS_TAKE(&room, of.y, series->n);
     FRACAS_TAKE(&room, of.error, series->n);
@@ -308,7 +308,6 @@ static fracas_err fit_series(const fracas_size_series *series, int64_t resamples
     crossover->rate_normalised = scaled(&crossover->rate, 1 / series->scales.rate);
     crossover->size_normalised = scaled(&crossover->size, 1 / series->scales.size);
     crossover->low_exponent = *crossover->reason ? NAN : 0;
-    fracas_room_clear(&room);
     return err;
 }
 

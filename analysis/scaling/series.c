@@ -2,6 +2,7 @@
 #include "analysis/scaling/scaling.h"
 
 #include "analysis/summary/study.h"
+#include "analysis/data/room.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -84,14 +85,13 @@ static fracas_err gather_all(const fracas_analysis *analysis, const fracas_colum
 fracas_err fracas_size_series_create(const fracas_analysis *analysis, fracas_size_series **list,
                                      size_t *count)
 {
-    fracas_columns others;
+    FRACAS_CLEARED(fracas_columns) others = {0};
     *count = 0;
     *list = NULL;
     TRY(fracas_columns_without_rate(analysis->table, &analysis->shown, &others));
     fracas_size_series *made = calloc(analysis->table->npoints + 1, sizeof *made);
     fracas_err err = made ? gather_all(analysis, &others, made, count)
                           : fracas_no_memory("the series of the study");
-    fracas_columns_clear(&others);
     if (!err) *list = made;
     else fracas_size_series_free(made, *count);
     return err;

@@ -2,6 +2,7 @@
 #include "analysis/summary/study.h"
 
 #include "analysis/data/format.h"
+#include "base/own.h"
 
 #include <errno.h>
 #include <libgen.h>
@@ -89,16 +90,14 @@ static fracas_err read_histories(fracas_analysis *analysis)
 /* Keeps the last decision of each point: the file has them by point and round. */
 static fracas_err read_decisions(fracas_analysis *analysis)
 {
-    fracas_decision *all;
+    OWNED fracas_decision *all = NULL;
     size_t count;
     TRY(fracas_results_decisions(analysis->results, &all, &count));
-    if (count > 0)
-        analysis->decision = calloc(analysis->table->npoints, sizeof *analysis->decision);
-    for (size_t d = 0; analysis->decision && d < count; d++)
-        analysis->decision[all[d].point] = all[d];
-    free(all);
-    return count > 0 && !analysis->decision ? fracas_no_memory("the decisions of the study")
-                                            : FRACAS_OK;
+    if (count == 0) return FRACAS_OK;
+    analysis->decision = calloc(analysis->table->npoints, sizeof *analysis->decision);
+    if (!analysis->decision) return fracas_no_memory("the decisions of the study");
+    for (size_t d = 0; d < count; d++) analysis->decision[all[d].point] = all[d];
+    return FRACAS_OK;
 }
 
 static fracas_err analyse(const char *study, const fracas_hash *campaign,
