@@ -163,7 +163,7 @@ static void momenta_are_kept_to_round_off(void **unused)
         if (variants[v].part == &fracas_part_octant) spec.mesh.divisions = 2;
         if (spec.geometry.shape == &fracas_shape_sphere) spec.loading.rate = v < 4 ? 1e6 : 1e5;
         OWN(fracas_model) model = distorted_model(spec, distortion_of(&variants[v]), 3);
-        OWN(fracas_batch) batch = lane_of(model, 0.3, 1);
+        OWN(fracas_batch) batch = lane_of(model, 0.3, 1, 0);
         RECORD(record);
         OK(fracas_batch_begin(batch));
         const double spin[3] = {0.5 * spec.loading.rate, -0.7 * spec.loading.rate,
@@ -296,7 +296,7 @@ static void a_sphere_cracks_when_its_stress_says_so(void **unused)
             error[finer] = 0;
             for (size_t weak = model->interfaces / 8; weak < model->interfaces;
                  weak += model->interfaces / 4) {
-                fracas_batch *batch = lane_of(model, 0, 0);
+                fracas_batch *batch = lane_of(model, 0, 0, 0);
                 for (size_t i = 0; i < model->interfaces; i++)
                     bar_set_strength(batch, 0, i, i == weak ? sigma : 2e9);
                 fracas_record record;

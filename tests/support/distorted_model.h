@@ -1,13 +1,42 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Models of surfaces on meshes that are not regular. */
+/* Models of surfaces, on meshes that are not regular, and batches of them. */
 #ifndef FRACAS_TESTS_SUPPORT_DISTORTED_MODEL_H
 #define FRACAS_TESTS_SUPPORT_DISTORTED_MODEL_H
 
+#include "engine/integrator/integrator.h"
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
 #include "sampler/api/sampler.h"
 #include "tests/support/bar.h"
 #include "tests/support/test.h"
+
+/* A body that stretches alike all over, with free edges: E 320 GPa, nu 0.3, rho 3300; law nitsche,
+ * G_c 200 J/m2, beta 5; order 2, half the critical step of central difference, masses lumped. Its
+ * sizes, rate and end are the caller's. */
+static inline fracas_spec surface_spec(const fracas_formulation *formulation,
+                                       const fracas_kind *shape)
+{
+    fracas_spec spec = {
+        .formulation = &formulation->kind,
+        .geometry = {.shape = shape, .part = &fracas_part_whole},
+        .mesh = {.spacing = &fracas_spacing_triangles, .order = 2},
+        .material = {.young = 320e9, .density = 3300, .poisson = 0.3},
+        .cohesive = {.law = &fracas_law_nitsche.kind,
+                     .fracture_energy = 200,
+                     .beta = 5,
+                     .beta_shear = 1,
+                     .onset = &fracas_onset_mean,
+                     .coupling = 1},
+        .loading = {.type = &fracas_loading_expansion, .ratio = 1, .start = &fracas_start_moving},
+        .time = {.stop = &fracas_stop_time,
+                 .end = 1,
+                 .safety = 0.5,
+                 .integrator = &fracas_integrator_central_difference,
+                 .spectral_radius = 0.8,
+                 .mass = &fracas_mass_lumped}};
+    for (int i = 0; i < FRACAS_EDGES; i++) spec.geometry.edge[i] = &fracas_edge_free;
+    return spec;
+}
 
 /* The model of a spec; `distortion` moves inner vertices by up to that share of the local edge, by
  * random numbers of this seed. A mesh from a file stays as it is. */
@@ -24,6 +53,32 @@ static inline fracas_model *distorted_model(fracas_spec spec, double distortion,
     spec.mesh.nnoise = count;
     OK(fracas_model_create(&spec, &model));
     return model;
+}
+
+static inline fracas_batch *batch_with(const fracas_model *model, size_t count,
+                                       fracas_batch_options options)
+{
+    fracas_batch *batch = NULL;
+    OK(fracas_batch_create(model, count, &options, &batch));
+    return batch;
+}
+
+/* One lane that keeps its interfaces; strengths of 300 MPa (1 +- scatter). */
+static inline fracas_batch *lane_of(const fracas_model *model, double scatter, uint64_t replica,
+                                    int64_t history)
+{
+    fracas_batch *batch = batch_with(
+        model, 1,
+        (fracas_batch_options){
+            .history = history, .interfaces = true, .width = 1, .isa = FRACAS_ISA_BEST});
+    bar_draw(batch, 0, scatter, replica);
+    return batch;
+}
+
+static inline void run_to_end(fracas_batch *batch, fracas_record *record)
+{
+    size_t running = batch->count;
+    while (running > 0) OK(fracas_batch_step(batch, record, &running));
 }
 
 #endif

@@ -22,26 +22,14 @@
  * lumped masses, beta 4. */
 static inline fracas_spec membrane_spec(const fracas_kind *shape, int64_t order, int64_t divisions)
 {
-    fracas_spec spec = {
-        .formulation = &fracas_formulation_membrane.kind,
-        .geometry = {.shape = shape, .thickness = 1e-3},
-        .mesh = {.spacing = &fracas_spacing_triangles, .divisions = divisions, .order = order},
-        .material = {.young = 320e9, .density = 3300, .poisson = 0.3},
-        .cohesive = {.law = &fracas_law_nitsche.kind,
-                     .fracture_energy = 200,
-                     .beta = 4,
-                     .onset = &fracas_onset_mean,
-                     .coupling = 1},
-        .loading = {.type = &fracas_loading_expansion,
-                    .rate = 1e4,
-                    .ratio = 1,
-                    .start = &fracas_start_moving},
-        .time = {.stop = &fracas_stop_time,
-                 .end = 1e-6,
-                 .safety = 0.9,
-                 .integrator = &fracas_integrator_central_difference,
-                 .spectral_radius = 0.8,
-                 .mass = &fracas_mass_lumped}};
+    fracas_spec spec = surface_spec(&fracas_formulation_membrane, shape);
+    spec.geometry.thickness = 1e-3;
+    spec.mesh.divisions = divisions;
+    spec.mesh.order = order;
+    spec.cohesive.beta = 4;
+    spec.loading.rate = 1e4;
+    spec.time.end = 1e-6;
+    spec.time.safety = 0.9;
     if (shape == &fracas_shape_plate) {
         spec.geometry.width = 12e-3;
         spec.geometry.height = 10e-3;

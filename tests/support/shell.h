@@ -19,31 +19,12 @@
 /* Steel-like in units of its own, thickness 0.1; beta 5, beta_shear 1; never cracks. */
 static inline fracas_spec shell_spec(const fracas_kind *shape)
 {
-    return (fracas_spec){.formulation = &fracas_formulation_shell.kind,
-                         .geometry = {.shape = shape,
-                                      .part = &fracas_part_whole,
-                                      .thickness = 0.1,
-                                      .radius = 1,
-                                      .width = 1,
-                                      .height = 1},
-                         .mesh = {.spacing = &fracas_spacing_triangles, .order = 2},
-                         .material = {.young = 200, .density = 2, .poisson = 0.3},
-                         .cohesive = {.law = &fracas_law_nitsche.kind,
-                                      .fracture_energy = 1e12,
-                                      .beta = 5,
-                                      .beta_shear = 1,
-                                      .onset = &fracas_onset_mean,
-                                      .coupling = 1},
-                         .loading = {.type = &fracas_loading_expansion,
-                                     .rate = 0,
-                                     .ratio = 1,
-                                     .start = &fracas_start_moving},
-                         .time = {.stop = &fracas_stop_time,
-                                  .end = 1,
-                                  .safety = 0.5,
-                                  .integrator = &fracas_integrator_central_difference,
-                                  .spectral_radius = 0.8,
-                                  .mass = &fracas_mass_lumped}};
+    fracas_spec spec = surface_spec(&fracas_formulation_shell, shape);
+    spec.geometry.thickness = 0.1;
+    spec.geometry.radius = spec.geometry.width = spec.geometry.height = 1;
+    spec.material = (fracas_material){.young = 200, .density = 2, .poisson = 0.3};
+    spec.cohesive.fracture_energy = 1e12;
+    return spec;
 }
 
 /* The model of a surface as a mesh file. */

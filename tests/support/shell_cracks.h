@@ -19,28 +19,9 @@
  * step. A plate has 1 mm x 1 mm, an annulus 1 to 3 mm, a sphere 1.5 mm. */
 static inline fracas_spec brittle_shell(const fracas_kind *shape, int64_t divisions)
 {
-    fracas_spec spec = {
-        .formulation = &fracas_formulation_shell.kind,
-        .geometry = {.shape = shape, .part = &fracas_part_whole, .thickness = 3e-4},
-        .mesh = {.spacing = &fracas_spacing_triangles, .divisions = divisions, .order = 2},
-        .material = {.young = 320e9, .density = 3300, .poisson = 0.3},
-        .cohesive = {.law = &fracas_law_nitsche.kind,
-                     .fracture_energy = 200,
-                     .beta = 5,
-                     .beta_shear = 1,
-                     .onset = &fracas_onset_mean,
-                     .coupling = 1},
-        .loading = {.type = &fracas_loading_expansion,
-                    .rate = 0,
-                    .ratio = 1,
-                    .start = &fracas_start_moving},
-        .time = {.stop = &fracas_stop_time,
-                 .end = 1,
-                 .safety = 0.5,
-                 .integrator = &fracas_integrator_central_difference,
-                 .spectral_radius = 0.8,
-                 .mass = &fracas_mass_lumped}};
-    for (int i = 0; i < FRACAS_EDGES; i++) spec.geometry.edge[i] = &fracas_edge_free;
+    fracas_spec spec = surface_spec(&fracas_formulation_shell, shape);
+    spec.geometry.thickness = 3e-4;
+    spec.mesh.divisions = divisions;
     if (shape == &fracas_shape_plate) spec.geometry.width = spec.geometry.height = 1e-3;
     else if (shape == &fracas_shape_annulus) spec.geometry.inner = 1e-3, spec.geometry.outer = 3e-3;
     else spec.geometry.radius = 1.5e-3;
@@ -64,29 +45,6 @@ static inline const double *node_at(const fracas_model *model, size_t element, s
 static inline double node_mass(const fracas_model *model, size_t e, size_t k)
 {
     return shell_tables(model)->lumped[e * 2 * SHELL_NODES + SHELL_NODES + k];
-}
-
-static inline fracas_batch *batch_with(const fracas_model *model, size_t count,
-                                       fracas_batch_options options)
-{
-    fracas_batch *batch = NULL;
-    OK(fracas_batch_create(model, count, &options, &batch));
-    return batch;
-}
-
-/* One lane that keeps its interfaces; strengths of 300 MPa (1 +- scatter). */
-static inline fracas_batch *lane_of(const fracas_model *model, double scatter, uint64_t replica)
-{
-    fracas_batch *batch = batch_with(
-        model, 1, (fracas_batch_options){.interfaces = true, .width = 1, .isa = FRACAS_ISA_BEST});
-    bar_draw(batch, 0, scatter, replica);
-    return batch;
-}
-
-static inline void run_to_end(fracas_batch *batch, fracas_record *record)
-{
-    size_t running = batch->count;
-    while (running > 0) OK(fracas_batch_step(batch, record, &running));
 }
 
 static inline double *shell_state(const fracas_batch *batch, size_t e, int field, size_t i)

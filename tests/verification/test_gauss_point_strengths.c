@@ -13,35 +13,17 @@
 static fracas_spec body_of(const fracas_formulation *formulation, const fracas_kind *shape,
                            int64_t order, int64_t divisions)
 {
-    fracas_spec spec = {
-        .formulation = &formulation->kind,
-        .geometry = {.shape = shape,
-                     .part = &fracas_part_whole,
-                     .width = 6e-3,
-                     .height = 5e-3,
-                     .inner = 2e-3,
-                     .outer = 4e-3,
-                     .radius = 1.5e-3,
-                     .thickness = 3e-4},
-        .mesh = {.spacing = &fracas_spacing_triangles, .divisions = divisions, .order = order},
-        .material = {.young = 320e9, .density = 3300, .poisson = 0.3},
-        .cohesive = {.law = &fracas_law_nitsche.kind,
-                     .fracture_energy = 200,
-                     .beta = 5,
-                     .beta_shear = 1,
-                     .onset = &fracas_onset_mean,
-                     .coupling = 1},
-        .loading = {.type = &fracas_loading_expansion,
-                    .rate = 2e4,
-                    .ratio = 1,
-                    .start = &fracas_start_moving},
-        .time = {.stop = &fracas_stop_time,
-                 .end = 5e-7,
-                 .safety = 0.5,
-                 .integrator = &fracas_integrator_central_difference,
-                 .spectral_radius = 0.8,
-                 .mass = &fracas_mass_lumped}};
-    for (int i = 0; i < FRACAS_EDGES; i++) spec.geometry.edge[i] = &fracas_edge_free;
+    fracas_spec spec = surface_spec(formulation, shape);
+    spec.geometry.width = 6e-3;
+    spec.geometry.height = 5e-3;
+    spec.geometry.inner = 2e-3;
+    spec.geometry.outer = 4e-3;
+    spec.geometry.radius = 1.5e-3;
+    spec.geometry.thickness = 3e-4;
+    spec.mesh.divisions = divisions;
+    spec.mesh.order = order;
+    spec.loading.rate = 2e4;
+    spec.time.end = 5e-7;
     return spec;
 }
 

@@ -350,7 +350,7 @@ static void walk(const fracas_spec *spec, double scale, double distortion, long 
                  double worst[3])
 {
     OWN(fracas_model) model = distorted_model(*spec, distortion, 3);
-    OWN(fracas_batch) batch = lane_of(model, 0.3, 5);
+    OWN(fracas_batch) batch = lane_of(model, 0.3, 5, 0);
     OK(fracas_batch_begin(batch));
     const size_t n = unknowns_of(model);
     twin t = twin_of(model, batch);
@@ -540,7 +540,7 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
                             1.5e-3 * (node_at(model, i / 18, i % 18 / 3)[i % 3] - centre)) /
                            (200 * dt);
         }
-        OWN(fracas_batch) batch = lane_of(model, 0.3, trial);
+        OWN(fracas_batch) batch = lane_of(model, 0.3, trial, 0);
         double end = 0, onset, broken;
         for (size_t i = 0; i < model->interfaces; i++) {
             if (fate_of(batch, i, velocity, &onset, &broken) && isfinite(broken))
@@ -612,7 +612,7 @@ static void onsets_and_breaks_come_when_they_must(void **unused)
 static void an_interface_breaks_with_its_last_layer(void **unused)
 {
     OWN(fracas_model) model = distorted_model(brittle_shell(&fracas_shape_plate, 1), 0, 0);
-    OWN(fracas_batch) batch = lane_of(model, 0, 0);
+    OWN(fracas_batch) batch = lane_of(model, 0, 0, 0);
     OK(fracas_batch_begin(batch));
     for (int last = 0; last <= SHELL_EDGE * SHELL_LAYERS; last++) {
         for (int p = 0; p < SHELL_EDGE * SHELL_LAYERS; p++)

@@ -67,7 +67,7 @@ static strip strip_of(const fracas_spec *spec, bool sliding, double strength)
 {
     strip s = {.model = distorted_model(*spec, 0, 0), .field = calloc(FIELDS, sizeof *s.field)};
     assert_true(s.field && s.model->elements == 2 && s.model->interfaces == 1);
-    s.batch = lane_of(s.model, 0, 0);
+    s.batch = lane_of(s.model, 0, 0, 0);
     bar_set_strength(s.batch, 0, 0, strength);
     OK(fracas_batch_begin(s.batch));
     s.answer.force = zeroed(36, sizeof(double));
