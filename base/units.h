@@ -6,6 +6,7 @@
 
 #include "base/own.h"
 #include "base/err.h"
+#include "base/own.h"
 
 #define FRACAS_NUMBER_TEXT 32 /* buffer of fracas_number_write, bytes */
 

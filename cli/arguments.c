@@ -11,40 +11,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-const fracas_option fracas_json_option = {"json", NULL, "print it as JSON"};
+const fracas_option fracas_json_option[] = {{"json", NULL, "print it as JSON"}, {0}};
 
 /* getopt_long returns FIRST_OPTION + i for options[i] by its name, and letters as themselves. */
 enum { FIRST_OPTION = 256 };
 
-size_t fracas_command_noptions(const fracas_command *command)
+/* FRACAS_MOST_OPTIONS: none of this name. */
+static size_t find(const fracas_command *command, const char *name)
 {
-    return command->noptions + command->nown;
+    for (size_t i = 0; command->options && command->options[i].name; i++)
+        if (!strcmp(command->options[i].name, name)) return i;
+    return FRACAS_MOST_OPTIONS;
 }
 
-const fracas_option *fracas_command_option(const fracas_command *command, size_t i)
+const char *fracas_given(const fracas_arguments *arguments, const char *option)
 {
-    return i < command->noptions ? &command->options[i] : &command->own[i - command->noptions];
+    const size_t i = find(arguments->command, option);
+    return i < FRACAS_MOST_OPTIONS ? arguments->value[i] : NULL;
 }
 
-const fracas_refusal *fracas_command_refusal(const fracas_command *command, size_t i)
+void fracas_arguments_set(fracas_arguments *arguments, const char *option, const char *value)
 {
-    for (size_t r = 0; r < command->nrefused; r++)
-        if (!strcmp(command->refused[r].name, fracas_command_option(command, i)->name))
-            return &command->refused[r];
-    return NULL;
-}
-
-static fracas_err check_refusals(const fracas_arguments *arguments)
-{
-    for (size_t i = 0; i < fracas_command_noptions(arguments->command); i++) {
-        const fracas_refusal *refusal = arguments->value[i]
-                                            ? fracas_command_refusal(arguments->command, i)
-                                            : NULL;
-        if (refusal)
-            return fracas_fail(FRACAS_USAGE, "%s: --%s %s", arguments->command->name, refusal->name,
-                               refusal->why);
-    }
-    return FRACAS_OK;
+    const size_t i = find(arguments->command, option);
+    if (i < FRACAS_MOST_OPTIONS) arguments->value[i] = value;
 }
 
 static fracas_err unknown_option(const fracas_command *command, const char *given)
@@ -55,9 +44,9 @@ static fracas_err unknown_option(const fracas_command *command, const char *give
     fracas_words words;
     fracas_words_init(&words, found);
     char option[FRACAS_MOST_OPTIONS][32];
-    for (size_t i = 0; i < fracas_command_noptions(command); i++) {
-        if (fracas_command_refusal(command, i)) continue;
-        snprintf(option[i], sizeof option[i], "--%s", fracas_command_option(command, i)->name);
+    for (size_t i = 0; command->options && command->options[i].name; i++) {
+        if (command->refused && !strcmp(command->refused, command->options[i].name)) continue;
+        snprintf(option[i], sizeof option[i], "--%s", command->options[i].name);
         fracas_words_add(&words, option[i]);
     }
     fracas_words_add(&words, "--help");
@@ -66,15 +55,13 @@ static fracas_err unknown_option(const fracas_command *command, const char *give
                        command->takes_rest ? "; options of another program follow `--`" : "");
 }
 
-/* Index of the option for a result of getopt_long; FRACAS_MOST_OPTIONS: none. */
-static size_t option_of(const fracas_command *command, int found)
+/* The option for a result of getopt_long; NULL: none. */
+static const fracas_option *option_of(const fracas_command *command, int found)
 {
-    if (found >= FIRST_OPTION) return (size_t)(found - FIRST_OPTION);
-    for (size_t i = 0; i < fracas_command_noptions(command); i++)
-        if (fracas_command_option(command, i)->letter &&
-            fracas_command_option(command, i)->letter == found)
-            return i;
-    return FRACAS_MOST_OPTIONS;
+    if (found >= FIRST_OPTION) return &command->options[found - FIRST_OPTION];
+    for (const fracas_option *option = command->options; option && option->name; option++)
+        if (option->letter && option->letter == found) return option;
+    return NULL;
 }
 
 /* The latest option word of getopt_long, without a value in a word of its own. */
@@ -85,50 +72,49 @@ static const char *given_option(char *const *argv)
 }
 
 /* getopt_long accepts any beginning of a name, --forc for --force; fracas does not. */
-static bool is_abbreviated(const fracas_command *command, int found, char *const *argv)
+static bool is_abbreviated(const fracas_option *option, char *const *argv)
 {
-    if (option_of(command, found) >= fracas_command_noptions(command)) return false;
-    const char *name = fracas_command_option(command, option_of(command, found))->name,
-               *given = given_option(argv);
-    return !strncmp(given, "--", 2) &&
-           (strlen(name) != strcspn(given + 2, "=") || strncmp(given + 2, name, strlen(name)) != 0);
+    const char *given = given_option(argv);
+    return option && !strncmp(given, "--", 2) &&
+           (strlen(option->name) != strcspn(given + 2, "=") ||
+            strncmp(given + 2, option->name, strlen(option->name)) != 0);
+}
+
+/* A wrong use of an option, or an unknown one. */
+static fracas_err misused(const fracas_command *command, int found, char *const *argv)
+{
+    const fracas_option *option = option_of(command, optopt);
+    const char letter[] = {'-', (char)optopt, '\0'};
+    if (!option) return unknown_option(command, optopt ? letter : argv[optind - 1]);
+    if (found == ':')
+        return fracas_fail(FRACAS_USAGE, "%s: --%s needs a value: --%s %s", command->name,
+                           option->name, option->name, option->argument);
+    return fracas_fail(FRACAS_USAGE, "%s: --%s takes no value", command->name, option->name);
 }
 
 static fracas_err read_options(const fracas_command *command, fracas_arguments *arguments)
 {
     struct option table[FRACAS_MOST_OPTIONS + 2] = {{"help", no_argument, NULL, 'h'}};
     char letters[2 * FRACAS_MOST_OPTIONS + 3] = ":h";
-    const size_t noptions = fracas_command_noptions(command);
-    for (size_t i = 0; i < noptions; i++) {
-        const fracas_option *option = fracas_command_option(command, i);
+    for (int i = 0; command->options && command->options[i].name; i++) {
+        const fracas_option *option = &command->options[i];
         char *end = letters + strlen(letters);
         if (option->letter) snprintf(end, 3, "%c%s", option->letter, option->argument ? ":" : "");
         table[i + 1] = (struct option){option->name,
                                        option->argument ? required_argument : no_argument, NULL,
-                                       FIRST_OPTION + (int)i};
+                                       FIRST_OPTION + i};
     }
 
     optind = 2;
     opterr = 0;
     int found;
     while ((found = getopt_long(arguments->argc, arguments->argv, letters, table, NULL)) != -1) {
-        if (is_abbreviated(command, found, arguments->argv))
+        const fracas_option *option = option_of(command, found);
+        if (is_abbreviated(option, arguments->argv))
             return unknown_option(command, given_option(arguments->argv));
         if (found == 'h') arguments->help = true;
-        else if (option_of(command, found) < noptions)
-            arguments->value[option_of(command, found)] = optarg ? optarg : "";
-        else if (option_of(command, optopt) >= noptions) {
-            const char letter[] = {'-', (char)optopt, '\0'};
-            return unknown_option(command, optopt ? letter : arguments->argv[optind - 1]);
-        } else {
-            const fracas_option *option = fracas_command_option(command,
-                                                                option_of(command, optopt));
-            if (found == ':')
-                return fracas_fail(FRACAS_USAGE, "%s: --%s needs a value: --%s %s", command->name,
-                                   option->name, option->name, option->argument);
-            return fracas_fail(FRACAS_USAGE, "%s: --%s takes no value", command->name,
-                               option->name);
-        }
+        else if (option) arguments->value[option - command->options] = optarg ? optarg : "";
+        else return misused(command, found, arguments->argv);
     }
     return FRACAS_OK;
 }
@@ -152,7 +138,9 @@ fracas_err fracas_arguments_read(const fracas_command *command, int argc, char *
     if (command->takes_rest) cut_rest(arguments);
     TRY(read_options(command, arguments));
     if (arguments->help) return FRACAS_OK;
-    TRY(check_refusals(arguments));
+    if (command->refused && fracas_given(arguments, command->refused))
+        return fracas_fail(FRACAS_USAGE, "%s: --%s %s", command->name, command->refused,
+                           command->why);
     if (command->operand && optind < arguments->argc) arguments->operand = argv[optind++];
     if (command->second && optind < arguments->argc) arguments->second = argv[optind++];
     if (optind < arguments->argc)
@@ -168,42 +156,40 @@ fracas_err fracas_arguments_read(const fracas_command *command, int argc, char *
     return FRACAS_OK;
 }
 
-fracas_err fracas_arguments_integer(const fracas_arguments *arguments, size_t i, int minimum,
-                                    int maximum, int *value)
+fracas_err fracas_arguments_integer(const fracas_arguments *arguments, const char *option,
+                                    int minimum, int maximum, int *value)
 {
-    const char *text = arguments->value[i];
+    const char *text = fracas_given(arguments, option);
     if (!text) return FRACAS_OK;
     char *end;
     errno = 0;
     long number = strtol(text, &end, 10);
     if (end == text || *end || errno || number < minimum || number > maximum)
-        return fracas_fail(
-            FRACAS_USAGE, "%s: --%s is `%s`; it must be a whole number from %d to %d",
-            arguments->command->name, fracas_command_option(arguments->command, i)->name, text,
-            minimum, maximum);
+        return fracas_fail(FRACAS_USAGE,
+                           "%s: --%s is `%s`; it must be a whole number from %d to %d",
+                           arguments->command->name, option, text, minimum, maximum);
     *value = (int)number;
     return FRACAS_OK;
 }
 
-fracas_err fracas_arguments_real(const fracas_arguments *arguments, size_t i, double scale,
-                                 double *value)
+fracas_err fracas_arguments_real(const fracas_arguments *arguments, const char *option,
+                                 double scale, double *value)
 {
-    const char *text = arguments->value[i];
+    const char *text = fracas_given(arguments, option);
     if (!text) return FRACAS_OK;
     char *end;
     double number = strtod(text, &end) * scale;
     if (end == text || *end || !isfinite(number) || number < 0)
         return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`; it must be a number, 0 or more",
-                           arguments->command->name,
-                           fracas_command_option(arguments->command, i)->name, text);
+                           arguments->command->name, option, text);
     *value = number;
     return FRACAS_OK;
 }
 
-fracas_err fracas_arguments_word(const fracas_arguments *arguments, size_t i,
+fracas_err fracas_arguments_word(const fracas_arguments *arguments, const char *option,
                                  const char *const *words, size_t count, int *value)
 {
-    const char *text = arguments->value[i];
+    const char *text = fracas_given(arguments, option);
     if (!text) return FRACAS_OK;
     fracas_words known;
     fracas_words_init(&known, text);
@@ -215,8 +201,7 @@ fracas_err fracas_arguments_word(const fracas_arguments *arguments, size_t i,
         fracas_words_add(&known, words[k]);
     }
     char hint[600];
-    return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`%s", arguments->command->name,
-                       fracas_command_option(arguments->command, i)->name, text,
+    return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`%s", arguments->command->name, option, text,
                        fracas_words_hint(&known, "it can be", hint));
 }
 
@@ -253,17 +238,17 @@ static bool read_duration(const char *text, double *seconds)
     return isfinite(*seconds);
 }
 
-fracas_err fracas_arguments_time(const fracas_arguments *arguments, size_t i, double *seconds)
+fracas_err fracas_arguments_time(const fracas_arguments *arguments, const char *option,
+                                 double *seconds)
 {
-    const char *text = arguments->value[i];
+    const char *text = fracas_given(arguments, option);
     double value;
     if (!text) return FRACAS_OK;
     if ((!read_clock(text, &value) && !read_duration(text, &value)) || value <= 0)
         return fracas_fail(FRACAS_USAGE,
                            "%s: --%s is `%s`; it must be a time above 0 with its unit, such as "
                            "90s, 55m, 1h30m, 2:00:00 or 1-00:00:00",
-                           arguments->command->name,
-                           fracas_command_option(arguments->command, i)->name, text);
+                           arguments->command->name, option, text);
     *seconds = value;
     return FRACAS_OK;
 }

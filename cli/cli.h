@@ -17,35 +17,26 @@ typedef struct {
 
 enum { FRACAS_MOST_OPTIONS = 32 }; /* per subcommand */
 
-/* A shared option refused by this command. */
-typedef struct {
-    const char *name;
-    const char *why; /* "follows from --time: leave it out" */
-} fracas_refusal;
-
 typedef struct fracas_arguments fracas_arguments;
 struct fracas_campaign;
 
 /* A subcommand is one file with one const fracas_command and one line in main.c. */
 typedef struct {
     const char *name;
-    const char *operand; /* its name in the help; NULL: none */
-    const char *second;  /* a second operand */
-    const char *doc;     /* one sentence, no full stop */
-    const char *more;    /* paragraph for `fracas help NAME` */
-    const fracas_option *options;
-    size_t noptions;
-    const fracas_option *own; /* more options, where `options` are shared with other commands */
-    size_t nown;
-    const fracas_refusal *refused; /* shared options left out of the help */
-    size_t nrefused;
-    bool takes_rest; /* words after `--` are kept for another program */
+    const char *operand;          /* its name in the help; NULL: none */
+    const char *second;           /* a second operand */
+    const char *doc;              /* one sentence, no full stop */
+    const char *more;             /* paragraph for `fracas help NAME` */
+    const fracas_option *options; /* up to one without a name; NULL: none */
+    const char *refused; /* the option among them, left out of the help, that is refused ... */
+    const char *why;     /* ... "follows from --time: leave it out" */
+    bool takes_rest;     /* words after `--` are kept for another program */
     fracas_err (*run)(const fracas_arguments *arguments);
     /* In the place of `run`: gets the campaign of the operand, a study. */
     fracas_err (*run_on)(const fracas_arguments *arguments, const struct fracas_campaign *campaign);
 } fracas_command;
 
-extern const fracas_option fracas_json_option; /* --json, for commands with no other option */
+extern const fracas_option fracas_json_option[]; /* --json alone */
 
 extern const fracas_command fracas_command_run, fracas_command_plan, fracas_command_status,
     fracas_command_report, fracas_command_export, fracas_command_picture, fracas_command_verify,
@@ -57,8 +48,7 @@ extern const fracas_command fracas_command_run, fracas_command_plan, fracas_comm
 struct fracas_arguments {
     const fracas_command *command;
     const char *operand, *second;
-    const char *value[FRACAS_MOST_OPTIONS]; /* options, then own; NULL: not given; "": without a
-                                               value */
+    const char *value[FRACAS_MOST_OPTIONS]; /* by option: fracas_given */
     bool help;                              /* --help was given: nothing else is checked */
     int argc;                               /* the program's, with options in front */
     char **argv;
@@ -66,34 +56,33 @@ struct fracas_arguments {
     int nrest;
 };
 
-/* Option `i` of a command, its own ones behind the shared ones. */
-size_t fracas_command_noptions(const fracas_command *command);
-const fracas_option *fracas_command_option(const fracas_command *command, size_t i);
-
-/* NULL for an accepted option. */
-const fracas_refusal *fracas_command_refusal(const fracas_command *command, size_t i);
+/* The value of an option; "": it has none; NULL: not given, or no option of the command. */
+const char *fracas_given(const fracas_arguments *arguments, const char *option);
+/* Gives an option of the command another value, NULL: none. */
+void fracas_arguments_set(fracas_arguments *arguments, const char *option, const char *value);
 
 /* Reads the program's command line; argv[1] is the command's name. FRACAS_USAGE for an unknown
  * option (naming the nearest), a refused one (with the reason), a missing or extra argument. */
 FRACAS_MUST_USE fracas_err fracas_arguments_read(const fracas_command *command, int argc,
                                                  char **argv, fracas_arguments *arguments);
 
-/* The value of option `i` as a whole number in [minimum, maximum]; *value is unchanged if it was
+/* The value of an option as a whole number in [minimum, maximum]; *value is unchanged if it was
  * not given. FRACAS_USAGE for anything else. */
-FRACAS_MUST_USE fracas_err fracas_arguments_integer(const fracas_arguments *arguments, size_t i,
-                                                    int minimum, int maximum, int *value);
+FRACAS_MUST_USE fracas_err fracas_arguments_integer(const fracas_arguments *arguments,
+                                                    const char *option, int minimum, int maximum,
+                                                    int *value);
 /* The same for a finite number >= 0, times `scale`. */
-FRACAS_MUST_USE fracas_err fracas_arguments_real(const fracas_arguments *arguments, size_t i,
-                                                 double scale, double *value);
+FRACAS_MUST_USE fracas_err fracas_arguments_real(const fracas_arguments *arguments,
+                                                 const char *option, double scale, double *value);
 /* The same for one of `count` words: *value becomes its place. */
-FRACAS_MUST_USE fracas_err fracas_arguments_word(const fracas_arguments *arguments, size_t i,
-                                                 const char *const *words, size_t count,
-                                                 int *value);
+FRACAS_MUST_USE fracas_err fracas_arguments_word(const fracas_arguments *arguments,
+                                                 const char *option, const char *const *words,
+                                                 size_t count, int *value);
 
 /* The same for a duration in s: a sum of numbers with s, m, h or d (`55m`, `1h30m`), or
  * [days-]hours:minutes:seconds as Slurm writes it. */
-FRACAS_MUST_USE fracas_err fracas_arguments_time(const fracas_arguments *arguments, size_t i,
-                                                 double *seconds);
+FRACAS_MUST_USE fracas_err fracas_arguments_time(const fracas_arguments *arguments,
+                                                 const char *option, double *seconds);
 
 /* FRACAS_DAMAGED, with the remedy, if `study` is no folder of a study. */
 FRACAS_MUST_USE fracas_err fracas_cli_check_study(const char *study);

@@ -7,19 +7,17 @@
 
 #include <stdio.h>
 
-enum { BY, JSON };
 static const fracas_option options[] = {
-    [BY] = {"by", "COLUMNS", "match points by these columns alone, as loading.rate,strength.shape"},
-    [JSON] = {"json", NULL, "print it as JSON"},
-};
+    {"by", "COLUMNS", "match points by these columns alone, as loading.rate,strength.shape"},
+    {"json", NULL, "print it as JSON"},
+    {0}};
 
 /* study.h5 does not say whether random numbers are common: the campaign does. */
 static fracas_err read_common(const char *study, bool *common)
 {
-    fracas_campaign *campaign;
+    OWN(fracas_campaign) campaign = NULL;
     TRY(fracas_cli_read_campaign(study, &campaign));
     *common = campaign->common_random_numbers;
-    fracas_campaign_destroy(campaign);
     return FRACAS_OK;
 }
 
@@ -29,11 +27,12 @@ static fracas_err print(const fracas_arguments *arguments, const fracas_analysis
     bool common_a, common_b;
     TRY(read_common(arguments->operand, &common_a));
     TRY(read_common(arguments->second, &common_b));
-    const fracas_compare_options how = {.by = arguments->value[BY], .common = common_a && common_b};
+    const fracas_compare_options how = {.by = fracas_given(arguments, "by"),
+                                        .common = common_a && common_b};
     fracas_comparison comparison;
     TRY(fracas_compare(a, b, &how, &comparison));
     fracas_err err = FRACAS_OK;
-    if (arguments->value[JSON]) fracas_comparison_write_json(&comparison, a, b, stdout);
+    if (fracas_given(arguments, "json")) fracas_comparison_write_json(&comparison, a, b, stdout);
     else err = fracas_comparison_print(&comparison, a, b, stdout);
     fracas_comparison_clear(&comparison);
     return err;
@@ -41,19 +40,14 @@ static fracas_err print(const fracas_arguments *arguments, const fracas_analysis
 
 static fracas_err compare(const fracas_arguments *arguments)
 {
-    fracas_campaign *of_a, *of_b;
-    fracas_analysis *a, *b;
+    OWN(fracas_campaign) of_a = NULL;
+    OWN(fracas_campaign) of_b = NULL;
+    OWN(fracas_analysis) a = NULL;
+    OWN(fracas_analysis) b = NULL;
     TRY(fracas_cli_check_study(arguments->second));
     TRY(fracas_cli_analyse(arguments->operand, &of_a, &a));
-    fracas_err err = fracas_cli_analyse(arguments->second, &of_b, &b);
-    if (!err) {
-        err = print(arguments, a, b);
-        fracas_analysis_destroy(b);
-        fracas_campaign_destroy(of_b);
-    }
-    fracas_analysis_destroy(a);
-    fracas_campaign_destroy(of_a);
-    return err;
+    TRY(fracas_cli_analyse(arguments->second, &of_b, &b));
+    return print(arguments, a, b);
 }
 
 const fracas_command fracas_command_compare = {
@@ -65,6 +59,5 @@ const fracas_command fracas_command_compare = {
             "realizations with its 95 % interval, and p of\n"
             "tests that permute whole realizations. The status is 0 whatever they find.\n",
     .options = options,
-    .noptions = FRACAS_COUNT(options),
     .run = compare,
 };

@@ -16,15 +16,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Behind the options of `fracas run STUDY`. */
-enum { STUDY = FRACAS_NSTUDY_RUN_OPTIONS, ONLY, TOLERANCE, JSON, NOPTIONS };
-#define AT(option) [(option)-FRACAS_NSTUDY_RUN_OPTIONS]
-static const fracas_option options[NOPTIONS - FRACAS_NSTUDY_RUN_OPTIONS] = {
-    AT(STUDY) = {"study", "DIR", "folder of the studies (studies/NAME-converge)"},
-    AT(ONLY) = {"only", "mesh|step|beta", "refine that alone (all three in turn)"},
-    AT(TOLERANCE) = {"tolerance", "PERCENT", "a change within which a number holds (2)"},
-    AT(JSON) = {"json", NULL, "print the result as JSON"},
-};
+static const fracas_option options[] = {
+    FRACAS_RUN_OPTIONS,
+    {"study", "DIR", "folder of the studies (studies/NAME-converge)"},
+    {"only", "mesh|step|beta", "refine that alone (all three in turn)"},
+    {"tolerance", "PERCENT", "a change within which a number holds (2)"},
+    {"json", NULL, "print the result as JSON"},
+    {0}};
 
 enum { NAME = 8, STUDY_PATH = PATH_MAX + NAME };
 
@@ -60,15 +58,14 @@ static fracas_err check_rank(void)
 
 static fracas_err find_folder(converging *c)
 {
-    const char *given = c->arguments->value[STUDY];
-    fracas_campaign *campaign;
+    const char *given = fracas_given(c->arguments, "study");
+    OWN(fracas_campaign) campaign = NULL;
     if (given && !*given)
         return fracas_fail(FRACAS_USAGE, "--study is empty; name a folder, or leave it out");
     TRY(fracas_campaign_read(c->arguments->operand, &campaign));
     const int n = given ? snprintf(c->folder, sizeof c->folder, "%s", given)
                         : snprintf(c->folder, sizeof c->folder, "studies/%s-converge",
                                    campaign->name);
-    fracas_campaign_destroy(campaign);
     if (n >= (int)sizeof c->folder)
         return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", given);
     for (size_t r = 0; r < FRACAS_NREFINEMENTS; r++)
@@ -117,9 +114,8 @@ static fracas_err check_study(const converging *c, fracas_refinement by)
 static fracas_err make_campaigns(converging *c)
 {
     int replicas = 0, only = -1;
-    TRY(fracas_arguments_integer(c->arguments, fracas_cli_run_option("replicas"), 1, INT_MAX,
-                                 &replicas));
-    TRY(fracas_arguments_word(c->arguments, ONLY, fracas_refinement_name + 1,
+    TRY(fracas_arguments_integer(c->arguments, "replicas", 1, INT_MAX, &replicas));
+    TRY(fracas_arguments_word(c->arguments, "only", fracas_refinement_name + 1,
                               FRACAS_NREFINEMENTS - 1, &only));
     bool any = false;
     for (size_t r = 0; r < FRACAS_NREFINEMENTS; r++) {
@@ -145,16 +141,14 @@ static fracas_err predict(const converging *c, double *time)
     fracas_run_options run;
     int jobs;
     fracas_run_options_init(&run);
-    TRY(fracas_arguments_integer(c->arguments, fracas_cli_run_option("jobs"), 1, INT_MAX,
-                                 &run.jobs));
+    TRY(fracas_arguments_integer(c->arguments, "jobs", 1, INT_MAX, &run.jobs));
     TRY(fracas_allocation_jobs(run.jobs, &jobs));
-    fracas_forecast *forecast = calloc(campaign->npoints, sizeof *forecast);
+    OWNED fracas_forecast *forecast = calloc(campaign->npoints, sizeof *forecast);
     if (!forecast) return fracas_no_memory("the plan");
-    fracas_err err = fracas_forecast_all(campaign, jobs, forecast);
     *time = 0;
+    TRY(fracas_forecast_all(campaign, jobs, forecast));
     for (size_t p = 0; p < campaign->npoints; p++) *time += forecast[p].time;
-    free(forecast);
-    return err;
+    return FRACAS_OK;
 }
 
 static double cost_of(const fracas_refined *refined)
@@ -220,9 +214,9 @@ static fracas_err run_study(converging *c, fracas_refinement by)
                 FRACAS_INTERRUPTED,
                 "the walltime is over: what was done is kept; the same command goes on from there");
         snprintf(left, sizeof left, "%.3fs", rest);
-        given.value[fracas_cli_run_option("walltime")] = left;
+        fracas_arguments_set(&given, "walltime", left);
     }
-    given.value[fracas_cli_run_option("replicas")] = NULL; /* the file has them */
+    fracas_arguments_set(&given, "replicas", NULL); /* the file has them */
     fprintf(stderr, "fracas: %s, %s\n", fracas_refinement_name[by], fracas_refinement_doc[by]);
     fracas_err end = fracas_cli_run_as(&given, file, c->study[by], run_one);
     if (end != FRACAS_SOME_FAILED)
@@ -239,9 +233,10 @@ static fracas_err add_refinement(const converging *c, fracas_refinement by,
 {
     const fracas_refined *refined = &c->refined[by], *base = base_of(c);
     const size_t npoints = refined->campaign->npoints;
-    fracas_hash *before = calloc(npoints, sizeof *before), *after = calloc(npoints, sizeof *after);
-    fracas_err err = before && after ? FRACAS_OK : fracas_no_memory("the points of the campaign");
-    for (size_t p = 0; p < npoints && !err; p++) {
+    OWNED fracas_hash *before = calloc(npoints, sizeof *before);
+    OWNED fracas_hash *after = calloc(npoints, sizeof *after);
+    if (!before || !after) return fracas_no_memory("the points of the campaign");
+    for (size_t p = 0; p < npoints; p++) {
         before[p] = base->campaign->point[refined->from[p]].hash;
         after[p] = refined->campaign->point[p].hash;
     }
@@ -251,10 +246,7 @@ static fracas_err add_refinement(const converging *c, fracas_refinement by,
                                        npoints,
                                        before,
                                        after};
-    if (!err) err = fracas_convergence_add(convergence, c->study[by], &map);
-    free(before);
-    free(after);
-    return err;
+    return fracas_convergence_add(convergence, c->study[by], &map);
 }
 
 static fracas_err compare_with(const converging *c, fracas_convergence *convergence)
@@ -271,7 +263,7 @@ static fracas_err compare_with(const converging *c, fracas_convergence *converge
     const char *slash = strrchr(c->folder, '/');
     TRY(fracas_convergence_write_page(convergence, c->folder,
                                       slash && slash[1] ? slash + 1 : c->folder));
-    if (c->arguments->value[JSON]) {
+    if (fracas_given(c->arguments, "json")) {
         fracas_convergence_write_json(convergence, stdout);
         return FRACAS_OK;
     }
@@ -284,23 +276,21 @@ static fracas_err compare_with(const converging *c, fracas_convergence *converge
 
 static fracas_err compare(const converging *c, double tolerance)
 {
-    fracas_convergence *convergence;
+    OWN(fracas_convergence) convergence = NULL;
     TRY(fracas_convergence_create(c->study[FRACAS_REFINE_NOTHING], tolerance, &convergence));
-    fracas_err err = compare_with(c, convergence);
-    fracas_convergence_destroy(convergence);
-    return err;
+    return compare_with(c, convergence);
 }
 
 static fracas_err converge_with(converging *c)
 {
     double tolerance = 0.02;
     TRY(check_rank());
-    TRY(fracas_arguments_real(c->arguments, TOLERANCE, 0.01, &tolerance));
+    TRY(fracas_arguments_real(c->arguments, "tolerance", 0.01, &tolerance));
     if (tolerance <= 0)
         return fracas_fail(
             FRACAS_USAGE,
             "converge: --tolerance is 0; a number never is the same: give a per cent above 0");
-    TRY(fracas_arguments_time(c->arguments, fracas_cli_run_option("walltime"), &c->walltime));
+    TRY(fracas_arguments_time(c->arguments, "walltime", &c->walltime));
     TRY(find_folder(c));
     TRY(make_campaigns(c));
     TRY(print_costs(c));
@@ -322,11 +312,6 @@ static fracas_err converge(const fracas_arguments *arguments)
     return err;
 }
 
-static const fracas_refusal refused[] = {
-    {"part", "is of one study; here there are several, which are compared when all of them are "
-             "complete: leave it out"},
-};
-
 const fracas_command fracas_command_converge = {
     .name = "converge",
     .operand = "FILE",
@@ -341,11 +326,9 @@ const fracas_command fracas_command_converge = {
             "same strengths in all studies, of which those of step\n"
             "and beta make pairs. Strengths that scatter much and have no reference volume belong "
             "to interfaces: mesh moves with their number.\n",
-    .options = FRACAS_STUDY_RUN_OPTIONS,
-    .noptions = FRACAS_NSTUDY_RUN_OPTIONS,
-    .own = options,
-    .nown = FRACAS_COUNT(options),
-    .refused = refused,
-    .nrefused = FRACAS_COUNT(refused),
+    .options = options,
+    .refused = "part",
+    .why = "is of one study; here there are several, which are compared when all of them are "
+           "complete: leave it out",
     .run = converge,
 };

@@ -37,16 +37,14 @@ static fracas_err check(const char *study, const fracas_campaign *campaign, int 
 static fracas_err extend(const fracas_arguments *arguments)
 {
     int replicas = 0;
-    fracas_campaign *campaign;
-    TRY(fracas_arguments_integer(arguments, fracas_cli_run_option("replicas"), 1, INT_MAX,
-                                 &replicas));
+    OWN(fracas_campaign) campaign = NULL;
+    TRY(fracas_arguments_integer(arguments, "replicas", 1, INT_MAX, &replicas));
     if (!replicas)
         return fracas_fail(FRACAS_USAGE,
                            "extend: --replicas N is missing: how many every point shall have");
     TRY(fracas_cli_read_campaign(arguments->operand, &campaign));
-    fracas_err code = check(arguments->operand, campaign, replicas);
-    fracas_campaign_destroy(campaign);
-    return code ? code : fracas_cli_run_study(arguments);
+    TRY(check(arguments->operand, campaign, replicas));
+    return fracas_cli_run_study(arguments);
 }
 
 const fracas_command fracas_command_extend = {
@@ -58,6 +56,5 @@ const fracas_command fracas_command_extend = {
             "start. More points, or a tighter rule for replicas, come by `fracas run` with a "
             "longer campaign file.\n",
     .options = FRACAS_STUDY_RUN_OPTIONS,
-    .noptions = FRACAS_NSTUDY_RUN_OPTIONS,
     .run = extend,
 };

@@ -11,13 +11,12 @@
 #include <stdint.h>
 #include <unistd.h>
 
-enum { POINT, RESAMPLES, JSON };
 static const fracas_option options[] = {
-    [POINT] = {"point", "P",
-               "fit the point of this number alone, from 0, and keep the fits of the others", 0},
-    [RESAMPLES] = {"resamples", "B", "resamples of intervals and p-values, 99 to 100000 (999)", 0},
-    [JSON] = {"json", NULL, "print the fits as JSON", 0},
-};
+    {"point", "P", "fit the point of this number alone, from 0, and keep the fits of the others",
+     0},
+    {"resamples", "B", "resamples of intervals and p-values, 99 to 100000 (999)", 0},
+    {"json", NULL, "print the fits as JSON", 0},
+    {0}};
 
 /* Reads valid fits of the other points before any computation; NULL without a file. */
 static fracas_err read_others(const char *study, const fracas_analysis *analysis, bool wanted,
@@ -35,32 +34,28 @@ static fracas_err fit_study(const fracas_arguments *arguments, const fracas_anal
                             size_t point, int resamples)
 {
     const char *study = arguments->operand;
-    const bool json = arguments->value[JSON] != NULL;
-    fracas_fits *fits, *older;
+    const bool json = fracas_given(arguments, "json") != NULL;
+    OWN(fracas_fits) fits = NULL;
+    OWN(fracas_fits) older = NULL;
     TRY(read_others(study, analysis, point != SIZE_MAX, &older));
-    fracas_err code = fracas_fits_create(analysis, point, resamples, &fits);
-    if (!code) {
-        const size_t made = fits->n; /* rows to show, out of all rows */
-        if (older) code = fracas_fits_complete(fits, older);
-        if (!code)
-            code = fracas_fits_write(fits, study); /* first: the reader of the output may end */
-        fits->n = made;
-        if (json) fracas_fits_write_json(fits, stdout);
-        else fracas_fits_print(fits, analysis, stdout);
-        if (!code && !json) printf("\nfits: %s/" FRACAS_FITS_FILE "\n", study);
-        fracas_fits_destroy(fits);
-    }
-    fracas_fits_destroy(older);
+    TRY(fracas_fits_create(analysis, point, resamples, &fits));
+    const size_t made = fits->n; /* rows to show, out of all rows */
+    fracas_err code = older ? fracas_fits_complete(fits, older) : FRACAS_OK;
+    if (!code) code = fracas_fits_write(fits, study); /* first: the reader of the output may end */
+    fits->n = made;
+    if (json) fracas_fits_write_json(fits, stdout);
+    else fracas_fits_print(fits, analysis, stdout);
+    if (!code && !json) printf("\nfits: %s/" FRACAS_FITS_FILE "\n", study);
     return code;
 }
 
 static fracas_err fit(const fracas_arguments *arguments)
 {
     int point = -1, resamples = FRACAS_FITS_RESAMPLES;
-    fracas_campaign *campaign;
-    fracas_analysis *analysis;
-    TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
-    TRY(fracas_arguments_integer(arguments, RESAMPLES, 99, 100000, &resamples));
+    OWN(fracas_campaign) campaign = NULL;
+    OWN(fracas_analysis) analysis = NULL;
+    TRY(fracas_arguments_integer(arguments, "point", 0, INT_MAX, &point));
+    TRY(fracas_arguments_integer(arguments, "resamples", 99, 100000, &resamples));
     if (access(arguments->operand, W_OK) && errno != ENOENT) /* first: fits take minutes */
         return fracas_fail_system(
             errno,
@@ -68,11 +63,7 @@ static fracas_err fit(const fracas_arguments *arguments)
             " could not be written; make the folder writable, or fit a copy of the study",
             arguments->operand);
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
-    fracas_err code = fit_study(arguments, analysis, point < 0 ? SIZE_MAX : (size_t)point,
-                                resamples);
-    fracas_analysis_destroy(analysis);
-    fracas_campaign_destroy(campaign);
-    return code;
+    return fit_study(arguments, analysis, point < 0 ? SIZE_MAX : (size_t)point, resamples);
 }
 
 const fracas_command fracas_command_fit = {
@@ -83,6 +74,5 @@ const fracas_command fracas_command_fit = {
             "a minute or so for a point. They are kept in\n"
             "STUDY/fits.csv, for the report.\n",
     .options = options,
-    .noptions = FRACAS_COUNT(options),
     .run = fit,
 };

@@ -9,11 +9,8 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-enum { DRY_RUN, JSON };
 static const fracas_option options[] = {
-    [DRY_RUN] = {"dry-run", NULL, "only say what it would remove"},
-    [JSON] = {"json", NULL, "print it as JSON"},
-};
+    {"dry-run", NULL, "only say what it would remove"}, {"json", NULL, "print it as JSON"}, {0}};
 
 typedef struct {
     fracas_json *json; /* NULL: in words */
@@ -42,7 +39,8 @@ static void print_item(void *context, const fracas_collected *item)
 static fracas_err gc(const fracas_arguments *arguments, const fracas_campaign *campaign)
 {
     const char *study = arguments->operand;
-    const bool dry = arguments->value[DRY_RUN], with_json = arguments->value[JSON];
+    const bool dry = fracas_given(arguments, "dry-run"),
+               with_json = fracas_given(arguments, "json");
     fracas_json json;
     uint64_t freed = 0;
     printing p = {.json = with_json ? &json : NULL, .dry = dry};
@@ -74,6 +72,5 @@ const fracas_command fracas_command_gc = {
             "commands left behind, attachments that campaign.yaml does not name; and gives free "
             "pages of the index back. What it does not know it lists and leaves.\n",
     .options = options,
-    .noptions = FRACAS_COUNT(options),
     .run_on = gc,
 };

@@ -42,16 +42,14 @@ static void print_usage(FILE *out)
 
 static void print_help(const fracas_command *command)
 {
-    const size_t noptions = fracas_command_noptions(command);
     printf("usage: fracas %s%s%s%s%s%s\n\n%s.\n%s", command->name, command->operand ? " " : "",
            command->operand ? command->operand : "", command->second ? " " : "",
-           command->second ? command->second : "", noptions ? " [options]" : "", command->doc,
-           command->more);
-    if (noptions) puts("\noptions:");
-    for (size_t i = 0; i < noptions; i++) {
-        const fracas_option *option = fracas_command_option(command, i);
+           command->second ? command->second : "", command->options ? " [options]" : "",
+           command->doc, command->more);
+    if (command->options) puts("\noptions:");
+    for (const fracas_option *option = command->options; option && option->name; option++) {
         char call[40];
-        if (fracas_command_refusal(command, i)) continue;
+        if (command->refused && !strcmp(command->refused, option->name)) continue;
         snprintf(call, sizeof call, "--%s %s", option->name,
                  option->argument ? option->argument : "");
         printf("  %-28s %s\n", call, option->doc);
@@ -75,12 +73,10 @@ static fracas_err find_command(const char *name, const fracas_command **command)
 
 static fracas_err run(const fracas_arguments *arguments)
 {
-    fracas_campaign *campaign;
+    OWN(fracas_campaign) campaign = NULL;
     if (arguments->command->run) return arguments->command->run(arguments);
     TRY(fracas_cli_read_campaign(arguments->operand, &campaign));
-    fracas_err err = arguments->command->run_on(arguments, campaign);
-    fracas_campaign_destroy(campaign);
-    return err;
+    return arguments->command->run_on(arguments, campaign);
 }
 
 static fracas_err run_command(int argc, char **argv)

@@ -11,12 +11,12 @@ static fracas_err merge(const fracas_arguments *arguments, const fracas_campaign
     fracas_cli_upkeep upkeep;
     fracas_upkeep end = {0};
     bool written = false;
-    fracas_cli_upkeep_begin(&upkeep, study, arguments->value[0]);
+    fracas_cli_upkeep_begin(&upkeep, study, fracas_given(arguments, "json"));
     fracas_err code = fracas_upkeep_merge(study, campaign, &upkeep.said, &end, &written);
     if (!code || code == FRACAS_SOME_FAILED ||
-        (code == FRACAS_INTERRUPTED && arguments->value[0])) {
+        (code == FRACAS_INTERRUPTED && fracas_given(arguments, "json"))) {
         fracas_cli_upkeep_counts(&upkeep, &end);
-        if (arguments->value[0]) fracas_json_boolean(&upkeep.json, "written", written);
+        if (fracas_given(arguments, "json")) fracas_json_boolean(&upkeep.json, "written", written);
         else printf("%s/study.h5 is %s\n", study, written ? "written" : "there already");
     }
     fracas_cli_upkeep_end(&upkeep);
@@ -30,7 +30,6 @@ const fracas_command fracas_command_merge = {
     .more = "\nWhat a run does at its end; for a study whose realizations are all there, as after "
             "`fracas reindex` or `fracas merge-studies`.\n"
             "Status 3, saying how many, if some are missing.\n",
-    .options = &fracas_json_option,
-    .noptions = 1,
+    .options = fracas_json_option,
     .run_on = merge,
 };

@@ -29,7 +29,7 @@ static fracas_err merge_studies(const fracas_arguments *arguments)
     int64_t both;
     TRY(fracas_cli_check_study(into));
     TRY(fracas_cli_check_study(from));
-    fracas_cli_upkeep_begin(&upkeep, into, arguments->value[0]);
+    fracas_cli_upkeep_begin(&upkeep, into, fracas_given(arguments, "json"));
     fracas_err code = fracas_upkeep_join(into, from, &upkeep.said, &joined, &both, &end);
     if (!code) {
         fracas_cli_upkeep_counts(&upkeep, &end);
@@ -52,7 +52,6 @@ const fracas_command fracas_command_merge_studies = {
             "bit for bit before anything is copied: status 5 names the first difference. B stays "
             "as it is, but for damaged\n"
             "segments, which are set aside.\n",
-    .options = &fracas_json_option,
-    .noptions = 1,
+    .options = fracas_json_option,
     .run = merge_studies,
 };

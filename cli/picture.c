@@ -12,24 +12,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { POINT, REPLICA, TIMES, SHOW, VIEW, EXPLODE, TABLE, OUTPUT };
 static const fracas_option options[] = {
-    [POINT] = {"point", "P", "which point (0): the first column of report/points.csv"},
-    [REPLICA] = {"replica", "R", "which of its replicas (0)"},
-    [TIMES] = {"times", "LIST",
-               "times, as 26us,28us, or how many, evenly from the first onset to the end (6)"},
-    [SHOW] = {"show", "WHAT",
-              "cracks, fragments (these, and the cracks), or mesh (that, too) (fragments)"},
-    [VIEW] = {"view", "A,H",
-              "from where, as 45,30: azimuth from x toward y, elevation above the plane of both, "
-              "in degrees"},
-    [EXPLODE] =
-        {"explode", "FACTOR",
-         "fragments apart: moved by FACTOR times (their centroid - that of the surface) (0)"},
-    [TABLE] = {"table", NULL,
-               "first onset, break and crack through of all replicas of the point, as CSV"},
-    [OUTPUT] = {"output", "FOLDER", "where to; also -o FOLDER (STUDY/pictures)", 'o'},
-};
+    {"point", "P", "which point (0): the first column of report/points.csv"},
+    {"replica", "R", "which of its replicas (0)"},
+    {"times", "LIST",
+     "times, as 26us,28us, or how many, evenly from the first onset to the end (6)"},
+    {"show", "WHAT", "cracks, fragments (these, and the cracks), or mesh (that, too) (fragments)"},
+    {"view", "A,H",
+     "from where, as 45,30: azimuth from x toward y, elevation above the plane of both, "
+     "in degrees"},
+    {"explode", "FACTOR",
+     "fragments apart: moved by FACTOR times (their centroid - that of the surface) (0)"},
+    {"table", NULL, "first onset, break and crack through of all replicas of the point, as CSV"},
+    {"output", "FOLDER", "where to; also -o FOLDER (STUDY/pictures)", 'o'},
+    {0}};
 
 enum { MOST_TIMES = 1000 };
 static const double most_apart = 10;
@@ -49,27 +45,25 @@ static fracas_err read_time(const fracas_units *units, const char *one, double *
 /* "26us,28us"; *time freed by the caller. */
 static fracas_err read_list(const char *text, double **time, size_t *count)
 {
-    fracas_units *units;
-    char *copy = strdup(text), *rest = copy;
+    OWN(fracas_units) units = NULL;
+    OWNED char *copy = strdup(text);
     *time = malloc((strlen(text) + 1) * sizeof **time); /* at most one a character */
     *count = 0;
-    fracas_err err = copy && *time ? fracas_units_create(&units)
-                                   : fracas_no_memory("the times of pictures");
-    if (!err) {
-        for (char *one; !err && (one = strsep(&rest, ","));)
-            err = read_time(units, one, &(*time)[(*count)++]);
-        if (err) err = fracas_fail_within(err, "picture: --times is `%s`", text);
-        fracas_units_destroy(units);
+    if (!copy || !*time) return fracas_no_memory("the times of pictures");
+    TRY(fracas_units_create(&units));
+    char *rest = copy;
+    for (char *one; (one = strsep(&rest, ","));) {
+        fracas_err err = read_time(units, one, &(*time)[(*count)++]);
+        if (err) return fracas_fail_within(err, "picture: --times is `%s`", text);
     }
-    free(copy);
-    return err;
+    return FRACAS_OK;
 }
 
 /* A whole number counts pictures, anything else is a list of times. */
 static fracas_err read_times(const fracas_arguments *arguments, fracas_picture_request *request,
                              double **time)
 {
-    const char *text = arguments->value[TIMES];
+    const char *text = fracas_given(arguments, "times");
     int count = FRACAS_MOMENTS;
     *time = NULL;
     if (text && strspn(text, "0123456789") != strlen(text)) {
@@ -77,7 +71,7 @@ static fracas_err read_times(const fracas_arguments *arguments, fracas_picture_r
         request->time = *time;
         return FRACAS_OK;
     }
-    TRY(fracas_arguments_integer(arguments, TIMES, 1, MOST_TIMES, &count));
+    TRY(fracas_arguments_integer(arguments, "times", 1, MOST_TIMES, &count));
     request->count = (size_t)count;
     return FRACAS_OK;
 }
@@ -96,7 +90,7 @@ static bool read_pair(const char *text, double *first, double *second)
 static fracas_err read_view(const fracas_arguments *arguments, fracas_picture_request *request,
                             fracas_view *view)
 {
-    const char *text = arguments->value[VIEW];
+    const char *text = fracas_given(arguments, "view");
     if (text) {
         if (!read_pair(text, &view->azimuth, &view->elevation) || !(fabs(view->azimuth) <= 360) ||
             !(fabs(view->elevation) <= 90))
@@ -107,11 +101,11 @@ static fracas_err read_view(const fracas_arguments *arguments, fracas_picture_re
                 text);
         request->view = view;
     }
-    TRY(fracas_arguments_real(arguments, EXPLODE, 1, &request->explode));
+    TRY(fracas_arguments_real(arguments, "explode", 1, &request->explode));
     if (request->explode <= most_apart) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "picture: --explode is `%s`; it must be a number from 0 to %g, such as 0.15",
-                       arguments->value[EXPLODE], most_apart);
+                       fracas_given(arguments, "explode"), most_apart);
 }
 
 static fracas_err picture(const fracas_arguments *arguments)
@@ -120,27 +114,22 @@ static fracas_err picture(const fracas_arguments *arguments)
                                         [FRACAS_SHOW_FRAGMENTS] = "fragments",
                                         [FRACAS_SHOW_MESH] = "mesh"};
     int point = 0, replica = 0, show = FRACAS_SHOW_FRAGMENTS;
-    double *time = NULL;
+    OWNED double *time = NULL;
     fracas_view view;
-    fracas_campaign *campaign;
-    TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
-    TRY(fracas_arguments_integer(arguments, REPLICA, 0, INT_MAX, &replica));
-    TRY(fracas_arguments_word(arguments, SHOW, words, FRACAS_COUNT(words), &show));
+    OWN(fracas_campaign) campaign = NULL;
+    TRY(fracas_arguments_integer(arguments, "point", 0, INT_MAX, &point));
+    TRY(fracas_arguments_integer(arguments, "replica", 0, INT_MAX, &replica));
+    TRY(fracas_arguments_word(arguments, "show", words, FRACAS_COUNT(words), &show));
     fracas_picture_request request = {.point = (size_t)point,
                                       .replica = replica,
                                       .show = (fracas_surface_show)show,
-                                      .table = arguments->value[TABLE] != NULL,
-                                      .folder = arguments->value[OUTPUT]};
+                                      .table = fracas_given(arguments, "table") != NULL,
+                                      .folder = fracas_given(arguments, "output")};
     TRY(read_view(arguments, &request, &view));
-    fracas_err err = read_times(arguments, &request, &time);
-    if (!err) err = fracas_cli_read_campaign(arguments->operand, &campaign);
-    if (!err) {
-        request.campaign = &campaign->hash;
-        err = fracas_pictures_write(arguments->operand, &request, stdout);
-        fracas_campaign_destroy(campaign);
-    }
-    free(time);
-    return err;
+    TRY(read_times(arguments, &request, &time));
+    TRY(fracas_cli_read_campaign(arguments->operand, &campaign));
+    request.campaign = &campaign->hash;
+    return fracas_pictures_write(arguments->operand, &request, stdout);
 }
 
 const fracas_command fracas_command_picture = {
@@ -159,6 +148,5 @@ const fracas_command fracas_command_picture = {
         "1, 1)), z upward; what is hidden is left\n"
         "out. --explode 0.15 moves its fragments apart, so that the gaps and the inside show.\n",
     .options = options,
-    .noptions = FRACAS_COUNT(options),
     .run = picture,
 };

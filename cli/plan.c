@@ -7,21 +7,17 @@
 
 #include <limits.h>
 
-enum { JSON, JOBS };
-static const fracas_option options[] = {
-    [JSON] = {"json", NULL, "print it as JSON"},
-    [JOBS] = {"jobs", "N", "processes that would compute (one a core)"},
-};
+static const fracas_option options[] = {{"json", NULL, "print it as JSON"},
+                                        {"jobs", "N", "processes that would compute (one a core)"},
+                                        {0}};
 
 static fracas_err plan(const fracas_arguments *arguments)
 {
     int jobs = 0;
-    TRY(fracas_arguments_integer(arguments, JOBS, 1, INT_MAX, &jobs));
-    fracas_campaign *campaign;
+    TRY(fracas_arguments_integer(arguments, "jobs", 1, INT_MAX, &jobs));
+    OWN(fracas_campaign) campaign = NULL;
     TRY(fracas_campaign_read(arguments->operand, &campaign));
-    fracas_err code = fracas_plan_print(campaign, jobs, stdout, arguments->value[JSON]);
-    fracas_campaign_destroy(campaign);
-    return code;
+    return fracas_plan_print(campaign, jobs, stdout, fracas_given(arguments, "json"));
 }
 
 const fracas_command fracas_command_plan = {
@@ -33,6 +29,5 @@ const fracas_command fracas_command_plan = {
             "A study that exists is not looked at: `fracas status STUDY` says what is done of it "
             "and how long the rest takes.\n",
     .options = options,
-    .noptions = FRACAS_COUNT(options),
     .run = plan,
 };

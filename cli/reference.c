@@ -6,15 +6,15 @@
 #include "campaigns/campaign.h"
 #include "campaigns/store/store.h"
 
-enum { STATISTICS, STUDY };
 static const fracas_option options[] = {
-    [STATISTICS] = {"statistics", NULL, "every table of the JSON summary instead"},
-    [STUDY] = {"study", NULL, "every dataset of study.h5 and column of index.sqlite instead"}};
+    {"statistics", NULL, "every table of the JSON summary instead"},
+    {"study", NULL, "every dataset of study.h5 and column of index.sqlite instead"},
+    {0}};
 
 static fracas_err reference(const fracas_arguments *arguments)
 {
-    if (arguments->value[STATISTICS]) fracas_analysis_reference(stdout);
-    else if (!arguments->value[STUDY]) fracas_campaign_reference(stdout);
+    if (fracas_given(arguments, "statistics")) fracas_analysis_reference(stdout);
+    else if (!fracas_given(arguments, "study")) fracas_campaign_reference(stdout);
     else {
         fracas_study_reference(stdout);
         fputs("\n<!-- generated: derived -->\n", stdout);
@@ -29,6 +29,5 @@ const fracas_command fracas_command_reference = {
     .doc = "Prints every key of a campaign file: unit, default, range, meaning",
     .more = "",
     .options = options,
-    .noptions = FRACAS_COUNT(options),
     .run = reference,
 };

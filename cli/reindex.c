@@ -7,7 +7,7 @@ static fracas_err reindex(const fracas_arguments *arguments, const fracas_campai
 {
     fracas_cli_upkeep upkeep;
     fracas_upkeep end;
-    fracas_cli_upkeep_begin(&upkeep, arguments->operand, arguments->value[0]);
+    fracas_cli_upkeep_begin(&upkeep, arguments->operand, fracas_given(arguments, "json"));
     fracas_err code = fracas_upkeep_reindex(arguments->operand, campaign, &upkeep.said, &end);
     if (!code) fracas_cli_upkeep_counts(&upkeep, &end);
     if (!code) fracas_cli_upkeep_next(&upkeep, &end);
@@ -25,7 +25,6 @@ const fracas_command fracas_command_reindex = {
             "has: which realizations FAILED and why,\n"
             "attempts, provenance, events; one that cannot stays as index.sqlite.before-TIME. The "
             "new one takes its place when it is whole.\n",
-    .options = &fracas_json_option,
-    .noptions = 1,
+    .options = fracas_json_option,
     .run_on = reindex,
 };

@@ -11,8 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { JSON };
-static const fracas_option options[] = {[JSON] = {"json", NULL, "print the statistics as JSON"}};
+static const fracas_option options[] = {{"json", NULL, "print the statistics as JSON"}, {0}};
 
 fracas_err fracas_cli_check_study(const char *study)
 {
@@ -48,12 +47,11 @@ fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign,
 /* Tells readers of the table about outdated fits, as the page does. */
 static fracas_err print_stale(const fracas_analysis *analysis, const char *study)
 {
-    fracas_fits *fits;
+    OWN(fracas_fits) fits = NULL;
     size_t stale;
     TRY(fracas_fits_read(study, &fits));
     if (!fits) return FRACAS_OK;
     fracas_fits_keep(fits, analysis, &stale);
-    fracas_fits_destroy(fits);
     if (stale > 0)
         printf("fits of %zu point%s in %s/" FRACAS_FITS_FILE
                " are of other realizations and not shown: `fracas fit %s` makes them again\n",
@@ -63,23 +61,21 @@ static fracas_err print_stale(const fracas_analysis *analysis, const char *study
 
 fracas_err fracas_cli_report(const char *study, bool json)
 {
-    fracas_campaign *campaign;
-    fracas_analysis *analysis;
+    OWN(fracas_campaign) campaign = NULL;
+    OWN(fracas_analysis) analysis = NULL;
     TRY(fracas_cli_analyse(study, &campaign, &analysis));
-    fracas_err code = FRACAS_OK;
-    if (json) code = fracas_analysis_write_json(analysis, study, stdout);
+    if (json) TRY(fracas_analysis_write_json(analysis, study, stdout));
     else fracas_analysis_print_table(analysis, stdout);
-    if (!code) code = fracas_report_write(analysis, study);
-    if (!code && !json) code = print_stale(analysis, study);
-    fracas_analysis_destroy(analysis);
-    fracas_campaign_destroy(campaign);
-    if (!code && !json) printf("report: %s/report/index.html\n", study);
-    return code;
+    TRY(fracas_report_write(analysis, study));
+    if (json) return FRACAS_OK;
+    TRY(print_stale(analysis, study));
+    printf("report: %s/report/index.html\n", study);
+    return FRACAS_OK;
 }
 
 static fracas_err report(const fracas_arguments *arguments)
 {
-    return fracas_cli_report(arguments->operand, arguments->value[JSON]);
+    return fracas_cli_report(arguments->operand, fracas_given(arguments, "json"));
 }
 
 const fracas_command fracas_command_report = {
@@ -90,6 +86,5 @@ const fracas_command fracas_command_report = {
             "that is being computed, or was interrupted,\n"
             "it is of what is done by now, and says so.\n",
     .options = options,
-    .noptions = FRACAS_COUNT(options),
     .run = report,
 };

@@ -9,30 +9,28 @@
 #include <limits.h>
 #include <stdio.h>
 
-enum { FAILED = FRACAS_NSTUDY_RUN_OPTIONS, POINT };
-static const fracas_option own[] = {
-    [FAILED - FAILED] = {"failed", NULL, "those that FAILED; there is nothing else to retry"},
-    [POINT - FAILED] = {"point", "P", "those of point P, from 0 (all)"},
-};
+static const fracas_option options[] = {
+    FRACAS_RUN_OPTIONS,
+    {"failed", NULL, "those that FAILED; there is nothing else to retry"},
+    {"point", "P", "those of point P, from 0 (all)"},
+    {0}};
 
 static fracas_err plan_again(const char *study, int point)
 {
-    fracas_campaign *campaign;
+    OWN(fracas_campaign) campaign = NULL;
     int64_t rows = 0;
     TRY(fracas_cli_read_campaign(study, &campaign));
-    fracas_err code = fracas_upkeep_retry(study, campaign, point, &rows);
-    fracas_campaign_destroy(campaign);
-    if (!code)
-        fprintf(stderr, "fracas: %" PRId64 " failed realizations of %s are planned again\n", rows,
-                study);
-    return code;
+    TRY(fracas_upkeep_retry(study, campaign, point, &rows));
+    fprintf(stderr, "fracas: %" PRId64 " failed realizations of %s are planned again\n", rows,
+            study);
+    return FRACAS_OK;
 }
 
 static fracas_err retry(const fracas_arguments *arguments)
 {
     int point = -1;
-    TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
-    if (!arguments->value[FAILED])
+    TRY(fracas_arguments_integer(arguments, "point", 0, INT_MAX, &point));
+    if (!fracas_given(arguments, "failed"))
         return fracas_fail(FRACAS_USAGE,
                            "retry: --failed is missing: fracas retry STUDY --failed computes again "
                            "what FAILED; what was interrupted, `fracas run` computes");
@@ -49,9 +47,6 @@ const fracas_command fracas_command_retry = {
             "forgets its attempts and runs STUDY/campaign.yaml. Worth it after a machine or a "
             "limit was to blame (memory, time, a\n"
             "killed job); what crashes by itself fails again.\n",
-    .options = FRACAS_STUDY_RUN_OPTIONS,
-    .noptions = FRACAS_NSTUDY_RUN_OPTIONS,
-    .own = own,
-    .nown = FRACAS_COUNT(own),
+    .options = options,
     .run = retry,
 };

@@ -4,7 +4,7 @@
 static fracas_err run(const fracas_arguments *arguments)
 {
     fracas_run_options run;
-    TRY(fracas_cli_read_run_options(arguments, &run, &run.study));
+    TRY(fracas_cli_read_run_options(arguments, &run));
     run.file = arguments->operand;
     return fracas_cli_run(&run, arguments->argc, arguments->argv);
 }
@@ -19,6 +19,5 @@ const fracas_command fracas_command_run = {
             "when what is being\n"
             "computed is stored. It can also be started by mpirun or srun, one process a core.\n",
     .options = fracas_cli_run_options,
-    .noptions = FRACAS_NRUN_OPTIONS,
     .run = run,
 };

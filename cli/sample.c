@@ -11,16 +11,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { POINT, REPLICA, CSV, VTK, JSON };
 static const fracas_option options[] = {
-    [POINT] = {"point", "P", "which point (0): the first column of `fracas plan FILE`"},
-    [REPLICA] = {"replica", "R", "which of its replicas (0)"},
-    [CSV] = {"csv", "PATH",
-             "write strengths and positions to PATH, a line each; - for standard output, without "
-             "the summary"},
-    [VTK] = {"vtk", "PATH", "write them to PATH for ParaView"},
-    [JSON] = {"json", NULL, "print the summary as JSON"},
-};
+    {"point", "P", "which point (0): the first column of `fracas plan FILE`"},
+    {"replica", "R", "which of its replicas (0)"},
+    {"csv", "PATH",
+     "write strengths and positions to PATH, a line each; - for standard output, without "
+     "the summary"},
+    {"vtk", "PATH", "write them to PATH for ParaView"},
+    {"json", NULL, "print the summary as JSON"},
+    {0}};
 
 static bool write_to(const char *path, const fracas_sample *sample,
                      void (*write)(const fracas_sample *sample, FILE *out))
@@ -55,11 +54,11 @@ static fracas_err write_file(const fracas_sample *sample,
 
 static fracas_err show(const fracas_arguments *arguments, const fracas_sample *sample)
 {
-    const char *csv = arguments->value[CSV], *vtk = arguments->value[VTK];
+    const char *csv = fracas_given(arguments, "csv"), *vtk = fracas_given(arguments, "vtk");
     const bool piped = csv && strcmp(csv, "-") == 0;
     if (csv && !piped) TRY(write_file(sample, fracas_sample_write_csv, csv));
     if (vtk) TRY(write_file(sample, fracas_sample_write_vtk, vtk));
-    if (!piped) return fracas_sample_summarize(sample, arguments->value[JSON], stdout);
+    if (!piped) return fracas_sample_summarize(sample, fracas_given(arguments, "json"), stdout);
     fracas_sample_write_csv(sample, stdout);
     return FRACAS_OK;
 }
@@ -67,10 +66,10 @@ static fracas_err show(const fracas_arguments *arguments, const fracas_sample *s
 /* Standard output takes the summary or the CSV. */
 static fracas_err check_outputs(const fracas_arguments *arguments)
 {
-    const char *csv = arguments->value[CSV], *vtk = arguments->value[VTK];
+    const char *csv = fracas_given(arguments, "csv"), *vtk = fracas_given(arguments, "vtk");
     if (vtk && strcmp(vtk, "-") == 0)
         return fracas_fail(FRACAS_USAGE, "sample: --vtk is `-`; it must be a file");
-    if (csv && strcmp(csv, "-") == 0 && arguments->value[JSON])
+    if (csv && strcmp(csv, "-") == 0 && fracas_given(arguments, "json"))
         return fracas_fail(FRACAS_USAGE, "sample: --csv - and --json both print; name a file for "
                                          "--csv, or leave out one of them");
     return FRACAS_OK;
@@ -80,15 +79,14 @@ static fracas_err sample(const fracas_arguments *arguments)
 {
     int point = 0, replica = 0;
     TRY(check_outputs(arguments));
-    TRY(fracas_arguments_integer(arguments, POINT, 0, INT_MAX, &point));
-    TRY(fracas_arguments_integer(arguments, REPLICA, 0, INT_MAX, &replica));
-    fracas_campaign *campaign;
+    TRY(fracas_arguments_integer(arguments, "point", 0, INT_MAX, &point));
+    TRY(fracas_arguments_integer(arguments, "replica", 0, INT_MAX, &replica));
+    OWN(fracas_campaign) campaign = NULL;
     TRY(fracas_campaign_read(arguments->operand, &campaign));
     fracas_sample drawn = {0};
     fracas_err err = fracas_sample_draw(campaign, (size_t)point, replica, &drawn);
     if (!err) err = show(arguments, &drawn);
     fracas_sample_clear(&drawn);
-    fracas_campaign_destroy(campaign);
     return err;
 }
 
@@ -102,6 +100,5 @@ const fracas_command fracas_command_sample = {
             "--csv and --vtk writes all of them, with\n"
             "where they are at the start. FILE may be the campaign.yaml of a study.\n",
     .options = options,
-    .noptions = FRACAS_COUNT(options),
     .run = sample,
 };

@@ -271,7 +271,7 @@ static fracas_err status(const fracas_arguments *arguments, const fracas_campaig
     TRY(fracas_index_open(state.study, false, &state.index));
     state.point = calloc(campaign->npoints, sizeof *state.point);
     fracas_err code = state.point ? count(&state) : fracas_no_memory("the counts of the points");
-    if (!code) code = arguments->value[0] ? write_json(&state) : print_text(&state);
+    if (!code) code = fracas_given(arguments, "json") ? write_json(&state) : print_text(&state);
     free(state.point);
     fracas_index_close(state.index);
     return code;
@@ -282,7 +282,6 @@ const fracas_command fracas_command_status = {
     .operand = "STUDY",
     .doc = "Says how far STUDY is, point by point",
     .more = "\nIt only looks: it can be asked while the study is being computed.\n",
-    .options = &fracas_json_option,
-    .noptions = 1,
+    .options = fracas_json_option,
     .run_on = status,
 };

@@ -16,32 +16,19 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Behind the options of `fracas run`. */
-enum {
-    NODES = FRACAS_NRUN_OPTIONS,
-    TIME,
-    TASKS,
-    PARTITION,
-    ACCOUNT,
-    LEAD,
-    OUTPUT,
-    SCRIPT,
-    SUBMIT,
-    NOPTIONS
-};
-#define AT(option) [(option)-FRACAS_NRUN_OPTIONS]
-static const fracas_option options[NOPTIONS - FRACAS_NRUN_OPTIONS] = {
-    AT(NODES) = {"nodes", "N", "nodes of the job (1)"},
-    AT(TIME) = {"time", "TIME",
-                "the most it may take each time it is started: 2:00:00, 90m; needed"},
-    AT(TASKS) = {"tasks-per-node", "N", "processes on each node (the whole node: one a core)"},
-    AT(PARTITION) = {"partition", "NAME", "partition (the cluster's default)"},
-    AT(ACCOUNT) = {"account", "NAME", "account that is charged (your default)"},
-    AT(LEAD) = {"signal-lead", "S", "have Slurm signal S seconds before the end (60)"},
-    AT(OUTPUT) = {"output", "FILE", "what the run says; %j: number of the job (FILE.%j.out)"},
-    AT(SCRIPT) = {"script", "PATH", "write the script there (FILE.sbatch)"},
-    AT(SUBMIT) = {"submit", NULL, "hand it to sbatch, and print the number of the job"},
-};
+static const fracas_option options[] = {
+    FRACAS_STUDY_OPTION,
+    FRACAS_RUN_OPTIONS,
+    {"nodes", "N", "nodes of the job (1)"},
+    {"time", "TIME", "the most it may take each time it is started: 2:00:00, 90m; needed"},
+    {"tasks-per-node", "N", "processes on each node (the whole node: one a core)"},
+    {"partition", "NAME", "partition (the cluster's default)"},
+    {"account", "NAME", "account that is charged (your default)"},
+    {"signal-lead", "S", "have Slurm signal S seconds before the end (60)"},
+    {"output", "FILE", "what the run says; %j: number of the job (FILE.%j.out)"},
+    {"script", "PATH", "write the script there (FILE.sbatch)"},
+    {"submit", NULL, "hand it to sbatch, and print the number of the job"},
+    {0}};
 
 enum { MOST_WORDS = 4 + 2 * FRACAS_NRUN_OPTIONS };
 
@@ -63,18 +50,15 @@ static fracas_err make_run(const fracas_arguments *arguments, submission *s,
     s->run[n++] = (char *)arguments->operand;
     for (int i = 0; i < FRACAS_NRUN_OPTIONS; i++) {
         const fracas_option *option = &fracas_cli_run_options[i];
-        if (!arguments->value[i]) continue;
+        const char *value = fracas_given(arguments, option->name);
+        if (!value) continue;
         snprintf(s->option[i], sizeof s->option[i], "--%s", option->name);
         s->run[n++] = s->option[i];
-        if (option->argument) s->run[n++] = (char *)arguments->value[i];
+        if (option->argument) s->run[n++] = (char *)value;
     }
     s->job.run = s->run + 1;
     s->job.nrun = n - 1;
-    char *line[MOST_WORDS]; /* reading it changes its order */
-    memcpy(line, s->run, sizeof line);
-    fracas_arguments of_run;
-    TRY(fracas_arguments_read(&fracas_command_run, n, line, &of_run));
-    TRY(fracas_cli_read_run_options(&of_run, run, &run->study));
+    TRY(fracas_cli_read_run_options(arguments, run));
     run->file = arguments->operand;
     return FRACAS_OK;
 }
@@ -82,16 +66,13 @@ static fracas_err make_run(const fracas_arguments *arguments, submission *s,
 /* Checks the run as far as possible before its start. */
 static fracas_err check_campaign(const fracas_run_options *run, submission *s)
 {
-    fracas_campaign *campaign;
-    double *cost = NULL;
+    OWN(fracas_campaign) campaign = NULL;
+    OWNED double *cost = NULL;
     TRY(fracas_run_campaign(run, &campaign));
-    fracas_err err = fracas_study_folder(run, campaign, s->study, sizeof s->study);
-    if (!err) err = fracas_study_fits(s->study, campaign);
-    if (!err) err = fracas_costs_create(campaign, run, &cost, NULL);
+    TRY(fracas_study_folder(run, campaign, s->study, sizeof s->study));
+    TRY(fracas_study_fits(s->study, campaign));
     snprintf(s->name, sizeof s->name, "%s", campaign->name);
-    free(cost);
-    fracas_campaign_destroy(campaign);
-    return err;
+    return fracas_costs_create(campaign, run, &cost, NULL);
 }
 
 static fracas_err read_job(const fracas_arguments *arguments, submission *s)
@@ -99,10 +80,10 @@ static fracas_err read_job(const fracas_arguments *arguments, submission *s)
     fracas_job *job = &s->job;
     job->nodes = 1;
     job->lead = 60;
-    TRY(fracas_arguments_integer(arguments, NODES, 1, 1000000, &job->nodes));
-    TRY(fracas_arguments_integer(arguments, TASKS, 1, 1000000, &job->tasks));
-    TRY(fracas_arguments_integer(arguments, LEAD, 1, 65535, &job->lead));
-    TRY(fracas_arguments_time(arguments, TIME, &job->time));
+    TRY(fracas_arguments_integer(arguments, "nodes", 1, 1000000, &job->nodes));
+    TRY(fracas_arguments_integer(arguments, "tasks-per-node", 1, 1000000, &job->tasks));
+    TRY(fracas_arguments_integer(arguments, "signal-lead", 1, 65535, &job->lead));
+    TRY(fracas_arguments_time(arguments, "time", &job->time));
     if (job->time == 0)
         return fracas_fail(
             FRACAS_USAGE,
@@ -111,14 +92,14 @@ static fracas_err read_job(const fracas_arguments *arguments, submission *s)
         return fracas_fail(FRACAS_USAGE,
                            "submit: --time %s is too short: it must be a minute or more, and "
                            "longer than --signal-lead (%d s)",
-                           arguments->value[TIME], job->lead);
+                           fracas_given(arguments, "time"), job->lead);
     snprintf(s->output, sizeof s->output, "%s.%%j.out", arguments->operand);
     snprintf(s->script, sizeof s->script, "%s.sbatch", arguments->operand);
-    if (arguments->value[SCRIPT])
-        snprintf(s->script, sizeof s->script, "%s", arguments->value[SCRIPT]);
-    job->output = arguments->value[OUTPUT] ? arguments->value[OUTPUT] : s->output;
-    job->partition = arguments->value[PARTITION];
-    job->account = arguments->value[ACCOUNT];
+    if (fracas_given(arguments, "script"))
+        snprintf(s->script, sizeof s->script, "%s", fracas_given(arguments, "script"));
+    job->output = fracas_given(arguments, "output") ? fracas_given(arguments, "output") : s->output;
+    job->partition = fracas_given(arguments, "partition");
+    job->account = fracas_given(arguments, "account");
     job->more = arguments->rest;
     job->nmore = arguments->nrest;
     job->name = s->name;
@@ -200,25 +181,20 @@ static fracas_err prepare(const fracas_arguments *arguments, submission *s)
     TRY(find_places(s));
     TRY(read_job(arguments, s));
     TRY(make_run(arguments, s, &run));
-    if (run.parts > 1 && !arguments->value[SCRIPT]) /* each part has a job of its own */
+    if (run.parts > 1 && !fracas_given(arguments, "script")) /* each part has a job of its own */
         snprintf(s->script, sizeof s->script, "%s.part%d.sbatch", arguments->operand, run.part);
     TRY(check_campaign(&run, s));
     TRY(write_script(s));
-    if (arguments->value[SUBMIT]) return hand_in(s);
+    if (fracas_given(arguments, "submit")) return hand_in(s);
     printf("%s is written; submit it by: sbatch %s\n", s->script, s->script);
     return FRACAS_OK;
 }
 
 static fracas_err submit(const fracas_arguments *arguments)
 {
-    submission *s = calloc(1, sizeof *s);
-    if (!s) return fracas_no_memory("the batch script");
-    fracas_err err = prepare(arguments, s);
-    free(s);
-    return err;
+    OWNED submission *s = calloc(1, sizeof *s);
+    return s ? prepare(arguments, s) : fracas_no_memory("the batch script");
 }
-
-static const fracas_refusal refused[] = {{"walltime", "follows from --time: leave it out"}};
 
 const fracas_command fracas_command_submit = {
     .name = "submit",
@@ -228,12 +204,9 @@ const fracas_command fracas_command_submit = {
             "until the study is complete.\n"
             "What follows `--` is handed to sbatch: fracas submit FILE --time 2:00:00 -- --mem=8G "
             "--constraint=skylake\n",
-    .options = fracas_cli_run_options,
-    .noptions = FRACAS_NRUN_OPTIONS,
-    .own = options,
-    .nown = FRACAS_COUNT(options),
-    .refused = refused,
-    .nrefused = FRACAS_COUNT(refused),
+    .options = options,
+    .refused = "walltime",
+    .why = "follows from --time: leave it out",
     .takes_rest = true,
     .run = submit,
 };

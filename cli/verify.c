@@ -13,10 +13,10 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { FULL, JSON };
 static const fracas_option options[] = {
-    [FULL] = {"full", NULL, "read every dataset, and compare every row and record"},
-    [JSON] = {"json", NULL, "print the problems as JSON"}};
+    {"full", NULL, "read every dataset, and compare every row and record"},
+    {"json", NULL, "print the problems as JSON"},
+    {0}};
 
 typedef struct {
     const char *study;
@@ -146,12 +146,12 @@ static fracas_err verify(const fracas_arguments *arguments)
 {
     char *notes = NULL;
     size_t size = 0;
-    verification v = {.study = arguments->operand, .full = arguments->value[FULL] != NULL};
+    verification v = {.study = arguments->operand, .full = fracas_given(arguments, "full") != NULL};
     TRY(fracas_cli_check_study(v.study));
     v.notes = open_memstream(&notes, &size);
     if (!v.notes) return fracas_no_memory("the notes");
-    fracas_err code = arguments->value[JSON] ? print_json(&v, &notes, &size)
-                                             : print_text(&v, &notes, &size);
+    fracas_err code = fracas_given(arguments, "json") ? print_json(&v, &notes, &size)
+                                                      : print_text(&v, &notes, &size);
     fclose(v.notes);
     free(notes);
     if (code || !v.problems) return code;
@@ -172,6 +172,5 @@ const fracas_command fracas_command_verify = {
             "an interrupted run left is noted, and is\n"
             "no problem: the next run puts it right.\n",
     .options = options,
-    .noptions = FRACAS_COUNT(options),
     .run = verify,
 };

@@ -5,6 +5,7 @@
 
 #include "base/own.h"
 #include "base/err.h"
+#include "base/own.h"
 #include "base/isa.h"
 #include "engine/record.h"
 #include "engine/spec.h"

@@ -4,6 +4,7 @@
 #define FRACAS_ANALYSIS_CONVERGE_CONVERGE_H
 
 #include "base/err.h"
+#include "base/own.h"
 #include "base/hash.h"
 
 #include <stdbool.h>
@@ -16,6 +17,7 @@ typedef struct fracas_convergence fracas_convergence;
 FRACAS_MUST_USE fracas_err fracas_convergence_create(const char *study, double tolerance,
                                                      fracas_convergence **convergence);
 void fracas_convergence_destroy(fracas_convergence *convergence); /* NULL is allowed */
+FRACAS_OWNER(fracas_convergence, fracas_convergence_destroy)
 
 typedef struct {
     const char *name, *doc; /* "mesh", "half the element size"; they outlive the convergence */
