@@ -84,15 +84,13 @@ static fracas_err mpi_receive(int *from, fracas_packet **message)
     if (code == MPI_SUCCESS && !come) return FRACAS_OK;
     if (code == MPI_SUCCESS) code = MPI_Get_count(&status, MPI_BYTE, &bytes);
     if (code != MPI_SUCCESS) return mpi_failed("probe", code);
-    fracas_packet *m = malloc((size_t)bytes);
+    OWNED fracas_packet *m = malloc((size_t)bytes);
     if (!m) return fracas_no_memory("a message");
     code = MPI_Recv(m, bytes, MPI_BYTE, status.MPI_SOURCE, TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
-    if (code != MPI_SUCCESS) {
-        free(m);
-        return mpi_failed("receive", code);
-    }
+    if (code != MPI_SUCCESS) return mpi_failed("receive", code);
     *from = status.MPI_SOURCE;
     *message = m;
+    m = NULL;
     return FRACAS_OK;
 }
 
@@ -175,23 +173,20 @@ static void pace(rank_state *rank, bool busy)
 
 static fracas_err tell(fracas_packet_kind kind, const void *body, size_t size)
 {
-    fracas_packet *message;
+    OWNED fracas_packet *message = NULL;
     TRY(fracas_packet_create(kind, body, size, &message));
-    fracas_err err = mpi_send(0, message);
-    free(message);
-    return err;
+    return mpi_send(0, message);
 }
 
 /* Forwards a message of rank 0 to the server; *come: there was one. */
 static fracas_err receive_lead(rank_state *rank, bool *come, bool *quit)
 {
-    fracas_packet *message;
+    OWNED fracas_packet *message = NULL;
     int from;
     TRY(mpi_receive(&from, &message));
     *come = message != NULL;
     if (message && message->kind == FRACAS_PACKET_QUIT) *quit = true;
     else if (message) server_send(rank, message);
-    free(message);
     return FRACAS_OK;
 }
 
@@ -217,15 +212,12 @@ static fracas_err send_lead(rank_state *rank, const fracas_packet *message, bool
 /* One message each way, if there is one. */
 static fracas_err forward(rank_state *rank, bool *quit)
 {
-    fracas_packet *message;
+    OWNED fracas_packet *message = NULL;
     bool come;
     TRY(server_receive(rank, &message));
-    const bool told = message != NULL;
-    fracas_err err = message ? send_lead(rank, message, quit) : FRACAS_OK;
-    free(message);
-    TRY(err);
+    if (message) TRY(send_lead(rank, message, quit));
     TRY(receive_lead(rank, &come, quit));
-    pace(rank, told || come);
+    pace(rank, message || come);
     return FRACAS_OK;
 }
 

@@ -40,18 +40,16 @@ bool fracas_run_speaks(void)
 static fracas_err examine_needs(const char *study, const fracas_campaign *campaign,
                                 const fracas_run_options *options)
 {
-    double *cost, *bytes;
+    OWNED double *cost = NULL;
+    OWNED double *bytes = NULL;
     TRY(fracas_costs_create(campaign, options, &cost, &bytes));
-    fracas_err err = fracas_space_check(study, campaign, options, bytes);
-    free(cost);
-    free(bytes);
-    return err;
+    return fracas_space_check(study, campaign, options, bytes);
 }
 
 /* Finds all faults of the campaign and the study before anything is written or started. */
 static fracas_err examine(const fracas_run_options *options, bool *settled, fracas_err *result)
 {
-    fracas_campaign *campaign;
+    OWN(fracas_campaign) campaign = NULL;
     TRY(fracas_run_campaign(options, &campaign));
     char study[4096];
     int64_t failed = 0;
@@ -60,7 +58,6 @@ static fracas_err examine(const fracas_run_options *options, bool *settled, frac
     *result = err || !failed ? err : fracas_failure_report(study, NULL, &campaign->table);
     if (!err && !*settled) err = fracas_limits_check(options);
     if (!err && !*settled) err = examine_needs(study, campaign, options);
-    fracas_campaign_destroy(campaign);
     return err;
 }
 

@@ -17,7 +17,7 @@
 static fracas_err make_scheduler(fracas_director *director)
 {
     const fracas_campaign *campaign = director->setup.campaign;
-    fracas_index_row *row;
+    OWNED fracas_index_row *row = NULL;
     size_t count;
     TRY(fracas_rounds_init(&director->rounds, campaign, director->index));
     TRY(fracas_index_rows(director->index, &director->rounds.table, &row, &count));
@@ -33,11 +33,10 @@ static fracas_err make_scheduler(fracas_director *director)
                                         .seed = campaign->seed};
     count = fracas_run_part(director->setup.options->part, director->setup.options->parts, row,
                             count);
-    fracas_err err = fracas_scheduler_create(row, count, &options, &director->scheduler);
-    free(row);
+    TRY(fracas_scheduler_create(row, count, &options, &director->scheduler));
     for (size_t p = 0; p < campaign->npoints; p++)
         director->given[p] = director->rounds.point[p].replicas;
-    return err;
+    return FRACAS_OK;
 }
 
 /* Tells the user and the index the state of the study and the work to do. */
@@ -62,17 +61,14 @@ static fracas_err announce(fracas_director *director, const char *report)
 static fracas_err open_study(fracas_director *director, bool *settled, int64_t *failed)
 {
     const fracas_director_setup *setup = &director->setup;
-    char *report = NULL;
+    OWNED char *report = NULL;
     TRY(fracas_study_prepare(setup->study, setup->campaign, setup->options->force, &director->lock,
                              &director->index, &report));
-    fracas_err err = fracas_study_settled(setup->study, director->index, setup->campaign, settled,
-                                          failed);
-    if (!err)
-        err = fracas_index_set_part(director->index, setup->options->part, setup->options->parts);
-    if (!err && !*settled) err = make_scheduler(director);
-    if (!err && !*settled) err = announce(director, report);
-    free(report);
-    return err;
+    TRY(fracas_study_settled(setup->study, director->index, setup->campaign, settled, failed));
+    TRY(fracas_index_set_part(director->index, setup->options->part, setup->options->parts));
+    if (*settled) return FRACAS_OK;
+    TRY(make_scheduler(director));
+    return announce(director, report);
 }
 
 static fracas_err set_up(fracas_director *director, bool *settled, int64_t *failed)
@@ -86,15 +82,12 @@ static fracas_err set_up(fracas_director *director, bool *settled, int64_t *fail
     for (size_t p = 0; p < director->setup.campaign->npoints; p++)
         director->ruled[p] = director->setup.campaign->point[p].rule.maximum > 0;
     /* First: an impossible campaign leaves no files behind. */
-    double *bytes;
+    OWNED double *bytes = NULL;
     TRY(fracas_costs_create(director->setup.campaign, director->setup.options, &director->cost,
                             &bytes));
-    fracas_err err = FRACAS_OK; /* a launcher has checked the space before */
-    if (!director->setup.channel->launcher)
-        err = fracas_space_check(director->setup.study, director->setup.campaign,
-                                 director->setup.options, bytes);
-    free(bytes);
-    TRY(err);
+    if (!director->setup.channel->launcher) /* a launcher has checked the space before */
+        TRY(fracas_space_check(director->setup.study, director->setup.campaign,
+                               director->setup.options, bytes));
     return open_study(director, settled, failed);
 }
 
@@ -195,13 +188,12 @@ static fracas_err add_more(fracas_director *director, size_t p)
     const fracas_point_row *point = &director->rounds.point[p];
     const size_t more = (size_t)(point->replicas - director->given[p]);
     if (!more) return FRACAS_OK;
-    fracas_index_row *row = malloc(more * sizeof *row);
+    OWNED fracas_index_row *row = malloc(more * sizeof *row);
     if (!row) return fracas_no_memory("the plan");
-    fracas_err err = fracas_index_rows_from(director->index, point, p, director->given[p], row);
-    if (!err) err = fracas_scheduler_add(director->scheduler, row, more);
-    if (!err) director->given[p] = point->replicas;
-    free(row);
-    return err;
+    TRY(fracas_index_rows_from(director->index, point, p, director->given[p], row));
+    TRY(fracas_scheduler_add(director->scheduler, row, more));
+    director->given[p] = point->replicas;
+    return FRACAS_OK;
 }
 
 static fracas_err add_all(fracas_director *director)

@@ -45,11 +45,9 @@ static fracas_err check_parts(fracas_director *director, const fracas_counts *co
 /* Removes the unfinished files of dead servers. */
 static fracas_err sweep(fracas_director *director)
 {
-    char *report;
+    OWNED char *report = NULL;
     TRY(fracas_study_sweep(director->setup.study, &report));
-    fracas_err err = *report ? fracas_index_event(director->index, "swept", report) : FRACAS_OK;
-    free(report);
-    return err;
+    return *report ? fracas_index_event(director->index, "swept", report) : FRACAS_OK;
 }
 
 static fracas_err merge(fracas_director *director, const fracas_counts *count)

@@ -20,11 +20,9 @@ void fracas_director_check(fracas_director *director, fracas_err err)
 fracas_err fracas_director_post(fracas_director *director, size_t worker, fracas_packet_kind kind,
                                 const void *body, size_t size)
 {
-    fracas_packet *message;
+    OWNED fracas_packet *message = NULL;
     TRY(fracas_packet_create(kind, body, size, &message));
-    fracas_err err = director->setup.send(director->setup.context, worker, message);
-    free(message);
-    return err;
+    return director->setup.send(director->setup.context, worker, message);
 }
 
 void fracas_director_stop_worker(fracas_director *director, size_t worker)

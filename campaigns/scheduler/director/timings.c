@@ -65,7 +65,7 @@ fracas_err fracas_timings_note(const fracas_timings *timings, fracas_index *inde
 
 fracas_err fracas_timings_read(fracas_index *index, bool *found, fracas_timings *timings)
 {
-    char *text;
+    OWNED char *text = NULL;
     *timings = (fracas_timings){0};
     TRY(fracas_index_last_event(index, event, &text));
     *found = text != NULL;
@@ -74,6 +74,5 @@ fracas_err fracas_timings_read(fracas_index *index, bool *found, fracas_timings 
         const double value = at ? strtod(at + strlen(number[i].name), NULL) : 0;
         memcpy((char *)timings + number[i].at, &value, sizeof value);
     }
-    free(text);
     return FRACAS_OK;
 }

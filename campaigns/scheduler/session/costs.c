@@ -9,28 +9,25 @@
 /* Checks the options, the same for all points, by one batch. */
 static fracas_err try_batch(const fracas_campaign *campaign, const fracas_run_options *options)
 {
-    fracas_model *model;
-    TRY(fracas_point_model_create(campaign, 0, &model));
+    OWN(fracas_model) model = NULL;
+    OWN(fracas_batch) batch = NULL;
     fracas_batch_options batch_options = {.width = options->width, .isa = options->isa};
-    fracas_batch *batch;
-    fracas_err err = fracas_batch_create(model, 1, &batch_options, &batch);
-    if (!err) fracas_batch_destroy(batch);
-    fracas_model_destroy(model);
-    return err;
+    TRY(fracas_point_model_create(campaign, 0, &model));
+    return fracas_batch_create(model, 1, &batch_options, &batch);
 }
 
 fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run_options *options,
                                double **cost, double **bytes)
 {
-    double *c = malloc((campaign->npoints + 1) * sizeof *c),
-           *b = malloc((campaign->npoints + 1) * sizeof *b);
-    fracas_err err = c && b ? FRACAS_OK : fracas_no_memory("the plan");
-    if (!err && campaign->npoints) err = try_batch(campaign, options);
-    for (size_t i = 0; !err && i < campaign->npoints; i++)
-        err = fracas_plan_cost(campaign, i, &c[i], &b[i]);
-    if (err || !bytes) free(b);
-    else *bytes = b;
-    if (err) free(c);
-    else *cost = c;
-    return err;
+    OWNED double *c = malloc((campaign->npoints + 1) * sizeof *c);
+    OWNED double *b = malloc((campaign->npoints + 1) * sizeof *b);
+    if (!c || !b) return fracas_no_memory("the plan");
+    if (campaign->npoints) TRY(try_batch(campaign, options));
+    for (size_t i = 0; i < campaign->npoints; i++) TRY(fracas_plan_cost(campaign, i, &c[i], &b[i]));
+    *cost = c;
+    c = NULL;
+    if (!bytes) return FRACAS_OK;
+    *bytes = b;
+    b = NULL;
+    return FRACAS_OK;
 }

@@ -26,21 +26,13 @@ static void count_failure(void *context, const fracas_index_row *row, const char
     if (f->points <= NAMED) f->count[f->points - 1]++;
 }
 
-static fracas_err count_all(const char *study, fracas_index *index, const fracas_point_table *table,
-                            failures *found)
-{
-    fracas_index *opened = NULL;
-    if (!index) TRY(fracas_index_open(study, false, &opened));
-    fracas_err err = fracas_index_failures(index ? index : opened, table, count_failure, found);
-    fracas_index_close(opened);
-    return err;
-}
-
 fracas_err fracas_failure_report(const char *study, fracas_index *index,
                                  const fracas_point_table *table)
 {
     failures found = {0};
-    TRY(count_all(study, index, table, &found));
+    OWN(fracas_index) opened = NULL;
+    if (!index) TRY(fracas_index_open(study, false, &opened));
+    TRY(fracas_index_failures(index ? index : opened, table, count_failure, &found));
     if (!found.realizations) return FRACAS_OK;
     char points[NAMED * 64 + 64] = "";
     size_t n = 0;

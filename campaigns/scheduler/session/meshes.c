@@ -46,12 +46,10 @@ static fracas_err get(const void *context, size_t point, fracas_stored_mesh *mes
 {
     const fracas_campaign *campaign = context;
     if (!fracas_spec_is_surface(&campaign->point[point].spec)) return FRACAS_OK;
-    fracas_model *model;
+    OWN(fracas_model) model = NULL;
     TRY(fracas_point_model_create(campaign, point, &model));
     const fracas_surface *surface = fracas_model_surface(model);
-    fracas_err err = surface ? copy_surface(surface, mesh) : FRACAS_OK;
-    fracas_model_destroy(model);
-    return err;
+    return surface ? copy_surface(surface, mesh) : FRACAS_OK;
 }
 
 fracas_mesh_source fracas_campaign_meshes(const fracas_campaign *campaign)

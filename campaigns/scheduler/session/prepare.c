@@ -43,7 +43,7 @@ fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
     char path[PATH];
     TRY(join(study, "campaign.yaml", path));
     if (access(path, F_OK) && errno == ENOENT) return FRACAS_OK;
-    fracas_campaign *before;
+    OWN(fracas_campaign) before = NULL;
     fracas_err err = fracas_campaign_read(path, &before);
     if (err == FRACAS_USAGE)
         return fracas_fail_within(FRACAS_DAMAGED,
@@ -52,7 +52,6 @@ fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
     TRY(err);
     const bool extended = !fracas_campaign_extends(before, campaign);
     err = fracas_campaign_extends(campaign, before);
-    fracas_campaign_destroy(before);
     if (err && extended)
         return fracas_fail_within(err,
                                   "%s has been extended since: `fracas run %s --study %s` goes on "
@@ -74,17 +73,15 @@ fracas_err fracas_study_settled(const char *study, fracas_index *index,
     bool sealed;
     TRY(fracas_study_sealed(study, index, &sealed));
     if (!sealed) return FRACAS_OK;
-    fracas_reader *reader;
+    OWN(fracas_reader) reader = NULL;
     if (access(path, R_OK) || fracas_reader_open(path, &reader))
         return FRACAS_OK; /* to be merged again */
-    bool same = fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash);
-    const size_t realizations = fracas_reader_realizations(reader);
-    fracas_reader_close(reader);
-    if (!same) return FRACAS_OK;
+    if (!fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash))
+        return FRACAS_OK;
     fracas_index_counts counts;
     TRY(fracas_index_count(index, &counts));
     *settled = counts.planned == 0 && counts.leased == 0 &&
-               counts.realizations == (int64_t)realizations;
+               counts.realizations == (int64_t)fracas_reader_realizations(reader);
     *failed = counts.failed;
     return FRACAS_OK;
 }
@@ -100,14 +97,11 @@ fracas_err fracas_study_examine(const char *study, const fracas_campaign *campai
     if (!fracas_index_exists(study)) return FRACAS_OK;
     int lock;
     TRY(fracas_study_lock_to_look(study, force, &lock));
-    fracas_index *index;
+    OWN(fracas_index) index = NULL;
     fracas_err err = fracas_index_open(study, false, &index);
-    if (!err) {
-        err = fracas_study_settled(study, index, campaign, settled, failed);
-        if (!err && *settled) err = fracas_study_sound(study, index, settled);
-        if (!err && access(file, F_OK)) *settled = false; /* to be written again */
-        fracas_index_close(index);
-    }
+    if (!err) err = fracas_study_settled(study, index, campaign, settled, failed);
+    if (!err && *settled) err = fracas_study_sound(study, index, settled);
+    if (access(file, F_OK)) *settled = false; /* to be written again */
     close(lock);
     return err;
 }
@@ -188,14 +182,12 @@ static bool is_copied(const char *folder, const fracas_attachment *attachment)
     struct stat found;
     if (snprintf(path, PATH, "%s/%s", folder, attachment->digest) >= PATH) return false;
     if (stat(path, &found) || !S_ISREG(found.st_mode)) return false; /* opening a pipe would wait */
-    FILE *in = fopen(path, "rb");
+    OWN(FILE) in = fopen(path, "rb");
     if (!in) return false;
     while ((got = fread(block, 1, sizeof block, in)) > 0 && got <= attachment->size - at &&
            memcmp(block, attachment->text + at, got) == 0)
         at += got;
-    bool same = got == 0 && at == attachment->size && !ferror(in);
-    fclose(in);
-    return same;
+    return got == 0 && at == attachment->size && !ferror(in);
 }
 
 /* Copies the files named in the campaign into the study, which then does not depend on the

@@ -28,42 +28,40 @@ static double value_of(const fracas_index_summary *row, fracas_quantity quantity
 static fracas_err read_values(fracas_index *index, const fracas_point *point, int64_t replicas,
                               double *value, bool *complete)
 {
-    fracas_index_summary *row = malloc((size_t)replicas * sizeof *row);
+    OWNED fracas_index_summary *row = malloc((size_t)replicas * sizeof *row);
+    *complete = false;
     if (!row) return fracas_no_memory("the realizations of a round");
-    fracas_err err = fracas_index_summaries(index, &point->hash, (size_t)replicas, row);
-    *complete = !err;
-    for (int64_t r = 0; !err && r < replicas; r++) {
+    TRY(fracas_index_summaries(index, &point->hash, (size_t)replicas, row));
+    *complete = true;
+    for (int64_t r = 0; r < replicas; r++) {
         *complete = *complete && row[r].status != FRACAS_PLANNED && row[r].status != FRACAS_LEASED;
         value[r] = value_of(&row[r], point->rule.quantity);
     }
-    free(row);
-    return err;
+    return FRACAS_OK;
 }
 
 /* The decision of a round from its realizations; *complete as above, *decision only then. */
 static fracas_err decide(fracas_index *index, const fracas_point *point, int64_t round,
                          int64_t replicas, fracas_decision *decision, bool *complete)
 {
-    double *value = malloc((size_t)replicas * sizeof *value);
+    OWNED double *value = malloc((size_t)replicas * sizeof *value);
     if (!value) return fracas_no_memory("the realizations of a round");
-    fracas_err err = read_values(index, point, replicas, value, complete);
-    if (!err && *complete) {
-        const fracas_sequential_rule *rule = &point->rule;
-        const fracas_sequential_decision made = fracas_sequential_decide(rule, value, replicas);
-        *decision = (fracas_decision){.round = round,
-                                      .replicas = replicas,
-                                      .used = made.used,
-                                      .mean = made.mean,
-                                      .half_width = made.half_width,
-                                      .stop = made.stop,
-                                      .quantity = rule->quantity,
-                                      .minimum = rule->minimum,
-                                      .maximum = rule->maximum,
-                                      .relative_half_width = rule->relative_half_width,
-                                      .confidence = rule->confidence};
-    }
-    free(value);
-    return err;
+    TRY(read_values(index, point, replicas, value, complete));
+    if (!*complete) return FRACAS_OK;
+    const fracas_sequential_rule *rule = &point->rule;
+    const fracas_sequential_decision made = fracas_sequential_decide(rule, value, replicas);
+    *decision = (fracas_decision){.round = round,
+                                  .replicas = replicas,
+                                  .used = made.used,
+                                  .mean = made.mean,
+                                  .half_width = made.half_width,
+                                  .stop = made.stop,
+                                  .quantity = rule->quantity,
+                                  .minimum = rule->minimum,
+                                  .maximum = rule->maximum,
+                                  .relative_half_width = rule->relative_half_width,
+                                  .confidence = rule->confidence};
+    return FRACAS_OK;
 }
 
 static bool is_by(const fracas_decision *recorded, const fracas_sequential_rule *rule)
@@ -155,12 +153,10 @@ fracas_err fracas_rounds_commit(fracas_rounds *rounds, fracas_index *index,
 
 static fracas_err begin(fracas_rounds *rounds, fracas_index *index, size_t p)
 {
-    fracas_decision *recorded;
+    OWNED fracas_decision *recorded = NULL;
     size_t count;
     TRY(fracas_index_decisions(index, &rounds->point[p].hash, &recorded, &count));
-    fracas_err err = go_on(rounds, index, p, recorded, count);
-    free(recorded);
-    return err;
+    return go_on(rounds, index, p, recorded, count);
 }
 
 fracas_err fracas_rounds_init(fracas_rounds *rounds, const fracas_campaign *campaign,
@@ -195,26 +191,23 @@ void fracas_rounds_clear(fracas_rounds *rounds)
 
 static fracas_err check_point(const fracas_point *point, fracas_index *index, size_t p)
 {
-    fracas_decision *recorded;
+    OWNED fracas_decision *recorded = NULL;
     size_t count, d = 0;
     bool complete = true, stopped = false;
     TRY(fracas_index_decisions(index, &point->hash, &recorded, &count));
-    fracas_err err = FRACAS_OK;
-    for (int64_t replicas = point->rule.minimum; !err && complete && !stopped && d < count; d++) {
+    for (int64_t replicas = point->rule.minimum; complete && !stopped && d < count; d++) {
         fracas_decision made;
-        err = decide(index, point, (int64_t)d, replicas, &made, &complete);
-        if (!err && complete && !fracas_decision_same(&recorded[d], &made))
-            err = disagrees(p, &recorded[d]);
-        stopped = !err && complete && made.stop;
+        TRY(decide(index, point, (int64_t)d, replicas, &made, &complete));
+        if (complete && !fracas_decision_same(&recorded[d], &made))
+            return disagrees(p, &recorded[d]);
+        stopped = complete && made.stop;
         replicas = fracas_sequential_next(&point->rule, replicas);
     }
-    if (!err && !(stopped && d == count))
-        err = fracas_fail(FRACAS_DAMAGED,
-                          "the index lacks a decision on the replicas of point %zu, or has one too "
-                          "many; remove index.sqlite: `fracas run` makes it anew from the segments",
-                          p);
-    free(recorded);
-    return err;
+    if (stopped && d == count) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED,
+                       "the index lacks a decision on the replicas of point %zu, or has one too "
+                       "many; remove index.sqlite: `fracas run` makes it anew from the segments",
+                       p);
 }
 
 fracas_err fracas_rounds_check(const fracas_campaign *campaign, fracas_index *index)

@@ -29,7 +29,7 @@ static bool find_disk(const char *study, struct statvfs *disk)
 /* Realizations done in a study begun before, and bytes of one in its segments. */
 static void read_progress(const char *study, double *done, double *bytes)
 {
-    fracas_index *index;
+    OWN(fracas_index) index = NULL;
     fracas_index_counts counts;
     *done = *bytes = 0;
     if (!fracas_index_exists(study) || fracas_index_open(study, false, &index))
@@ -38,7 +38,6 @@ static void read_progress(const char *study, double *done, double *bytes)
         *done = (double)(counts.done + counts.failed);
         if (counts.done) *bytes = (double)counts.bytes / (double)counts.done;
     }
-    fracas_index_close(index);
 }
 
 fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign,

@@ -22,30 +22,26 @@ typedef struct {
     fracas_rounds rounds;
 } holding;
 
-#define HOLDING_NONE ((holding){.lock = -1})
+#define HOLDING(of)               \
+    {                             \
+        .study = (of), .lock = -1 \
+    }
+#define HELD __attribute__((cleanup(release))) holding
 
+/* At the end of the scope. */
 static void release(holding *h)
 {
     fracas_rounds_clear(&h->rounds);
     fracas_index_close(h->index);
-    h->index = NULL;
-    if (h->lock >= 0) fracas_study_unlock(h->lock);
-    h->lock = -1;
-}
-
-/* Reports the recovery at the start. */
-static void print_report(const fracas_said *said, char *report)
-{
-    if (said && report) fracas_say_lines(said, report);
-    free(report);
+    fracas_study_unlock(h->lock);
 }
 
 /* With the lock: recovers, plans, and decides complete rounds. */
 static fracas_err resume(holding *h, const fracas_campaign *campaign, const fracas_said *said)
 {
-    char *report;
+    OWNED char *report = NULL;
     TRY(fracas_study_plan(h->study, campaign, &h->index, &report));
-    print_report(said, report);
+    if (said && report) fracas_say_lines(said, report);
     return fracas_rounds_init(&h->rounds, campaign, h->index);
 }
 
@@ -68,96 +64,65 @@ static fracas_err count(fracas_index *index, fracas_upkeep *end)
 
 /* ---- reindex ---- */
 
-static fracas_err reindex(holding *h, const fracas_campaign *campaign, const fracas_said *said,
-                          fracas_upkeep *end)
-{
-    const fracas_file_header header = fracas_campaign_header(campaign);
-    TRY(fracas_study_reindex(h->study, &header, &campaign->table, said));
-    TRY(fracas_index_open(h->study, true, &h->index));
-    TRY(fracas_rounds_init(&h->rounds, campaign, h->index));
-    return count(h->index, end);
-}
-
 fracas_err fracas_upkeep_reindex(const char *study, const fracas_campaign *campaign,
                                  const fracas_said *said, fracas_upkeep *end)
 {
-    holding h = HOLDING_NONE;
-    h.study = study;
+    HELD h = HOLDING(study);
+    const fracas_file_header header = fracas_campaign_header(campaign);
     TRY(fracas_study_lock(study, false, &h.lock));
-    fracas_err err = reindex(&h, campaign, said, end);
-    release(&h);
-    return err;
+    TRY(fracas_study_reindex(study, &header, &campaign->table, said));
+    TRY(fracas_index_open(study, true, &h.index));
+    TRY(fracas_rounds_init(&h.rounds, campaign, h.index));
+    return count(h.index, end);
 }
 
 /* ---- merge ---- */
 
-static fracas_err merge(holding *h, const fracas_campaign *campaign, const fracas_said *said,
-                        fracas_upkeep *end, bool *written)
+fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaign,
+                               const fracas_said *said, fracas_upkeep *end, bool *written)
 {
+    HELD h = HOLDING(study);
     bool settled;
     int64_t failed;
     const fracas_file_header header = fracas_campaign_header(campaign);
     const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
-    TRY(resume(h, campaign, said));
-    TRY(count(h->index, end));
+    *written = false;
+    TRY(fracas_study_lock(study, false, &h.lock));
+    TRY(resume(&h, campaign, said));
+    TRY(count(h.index, end));
     if (end->missing)
         return fracas_fail(FRACAS_INTERRUPTED,
                            "%" PRId64 " of %" PRId64
                            " realizations of %s are not computed yet; `fracas run %s/campaign.yaml "
                            "--study %s` computes them",
-                           end->missing, end->realizations, h->study, h->study, h->study);
-    TRY(fracas_rounds_check(campaign, h->index));
-    TRY(fracas_study_settled(h->study, h->index, campaign, &settled, &failed));
-    if (settled) return fracas_failure_report(h->study, h->index, &campaign->table);
-    TRY(fracas_study_merge(h->study, h->index, &header, &h->rounds.table, &meshes));
+                           end->missing, end->realizations, study, study, study);
+    TRY(fracas_rounds_check(campaign, h.index));
+    TRY(fracas_study_settled(study, h.index, campaign, &settled, &failed));
+    if (settled) return fracas_failure_report(study, h.index, &campaign->table);
+    TRY(fracas_study_merge(study, h.index, &header, &h.rounds.table, &meshes));
     *written = true;
-    TRY(fracas_index_event(h->index, "merged", "study.h5 is written"));
-    return fracas_failure_report(h->study, h->index, &campaign->table);
-}
-
-fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaign,
-                               const fracas_said *said, fracas_upkeep *end, bool *written)
-{
-    holding h = HOLDING_NONE;
-    h.study = study;
-    *written = false;
-    TRY(fracas_study_lock(study, false, &h.lock));
-    fracas_err err = merge(&h, campaign, said, end, written);
-    release(&h);
-    return err;
+    TRY(fracas_index_event(h.index, "merged", "study.h5 is written"));
+    return fracas_failure_report(study, h.index, &campaign->table);
 }
 
 /* ---- gc ---- */
-
-/* The digests of all files named in the campaign. */
-static fracas_err list_attachments(const fracas_campaign *campaign, const char ***digest,
-                                   size_t *count)
-{
-    *count = 0;
-    for (const fracas_attached *a = campaign->attached; a; a = a->next) ++*count;
-    *digest = calloc(*count + 1, sizeof **digest);
-    if (!*digest) return fracas_no_memory("the files that the campaign names");
-    size_t i = 0;
-    for (const fracas_attached *a = campaign->attached; a; a = a->next)
-        (*digest)[i++] = a->attachment.digest;
-    return FRACAS_OK;
-}
 
 fracas_err fracas_upkeep_collect(const char *study, const fracas_campaign *campaign, bool dry,
                                  void (*found)(void *context, const fracas_collected *item),
                                  void *context, uint64_t *freed)
 {
-    holding h = HOLDING_NONE;
+    HELD h = HOLDING(study);
     fracas_collect_options options = {.dry = dry, .found = found, .context = context};
-    const char **digest;
-    TRY(list_attachments(campaign, &digest, &options.nattachments));
+    for (const fracas_attached *a = campaign->attached; a; a = a->next) options.nattachments++;
+    OWNED const char **digest = calloc(options.nattachments + 1, sizeof *digest);
+    if (!digest) return fracas_no_memory("the files that the campaign names");
+    size_t i = 0;
+    for (const fracas_attached *a = campaign->attached; a; a = a->next)
+        digest[i++] = a->attachment.digest;
     options.attachment = digest;
-    fracas_err err = fracas_study_lock(study, false, &h.lock);
-    if (!err) err = dry ? fracas_index_open(study, false, &h.index) : open_index(study, &h.index);
-    if (!err) err = fracas_study_collect(study, h.index, &options, freed);
-    release(&h);
-    free(digest);
-    return err;
+    TRY(fracas_study_lock(study, false, &h.lock));
+    TRY(dry ? fracas_index_open(study, false, &h.index) : open_index(study, &h.index));
+    return fracas_study_collect(study, h.index, &options, freed);
 }
 
 /* ---- retry ---- */
@@ -165,19 +130,15 @@ fracas_err fracas_upkeep_collect(const char *study, const fracas_campaign *campa
 fracas_err fracas_upkeep_retry(const char *study, const fracas_campaign *campaign, int64_t point,
                                int64_t *rows)
 {
-    holding h = HOLDING_NONE;
+    HELD h = HOLDING(study);
     const fracas_file_header header = fracas_campaign_header(campaign);
     if (point >= (int64_t)campaign->npoints)
         return fracas_fail(FRACAS_USAGE, "--point %" PRId64 ": %s has the points 0 to %zu", point,
                            study, campaign->npoints - 1);
     TRY(fracas_study_lock(study, false, &h.lock));
-    fracas_err err = open_index(study, &h.index);
-    if (!err)
-        err = fracas_index_claim(h.index, &header); /* refused: this program cannot recompute it */
-    if (!err)
-        err = fracas_index_retry(h.index, point < 0 ? NULL : &campaign->point[point].hash, rows);
-    release(&h);
-    return err;
+    TRY(open_index(study, &h.index));
+    TRY(fracas_index_claim(h.index, &header)); /* refused: this program cannot recompute it */
+    return fracas_index_retry(h.index, point < 0 ? NULL : &campaign->point[point].hash, rows);
 }
 
 /* ---- merge-studies ---- */
@@ -254,9 +215,7 @@ static fracas_err join(joining *j, fracas_joined *joined, int64_t *both, fracas_
 fracas_err fracas_upkeep_join(const char *into, const char *from, const fracas_said *said,
                               fracas_joined *joined, int64_t *both, fracas_upkeep *end)
 {
-    joining j = {.into = HOLDING_NONE, .from = HOLDING_NONE, .said = said};
-    j.into.study = into;
-    j.from.study = from;
+    joining j = {.into = HOLDING(into), .from = HOLDING(from), .said = said};
     *joined = (fracas_joined){0};
     *both = 0;
     fracas_err err = choose_longer(&j);

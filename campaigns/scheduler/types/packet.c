@@ -66,11 +66,9 @@ fracas_err fracas_packet_write(int fd, const fracas_packet *message)
 
 fracas_err fracas_packet_send(int fd, fracas_packet_kind kind, const void *body, size_t size)
 {
-    fracas_packet *message = NULL;
+    OWNED fracas_packet *message = NULL;
     TRY(fracas_packet_create(kind, body, size, &message));
-    fracas_err err = fracas_packet_write(fd, message);
-    free(message);
-    return err;
+    return fracas_packet_write(fd, message);
 }
 
 /* Reads `size` bytes, fewer at the end of the stream. */
@@ -97,14 +95,12 @@ fracas_err fracas_packet_read(int fd, fracas_packet **message)
     TRY(read_whole(fd, &head, sizeof head, &got));
     if (got < sizeof head)
         return FRACAS_OK; /* also when the writer was killed in the middle of a message */
-    fracas_packet *m = malloc(sizeof *m + head.size);
+    OWNED fracas_packet *m = malloc(sizeof *m + head.size);
     if (!m) return fracas_no_memory("a message");
     *m = head;
-    fracas_err err = read_whole(fd, m->body, head.size, &got);
-    if (err || got < head.size) {
-        free(m);
-        return err;
-    }
+    TRY(read_whole(fd, m->body, head.size, &got));
+    if (got < head.size) return FRACAS_OK;
     *message = m;
+    m = NULL;
     return FRACAS_OK;
 }

@@ -9,12 +9,10 @@
 static fracas_err pack(const fracas_record *record, fracas_packet **message)
 {
     size_t size = fracas_record_packed_size(record);
-    void *bytes = malloc(size);
+    OWNED void *bytes = malloc(size);
     if (!bytes) return fracas_no_memory("a packed record");
     fracas_record_pack(record, bytes);
-    fracas_err err = fracas_packet_create(FRACAS_PACKET_RECORD, bytes, size, message);
-    free(bytes);
-    return err;
+    return fracas_packet_create(FRACAS_PACKET_RECORD, bytes, size, message);
 }
 
 static fracas_err compute(const fracas_computation *computation, const int64_t *replica,
@@ -37,10 +35,8 @@ static fracas_err compute(const fracas_computation *computation, const int64_t *
 static double allocated(void)
 {
     unsigned long pages = 0;
-    FILE *file = fopen("/proc/self/statm", "re");
-    if (!file) return 0;
-    if (fscanf(file, "%*u %*u %*u %*u %*u %lu", &pages) != 1) pages = 0;
-    fclose(file);
+    OWN(FILE) file = fopen("/proc/self/statm", "re");
+    if (!file || fscanf(file, "%*u %*u %*u %*u %*u %lu", &pages) != 1) return 0;
     return (double)pages * (double)sysconf(_SC_PAGESIZE);
 }
 

@@ -2,6 +2,7 @@
 #include "campaigns/scheduler/worker/process.h"
 
 #include "base/err.h"
+#include "base/own.h"
 
 #include <signal.h>
 #include <stdio.h>
@@ -16,10 +17,8 @@ void fracas_process_begin(const char *name, pid_t parent, int oom_score)
     if (getppid() != parent) _exit(FRACAS_INTERRUPTED); /* the parent died before the line above */
     prctl(PR_SET_NAME, name);
     if (oom_score == FRACAS_OOM_SAME) return;
-    FILE *file = fopen("/proc/self/oom_score_adj", "we");
-    if (!file) return;
-    fprintf(file, "%d", oom_score);
-    fclose(file);
+    OWN(FILE) file = fopen("/proc/self/oom_score_adj", "we");
+    if (file) fprintf(file, "%d", oom_score);
 }
 
 void fracas_process_end_text(int status, char *text, size_t size)

@@ -20,17 +20,15 @@ static const char compiler[] = "gcc " __VERSION__;
 static void read_cpu(char *model, size_t size)
 {
     snprintf(model, size, "unknown");
-    FILE *file = fopen("/proc/cpuinfo", "r");
-    if (!file) return;
+    OWN(FILE) file = fopen("/proc/cpuinfo", "r");
     char line[256];
-    while (fgets(line, sizeof line, file)) {
+    while (file && fgets(line, sizeof line, file)) {
         const char *value = strchr(line, ':');
         if (strncmp(line, "model name", 10) || !value) continue;
         line[strcspn(line, "\n")] = '\0';
         snprintf(model, size, "%s", value + 1 + strspn(value + 1, " "));
-        break;
+        return;
     }
-    fclose(file);
 }
 
 /* "Open MPI v4.1.4": MPI allows this call before MPI_Init, hence in a compute server. */

@@ -14,16 +14,10 @@
 fracas_err fracas_segment_add(fracas_segment *segment, size_t point, int64_t replica,
                               fracas_packet *record)
 {
-    if (segment->count == segment->capacity) {
-        size_t capacity = 2 * segment->capacity + 64;
-        fracas_segment_entry *entry = realloc(segment->entry, capacity * sizeof *entry);
-        if (!entry) {
-            free(record);
-            return fracas_no_memory("a segment");
-        }
-        segment->entry = entry;
-        segment->capacity = capacity;
-    }
+    fracas_err err = fracas_grow(&segment->entry, sizeof *segment->entry, segment->count,
+                                 &segment->capacity, "a segment");
+    if (err) free(record);
+    TRY(err);
     if (segment->count == 0) {
         segment->began = fracas_now();
         clock_gettime(CLOCK_REALTIME, &segment->clock);
@@ -88,7 +82,8 @@ fracas_err fracas_segment_write(fracas_segment *segment, const char *study,
                                 const fracas_campaign *campaign, const fracas_run_options *options,
                                 fracas_packet **note)
 {
-    char host[65] = "unknown", path[4096], *provenance = NULL;
+    char host[65] = "unknown", path[4096];
+    OWNED char *provenance = NULL;
     gethostname(host, sizeof host - 1);
     fracas_segment_note head = {.rows = segment->count};
     make_name(segment, host, head.name, sizeof head.name);
@@ -98,25 +93,17 @@ fracas_err fracas_segment_write(fracas_segment *segment, const char *study,
                                       segment->compute};
     TRY(fracas_provenance_make(&origin, options, &provenance));
     size_t rows = segment->count * sizeof(fracas_segment_row), text = strlen(provenance) + 1;
-    unsigned char *body = malloc(sizeof head + rows + text);
-    fracas_err err = FRACAS_OK;
-    if (!body) err = fracas_no_memory("the rows of a segment");
-    else
-        err = write_file(segment, path, campaign, provenance,
-                         (fracas_segment_row *)(body + sizeof head), &head.seal);
-    if (!err) {
-        memcpy(body, &head, sizeof head);
-        memcpy(body + sizeof head + rows, provenance, text);
-        err = fracas_packet_create(FRACAS_PACKET_SEGMENT, body, sizeof head + rows + text, note);
-    }
-    if (!err) {
-        uint64_t number = segment->number + 1;
-        fracas_segment_clear(segment);
-        segment->number = number;
-    }
-    free(body);
-    free(provenance);
-    return err;
+    OWNED unsigned char *body = malloc(sizeof head + rows + text);
+    if (!body) return fracas_no_memory("the rows of a segment");
+    TRY(write_file(segment, path, campaign, provenance, (fracas_segment_row *)(body + sizeof head),
+                   &head.seal));
+    memcpy(body, &head, sizeof head);
+    memcpy(body + sizeof head + rows, provenance, text);
+    TRY(fracas_packet_create(FRACAS_PACKET_SEGMENT, body, sizeof head + rows + text, note));
+    const uint64_t number = segment->number + 1;
+    fracas_segment_clear(segment);
+    segment->number = number;
+    return FRACAS_OK;
 }
 
 void fracas_segment_clear(fracas_segment *segment)

@@ -24,10 +24,8 @@ fracas_err fracas_solve(const fracas_computation *computation, const int64_t *re
                                           .interfaces = computation->campaign->output.interfaces,
                                           .width = computation->options->width,
                                           .isa = computation->options->isa};
-    fracas_batch *batch;
+    OWN(fracas_batch) batch = NULL;
     TRY(fracas_batch_create(computation->model, count, &options, &batch));
-    fracas_err err = fill_strengths(computation, replica, count, batch);
-    if (!err) err = fracas_batch_run(batch, record);
-    fracas_batch_destroy(batch);
-    return err;
+    TRY(fill_strengths(computation, replica, count, batch));
+    return fracas_batch_run(batch, record);
 }

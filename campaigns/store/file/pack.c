@@ -1,46 +1,56 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A record as bytes: the struct with its pointers taken out, then its three arrays. For one program
  * on one machine. */
+#include "campaigns/store/file/schema.h"
 #include "campaigns/store/store.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-size_t fracas_record_packed_size(const fracas_record *record)
+static size_t row_size(int part)
 {
-    return sizeof *record + record->nfragment * sizeof *record->fragment +
-           record->nhistory * sizeof *record->history +
-           record->ninterface * sizeof *record->interface;
+    return fracas_store_sets[fracas_record_parts[part].offsets + 1].row_size;
 }
 
-static char *put(char *to, const void *from, size_t size)
+static const void *bytes_of(const fracas_record *record, int part, size_t *size)
 {
-    if (size) memcpy(to, from, size);
-    return to + size;
+    size_t count;
+    const void *rows = fracas_ragged_get(&fracas_record_parts[part], record, &count);
+    *size = count * row_size(part);
+    return rows;
 }
 
-void fracas_record_pack(const fracas_record *record, void *bytes)
+static fracas_record scalars_of(const fracas_record *record)
 {
     fracas_record scalars = *record;
     scalars.fragment = NULL;
     scalars.history = NULL;
     scalars.interface = NULL;
-    char *to = put(bytes, &scalars, sizeof scalars);
-    to = put(to, record->fragment, record->nfragment * sizeof *record->fragment);
-    to = put(to, record->history, record->nhistory * sizeof *record->history);
-    put(to, record->interface, record->ninterface * sizeof *record->interface);
+    return scalars;
 }
 
-/* Copies `count` rows out of the rest of the bytes; false without memory. */
-static bool take(const char **from, size_t count, size_t row_size, void **rows)
+size_t fracas_record_packed_size(const fracas_record *record)
 {
-    size_t size = count * row_size;
-    *rows = NULL;
-    if (!size) return true;
-    *rows = malloc(size);
-    if (*rows) memcpy(*rows, *from, size);
-    *from += size;
-    return *rows != NULL;
+    size_t all = sizeof *record;
+    for (int p = 0; p < FRACAS_NPARTS; p++) {
+        size_t size;
+        bytes_of(record, p, &size);
+        all += size;
+    }
+    return all;
+}
+
+void fracas_record_pack(const fracas_record *record, void *bytes)
+{
+    const fracas_record scalars = scalars_of(record);
+    char *to = memcpy(bytes, &scalars, sizeof scalars);
+    to += sizeof scalars;
+    for (int p = 0; p < FRACAS_NPARTS; p++) {
+        size_t size;
+        const void *from = bytes_of(record, p, &size);
+        if (size) memcpy(to, from, size);
+        to += size;
+    }
 }
 
 fracas_err fracas_record_unpack(const void *bytes, size_t size, fracas_record *record)
@@ -48,44 +58,41 @@ fracas_err fracas_record_unpack(const void *bytes, size_t size, fracas_record *r
     fracas_record scalars;
     fracas_record_clear(record);
     bool fits = size >= sizeof scalars;
-    if (fits) {
-        memcpy(&scalars, bytes, sizeof scalars);
-        /* Each count alone first, so that the sum cannot wrap around. */
-        fits = scalars.nfragment <= size / sizeof *scalars.fragment &&
-               scalars.nhistory <= size / sizeof *scalars.history &&
-               scalars.ninterface <= size / sizeof *scalars.interface &&
-               fracas_record_packed_size(&scalars) == size;
+    if (fits) memcpy(&scalars, bytes, sizeof scalars);
+    for (int p = 0; fits && p < FRACAS_NPARTS; p++) { /* alone: so the sum cannot wrap around */
+        size_t count;
+        fracas_ragged_get(&fracas_record_parts[p], &scalars, &count);
+        fits = count <= size / row_size(p);
     }
-    if (!fits)
+    if (!fits || fracas_record_packed_size(&scalars) != size)
         return fracas_fail(FRACAS_BUG, "a packed record of %zu bytes does not fit its own counts",
                            size);
+    *record = scalars_of(&scalars);
     const char *from = (const char *)bytes + sizeof scalars;
-    void *fragment = NULL, *history = NULL, *interface = NULL;
-    bool taken = take(&from, scalars.nfragment, sizeof(fracas_fragment), &fragment) &&
-                 take(&from, scalars.nhistory, sizeof(fracas_history_row), &history) &&
-                 take(&from, scalars.ninterface, sizeof(fracas_interface_row), &interface);
-    *record = scalars;
-    record->fragment = fragment;
-    record->history = history;
-    record->interface = interface;
-    if (taken) return FRACAS_OK;
-    fracas_record_clear(record);
-    return fracas_no_memory("a record");
-}
-
-static bool same_bytes(const void *a, const void *b, size_t size)
-{
-    return size == 0 || memcmp(a, b, size) == 0;
+    for (int p = 0; p < FRACAS_NPARTS; p++) {
+        size_t count, part;
+        fracas_ragged_get(&fracas_record_parts[p], &scalars, &count);
+        part = count * row_size(p);
+        void *rows = part ? malloc(part) : NULL;
+        if (part && !rows) {
+            fracas_record_clear(record);
+            return fracas_no_memory("a record");
+        }
+        if (part) memcpy(rows, from, part);
+        from += part;
+        fracas_ragged_set(&fracas_record_parts[p], record, rows, count);
+    }
+    return FRACAS_OK;
 }
 
 bool fracas_record_same(const fracas_record *a, const fracas_record *b)
 {
-    fracas_record x = *a, y = *b;
-    x.fragment = y.fragment = NULL;
-    x.history = y.history = NULL;
-    x.interface = y.interface = NULL;
-    return same_bytes(&x, &y, sizeof x) &&
-           same_bytes(a->fragment, b->fragment, a->nfragment * sizeof *a->fragment) &&
-           same_bytes(a->history, b->history, a->nhistory * sizeof *a->history) &&
-           same_bytes(a->interface, b->interface, a->ninterface * sizeof *a->interface);
+    const fracas_record x = scalars_of(a), y = scalars_of(b);
+    bool same = memcmp(&x, &y, sizeof x) == 0;
+    for (int p = 0; same && p < FRACAS_NPARTS; p++) {
+        size_t size, other;
+        const void *here = bytes_of(a, p, &size), *there = bytes_of(b, p, &other);
+        same = size == other && (size == 0 || memcmp(here, there, size) == 0);
+    }
+    return same;
 }

@@ -36,12 +36,11 @@ static fracas_err damaged(const fracas_reader *reader, const char *where, const 
 static fracas_err read_text_attribute(fracas_reader *reader, const char *name, size_t size,
                                       char *to)
 {
-    char *text;
+    OWNED char *text = NULL;
     TRY(fracas_h5_get_text(&reader->h5, "/", name, &text));
-    bool fits = strlen(text) < size;
-    if (fits) memcpy(to, text, strlen(text) + 1);
-    free(text);
-    return fits ? FRACAS_OK : damaged(reader, name, "it is too long");
+    if (strlen(text) >= size) return damaged(reader, name, "it is too long");
+    memcpy(to, text, strlen(text) + 1);
+    return FRACAS_OK;
 }
 
 static fracas_err read_truth(fracas_reader *reader, const char *name, bool *truth)
@@ -104,8 +103,9 @@ static fracas_err load_rows(fracas_reader *reader, int s, uint64_t first, size_t
 
 /* Offsets of `owners` things go from 0 to the rows of the set; that they never fall is checked
  * where they are used. */
-static fracas_err open_ragged(fracas_reader *reader, uint64_t owners, int offsets, int s)
+static fracas_err open_ragged(fracas_reader *reader, uint64_t owners, const fracas_ragged *ragged)
 {
+    const int offsets = ragged->offsets, s = offsets + 1;
     const char *path = fracas_store_sets[offsets].column->path;
     TRY(open_set(reader, offsets));
     TRY(open_set(reader, s));
@@ -133,8 +133,8 @@ static fracas_err open_meshes(fracas_reader *reader)
     TRY(is_there(reader, "/mesh", &reader->meshes));
     if (reader->meshes && !reader->header.interfaces)
         return damaged(reader, "/mesh", "there are meshes, but no interfaces");
-    for (int s = FRACAS_SET_MESH_NODE_OFFSET; reader->meshes && s < FRACAS_NSETS; s += 2)
-        TRY(open_ragged(reader, reader->points.table.npoints, s, s + 1));
+    for (int p = 0; reader->meshes && p < FRACAS_NMESH_PARTS; p++)
+        TRY(open_ragged(reader, reader->points.table.npoints, &fracas_mesh_parts[p]));
     return FRACAS_OK;
 }
 
@@ -142,18 +142,16 @@ static fracas_err open_records(fracas_reader *reader, unsigned parts)
 {
     reader->parts = parts;
     TRY(open_set(reader, FRACAS_SET_REALIZATION));
-    const uint64_t realizations = reader->set[FRACAS_SET_REALIZATION].rows;
-    if (parts & FRACAS_READ_FRAGMENTS)
-        TRY(open_ragged(reader, realizations, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT));
-    if (parts & FRACAS_READ_HISTORY)
-        TRY(open_ragged(reader, realizations, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY));
     bool there = false;
     TRY(is_there(reader, "/interface", &there));
     if (reader->header.interfaces != there)
         return damaged(reader, "interfaces",
                        "the group /interface is there when it must not be, or missing");
-    if (there && parts & FRACAS_READ_INTERFACES)
-        TRY(open_ragged(reader, realizations, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE));
+    if (!there) reader->parts &= ~(unsigned)FRACAS_READ_INTERFACES;
+    for (int p = 0; p < FRACAS_NPARTS; p++)
+        if (reader->parts & 1u << p)
+            TRY(open_ragged(reader, reader->set[FRACAS_SET_REALIZATION].rows,
+                            &fracas_record_parts[p]));
     return FRACAS_OK;
 }
 
@@ -271,57 +269,45 @@ static fracas_err load_rows(fracas_reader *reader, int s, uint64_t first, size_t
 }
 
 /* Where the rows of realization or point `row` are in a ragged set. */
-static fracas_err find_ragged(fracas_reader *reader, int offsets, int s, size_t row, int64_t *begin,
-                              size_t *count)
+static fracas_err find_ragged(fracas_reader *reader, const fracas_ragged *ragged, size_t row,
+                              int64_t *begin, size_t *count)
 {
     int64_t end;
-    TRY(load_rows(reader, offsets, row, 1, begin));
-    TRY(load_rows(reader, offsets, row + 1, 1, &end));
-    if (*begin < 0 || end < *begin || (uint64_t)end > reader->set[s].rows)
-        return damaged(reader, fracas_store_sets[offsets].column->path,
+    TRY(load_rows(reader, ragged->offsets, row, 1, begin));
+    TRY(load_rows(reader, ragged->offsets, row + 1, 1, &end));
+    if (*begin < 0 || end < *begin || (uint64_t)end > reader->set[ragged->offsets + 1].rows)
+        return damaged(reader, fracas_store_sets[ragged->offsets].column->path,
                        "an offset is out of order");
     *count = (size_t)(end - *begin);
     return FRACAS_OK;
 }
 
-/* Those rows; *rows freed by the caller, NULL if there are none. */
-static fracas_err load_ragged(fracas_reader *reader, int offsets, int s, size_t row, void **rows,
-                              size_t *count)
+/* Gives those rows to `owner`. */
+static fracas_err load_ragged(fracas_reader *reader, const fracas_ragged *ragged, size_t row,
+                              void *owner)
 {
+    const int s = ragged->offsets + 1;
     int64_t begin;
-    *rows = NULL;
-    TRY(find_ragged(reader, offsets, s, row, &begin, count));
-    if (!*count) return FRACAS_OK;
-    *rows = calloc(*count, fracas_store_sets[s].row_size);
-    fracas_err err = *rows ? load_rows(reader, s, (uint64_t)begin, *count, *rows)
-                           : fracas_no_memory("a record");
-    if (err) free(*rows), *rows = NULL;
-    return err;
+    size_t count;
+    TRY(find_ragged(reader, ragged, row, &begin, &count));
+    OWNED void *rows = count ? calloc(count, fracas_store_sets[s].row_size) : NULL;
+    if (count && !rows) return fracas_no_memory("a record");
+    TRY(load_rows(reader, s, (uint64_t)begin, count, rows));
+    fracas_ragged_set(ragged, owner, rows, count);
+    rows = NULL;
+    return FRACAS_OK;
 }
 
 static fracas_err load_parts(fracas_reader *reader, size_t row, unsigned parts,
                              fracas_record *record)
 {
-    void *rows;
     parts &= reader->parts;
-    if (parts & FRACAS_READ_FRAGMENTS) {
-        TRY(load_ragged(reader, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT, row, &rows,
-                        &record->nfragment));
-        record->fragment = rows;
-        if (record->outcome != FRACAS_FAILED && (uint64_t)record->fragments != record->nfragment)
-            return damaged(reader, "/realization/fragments",
-                           "it is not the number of rows in /fragment");
-    }
-    if (parts & FRACAS_READ_HISTORY) {
-        TRY(load_ragged(reader, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY, row, &rows,
-                        &record->nhistory));
-        record->history = rows;
-    }
-    if (parts & FRACAS_READ_INTERFACES && reader->header.interfaces) {
-        TRY(load_ragged(reader, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE, row, &rows,
-                        &record->ninterface));
-        record->interface = rows;
-    }
+    for (int p = 0; p < FRACAS_NPARTS; p++)
+        if (parts & 1u << p) TRY(load_ragged(reader, &fracas_record_parts[p], row, record));
+    if (parts & FRACAS_READ_FRAGMENTS && record->outcome != FRACAS_FAILED &&
+        (uint64_t)record->fragments != record->nfragment)
+        return damaged(reader, "/realization/fragments",
+                       "it is not the number of rows in /fragment");
     return FRACAS_OK;
 }
 
@@ -369,18 +355,20 @@ fracas_err fracas_reader_each(fracas_reader *reader, unsigned parts,
 
 fracas_err fracas_reader_decisions(fracas_reader *reader, fracas_decision **decision, size_t *count)
 {
+    OWNED fracas_decision *found = NULL;
+    *decision = NULL;
     *count = reader->decisions ? reader->set[FRACAS_SET_DECISION].rows : 0;
-    *decision = calloc(*count + 1, sizeof **decision);
-    if (!*decision) return fracas_no_memory("the decisions of a study");
-    fracas_err err = *count ? load_rows(reader, FRACAS_SET_DECISION, 0, *count, *decision)
-                            : FRACAS_OK;
-    for (size_t d = 0; !err && d < *count; d++)
-        if (!fracas_decision_valid(&(*decision)[d]) || (*decision)[d].point < 0 ||
-            (uint64_t)(*decision)[d].point >= reader->points.table.npoints)
-            err = damaged(reader, "/decision",
-                          "a decision is of no point of the file, or out of range");
-    if (err) free(*decision), *decision = NULL;
-    return err;
+    found = calloc(*count + 1, sizeof *found);
+    if (!found) return fracas_no_memory("the decisions of a study");
+    TRY(load_rows(reader, FRACAS_SET_DECISION, 0, *count, found));
+    for (size_t d = 0; d < *count; d++)
+        if (!fracas_decision_valid(&found[d]) || found[d].point < 0 ||
+            (uint64_t)found[d].point >= reader->points.table.npoints)
+            return damaged(reader, "/decision",
+                           "a decision is of no point of the file, or out of range");
+    *decision = found;
+    found = NULL;
+    return FRACAS_OK;
 }
 
 /* ---- meshes ---- */
@@ -390,25 +378,13 @@ fracas_err fracas_reader_mesh_interfaces(fracas_reader *reader, size_t point, si
     int64_t begin;
     *interfaces = 0;
     if (!reader->meshes) return FRACAS_OK;
-    return find_ragged(reader, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE, point,
-                       &begin, interfaces);
+    return find_ragged(reader, &fracas_mesh_parts[2], point, &begin, interfaces);
 }
 
 static fracas_err load_mesh(fracas_reader *reader, size_t point, fracas_stored_mesh *mesh)
 {
-    void *rows;
-    TRY(load_ragged(reader, FRACAS_SET_MESH_NODE_OFFSET, FRACAS_SET_MESH_NODE, point, &rows,
-                    &mesh->nnodes));
-    mesh->node = rows;
-    TRY(load_ragged(reader, FRACAS_SET_MESH_ELEMENT_OFFSET, FRACAS_SET_MESH_ELEMENT, point, &rows,
-                    &mesh->nelements));
-    mesh->element = rows;
-    TRY(load_ragged(reader, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE, point,
-                    &rows, &mesh->ninterfaces));
-    mesh->interface = rows;
-    TRY(load_ragged(reader, FRACAS_SET_MESH_BORDER_OFFSET, FRACAS_SET_MESH_BORDER, point, &rows,
-                    &mesh->nborders));
-    mesh->border = rows;
+    for (int p = 0; p < FRACAS_NMESH_PARTS; p++)
+        TRY(load_ragged(reader, &fracas_mesh_parts[p], point, mesh));
     const char *fault = fracas_stored_mesh_fault(mesh);
     return fault ? damaged(reader, "/mesh", fault) : FRACAS_OK;
 }

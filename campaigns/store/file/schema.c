@@ -67,12 +67,11 @@ static const fracas_store_column realization[] = {
      OF(record.momentum)},
 };
 
-static const fracas_store_column fragment_offset[] = {
-    {"/fragment/offset", FRACAS_INT64, 1, "1",
-     "fragments of realization i are rows offset[i] to offset[i + 1] - 1; one value more than "
-     "realizations",
-     0},
-};
+#define OFFSETS(name, path, rows, owners)       \
+    static const fracas_store_column name[] = { \
+        {path, FRACAS_INT64, 1, "1",            \
+         rows " are rows offset[i] to offset[i + 1] - 1; one value more than " owners, 0}}
+OFFSETS(fragment_offset, "/fragment/offset", "fragments of realization i", "realizations");
 
 static const fracas_store_column fragment[] = {
     {"/fragment/mass", FRACAS_FLOAT64, 1, "kg", "mass", offsetof(fracas_fragment, mass)},
@@ -97,12 +96,7 @@ static const fracas_store_column fragment[] = {
      offsetof(fracas_fragment, spin)},
 };
 
-static const fracas_store_column history_offset[] = {
-    {"/history/offset", FRACAS_INT64, 1, "1",
-     "history of realization i is rows offset[i] to offset[i + 1] - 1; one value more than "
-     "realizations",
-     0},
-};
+OFFSETS(history_offset, "/history/offset", "history of realization i", "realizations");
 
 static const fracas_store_column history[] = {
     {"/history/time", FRACAS_FLOAT64, 1, "s", "time of the row's step",
@@ -115,12 +109,7 @@ static const fracas_store_column history[] = {
      offsetof(fracas_history_row, broken)},
 };
 
-static const fracas_store_column interface_offset[] = {
-    {"/interface/offset", FRACAS_INT64, 1, "1",
-     "interfaces of realization i are rows offset[i] to offset[i + 1] - 1; one value more than "
-     "realizations",
-     0},
-};
+OFFSETS(interface_offset, "/interface/offset", "interfaces of realization i", "realizations");
 
 static const fracas_store_column interface[] = {
     {"/interface/strength", FRACAS_FLOAT64, 1, "Pa", "strength sigma_c",
@@ -165,17 +154,11 @@ static const fracas_store_column decision[] = {
      offsetof(fracas_decision, confidence)},
 };
 
-#define MESH_OFFSET(name, things)                                                              \
-    static const fracas_store_column name[] = {                                                \
-        {"/mesh/" things "_offset", FRACAS_INT64, 1, "1",                                      \
-         things "s of the mesh of point i are rows offset[i] to offset[i + 1] - 1; one value " \
-                "more than points",                                                            \
-         0},                                                                                   \
-    }
-MESH_OFFSET(mesh_node_offset, "node");
-MESH_OFFSET(mesh_element_offset, "element");
-MESH_OFFSET(mesh_interface_offset, "interface");
-MESH_OFFSET(mesh_border_offset, "border");
+OFFSETS(mesh_node_offset, "/mesh/node_offset", "nodes of the mesh of point i", "points");
+OFFSETS(mesh_element_offset, "/mesh/element_offset", "elements of the mesh of point i", "points");
+OFFSETS(mesh_interface_offset, "/mesh/interface_offset", "interfaces of the mesh of point i",
+        "points");
+OFFSETS(mesh_border_offset, "/mesh/border_offset", "borders of the mesh of point i", "points");
 
 static const fracas_store_column mesh_node[] = {
     {"/mesh/node_position", FRACAS_FLOAT64, 3, "m",
@@ -237,6 +220,40 @@ const fracas_store_set fracas_store_sets[FRACAS_NSETS] = {
     [FRACAS_SET_MESH_BORDER] = SET(mesh_border, 256, fracas_stored_border),
 };
 _Static_assert(FRACAS_COUNT(realization) <= FRACAS_MAX_COLUMNS, "FRACAS_MAX_COLUMNS is too small");
+
+#define PART(of, set, group, rows)                                                  \
+    {                                                                               \
+        FRACAS_SET_##set##_OFFSET, group, offsetof(of, rows), offsetof(of, n##rows) \
+    }
+#define MESH_PART(set, rows, number)                                                 \
+    {                                                                                \
+        FRACAS_SET_MESH_##set##_OFFSET, "/mesh", offsetof(fracas_stored_mesh, rows), \
+            offsetof(fracas_stored_mesh, number)                                     \
+    }
+const fracas_ragged fracas_record_parts[FRACAS_NPARTS] = {
+    PART(fracas_record, FRAGMENT, "/fragment", fragment),
+    PART(fracas_record, HISTORY, "/history", history),
+    PART(fracas_record, INTERFACE, "/interface", interface)};
+const fracas_ragged fracas_mesh_parts[FRACAS_NMESH_PARTS] = {
+    MESH_PART(NODE, node, nnodes), MESH_PART(ELEMENT, element, nelements),
+    MESH_PART(INTERFACE, interface, ninterfaces), MESH_PART(BORDER, border, nborders)};
+_Static_assert(FRACAS_READ_FRAGMENTS == 1 << 0 && FRACAS_READ_HISTORY == 1 << 1 &&
+                   FRACAS_READ_INTERFACES == 1 << 2,
+               "parts are in the order of their bits");
+
+const void *fracas_ragged_get(const fracas_ragged *ragged, const void *owner, size_t *count)
+{
+    const void *rows;
+    memcpy(&rows, (const char *)owner + ragged->rows, sizeof rows);
+    memcpy(count, (const char *)owner + ragged->count, sizeof *count);
+    return rows;
+}
+
+void fracas_ragged_set(const fracas_ragged *ragged, void *owner, void *rows, size_t count)
+{
+    memcpy((char *)owner + ragged->rows, &rows, sizeof rows);
+    memcpy((char *)owner + ragged->count, &count, sizeof count);
+}
 
 const fracas_store_column fracas_store_point_hash = {
     "/point/hash",

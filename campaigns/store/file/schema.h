@@ -62,6 +62,23 @@ typedef struct {
 
 extern const fracas_store_set fracas_store_sets[FRACAS_NSETS];
 
+/* A ragged set: each realization has some rows of it, or each point, between two offsets. Its rows
+ * are the set behind that of its offsets. */
+typedef struct {
+    fracas_set_name offsets;
+    const char *group;  /* "/fragment" */
+    size_t rows, count; /* offsets of the pointer to the rows and of their number in the owner */
+} fracas_ragged;
+
+enum { FRACAS_NPARTS = 3, FRACAS_NMESH_PARTS = 4 };
+extern const fracas_ragged fracas_record_parts[FRACAS_NPARTS]; /* by the bits of FRACAS_READ_ALL */
+extern const fracas_ragged fracas_mesh_parts[FRACAS_NMESH_PARTS]; /* of a fracas_stored_mesh */
+
+/* The rows of an owner and their number. */
+const void *fracas_ragged_get(const fracas_ragged *ragged, const void *owner, size_t *count);
+/* Gives it these. */
+void fracas_ragged_set(const fracas_ragged *ragged, void *owner, void *rows, size_t count);
+
 /* A row of FRACAS_SET_REALIZATION in memory; rows of the others are fracas_fragment,
  * fracas_history_row, fracas_interface_row, fracas_decision, those of campaigns/store/mesh.h,
  * and an int64_t for the offsets. */

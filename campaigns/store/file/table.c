@@ -27,26 +27,22 @@ static fracas_err write_column(const fracas_h5 *h5, const fracas_store_column *c
 static fracas_err write_hashes(const fracas_h5 *h5, const fracas_point_table *table)
 {
     size_t width = fracas_store_point_hash.width;
-    char *stored = column_memory(&fracas_store_point_hash, table->npoints);
+    OWNED char *stored = column_memory(&fracas_store_point_hash, table->npoints);
     if (!stored) return fracas_no_memory("the point table");
     for (size_t p = 0; p < table->npoints; p++) {
         char hex[FRACAS_HASH_HEX];
         fracas_hash_hex(&table->point[p].hash, hex);
         memcpy(stored + p * width, hex, width);
     }
-    fracas_err err = write_column(h5, &fracas_store_point_hash, table->npoints, stored);
-    free(stored);
-    return err;
+    return write_column(h5, &fracas_store_point_hash, table->npoints, stored);
 }
 
 static fracas_err write_replicas(const fracas_h5 *h5, const fracas_point_table *table)
 {
-    int64_t *stored = column_memory(&fracas_store_point_replicas, table->npoints);
+    OWNED int64_t *stored = column_memory(&fracas_store_point_replicas, table->npoints);
     if (!stored) return fracas_no_memory("the point table");
     for (size_t p = 0; p < table->npoints; p++) stored[p] = table->point[p].replicas;
-    fracas_err err = write_column(h5, &fracas_store_point_replicas, table->npoints, stored);
-    free(stored);
-    return err;
+    return write_column(h5, &fracas_store_point_replicas, table->npoints, stored);
 }
 
 static size_t longest_text(const fracas_point_table *table, size_t c)
@@ -71,7 +67,7 @@ static fracas_err write_values(const fracas_h5 *h5, const fracas_point_table *ta
     fracas_store_column column = {path,       FRACAS_FLOAT64, 1,
                                   from->unit, from->doc,      offsetof(fracas_value, real)};
     if (from->text) column.type = FRACAS_TEXT, column.width = longest_text(table, c);
-    char *stored = column_memory(&column, table->npoints);
+    OWNED char *stored = column_memory(&column, table->npoints);
     if (!stored) return fracas_no_memory("the point table");
     for (size_t p = 0; p < table->npoints; p++) {
         const fracas_value *value = &table->point[p].value[c];
@@ -79,9 +75,7 @@ static fracas_err write_values(const fracas_h5 *h5, const fracas_point_table *ta
         if (from->text) memcpy(at, value->text, strlen(value->text));
         else (void)fracas_rows_store(&column, value, sizeof *value, 1, at);
     }
-    fracas_err err = write_column(h5, &column, table->npoints, stored);
-    free(stored);
-    return err;
+    return write_column(h5, &column, table->npoints, stored);
 }
 
 fracas_err fracas_table_write(const fracas_h5 *h5, const fracas_point_table *table)
@@ -121,25 +115,24 @@ static fracas_err read_column(const fracas_h5 *h5, const fracas_store_column *co
 fracas_err fracas_table_read_points(const fracas_h5 *h5, fracas_stored_table *stored)
 {
     size_t count = SIZE_MAX, width = fracas_store_point_hash.width;
-    void *hashes = NULL, *replicas = NULL;
-    fracas_err err = read_column(h5, &fracas_store_point_hash, &count, &hashes);
-    if (!err) err = read_column(h5, &fracas_store_point_replicas, &count, &replicas);
-    if (!err && !(stored->point = calloc(count ? count : 1, sizeof *stored->point)))
-        err = fracas_no_memory("the point table");
-    for (size_t p = 0; !err && p < count; p++) {
+    OWNED void *hashes = NULL;
+    OWNED void *replicas = NULL;
+    TRY(read_column(h5, &fracas_store_point_hash, &count, &hashes));
+    TRY(read_column(h5, &fracas_store_point_replicas, &count, &replicas));
+    stored->point = calloc(count ? count : 1, sizeof *stored->point);
+    if (!stored->point) return fracas_no_memory("the point table");
+    for (size_t p = 0; p < count; p++) {
         char hex[FRACAS_HASH_HEX] = "";
         memcpy(hex, (char *)hashes + p * width, width);
         stored->point[p].replicas = ((int64_t *)replicas)[p];
         if (!fracas_hash_parse(hex, &stored->point[p].hash) || stored->point[p].replicas < 0)
-            err = fracas_fail(FRACAS_DAMAGED,
-                              "%s: /point: damaged: row %zu has no valid hash and replicas",
-                              h5->path, p);
+            return fracas_fail(FRACAS_DAMAGED,
+                               "%s: /point: damaged: row %zu has no valid hash and replicas",
+                               h5->path, p);
     }
-    stored->table.npoints = err ? 0 : count;
+    stored->table.npoints = count;
     stored->table.point = stored->point;
-    free(hashes);
-    free(replicas);
-    return err;
+    return FRACAS_OK;
 }
 
 /* Spreads a column as read over the rows' values. */

@@ -81,14 +81,17 @@ static fracas_err put_rows(fracas_writer *writer, int s, const void *rows, size_
     return FRACAS_OK;
 }
 
-/* Rows of one realization in a ragged set, and where they end in the set of offsets. */
-static fracas_err put_ragged(fracas_writer *writer, int offsets, int s, const void *rows,
-                             size_t count)
+/* Rows of one realization or point, and where they end in the set of offsets; NULL: the first
+ * offset, 0. */
+static fracas_err put_ragged(fracas_writer *writer, const fracas_ragged *ragged, const void *owner)
 {
+    const int s = ragged->offsets + 1;
+    size_t count = 0;
+    const void *rows = owner ? fracas_ragged_get(ragged, owner, &count) : NULL;
     if (!has_set(writer, s)) return FRACAS_OK;
     TRY(put_rows(writer, s, rows, count));
     writer->end[s] += (int64_t)count;
-    return put_rows(writer, offsets, &writer->end[s], 1);
+    return put_rows(writer, ragged->offsets, &writer->end[s], 1);
 }
 
 /* ---- start ---- */
@@ -118,25 +121,21 @@ static fracas_err create_set(fracas_writer *writer, int s)
     return FRACAS_OK;
 }
 
-static fracas_err create_ragged(fracas_writer *writer, int offsets, int s)
+static fracas_err create_ragged(fracas_writer *writer, const fracas_ragged *ragged)
 {
-    TRY(create_set(writer, offsets));
-    TRY(create_set(writer, s));
-    return put_ragged(writer, offsets, s, NULL, 0); /* the first offset, 0 */
+    TRY(create_set(writer, ragged->offsets));
+    TRY(create_set(writer, ragged->offsets + 1));
+    return put_ragged(writer, ragged, NULL);
 }
 
 static fracas_err create_sets(fracas_writer *writer)
 {
-    static const int ragged[][2] = {{FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT},
-                                    {FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY},
-                                    {FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE}};
-    static const char *const group[] = {"/fragment", "/history", "/interface"};
     TRY(fracas_h5_create_group(&writer->h5, "/realization"));
     TRY(create_set(writer, FRACAS_SET_REALIZATION));
-    for (int g = 0; g < 3; g++) {
-        if (!has_set(writer, ragged[g][0])) continue;
-        TRY(fracas_h5_create_group(&writer->h5, group[g]));
-        TRY(create_ragged(writer, ragged[g][0], ragged[g][1]));
+    for (int p = 0; p < FRACAS_NPARTS; p++) {
+        if (!has_set(writer, fracas_record_parts[p].offsets)) continue;
+        TRY(fracas_h5_create_group(&writer->h5, fracas_record_parts[p].group));
+        TRY(create_ragged(writer, &fracas_record_parts[p]));
     }
     return FRACAS_OK;
 }
@@ -184,12 +183,9 @@ fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t rep
             writer->path, point, (long long)replica);
     fracas_stored_realization row = {(int64_t)point, replica, *record};
     TRY(put_rows(writer, FRACAS_SET_REALIZATION, &row, 1));
-    TRY(put_ragged(writer, FRACAS_SET_FRAGMENT_OFFSET, FRACAS_SET_FRAGMENT, record->fragment,
-                   record->nfragment));
-    TRY(put_ragged(writer, FRACAS_SET_HISTORY_OFFSET, FRACAS_SET_HISTORY, record->history,
-                   record->nhistory));
-    return put_ragged(writer, FRACAS_SET_INTERFACE_OFFSET, FRACAS_SET_INTERFACE, record->interface,
-                      record->ninterface);
+    for (int p = 0; p < FRACAS_NPARTS; p++)
+        TRY(put_ragged(writer, &fracas_record_parts[p], record));
+    return FRACAS_OK;
 }
 
 fracas_err fracas_writer_provenance(fracas_writer *writer, const char *provenance)
@@ -215,14 +211,9 @@ fracas_err fracas_writer_decisions(fracas_writer *writer, const fracas_decision 
 
 static fracas_err put_mesh(fracas_writer *writer, const fracas_stored_mesh *mesh)
 {
-    TRY(put_ragged(writer, FRACAS_SET_MESH_NODE_OFFSET, FRACAS_SET_MESH_NODE, mesh->node,
-                   mesh->nnodes));
-    TRY(put_ragged(writer, FRACAS_SET_MESH_ELEMENT_OFFSET, FRACAS_SET_MESH_ELEMENT, mesh->element,
-                   mesh->nelements));
-    TRY(put_ragged(writer, FRACAS_SET_MESH_INTERFACE_OFFSET, FRACAS_SET_MESH_INTERFACE,
-                   mesh->interface, mesh->ninterfaces));
-    return put_ragged(writer, FRACAS_SET_MESH_BORDER_OFFSET, FRACAS_SET_MESH_BORDER, mesh->border,
-                      mesh->nborders);
+    for (int p = 0; p < FRACAS_NMESH_PARTS; p++)
+        TRY(put_ragged(writer, &fracas_mesh_parts[p], mesh));
+    return FRACAS_OK;
 }
 
 /* The group comes with the first surface, so that a study without one has the bytes that it always
@@ -232,8 +223,7 @@ static fracas_err begin_meshes(fracas_writer *writer)
     static const fracas_stored_mesh none = {0};
     TRY(fracas_h5_create_group(&writer->h5, "/mesh"));
     writer->meshes = true;
-    for (int s = FRACAS_SET_MESH_NODE_OFFSET; s < FRACAS_NSETS; s += 2)
-        TRY(create_ragged(writer, s, s + 1));
+    for (int p = 0; p < FRACAS_NMESH_PARTS; p++) TRY(create_ragged(writer, &fracas_mesh_parts[p]));
     for (size_t p = 0; p < writer->npassed; p++) TRY(put_mesh(writer, &none));
     return FRACAS_OK;
 }

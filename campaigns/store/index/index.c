@@ -219,7 +219,7 @@ static fracas_err set_durability(fracas_index *index)
     return pragma(index, "PRAGMA synchronous", "2"); /* FULL */
 }
 
-/* Runs the statements that `print` prints. */
+/* Runs the printed statements. */
 static fracas_err run_printed(fracas_index *index, void (*print)(FILE *out), const char *doing)
 {
     OWNED char *text = NULL;

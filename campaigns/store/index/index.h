@@ -16,7 +16,7 @@ struct fracas_index {
     struct {
         const char *text;
         sqlite3_stmt *prepared;
-    } statement[64]; /* texts of fracas_sql_start, each prepared at its first use */
+    } statement[64]; /* each prepared at its first use */
 };
 
 /* fracas_index_open with the kind of filesystem given. */

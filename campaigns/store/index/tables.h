@@ -18,7 +18,7 @@
 #define FRACAS_UNSET_PLACE \
     "status = 'planned', segment = NULL, row = NULL" FRACAS_EACH_SUMMARY(FRACAS_SQL_UNSET)
 
-/* Prints the statements that create missing tables, and those that read every column of each. */
+/* Prints statements: to create missing tables, and to read every column of each. */
 void fracas_index_print_schema(FILE *out);
 void fracas_index_print_check(FILE *out);
 

@@ -33,7 +33,7 @@ static fracas_err sweep(const char *study, FILE *report)
     return fracas_disk_each(folder, remove_temporary, report);
 }
 
-/* *report: what `write` prints, freed by the caller. */
+/* *report: the text written by `write`, freed by the caller. */
 static fracas_err report_of(fracas_err (*write)(void *context, FILE *report), void *context,
                             char **report)
 {
