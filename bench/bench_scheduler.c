@@ -23,32 +23,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum {
-    TASKS,
-    POINTS,
-    TASK_TIME,
-    LONG_SHARE,
-    LONG_TIME,
-    JOBS,
-    LEASE_TIME,
-    SEGMENT_AGE,
-    ISOLATION,
-    STUDY,
-    JSON
-};
 static const fracas_option options[] = {
-    [TASKS] = {"tasks", "N", "realizations in all (10000)"},
-    [POINTS] = {"points", "N", "points of the campaign (1)"},
-    [TASK_TIME] = {"task-time", "S", "s that a realization sleeps (0)"},
-    [LONG_SHARE] = {"long-share", "P", "share of realizations that sleep --long-time, 0 to 1 (0)"},
-    [LONG_TIME] = {"long-time", "S", "s that these sleep (10)"},
-    [JOBS] = {"jobs", "N", "workers (one a core)"},
-    [LEASE_TIME] = {"lease-time", "S", "s that a lease should take; 0: one batch of 8 (1)"},
-    [SEGMENT_AGE] = {"segment-age", "S", "write a segment when it is S seconds old (5)"},
-    [ISOLATION] = {"isolation", "lease|none", "a process for each lease, or none (lease)"},
-    [STUDY] = {"study", "DIR", "make or continue the study there, and keep it (a temporary one)"},
-    [JSON] = {"json", NULL, "print the numbers as JSON"},
-};
+    {"tasks", "N", "realizations in all (10000)"},
+    {"points", "N", "points of the campaign (1)"},
+    {"task-time", "S", "s that a realization sleeps (0)"},
+    {"long-share", "P", "share of realizations that sleep --long-time, 0 to 1 (0)"},
+    {"long-time", "S", "s that these sleep (10)"},
+    {"jobs", "N", "workers (one a core)"},
+    {"lease-time", "S", "s that a lease should take; 0: one batch of 8 (1)"},
+    {"segment-age", "S", "write a segment when it is S seconds old (5)"},
+    {"isolation", "lease|none", "a process for each lease, or none (lease)"},
+    {"study", "DIR", "make or continue the study there, and keep it (a temporary one)"},
+    {"json", NULL, "print the numbers as JSON"},
+    {0}};
 
 typedef struct {
     int tasks, points;
@@ -89,15 +76,15 @@ static fracas_err read_options(const fracas_arguments *arguments, bench *b)
     int isolation = FRACAS_ISOLATION_LEASE;
     *b = (bench){.tasks = 10000, .points = 1};
     fracas_run_options_init(&b->run);
-    TRY(fracas_arguments_integer(arguments, TASKS, 1, INT_MAX, &b->tasks));
-    TRY(fracas_arguments_integer(arguments, POINTS, 1, 10000, &b->points));
-    TRY(fracas_arguments_real(arguments, TASK_TIME, 1.0, &load.seconds));
-    TRY(fracas_arguments_real(arguments, LONG_SHARE, 1.0, &load.long_part));
-    TRY(fracas_arguments_real(arguments, LONG_TIME, 1.0, &load.long_seconds));
-    TRY(fracas_arguments_integer(arguments, JOBS, 1, INT_MAX, &b->run.jobs));
-    TRY(fracas_arguments_real(arguments, LEASE_TIME, 1.0, &b->run.lease_seconds));
-    TRY(fracas_arguments_real(arguments, SEGMENT_AGE, 1.0, &b->run.segment_age));
-    TRY(fracas_arguments_word(arguments, ISOLATION, fracas_isolation_name, 2, &isolation));
+    TRY(fracas_arguments_integer(arguments, "tasks", 1, INT_MAX, &b->tasks));
+    TRY(fracas_arguments_integer(arguments, "points", 1, 10000, &b->points));
+    TRY(fracas_arguments_real(arguments, "task-time", 1.0, &load.seconds));
+    TRY(fracas_arguments_real(arguments, "long-share", 1.0, &load.long_part));
+    TRY(fracas_arguments_real(arguments, "long-time", 1.0, &load.long_seconds));
+    TRY(fracas_arguments_integer(arguments, "jobs", 1, INT_MAX, &b->run.jobs));
+    TRY(fracas_arguments_real(arguments, "lease-time", 1.0, &b->run.lease_seconds));
+    TRY(fracas_arguments_real(arguments, "segment-age", 1.0, &b->run.segment_age));
+    TRY(fracas_arguments_word(arguments, "isolation", fracas_isolation_name, 2, &isolation));
     b->run.isolation = (fracas_isolation)isolation;
     if (load.long_part > 1)
         return fracas_fail(FRACAS_USAGE, "--long-share is %g; a share is 0 to 1", load.long_part);
@@ -263,7 +250,7 @@ static fracas_err measure(const fracas_arguments *arguments, int argc, char **ar
     bench b;
     char folder[PATH_MAX - 16];
     bool ran;
-    const char *study = arguments->value[STUDY];
+    const char *study = fracas_given(arguments, "study");
     TRY(read_options(arguments, &b));
     if (fracas_run_is_rank()) snprintf(folder, sizeof folder, "%s", study ? study : ".");
     else TRY(make_folder(study, folder));
@@ -271,15 +258,14 @@ static fracas_err measure(const fracas_arguments *arguments, int argc, char **ar
     snprintf(b.file, sizeof b.file, "%s/bench.yaml", folder);
     b.run.file = b.file;
     if (fracas_run_is_rank()) return fracas_run(&b.run, argc, argv, &ran);
-    fracas_err err = run_in(&b, argc, argv, folder, arguments->value[JSON]);
+    fracas_err err = run_in(&b, argc, argv, folder, fracas_given(arguments, "json"));
     if (!study) nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS);
     return err;
 }
 
 int main(int argc, char **argv)
 {
-    static const fracas_command command = {
-        .name = "bench_scheduler", .options = options, .noptions = FRACAS_COUNT(options)};
+    static const fracas_command command = {.name = "bench_scheduler", .options = options};
     char *words[2 * FRACAS_MOST_OPTIONS + 8] = {argv[0], (char *)(uintptr_t)command.name};
     fracas_arguments arguments;
     int n = 2;
