@@ -4,7 +4,7 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/session/costs.h"
+#include "campaigns/scheduler/session/space.h"
 #include "campaigns/scheduler/session/part.h"
 #include "campaigns/scheduler/session/prepare.h"
 

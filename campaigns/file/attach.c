@@ -79,11 +79,8 @@ static fracas_err load(const fracas_file *file, const char *path, fracas_attachm
     if (stat(path, &info)) return cannot("open", path);
     if (!S_ISREG(info.st_mode))
         return fracas_fail(FRACAS_USAGE, "%s is not a file", path); /* opening a pipe would wait */
-    FILE *in = fopen(path, "rb");
-    if (!in) return cannot("open", path);
-    fracas_err err = load_open(file, path, in, made);
-    fclose(in);
-    return err;
+    OWN(FILE) in = fopen(path, "rb");
+    return in ? load_open(file, path, in, made) : cannot("open", path);
 }
 
 fracas_err fracas_attachment_read(const fracas_file *file, const char *key, const fracas_node *node,

@@ -161,11 +161,9 @@ static fracas_err check_points(const fracas_campaign *now, const fracas_campaign
 fracas_err fracas_campaign_extends(const fracas_campaign *now, const fracas_campaign *before)
 {
     TRY(check_settings(now, before));
-    point_link *sorted = malloc(now->npoints * sizeof *sorted);
+    OWNED point_link *sorted = malloc(now->npoints * sizeof *sorted);
     if (!sorted) return fracas_no_memory("the points of the campaign");
     for (size_t n = 0; n < now->npoints; n++) sorted[n].point = &now->point[n];
     qsort(sorted, now->npoints, sizeof *sorted, by_hash);
-    fracas_err err = check_points(now, before, sorted);
-    free(sorted);
-    return err;
+    return check_points(now, before, sorted);
 }

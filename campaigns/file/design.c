@@ -2,7 +2,6 @@
 #include "campaigns/file/design.h"
 
 #include "campaigns/file/sweep.h"
-#include "campaigns/file/target.h"
 #include "campaigns/file/words.h"
 #include "sampler/design/correlation.h"
 #include "sampler/design/design.h"

@@ -267,22 +267,19 @@ static fracas_err read_file(reading *read, fracas_campaign *campaign)
 fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path,
                                      fracas_campaign **campaign)
 {
-    fracas_campaign *made = calloc(1, sizeof *made);
-    if (!made) return fracas_no_memory("the campaign");
-    made->memory = fracas_memory_create();
+    OWN(fracas_campaign) made = calloc(1, sizeof *made);
+    if (!made || !(made->memory = fracas_memory_create())) return fracas_no_memory("the campaign");
     reading read = {
         .file = {.name = path, .memory = made->memory, .units = units, .campaign = made}};
-    fracas_err err = made->memory ? read_file(&read, made) : fracas_no_memory("the campaign");
-    if (err) fracas_campaign_destroy(made);
-    else *campaign = made;
-    return err;
+    TRY(read_file(&read, made));
+    *campaign = made;
+    made = NULL;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_campaign_read(const char *path, fracas_campaign **campaign)
 {
-    fracas_units *units;
+    OWN(fracas_units) units = NULL;
     TRY(fracas_units_create(&units));
-    fracas_err err = fracas_campaign_read_with(units, path, campaign);
-    fracas_units_destroy(units);
-    return err;
+    return fracas_campaign_read_with(units, path, campaign);
 }

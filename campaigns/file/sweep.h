@@ -35,4 +35,15 @@ FRACAS_MUST_USE fracas_err fracas_sweep_read(const fracas_file *file, const frac
 /* The choice of point `point` in axis `axis`. */
 const fracas_choice *fracas_sweep_choice(const fracas_sweep *sweep, size_t point, size_t axis);
 
+/* Target of a path of the sweep: one value of a point, or a section of values. */
+typedef struct {
+    const fracas_file_section *section; /* a whole section ... */
+    const fracas_leaf *leaf;            /* ... or one leaf */
+} fracas_target;
+
+/* Finds the target of the path in `key`, a part of a point. `also`: other words allowed in its
+ * place, a list up to NULL. */
+FRACAS_MUST_USE fracas_err fracas_target_find(const fracas_file *file, const fracas_node *key,
+                                              const char *const *also, fracas_target *found);
+
 #endif

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/node.h"
 
+#include "base/own.h"
+
 #include <errno.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -59,15 +61,11 @@ static fracas_err load_open(const char *name, FILE *in, unsigned char **bytes, s
 
 static fracas_err load(const char *name, unsigned char **bytes, size_t *size)
 {
-    FILE *in = fopen(name, "rb");
-    if (!in && errno == ENOENT)
-        return fracas_fail(FRACAS_USAGE, "there is no campaign file %s", name);
-    if (!in)
-        return fracas_fail(FRACAS_ENVIRONMENT, "cannot open the campaign file %s: %s", name,
-                           strerror(errno));
-    fracas_err err = load_open(name, in, bytes, size);
-    fclose(in);
-    return err;
+    OWN(FILE) in = fopen(name, "rb");
+    if (in) return load_open(name, in, bytes, size);
+    if (errno == ENOENT) return fracas_fail(FRACAS_USAGE, "there is no campaign file %s", name);
+    return fracas_fail(FRACAS_ENVIRONMENT, "cannot open the campaign file %s: %s", name,
+                       strerror(errno));
 }
 
 /* ---- from bytes to events ---- */
@@ -128,6 +126,9 @@ static fracas_err next_event(reading *reader, yaml_event_t *event)
 {
     return yaml_parser_parse(&reader->parser, event) ? FRACAS_OK : fail_parser(reader);
 }
+
+/* An event, deleted at the end of its scope. */
+#define OWN_EVENT __attribute__((cleanup(yaml_event_delete))) yaml_event_t
 
 /* ---- from events to nodes ---- */
 
@@ -216,20 +217,16 @@ static fracas_err read_entries(reading *reader, int depth, fracas_node *parent)
 {
     fracas_node **end = &parent->first;
     for (;;) {
-        yaml_event_t event;
+        OWN_EVENT event = {0};
+        OWN_EVENT after = {0};
         TRY(next_event(reader, &event));
-        bool closed = event.type == YAML_SEQUENCE_END_EVENT || event.type == YAML_MAPPING_END_EVENT;
+        if (event.type == YAML_SEQUENCE_END_EVENT || event.type == YAML_MAPPING_END_EVENT)
+            return FRACAS_OK;
         fracas_node *key = NULL, *value = NULL;
-        fracas_err err = FRACAS_OK;
-        if (!closed && parent->type == FRACAS_MAP) {
-            err = read_key(reader, &event, parent, &key);
-            yaml_event_delete(&event);
-            TRY(err);
-            TRY(next_event(reader, &event));
-        }
-        if (!closed) err = read_value(reader, &event, depth, &value);
-        yaml_event_delete(&event);
-        if (err || closed) return err;
+        const bool map = parent->type == FRACAS_MAP;
+        if (map) TRY(read_key(reader, &event, parent, &key));
+        if (map) TRY(next_event(reader, &after));
+        TRY(read_value(reader, map ? &after : &event, depth, &value));
         value->key = key;
         *end = value;
         end = &value->next;
@@ -255,12 +252,9 @@ static fracas_err read_value(reading *reader, const yaml_event_t *event, int dep
 /* Reads events up to and including one of `type`, which must come next. */
 static fracas_err skip_event(reading *reader, yaml_event_type_t type, const char *otherwise)
 {
-    yaml_event_t event;
+    OWN_EVENT event = {0};
     TRY(next_event(reader, &event));
-    fracas_err err = event.type == type ? FRACAS_OK
-                                        : FAIL_AT(reader, event.start_mark, "%s", otherwise);
-    yaml_event_delete(&event);
-    return err;
+    return event.type == type ? FRACAS_OK : FAIL_AT(reader, event.start_mark, "%s", otherwise);
 }
 
 static fracas_err read_document(reading *reader, fracas_node **root)
@@ -269,11 +263,9 @@ static fracas_err read_document(reading *reader, fracas_node **root)
         "the file is empty; a campaign file starts with `name:`, see docs/formats/campaign-file.md";
     TRY(skip_event(reader, YAML_STREAM_START_EVENT, empty));
     TRY(skip_event(reader, YAML_DOCUMENT_START_EVENT, empty));
-    yaml_event_t event;
+    OWN_EVENT event = {0};
     TRY(next_event(reader, &event));
-    fracas_err err = read_value(reader, &event, 0, root);
-    yaml_event_delete(&event);
-    TRY(err);
+    TRY(read_value(reader, &event, 0, root));
     TRY(skip_event(reader, YAML_DOCUMENT_END_EVENT, "more after the end"));
     TRY(skip_event(reader, YAML_STREAM_END_EVENT,
                    "a second document; a campaign file is one document, remove `---`"));
@@ -304,13 +296,11 @@ static fracas_err parse(reading *reader, fracas_node **root)
 
 fracas_err fracas_node_read(const char *name, fracas_campaign_memory *memory, fracas_node **root)
 {
-    unsigned char *bytes = NULL;
+    OWNED unsigned char *bytes = NULL;
     size_t size = 0;
-    fracas_err err = load(name, &bytes, &size);
+    TRY(load(name, &bytes, &size));
     reading reader = {.name = name, .bytes = bytes, .size = size, .memory = memory};
-    if (!err) err = parse(&reader, root);
-    free(bytes);
-    return err;
+    return parse(&reader, root);
 }
 
 fracas_node *fracas_node_find(const fracas_node *map, const char *key)

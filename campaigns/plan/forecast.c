@@ -249,10 +249,8 @@ static fracas_err forecast_with(const fracas_campaign *campaign, size_t point,
 fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
                                 fracas_forecast *forecast)
 {
-    fracas_model *model;
-    fracas_err err = forecast_with(campaign, point, forecast, &model);
-    fracas_model_destroy(model);
-    return err;
+    OWN(fracas_model) model = NULL;
+    return forecast_with(campaign, point, forecast, &model);
 }
 
 /* ---- size ---- */
@@ -319,7 +317,7 @@ static fracas_err make_batch(const fracas_model *model, double strength, size_t 
 
 static fracas_err run_batch(const fracas_model *model, double strength, size_t lanes, effort *spent)
 {
-    fracas_batch *batch;
+    OWN(fracas_batch) batch = NULL;
     fracas_record record[FRACAS_LANES_MAX];
     TRY(make_batch(model, strength, lanes, record, &batch));
     const double start = seconds();
@@ -329,7 +327,6 @@ static fracas_err run_batch(const fracas_model *model, double strength, size_t l
         spent->element_steps += (double)fracas_model_elements(model) * (double)record[l].steps;
         fracas_record_clear(&record[l]);
     }
-    fracas_batch_destroy(batch);
     return err;
 }
 
@@ -339,7 +336,7 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
     enum { TIMED = 100000 }; /* elements; above, memory limits the speed */
     const fracas_point *point = &campaign->point[index];
     fracas_spec spec = point->spec;
-    fracas_model *model;
+    OWN(fracas_model) model = NULL;
     if (spec.mesh.elements > TIMED) { /* a shorter bar or smaller ring of equal elements */
         spec.geometry.length *= TIMED / (double)spec.mesh.elements;
         spec.geometry.radius *= TIMED / (double)spec.mesh.elements;
@@ -349,9 +346,7 @@ static fracas_err time_steps(const fracas_campaign *campaign, size_t index, doub
     spec.cohesive.refinement = 1.0; /* the time of a step does not depend on its length */
     TRY(fracas_point_model_like(campaign, index, &spec, &model));
     const double strength = fracas_strength_mean(&point->strength, extents_of(model).mean);
-    fracas_err err = run_batch(model, strength, lanes_of(point), spent);
-    fracas_model_destroy(model);
-    return err;
+    return run_batch(model, strength, lanes_of(point), spent);
 }
 
 /* Times steps of a surface on its present model, since making one takes as long as many steps. All
@@ -361,7 +356,7 @@ static fracas_err time_surface(const fracas_model *model, double mean, size_t la
                                fracas_forecast *forecast)
 {
     const double strength = 1e-12 * mean;
-    fracas_batch *batch;
+    OWN(fracas_batch) batch = NULL;
     fracas_record record[FRACAS_LANES_MAX];
     effort spent = {0};
     size_t running = lanes;
@@ -376,7 +371,6 @@ static fracas_err time_surface(const fracas_model *model, double mean, size_t la
         spent.element_steps += (double)fracas_model_elements(model) * (double)lanes;
     }
     for (size_t l = 0; l < lanes; l++) fracas_record_clear(&record[l]);
-    fracas_batch_destroy(batch);
     forecast->speed = spent.element_steps / fmax(spent.seconds, 1e-9);
     return err;
 }

@@ -231,36 +231,33 @@ static void print_warnings(const campaign_plan *plan, FILE *out)
 static fracas_err print_text(const campaign_plan *plan, FILE *out)
 {
     const size_t points = plan->table->npoints, own = 1 + plan->nvaried, last = points + 2;
-    text_sheet sheet;
-    fracas_err err = sheet_init(last + 1, own + OWN_COLUMNS, &sheet);
-    if (!err) {
-        put_heads(plan, &sheet);
-        for (size_t p = 0; p < points; p++) put_point(plan, p, &sheet);
-        sheet_put(&sheet, last, 0, "total");
-        put_count(&sheet, last, own, plan->realizations, plan->most);
-        put_range(&sheet, last, own + 4, plan->least_time, plan->time, write_duration);
-        put_range(&sheet, last, own + 5, plan->least_bytes, plan->bytes, fracas_size_write);
-        fprintf(out, "Campaign %s: %zu point%s, %" PRId64, plan->campaign->name, points,
-                points == 1 ? "" : "s", plan->realizations);
-        if (plan->most > plan->realizations) fprintf(out, " to %" PRId64, plan->most);
-        fprintf(out, " realization%s\n\n", plan->most == 1 ? "" : "s");
-        sheet_print(&sheet, out);
-        fprintf(out,
-                "\nTimes are for %d process%s at %.2g element-steps per second each, timed just "
-                "now, and for running to time.end;\na stop rule may end realizations earlier. "
-                "Sizes count one fragment for every %d elements.\n",
-                plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest,
-                FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
-        if (plan->most > plan->realizations)
-            fprintf(out, "Replicas are added until replicas.until holds: from the least to the "
-                         "most, with their times and sizes.\n");
-        if (any_surface_field(plan))
-            fprintf(out, "Correlated fields of surfaces are made once a point by each process, "
-                         "which is not in these times: some seconds for 10 000 interfaces.\n");
-        print_warnings(plan, out);
-    }
-    sheet_clear(&sheet);
-    return err;
+    __attribute__((cleanup(sheet_clear))) text_sheet sheet = {0};
+    TRY(sheet_init(last + 1, own + OWN_COLUMNS, &sheet));
+    put_heads(plan, &sheet);
+    for (size_t p = 0; p < points; p++) put_point(plan, p, &sheet);
+    sheet_put(&sheet, last, 0, "total");
+    put_count(&sheet, last, own, plan->realizations, plan->most);
+    put_range(&sheet, last, own + 4, plan->least_time, plan->time, write_duration);
+    put_range(&sheet, last, own + 5, plan->least_bytes, plan->bytes, fracas_size_write);
+    fprintf(out, "Campaign %s: %zu point%s, %" PRId64, plan->campaign->name, points,
+            points == 1 ? "" : "s", plan->realizations);
+    if (plan->most > plan->realizations) fprintf(out, " to %" PRId64, plan->most);
+    fprintf(out, " realization%s\n\n", plan->most == 1 ? "" : "s");
+    sheet_print(&sheet, out);
+    fprintf(out,
+            "\nTimes are for %d process%s at %.2g element-steps per second each, timed just "
+            "now, and for running to time.end;\na stop rule may end realizations earlier. "
+            "Sizes count one fragment for every %d elements.\n",
+            plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest,
+            FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
+    if (plan->most > plan->realizations)
+        fprintf(out, "Replicas are added until replicas.until holds: from the least to the "
+                     "most, with their times and sizes.\n");
+    if (any_surface_field(plan))
+        fprintf(out, "Correlated fields of surfaces are made once a point by each process, "
+                     "which is not in these times: some seconds for 10 000 interfaces.\n");
+    print_warnings(plan, out);
+    return FRACAS_OK;
 }
 
 /* ---- the plan as JSON ---- */
@@ -321,12 +318,10 @@ fracas_err fracas_plan_print(const fracas_campaign *campaign, int jobs, FILE *ou
 {
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     if (jobs <= 0) jobs = cores > 0 ? (int)cores : 1;
-    campaign_plan plan;
-    fracas_err err = plan_init(campaign, jobs, &plan);
-    if (!err && json) print_json(&plan, out);
-    else if (!err) err = print_text(&plan, out);
-    if (!err && (fflush(out) != 0 || ferror(out)))
-        err = fracas_fail(FRACAS_ENVIRONMENT, "cannot write the plan: %s", strerror(errno));
-    plan_clear(&plan);
-    return err;
+    __attribute__((cleanup(plan_clear))) campaign_plan plan = {0};
+    TRY(plan_init(campaign, jobs, &plan));
+    if (json) print_json(&plan, out);
+    else TRY(print_text(&plan, out));
+    if (fflush(out) == 0 && !ferror(out)) return FRACAS_OK;
+    return fracas_fail(FRACAS_ENVIRONMENT, "cannot write the plan: %s", strerror(errno));
 }

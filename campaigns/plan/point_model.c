@@ -27,7 +27,7 @@ fracas_err fracas_point_model_like(const fracas_campaign *campaign, size_t point
                                    const fracas_spec *spec, fracas_model **model)
 {
     fracas_spec drawn = *spec;
-    double *noise = NULL;
+    OWNED double *noise = NULL;
     size_t count;
     TRY(fracas_mesh_noise_count(spec, &count));
     if (count > 0) {
@@ -38,9 +38,7 @@ fracas_err fracas_point_model_like(const fracas_campaign *campaign, size_t point
     drawn.mesh.noise = noise;
     drawn.mesh.nnoise = count;
     drawn.strength_per_point = fracas_strength_is_per_point(&campaign->point[point].strength);
-    fracas_err err = fracas_model_create(&drawn, model);
-    free(noise);
-    return err;
+    return fracas_model_create(&drawn, model);
 }
 
 fracas_err fracas_point_model_create(const fracas_campaign *campaign, size_t point,
@@ -62,10 +60,12 @@ static size_t strengths_of(const fracas_model *model)
     return fracas_model_interfaces(model) * fracas_model_strengths_per_interface(model);
 }
 
-static fracas_err field_over(const fracas_model *model, const fracas_strength *strength,
-                             fracas_extent *extent, double (*position)[3], fracas_field **field)
+fracas_err fracas_model_field(const fracas_model *model, const fracas_strength *strength,
+                              fracas_field **field)
 {
     const size_t n = fracas_model_interfaces(model);
+    OWNED fracas_extent *extent = malloc(n * sizeof *extent);
+    OWNED double(*position)[3] = malloc(strengths_of(model) * sizeof *position);
     if (n > 0 && (!extent || !position)) return fracas_no_memory("the interfaces of a mesh");
     for (size_t i = 0; i < n; i++) extent[i] = fracas_model_extent(model, i);
     fracas_model_interface_positions(model, position);
@@ -77,29 +77,17 @@ static fracas_err field_over(const fracas_model *model, const fracas_strength *s
     return fracas_field_create(strength, &sites, field);
 }
 
-fracas_err fracas_model_field(const fracas_model *model, const fracas_strength *strength,
-                              fracas_field **field)
-{
-    fracas_extent *extent = malloc(fracas_model_interfaces(model) * sizeof *extent);
-    double(*position)[3] = malloc(strengths_of(model) * sizeof *position);
-    fracas_err err = field_over(model, strength, extent, position, field);
-    free(extent);
-    free(position);
-    return err;
-}
-
 fracas_err fracas_model_factors(const fracas_model *model, const fracas_strength *strength,
                                 fracas_factor_range *range)
 {
     const size_t n = strengths_of(model);
     *range = (fracas_factor_range){1, 1, 1};
     if (!strength->factor || n == 0) return FRACAS_OK;
-    double(*position)[3] = malloc(n * sizeof *position), *factor;
+    OWNED double(*position)[3] = malloc(n * sizeof *position);
+    OWNED double *factor = NULL;
     if (!position) return fracas_no_memory("the interfaces of a mesh");
     fracas_model_interface_positions(model, position);
-    fracas_err err = fracas_grading_create(strength, n, (const double(*)[3])position, &factor);
-    free(position);
-    TRY(err);
+    TRY(fracas_grading_create(strength, n, (const double(*)[3])position, &factor));
     *range = (fracas_factor_range){.least = INFINITY};
     for (size_t k = 0; k < n; k++) {
         range->mean += factor[k];
@@ -107,6 +95,5 @@ fracas_err fracas_model_factors(const fracas_model *model, const fracas_strength
         range->most = fmax(range->most, factor[k]);
     }
     range->mean /= (double)n;
-    free(factor);
     return FRACAS_OK;
 }

@@ -7,7 +7,6 @@
 #include "campaigns/scheduler/launch/launcher.h"
 #include "campaigns/scheduler/launch/signals.h"
 #include "campaigns/scheduler/rank.h"
-#include "campaigns/scheduler/session/costs.h"
 #include "campaigns/scheduler/session/failures.h"
 #include "campaigns/scheduler/session/part.h"
 #include "campaigns/scheduler/session/prepare.h"

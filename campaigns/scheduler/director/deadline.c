@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "campaigns/scheduler/director/deadline.h"
+#include "campaigns/scheduler/director/state.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/director/director.h"
 
-#include "campaigns/scheduler/director/deadline.h"
-#include "campaigns/scheduler/session/costs.h"
+#include "campaigns/scheduler/director/state.h"
 #include "campaigns/scheduler/session/failures.h"
 #include "campaigns/scheduler/session/part.h"
 #include "campaigns/scheduler/session/prepare.h"

@@ -54,5 +54,7 @@ FRACAS_MUST_USE fracas_err fracas_director_announce(fracas_director *director, c
 bool fracas_director_computed(const fracas_director *director);
 /* And everything is on disk. */
 bool fracas_director_durable(const fracas_director *director);
+/* The worker is predicted not to end its next lease before the deadline with time to write it. */
+bool fracas_director_too_late(const fracas_director *director, size_t worker, double time);
 
 #endif

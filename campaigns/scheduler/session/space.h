@@ -1,10 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Checks the disk and the limits of the system before a run. */
+/* Needs of a run: predicted costs, the disk and the limits of the system. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_SESSION_SPACE_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_SESSION_SPACE_H
 
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/types/options.h"
+
+/* Predicted cost and bytes (NULL: not wanted) of one realization of each point (fracas_plan_cost),
+ * freed by the caller. FRACAS_USAGE for conflicting parameters, or for lanes or an instruction set
+ * missing on this machine. */
+FRACAS_MUST_USE fracas_err fracas_costs_create(const fracas_campaign *campaign,
+                                               const fracas_run_options *options, double **cost,
+                                               double **bytes);
 
 /* FRACAS_ENVIRONMENT, naming both numbers, unless the disk of the study has room for the remaining
  * segments and for study.h5, which is written whole beside an older one:

@@ -3,10 +3,18 @@
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_TYPES_HEADER_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_TYPES_HEADER_H
 
+#include "base/version.h"
 #include "campaigns/campaign.h"
 #include "campaigns/store/store.h"
 
 /* Header of a campaign's files, with the version of this program. */
-fracas_file_header fracas_campaign_header(const fracas_campaign *campaign);
+static inline fracas_file_header fracas_campaign_header(const fracas_campaign *campaign)
+{
+    return (fracas_file_header){.campaign = campaign->hash,
+                                .seed = campaign->seed,
+                                .history = campaign->output.history,
+                                .interfaces = campaign->output.interfaces,
+                                .version = FRACAS_VERSION};
+}
 
 #endif

@@ -2,6 +2,7 @@
 /* Attributes, columns and error messages of HDF5. */
 #include "campaigns/store/file/h5.h"
 
+#include "base/own.h"
 #include "base/param.h"
 
 #include <inttypes.h>
@@ -43,41 +44,33 @@ fracas_err fracas_h5_fail(const fracas_h5 *h5, const char *what)
                        walk.text);
 }
 
-void fracas_h5_let_go(bool good, herr_t (*close)(hid_t id), hid_t id)
+void fracas_h5_let_go(const hid_t *id)
 {
-    if (id < 0) return;
-    hid_t errors = good ? H5I_INVALID_HID : H5Eget_current_stack();
-    (void)close(id);
-    if (errors >= 0) (void)H5Eset_current_stack(errors);
+    if (*id >= 0) (void)H5Idec_ref(*id);
 }
 
 /* ---- attributes ---- */
 
 enum { MOST_TEXT = 4096 }; /* bytes of a text that a reader accepts */
 
-/* Text of exactly `size` bytes, padded with NUL. */
-static hid_t text_type(size_t size)
+/* Text of exactly `size` bytes, padded with NUL; closed by the caller, after an error too. */
+static bool make_text_type(size_t size, hid_t *type)
 {
-    hid_t type = H5Tcopy(H5T_C_S1);
-    if (type >= 0 && H5Tset_size(type, size) >= 0 && H5Tset_strpad(type, H5T_STR_NULLPAD) >= 0 &&
-        H5Tset_cset(type, H5T_CSET_UTF8) >= 0)
-        return type;
-    fracas_h5_let_go(false, H5Tclose, type);
-    return H5I_INVALID_HID;
+    *type = H5Tcopy(H5T_C_S1);
+    return *type >= 0 && H5Tset_size(*type, size) >= 0 &&
+           H5Tset_strpad(*type, H5T_STR_NULLPAD) >= 0 && H5Tset_cset(*type, H5T_CSET_UTF8) >= 0;
 }
 
 static fracas_err put_attribute(const fracas_h5 *h5, const char *object, const char *name,
                                 hid_t file_type, hid_t memory_type, const void *value)
 {
-    hid_t space = H5Screate(H5S_SCALAR), attribute = H5I_INVALID_HID;
+    OWN_ID attribute = H5I_INVALID_HID;
+    OWN_ID space = H5Screate(H5S_SCALAR);
     if (space >= 0)
         attribute = H5Acreate_by_name(h5->id, object, name, file_type, space, H5P_DEFAULT,
                                       H5P_DEFAULT, H5P_DEFAULT);
-    bool ok = attribute >= 0 && H5Awrite(attribute, memory_type, value) >= 0;
-    fracas_err err = ok ? FRACAS_OK : fracas_h5_fail(h5, name);
-    if (attribute >= 0) H5Aclose(attribute);
-    if (space >= 0) H5Sclose(space);
-    return err;
+    const bool ok = attribute >= 0 && H5Awrite(attribute, memory_type, value) >= 0;
+    return ok ? FRACAS_OK : fracas_h5_fail(h5, name);
 }
 
 fracas_err fracas_h5_put_text(const fracas_h5 *h5, const char *object, const char *name,
@@ -86,11 +79,9 @@ fracas_err fracas_h5_put_text(const fracas_h5 *h5, const char *object, const cha
     size_t length = strlen(text);
     if (length > MOST_TEXT)
         return fracas_fail(FRACAS_BUG, "%s of %s is longer than %d bytes", name, object, MOST_TEXT);
-    hid_t type = text_type(length ? length : 1);
-    fracas_err err = type < 0 ? fracas_h5_fail(h5, name)
-                              : put_attribute(h5, object, name, type, type, text);
-    if (type >= 0) H5Tclose(type);
-    return err;
+    OWN_ID type = H5I_INVALID_HID;
+    if (!make_text_type(length ? length : 1, &type)) return fracas_h5_fail(h5, name);
+    return put_attribute(h5, object, name, type, type, text);
 }
 
 fracas_err fracas_h5_put_integer(const fracas_h5 *h5, const char *object, const char *name,
@@ -99,23 +90,15 @@ fracas_err fracas_h5_put_integer(const fracas_h5 *h5, const char *object, const 
     return put_attribute(h5, object, name, file_type, H5T_NATIVE_UINT64, &value);
 }
 
-/* Opens a scalar attribute and its type. */
+/* Opens a scalar attribute and its type; both closed by the caller, after an error too. */
 static fracas_err open_attribute(const fracas_h5 *h5, const char *object, const char *name,
                                  hid_t *attribute, hid_t *type)
 {
-    *type = H5I_INVALID_HID;
     *attribute = H5Aopen_by_name(h5->id, object, name, H5P_DEFAULT, H5P_DEFAULT);
-    hid_t space = *attribute >= 0 ? H5Aget_space(*attribute) : H5I_INVALID_HID;
-    bool scalar = space >= 0 && H5Sget_simple_extent_type(space) == H5S_SCALAR;
-    if (scalar) *type = H5Aget_type(*attribute);
-    fracas_h5_let_go(*type >= 0, H5Sclose, space);
+    OWN_ID space = *attribute >= 0 ? H5Aget_space(*attribute) : H5I_INVALID_HID;
+    if (space >= 0 && H5Sget_simple_extent_type(space) == H5S_SCALAR)
+        *type = H5Aget_type(*attribute);
     return *type >= 0 ? FRACAS_OK : fracas_h5_fail(h5, name);
-}
-
-static void close_attribute(hid_t attribute, hid_t type)
-{
-    if (type >= 0) H5Tclose(type);
-    if (attribute >= 0) H5Aclose(attribute);
 }
 
 /* Bytes of a text of fixed length, 1 to MOST_TEXT; 0 if `type` is no such text. */
@@ -129,16 +112,18 @@ static size_t text_size(hid_t type)
 fracas_err fracas_h5_get_text(const fracas_h5 *h5, const char *object, const char *name,
                               char **text)
 {
-    hid_t attribute, type;
+    OWN_ID attribute = H5I_INVALID_HID;
+    OWN_ID type = H5I_INVALID_HID;
     *text = NULL;
-    fracas_err err = open_attribute(h5, object, name, &attribute, &type);
-    size_t size = err ? 0 : text_size(type);
-    if (!err && size == 0) err = fracas_h5_fail(h5, name);
-    if (!err && !(*text = calloc(1, size + 1))) err = fracas_no_memory("an attribute");
-    if (!err && H5Aread(attribute, type, *text) < 0) err = fracas_h5_fail(h5, name);
-    close_attribute(attribute, type);
-    if (err) free(*text), *text = NULL;
-    return err;
+    TRY(open_attribute(h5, object, name, &attribute, &type));
+    const size_t size = text_size(type);
+    if (!size) return fracas_h5_fail(h5, name);
+    OWNED char *found = calloc(1, size + 1);
+    if (!found) return fracas_no_memory("an attribute");
+    if (H5Aread(attribute, type, found) < 0) return fracas_h5_fail(h5, name);
+    *text = found;
+    found = NULL;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_h5_has_attribute(const fracas_h5 *h5, const char *object, const char *name,
@@ -152,49 +137,44 @@ fracas_err fracas_h5_has_attribute(const fracas_h5 *h5, const char *object, cons
 fracas_err fracas_h5_get_integer(const fracas_h5 *h5, const char *object, const char *name,
                                  hid_t file_type, uint64_t *value)
 {
-    hid_t attribute, type;
-    fracas_err err = open_attribute(h5, object, name, &attribute, &type);
-    if (!err &&
-        (H5Tequal(type, file_type) <= 0 || H5Aread(attribute, H5T_NATIVE_UINT64, value) < 0))
-        err = fracas_h5_fail(h5, name);
-    close_attribute(attribute, type);
-    return err;
+    OWN_ID attribute = H5I_INVALID_HID;
+    OWN_ID type = H5I_INVALID_HID;
+    TRY(open_attribute(h5, object, name, &attribute, &type));
+    const bool ok = H5Tequal(type, file_type) > 0 &&
+                    H5Aread(attribute, H5T_NATIVE_UINT64, value) >= 0;
+    return ok ? FRACAS_OK : fracas_h5_fail(h5, name);
 }
 
 /* ---- groups and columns ---- */
 
 fracas_err fracas_h5_create_group(const fracas_h5 *h5, const char *path)
 {
-    hid_t creation = H5Pcreate(H5P_GROUP_CREATE), group = H5I_INVALID_HID;
+    OWN_ID group = H5I_INVALID_HID;
+    OWN_ID creation = H5Pcreate(H5P_GROUP_CREATE);
     if (creation >= 0 && H5Pset_obj_track_times(creation, false) >= 0)
         group = H5Gcreate2(h5->id, path, H5P_DEFAULT, creation, H5P_DEFAULT);
-    fracas_err err = group < 0 ? fracas_h5_fail(h5, path) : FRACAS_OK;
-    if (group >= 0) H5Gclose(group);
-    if (creation >= 0) H5Pclose(creation);
-    return err;
+    return group < 0 ? fracas_h5_fail(h5, path) : FRACAS_OK;
 }
 
 fracas_err fracas_h5_text_width(const fracas_h5 *h5, const char *path, size_t *width)
 {
-    hid_t dataset = H5Dopen2(h5->id, path, H5P_DEFAULT), type = H5I_INVALID_HID;
-    if (dataset >= 0) type = H5Dget_type(dataset);
-    fracas_err err = type < 0 ? fracas_h5_fail(h5, path) : FRACAS_OK;
-    *width = err ? 0 : text_size(type);
-    if (type >= 0) H5Tclose(type);
-    if (dataset >= 0) H5Dclose(dataset);
-    return err;
+    OWN_ID dataset = H5Dopen2(h5->id, path, H5P_DEFAULT);
+    OWN_ID type = dataset >= 0 ? H5Dget_type(dataset) : H5I_INVALID_HID;
+    *width = type < 0 ? 0 : text_size(type);
+    return type < 0 ? fracas_h5_fail(h5, path) : FRACAS_OK;
 }
 
-static hid_t column_type(const fracas_store_column *column, bool in_file)
+/* The type of a column; closed by the caller, after an error too. */
+static bool make_type(const fracas_store_column *column, bool in_file, hid_t *type)
 {
     switch (column->type) {
-    case FRACAS_INT8: return H5Tcopy(in_file ? H5T_STD_I8LE : H5T_NATIVE_INT8);
-    case FRACAS_INT32: return H5Tcopy(in_file ? H5T_STD_I32LE : H5T_NATIVE_INT32);
-    case FRACAS_INT64: return H5Tcopy(in_file ? H5T_STD_I64LE : H5T_NATIVE_INT64);
-    case FRACAS_FLOAT64: return H5Tcopy(in_file ? H5T_IEEE_F64LE : H5T_NATIVE_DOUBLE);
-    case FRACAS_TEXT: break;
+    case FRACAS_INT8: *type = H5Tcopy(in_file ? H5T_STD_I8LE : H5T_NATIVE_INT8); break;
+    case FRACAS_INT32: *type = H5Tcopy(in_file ? H5T_STD_I32LE : H5T_NATIVE_INT32); break;
+    case FRACAS_INT64: *type = H5Tcopy(in_file ? H5T_STD_I64LE : H5T_NATIVE_INT64); break;
+    case FRACAS_FLOAT64: *type = H5Tcopy(in_file ? H5T_IEEE_F64LE : H5T_NATIVE_DOUBLE); break;
+    case FRACAS_TEXT: return make_text_type(column->width, type);
     }
-    return text_type(column->width);
+    return *type >= 0;
 }
 
 /* One dimension, or two if a row is a vector. */
@@ -206,150 +186,115 @@ static int column_rank(const fracas_store_column *column)
 /* Shuffle is there for whoever repacks the file with compression; Fletcher32 finds flipped bytes.
  * Neither is optional: HDF5 leaves out an optional filter that finds no memory, and the file would
  * have other bytes. */
-static hid_t creation_list(const fracas_store_column *column, size_t chunk)
+static bool make_creation(const fracas_store_column *column, size_t chunk, hid_t *list)
 {
     hsize_t shape[2] = {chunk, column->width};
-    hid_t list = H5Pcreate(H5P_DATASET_CREATE);
-    if (list >= 0 && H5Pset_chunk(list, column_rank(column), shape) >= 0 &&
-        H5Pset_filter(list, H5Z_FILTER_SHUFFLE, H5Z_FLAG_MANDATORY, 0, NULL) >= 0 &&
-        H5Pset_fletcher32(list) >= 0 && H5Pset_obj_track_times(list, false) >= 0 &&
-        H5Pset_fill_time(list, H5D_FILL_TIME_ALLOC) >= 0)
-        return list;
-    fracas_h5_let_go(false, H5Pclose, list);
-    return H5I_INVALID_HID;
+    *list = H5Pcreate(H5P_DATASET_CREATE);
+    return *list >= 0 && H5Pset_chunk(*list, column_rank(column), shape) >= 0 &&
+           H5Pset_filter(*list, H5Z_FILTER_SHUFFLE, H5Z_FLAG_MANDATORY, 0, NULL) >= 0 &&
+           H5Pset_fletcher32(*list) >= 0 && H5Pset_obj_track_times(*list, false) >= 0 &&
+           H5Pset_fill_time(*list, H5D_FILL_TIME_ALLOC) >= 0;
 }
 
 /* No chunk cache: rows are written and read by whole chunks. */
-static hid_t dataset_access_list(void)
+static bool make_access(hid_t *list)
 {
-    hid_t list = H5Pcreate(H5P_DATASET_ACCESS);
-    if (list >= 0 && H5Pset_chunk_cache(list, 1, 0, 1.0) < 0) {
-        fracas_h5_let_go(false, H5Pclose, list);
-        list = H5I_INVALID_HID;
-    }
-    return list;
+    *list = H5Pcreate(H5P_DATASET_ACCESS);
+    return *list >= 0 && H5Pset_chunk_cache(*list, 1, 0, 1.0) >= 0;
 }
 
 fracas_err fracas_h5_create_column(const fracas_h5 *h5, const fracas_store_column *column,
                                    size_t chunk, hid_t *dataset)
 {
     hsize_t none[2] = {0, column->width}, most[2] = {H5S_UNLIMITED, column->width};
-    hid_t type = column_type(column, true); /* no call after one that failed: it would forget why */
-    hid_t space = type < 0 ? H5I_INVALID_HID : H5Screate_simple(column_rank(column), none, most);
-    hid_t creation = space < 0 ? H5I_INVALID_HID : creation_list(column, chunk);
-    hid_t access = creation < 0 ? H5I_INVALID_HID : dataset_access_list();
+    OWN_ID type = H5I_INVALID_HID;
+    OWN_ID space = H5I_INVALID_HID;
+    OWN_ID creation = H5I_INVALID_HID;
+    OWN_ID access = H5I_INVALID_HID;
     *dataset = H5I_INVALID_HID;
-    if (type >= 0 && space >= 0 && creation >= 0 && access >= 0)
+    if (make_type(column, true, &type) && /* no call after one that failed: it would forget why */
+        (space = H5Screate_simple(column_rank(column), none, most)) >= 0 &&
+        make_creation(column, chunk, &creation) && make_access(&access))
         *dataset = H5Dcreate2(h5->id, column->path, type, space, H5P_DEFAULT, creation, access);
-    fracas_err err = *dataset < 0 ? fracas_h5_fail(h5, column->path) : FRACAS_OK;
-    if (access >= 0) H5Pclose(access);
-    if (creation >= 0) H5Pclose(creation);
-    if (space >= 0) H5Sclose(space);
-    if (type >= 0) H5Tclose(type);
-    if (!err) err = fracas_h5_put_text(h5, column->path, "unit", column->unit);
-    if (!err) err = fracas_h5_put_text(h5, column->path, "description", column->description);
-    return err;
+    if (*dataset < 0) return fracas_h5_fail(h5, column->path);
+    TRY(fracas_h5_put_text(h5, column->path, "unit", column->unit));
+    return fracas_h5_put_text(h5, column->path, "description", column->description);
 }
 
-static bool right_type(hid_t dataset, const fracas_store_column *column)
+/* Type, shape, chunk and filters are those of the schema, and the rows are in the file. Nothing is
+ * compressed, so rows that are there take their bytes: this bounds every allocation to come. */
+static fracas_err check_column(const fracas_h5 *h5, const fracas_store_column *column, size_t chunk,
+                               hid_t dataset, uint64_t *rows)
 {
-    hid_t found = H5Dget_type(dataset),
-          wanted = found < 0 ? H5I_INVALID_HID : column_type(column, true);
-    bool right = found >= 0 && wanted >= 0 && H5Tequal(found, wanted) > 0;
-    fracas_h5_let_go(right, H5Tclose, found);
-    fracas_h5_let_go(right, H5Tclose, wanted);
-    return right;
-}
-
-static bool right_shape(hid_t dataset, const fracas_store_column *column, uint64_t *rows)
-{
-    hid_t space = H5Dget_space(dataset);
-    hsize_t shape[2] = {0, 1};
-    int rank = column_rank(column);
-    bool right = space >= 0 && H5Sget_simple_extent_ndims(space) == rank &&
-                 H5Sget_simple_extent_dims(space, shape, NULL) == rank &&
-                 (rank == 1 || shape[1] == column->width);
-    fracas_h5_let_go(right, H5Sclose, space);
-    *rows = shape[0];
-    return right;
-}
-
-static bool right_storage(hid_t dataset, const fracas_store_column *column, size_t chunk)
-{
-    hsize_t shape[2] = {0, 0};
-    hid_t list = H5Dget_create_plist(dataset);
-    int rank = column_rank(column);
-    bool right = list >= 0 && H5Pget_layout(list) == H5D_CHUNKED &&
-                 H5Pget_chunk(list, 2, shape) == rank && shape[0] == chunk &&
-                 (rank == 1 || shape[1] == column->width) && H5Pget_nfilters(list) == 2;
     static const H5Z_filter_t filters[2] = {H5Z_FILTER_SHUFFLE, H5Z_FILTER_FLETCHER32};
+    const int rank = column_rank(column);
+    hsize_t shape[2] = {0, 1}, chunks[2] = {0, 0};
+    OWN_ID wanted = H5I_INVALID_HID;
+    OWN_ID list = H5I_INVALID_HID;
+    OWN_ID space = H5I_INVALID_HID;
+    OWN_ID found = H5Dget_type(dataset);
+    bool right = found >= 0 && make_type(column, true, &wanted) && H5Tequal(found, wanted) > 0 &&
+                 (space = H5Dget_space(dataset)) >= 0 &&
+                 H5Sget_simple_extent_ndims(space) == rank &&
+                 H5Sget_simple_extent_dims(space, shape, NULL) == rank &&
+                 (rank == 1 || shape[1] == column->width) &&
+                 (list = H5Dget_create_plist(dataset)) >= 0 && H5Pget_layout(list) == H5D_CHUNKED &&
+                 H5Pget_chunk(list, 2, chunks) == rank && chunks[0] == chunk &&
+                 (rank == 1 || chunks[1] == column->width) && H5Pget_nfilters(list) == 2;
     for (unsigned f = 0; right && f < FRACAS_COUNT(filters); f++) {
         unsigned flags;
         size_t none = 0;
         right = H5Pget_filter2(list, f, &flags, &none, NULL, 0, NULL, NULL) == filters[f];
     }
-    fracas_h5_let_go(right, H5Pclose, list);
-    return right;
+    *rows = shape[0];
+    right = right && *rows <= h5->bytes &&
+            *rows * fracas_stored_size(column) <= H5Dget_storage_size(dataset) &&
+            H5Dget_storage_size(dataset) <= h5->bytes;
+    return right ? FRACAS_OK : fracas_h5_fail(h5, column->path);
 }
 
 fracas_err fracas_h5_open_column(const fracas_h5 *h5, const fracas_store_column *column,
                                  size_t chunk, hid_t *dataset, uint64_t *rows)
 {
-    hid_t access = dataset_access_list();
-    *dataset = access >= 0 ? H5Dopen2(h5->id, column->path, access) : H5I_INVALID_HID;
-    fracas_h5_let_go(*dataset >= 0, H5Pclose, access);
-    if (*dataset < 0) return fracas_h5_fail(h5, column->path);
-    /* Nothing is compressed, so rows that are there take their bytes: this bounds every allocation
-     * to come. */
-    bool right = right_type(*dataset, column) && right_shape(*dataset, column, rows) &&
-                 right_storage(*dataset, column, chunk) && *rows <= h5->bytes &&
-                 *rows * fracas_stored_size(column) <= H5Dget_storage_size(*dataset) &&
-                 H5Dget_storage_size(*dataset) <= h5->bytes;
-    if (right) return FRACAS_OK;
-    fracas_err err = fracas_h5_fail(h5, column->path);
-    H5Dclose(*dataset);
+    OWN_ID access = H5I_INVALID_HID;
+    OWN_ID opened = make_access(&access) ? H5Dopen2(h5->id, column->path, access) : H5I_INVALID_HID;
     *dataset = H5I_INVALID_HID;
-    return err;
+    if (opened < 0) return fracas_h5_fail(h5, column->path);
+    TRY(check_column(h5, column, chunk, opened, rows));
+    *dataset = opened;
+    opened = H5I_INVALID_HID;
+    return FRACAS_OK;
 }
 
 typedef enum { READ_ROWS, WRITE_ROWS } direction;
 
-static bool transfer(const fracas_store_column *column, hid_t dataset, uint64_t start, size_t count,
-                     direction way, void *stored)
+static fracas_err transfer(const fracas_h5 *h5, const fracas_store_column *column, hid_t dataset,
+                           uint64_t start, size_t count, direction way, void *stored)
 {
-    int rank = column_rank(column);
     hsize_t from[2] = {start, 0}, size[2] = {count, column->width};
-    hid_t type = column_type(column, false);
-    hid_t memory = type < 0 ? H5I_INVALID_HID
-                            : H5Screate_simple(
-                                  rank, size,
-                                  NULL); /* no call after one that failed: it would forget why */
-    hid_t space = memory < 0 ? H5I_INVALID_HID : H5Dget_space(dataset);
-    bool ok = type >= 0 && memory >= 0 && space >= 0 &&
+    OWN_ID type = H5I_INVALID_HID;
+    OWN_ID memory = H5I_INVALID_HID;
+    OWN_ID space = H5I_INVALID_HID;
+    bool ok = make_type(column, false, &type) &&
+              (memory = H5Screate_simple(column_rank(column), size, NULL)) >= 0 &&
+              (space = H5Dget_space(dataset)) >= 0 &&
               H5Sselect_hyperslab(space, H5S_SELECT_SET, from, NULL, size, NULL) >= 0;
     if (ok && way == WRITE_ROWS)
-        ok = H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, stored) >= 0;
-    if (ok && way == READ_ROWS)
-        ok = H5Dread(dataset, type, memory, space, H5P_DEFAULT, stored) >= 0;
-    fracas_h5_let_go(ok, H5Sclose, space);
-    fracas_h5_let_go(ok, H5Sclose, memory);
-    fracas_h5_let_go(ok, H5Tclose, type);
-    return ok;
+        ok = H5Dwrite(dataset, type, memory, space, H5P_DEFAULT, stored) >= 0 && !h5->error;
+    else if (ok) ok = H5Dread(dataset, type, memory, space, H5P_DEFAULT, stored) >= 0;
+    return ok ? FRACAS_OK : fracas_h5_fail(h5, column->path);
 }
 
 fracas_err fracas_h5_append_rows(const fracas_h5 *h5, const fracas_store_column *column,
                                  hid_t dataset, uint64_t start, size_t count, const void *stored)
 {
     hsize_t extent[2] = {start + count, column->width};
-    bool ok = H5Dset_extent(dataset, extent) >= 0 &&
-              transfer(column, dataset, start, count, WRITE_ROWS, (void *)(uintptr_t)stored);
-    return ok && !h5->error ? FRACAS_OK : fracas_h5_fail(h5, column->path);
+    if (H5Dset_extent(dataset, extent) < 0) return fracas_h5_fail(h5, column->path);
+    return transfer(h5, column, dataset, start, count, WRITE_ROWS, (void *)(uintptr_t)stored);
 }
 
 fracas_err fracas_h5_read_rows(const fracas_h5 *h5, const fracas_store_column *column,
                                hid_t dataset, uint64_t start, size_t count, void *stored)
 {
-    return transfer(column, dataset, start, count, READ_ROWS, stored)
-               ? FRACAS_OK
-               : fracas_h5_fail(h5, column->path);
+    return transfer(h5, column, dataset, start, count, READ_ROWS, stored);
 }

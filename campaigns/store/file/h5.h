@@ -43,9 +43,10 @@ void fracas_h5_close(fracas_h5 *h5);
  * FRACAS_ENVIRONMENT if the system failed, else FRACAS_DAMAGED for a file being read, FRACAS_BUG
  * for one being written. */
 FRACAS_MUST_USE fracas_err fracas_h5_fail(const fracas_h5 *h5, const char *what);
-/* Closes `id`, if it is one; unless all is good, HDF5's errors stay as they are for fracas_h5_fail:
- * any call of HDF5 forgets those before it. */
-void fracas_h5_let_go(bool good, herr_t (*close)(hid_t id), hid_t id);
+/* An object of HDF5, closed at the end of its scope: after fracas_h5_fail, for any call of HDF5
+ * forgets the errors before it. */
+#define OWN_ID __attribute__((cleanup(fracas_h5_let_go))) hid_t
+void fracas_h5_let_go(const hid_t *id);
 
 #define FRACAS_PROVENANCE "provenance" /* attribute of the root group of a segment */
 

@@ -140,16 +140,13 @@ static const H5FD_class_t driver = {
 
 /* File format of HDF5 1.10, whatever library is used: its metadata carry checksums, the older one's
  * do not. */
-static hid_t access_list(fracas_h5 *h5)
+static bool make_access(fracas_h5 *h5, hid_t *list)
 {
     driver_info info = {h5};
-    hid_t list = H5Pcreate(H5P_FILE_ACCESS);
-    if (list >= 0 && H5Pset_driver(list, h5->driver, &info) >= 0 &&
-        H5Pset_libver_bounds(list, H5F_LIBVER_V110, H5F_LIBVER_V110) >= 0 &&
-        H5Pset_fclose_degree(list, H5F_CLOSE_STRONG) >= 0)
-        return list;
-    fracas_h5_let_go(false, H5Pclose, list);
-    return H5I_INVALID_HID;
+    *list = H5Pcreate(H5P_FILE_ACCESS);
+    return *list >= 0 && H5Pset_driver(*list, h5->driver, &info) >= 0 &&
+           H5Pset_libver_bounds(*list, H5F_LIBVER_V110, H5F_LIBVER_V110) >= 0 &&
+           H5Pset_fclose_degree(*list, H5F_CLOSE_STRONG) >= 0;
 }
 
 /* No handler at exit: in a forked child it would write the parent's open files. Nothing needs it
@@ -178,30 +175,24 @@ fracas_err fracas_h5_create(fracas_h5 *h5, const char *name, const char *path)
     TRY(start(h5, path, true));
     h5->fd = open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (h5->fd < 0) return fracas_disk_fail("create", path);
-    hid_t list = access_list(h5),
-          creation = list < 0 ? H5I_INVALID_HID : H5Pcreate(H5P_FILE_CREATE);
-    if (list >= 0 && creation >= 0 && H5Pset_obj_track_times(creation, false) >= 0)
+    OWN_ID list = H5I_INVALID_HID;
+    OWN_ID creation = H5I_INVALID_HID;
+    if (make_access(h5, &list) && (creation = H5Pcreate(H5P_FILE_CREATE)) >= 0 &&
+        H5Pset_obj_track_times(creation, false) >= 0)
         h5->id = H5Fcreate(name, H5F_ACC_TRUNC, creation, list);
-    fracas_err err = h5->id < 0 ? fracas_h5_fail(h5, "start of the file") : FRACAS_OK;
-    if (list >= 0) H5Pclose(list);
-    if (creation >= 0) H5Pclose(creation);
-    return err;
+    return h5->id < 0 ? fracas_h5_fail(h5, "start of the file") : FRACAS_OK;
 }
 
 fracas_err fracas_h5_open(fracas_h5 *h5, const char *path)
 {
     TRY(start(h5, path, false));
     struct stat info;
-    h5->fd = open(path, O_RDONLY | O_CLOEXEC);
-    if (h5->fd < 0 && errno == ENOENT) return fracas_fail(FRACAS_DAMAGED, "%s is not there", path);
-    if (h5->fd < 0) return fracas_disk_fail("open", path);
+    TRY(fracas_disk_open(path, &h5->fd));
     if (fstat(h5->fd, &info) < 0) return fracas_disk_fail("read", path);
     h5->bytes = (uint64_t)info.st_size;
-    hid_t list = access_list(h5);
-    if (list >= 0) h5->id = H5Fopen(path, H5F_ACC_RDONLY, list);
-    fracas_err err = h5->id < 0 ? fracas_h5_fail(h5, "start of the file") : FRACAS_OK;
-    if (list >= 0) H5Pclose(list);
-    return err;
+    OWN_ID list = H5I_INVALID_HID;
+    if (make_access(h5, &list)) h5->id = H5Fopen(path, H5F_ACC_RDONLY, list);
+    return h5->id < 0 ? fracas_h5_fail(h5, "start of the file") : FRACAS_OK;
 }
 
 fracas_err fracas_h5_flush_close(fracas_h5 *h5)

@@ -70,8 +70,8 @@ static const fracas_store_column realization[] = {
 #define OFFSETS(name, path, rows, owners)       \
     static const fracas_store_column name[] = { \
         {path, FRACAS_INT64, 1, "1",            \
-         rows " are rows offset[i] to offset[i + 1] - 1; one value more than " owners, 0}}
-OFFSETS(fragment_offset, "/fragment/offset", "fragments of realization i", "realizations");
+         rows " rows offset[i] to offset[i + 1] - 1; one value more than " owners, 0}}
+OFFSETS(fragment_offset, "/fragment/offset", "fragments of realization i are", "realizations");
 
 static const fracas_store_column fragment[] = {
     {"/fragment/mass", FRACAS_FLOAT64, 1, "kg", "mass", offsetof(fracas_fragment, mass)},
@@ -96,7 +96,7 @@ static const fracas_store_column fragment[] = {
      offsetof(fracas_fragment, spin)},
 };
 
-OFFSETS(history_offset, "/history/offset", "history of realization i", "realizations");
+OFFSETS(history_offset, "/history/offset", "history of realization i is", "realizations");
 
 static const fracas_store_column history[] = {
     {"/history/time", FRACAS_FLOAT64, 1, "s", "time of the row's step",
@@ -109,7 +109,7 @@ static const fracas_store_column history[] = {
      offsetof(fracas_history_row, broken)},
 };
 
-OFFSETS(interface_offset, "/interface/offset", "interfaces of realization i", "realizations");
+OFFSETS(interface_offset, "/interface/offset", "interfaces of realization i are", "realizations");
 
 static const fracas_store_column interface[] = {
     {"/interface/strength", FRACAS_FLOAT64, 1, "Pa", "strength sigma_c",
@@ -154,11 +154,12 @@ static const fracas_store_column decision[] = {
      offsetof(fracas_decision, confidence)},
 };
 
-OFFSETS(mesh_node_offset, "/mesh/node_offset", "nodes of the mesh of point i", "points");
-OFFSETS(mesh_element_offset, "/mesh/element_offset", "elements of the mesh of point i", "points");
-OFFSETS(mesh_interface_offset, "/mesh/interface_offset", "interfaces of the mesh of point i",
+OFFSETS(mesh_node_offset, "/mesh/node_offset", "nodes of the mesh of point i are", "points");
+OFFSETS(mesh_element_offset, "/mesh/element_offset", "elements of the mesh of point i are",
         "points");
-OFFSETS(mesh_border_offset, "/mesh/border_offset", "borders of the mesh of point i", "points");
+OFFSETS(mesh_interface_offset, "/mesh/interface_offset", "interfaces of the mesh of point i are",
+        "points");
+OFFSETS(mesh_border_offset, "/mesh/border_offset", "borders of the mesh of point i are", "points");
 
 static const fracas_store_column mesh_node[] = {
     {"/mesh/node_position", FRACAS_FLOAT64, 3, "m",

@@ -4,7 +4,6 @@
 
 #include "base/param.h"
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/index/tables.h"
 
 #include <ctype.h>
 #include <errno.h>

@@ -174,4 +174,20 @@ FRACAS_MUST_USE fracas_err fracas_segment_check(const char *study,
 FRACAS_MUST_USE fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment,
                                                size_t count, int64_t *rows);
 
+/* ---- the tables, each column described once (tables.c) ---- */
+
+/* ", outcome, fragments ...", and the same as assignments; each `?` takes the next number. */
+#define FRACAS_SQL_NAME(key, type, value, meaning) ", " #key
+#define FRACAS_SQL_SET(key, type, value, meaning) ", " #key " = ?"
+#define FRACAS_SQL_UNSET(key, type, value, meaning) ", " #key " = NULL"
+
+/* The columns of a fracas_place, and assignments to forget it. */
+#define FRACAS_PLACE_COLUMNS "status, segment, row" FRACAS_EACH_SUMMARY(FRACAS_SQL_NAME)
+#define FRACAS_UNSET_PLACE \
+    "status = 'planned', segment = NULL, row = NULL" FRACAS_EACH_SUMMARY(FRACAS_SQL_UNSET)
+
+/* Prints statements: to create missing tables, and to read every column of each. */
+void fracas_index_print_schema(FILE *out);
+void fracas_index_print_check(FILE *out);
+
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "campaigns/store/index/tables.h"
+/* The tables of index.sqlite: the schema and docs/formats/study.md are made of them. */
+#include "campaigns/store/index/index.h"
 
 #include "base/param.h"
 #include "campaigns/store/file/schema.h"
-#include "campaigns/store/store.h"
 
 #include <string.h>
 

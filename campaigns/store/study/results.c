@@ -2,7 +2,6 @@
 #include "campaigns/store/results.h"
 
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/index/tables.h"
 #include "campaigns/store/study/segments.h"
 
 #include <inttypes.h>

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Failed realizations planned again. */
 #include "campaigns/store/index/index.h"
-#include "campaigns/store/index/tables.h"
 #include "campaigns/store/upkeep.h"
 
 #include <inttypes.h>
