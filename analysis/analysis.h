@@ -6,7 +6,6 @@
 
 #include "base/own.h"
 #include "base/err.h"
-#include "base/own.h"
 #include "base/hash.h"
 #include "base/own.h"
 #include "campaigns/points.h"

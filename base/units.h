@@ -6,7 +6,6 @@
 
 #include "base/own.h"
 #include "base/err.h"
-#include "base/own.h"
 
 #define FRACAS_NUMBER_TEXT 32 /* buffer of fracas_number_write, bytes */
 

@@ -5,7 +5,6 @@
 
 #include "base/own.h"
 #include "base/err.h"
-#include "base/own.h"
 #include "base/hash.h"
 #include "campaigns/points.h"
 #include "engine/spec.h"

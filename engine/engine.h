@@ -5,7 +5,6 @@
 
 #include "base/own.h"
 #include "base/err.h"
-#include "base/own.h"
 #include "base/isa.h"
 #include "engine/record.h"
 #include "engine/spec.h"

@@ -8,7 +8,6 @@
 #include "analysis/analysis.h"
 #include "analysis/fit/family.h"
 #include "base/err.h"
-#include "base/own.h"
 #include "base/hash.h"
 #include "base/own.h"
 
