@@ -72,7 +72,7 @@ typedef struct {
 
 enum { FRACAS_NPARTS = 3, FRACAS_NMESH_PARTS = 4 };
 extern const fracas_ragged fracas_record_parts[FRACAS_NPARTS]; /* by the bits of FRACAS_READ_ALL */
-extern const fracas_ragged fracas_mesh_parts[FRACAS_NMESH_PARTS]; /* of a fracas_stored_mesh */
+extern const fracas_ragged fracas_mesh_parts[FRACAS_NMESH_PARTS]; /* for a fracas_stored_mesh */
 
 /* The rows of an owner and their number. */
 const void *fracas_ragged_get(const fracas_ragged *ragged, const void *owner, size_t *count);
