@@ -19,12 +19,6 @@ static double *field(fracas_batch *batch, size_t element, int which)
     return batch->step.state + element * FIELDS + (size_t)which; /* one lane */
 }
 
-static double noise(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53 - 0.5;
-}
-
 /* Elements of one length, in progression 1 to 100, or moved at random by up to 0.45 h. */
 enum { MESHES = 3, MOST_ELEMENTS = 200 };
 static const char *const mesh_name[MESHES] = {"uniform", "graded", "perturbed"};
@@ -64,12 +58,12 @@ static void linear_ledger_is_constant_to_round_off(void **unused)
         uint64_t seed = 7;
         for (size_t e = 0; e < 200;
              e++) { /* equal on both sides of an interface: rigid links move as one */
-            double v = 2 * noise(&seed);
+            double v = 2 * random_noise(&seed);
             size_t left = e > 0 ? e - 1 : 199;
             if (e == 0 && ends[i / 2 % 2] == &fracas_ends_held) continue;
             *field(batch, e, V_LEFT) = v;
             *field(batch, left, V_RIGHT) =
-                v + (laws[i % 2] == &fracas_law_nitsche.kind ? 0.5 * noise(&seed) : 0);
+                v + (laws[i % 2] == &fracas_law_nitsche.kind ? 0.5 * random_noise(&seed) : 0);
         }
         fracas_record record;
         fracas_record_init(&record);
@@ -174,9 +168,9 @@ static void check_forces(int mesh)
     int seen_broken = 0, seen_unloading = 0;
     for (int trial = 0; trial < 20; trial++) {
         double w[2 * N], damage[N], force[2 * N], scale = 0;
-        for (int i = 0; i < 2 * N; i++) w[i] = 3e-7 * noise(&seed);
+        for (int i = 0; i < 2 * N; i++) w[i] = 3e-7 * random_noise(&seed);
         for (int e = 0; e < N; e++) {
-            double draw = noise(&seed) + 0.5;
+            double draw = random_noise(&seed) + 0.5;
             damage[e] = draw < 0.3 ? 0 : draw < 0.6 ? draw : draw < 0.8 ? 0.999 : 1;
             seen_broken += damage[e] >= 1;
             seen_unloading += damage[e] > 0 && damage[e] < 1;

@@ -2,6 +2,7 @@
 /* Strength fields against their exact laws: moments, Kolmogorov-Smirnov, minima, independence of
  * streams. Seeds are fixed, so a result is the same in every run; every bound is the one that a
  * right sampler exceeds with probability ALPHA or less. */
+#include "tests/support/kinds.h"
 #include "tests/support/strengths.h"
 #include "tests/support/test.h"
 
@@ -15,25 +16,18 @@ static const double normal_bound = 4.8916; /* |z| exceeds it with probability AL
 enum { N = 100000 };
 static double sample[N], other[N], volume[N];
 
-static const fracas_kind *kind(const char *name)
-{
-    for (size_t i = 0; i < fracas_strength_section.nkinds; i++)
-        if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0)
-            return fracas_strength_section.kinds[i];
-    fail_msg("no distribution %s", name);
-    return NULL;
-}
-
 static fracas_strength weibull(double minimum, double scale, double shape)
 {
-    return (fracas_strength){
-        .distribution = kind("weibull"), .minimum = minimum, .scale = scale, .shape = shape};
+    return (fracas_strength){.distribution = kind_of(&fracas_strength_section, "weibull"),
+                             .minimum = minimum,
+                             .scale = scale,
+                             .shape = shape};
 }
 
 /* `number` flaws in each interface, on average. */
 static fracas_strength flaws(double number)
 {
-    return (fracas_strength){.distribution = kind("flaws"),
+    return (fracas_strength){.distribution = kind_of(&fracas_strength_section, "flaws"),
                              .own[0] = number / 2e-9,
                              .minimum = 100e6,
                              .maximum = 400e6,
@@ -105,13 +99,21 @@ static void distributions_follow_their_laws(void **state)
         weibull(264e6, 50e6, 2.0),
         weibull(0.0, 450e6, 40.0),
         weibull(0.0, 450e6, 0.5),
-        {.distribution = kind("lognormal"), .median = 300e6, .sigma = 0.3},
-        {.distribution = kind("uniform"), .minimum = 264e6, .maximum = 364e6},
-        {.distribution = kind("normal"), .mean = 300e6, .deviation = 30e6},
-        {.distribution = kind("normal"), .mean = 100e6, .deviation = 200e6},
-        {.distribution = kind("gamma"), .shape = 0.3, .scale = 300e6},
-        {.distribution = kind("gamma"), .shape = 12.0, .scale = 25e6},
-        {.distribution = kind("gamma"), .shape = 2e4, .scale = 15e3},
+        {.distribution = kind_of(&fracas_strength_section, "lognormal"),
+         .median = 300e6,
+         .sigma = 0.3},
+        {.distribution = kind_of(&fracas_strength_section, "uniform"),
+         .minimum = 264e6,
+         .maximum = 364e6},
+        {.distribution = kind_of(&fracas_strength_section, "normal"),
+         .mean = 300e6,
+         .deviation = 30e6},
+        {.distribution = kind_of(&fracas_strength_section, "normal"),
+         .mean = 100e6,
+         .deviation = 200e6},
+        {.distribution = kind_of(&fracas_strength_section, "gamma"), .shape = 0.3, .scale = 300e6},
+        {.distribution = kind_of(&fracas_strength_section, "gamma"), .shape = 12.0, .scale = 25e6},
+        {.distribution = kind_of(&fracas_strength_section, "gamma"), .shape = 2e4, .scale = 15e3},
         flaws(0.7),
         flaws(3.0),
         flaws(40.0),
@@ -203,7 +205,8 @@ static void normal_moments(void **state)
         raw[1] = m * raw[0] + d * d;
         raw[2] = m * raw[1] + 2 * d * d * raw[0];
         raw[3] = m * raw[2] + 3 * d * d * raw[1];
-        fracas_strength law = {.distribution = kind("normal"), .mean = m, .deviation = d};
+        fracas_strength law = {
+            .distribution = kind_of(&fracas_strength_section, "normal"), .mean = m, .deviation = d};
         assert_moments(&law, 500 + k, raw);
     }
 }
@@ -217,7 +220,8 @@ static void gamma_moments(void **state)
         double a = shapes[k];
         double raw[4] = {t * a, t * t * a * (a + 1), t * t * t * a * (a + 1) * (a + 2),
                          t * t * t * t * a * (a + 1) * (a + 2) * (a + 3)};
-        fracas_strength law = {.distribution = kind("gamma"), .shape = a, .scale = t};
+        fracas_strength law = {
+            .distribution = kind_of(&fracas_strength_section, "gamma"), .shape = a, .scale = t};
         assert_moments(&law, 520 + k, raw);
     }
 }

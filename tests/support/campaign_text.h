@@ -109,6 +109,20 @@ static inline fracas_campaign *read_text(const char *text)
     return campaign;
 }
 
+/* What a point has at a path. */
+static inline const fracas_value *at(const fracas_campaign *campaign, size_t point,
+                                     const char *path)
+{
+    size_t column = fracas_point_table_find(&campaign->table, path);
+    if (column == SIZE_MAX) fail_msg("no column %s", path);
+    return &campaign->table.point[point].value[column];
+}
+
+static inline double real(const fracas_campaign *campaign, size_t point, const char *path)
+{
+    return at(campaign, point, path)->real;
+}
+
 /* The plain campaign with `find` replaced by `put`. */
 static inline fracas_campaign *read_replaced(const char *find, const char *put)
 {

@@ -54,13 +54,6 @@ static inline void large_study_init(large_study *study, size_t points, int64_t r
                                          .complete = true};
 }
 
-/* In [0, 1), by Knuth's MMIX generator. */
-static inline double large_next(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53;
-}
-
 /* Arcs between cuts near every hundredth interface, each flying as such a piece does. */
 static inline bool large_fragments(const large_study *study, double speed, uint64_t *state,
                                    fracas_record *record)
@@ -71,14 +64,14 @@ static inline bool large_fragments(const large_study *study, double speed, uint6
     record->fragment = calloc(record->nfragment, sizeof *record->fragment);
     if (!record->fragment) return false;
     for (int64_t k = 0; k < record->fragments; k++) {
-        const double at = ((double)k + 1 + 0.9 * (large_next(state) - 0.5)) * (double)elements /
+        const double at = ((double)k + 1 + 0.9 * (random_share(state) - 0.5)) * (double)elements /
                           (double)record->fragments;
         const int64_t cut = k + 1 == record->fragments ? elements : llrint(at);
         const double angle = M_PI * (double)(cut + last) / (double)elements,
                      half = M_PI * (double)(cut - last) / (double)elements;
         const double centre = sin(half) / half,
-                     outward = speed * centre * (1 + 0.01 * large_next(state)),
-                     along = large_next(state) - 0.5;
+                     outward = speed * centre * (1 + 0.01 * random_share(state)),
+                     along = random_share(state) - 0.5;
         fracas_fragment *f = &record->fragment[k];
         *f = (fracas_fragment){.size = circumference * (double)(cut - last) / (double)elements,
                                .elements = cut - last};
@@ -87,7 +80,7 @@ static inline bool large_fragments(const large_study *study, double speed, uint6
         f->position[1] = radius * 1.1 * centre * sin(angle);
         f->velocity[0] = outward * cos(angle) - along * sin(angle);
         f->velocity[1] = outward * sin(angle) + along * cos(angle);
-        f->spin[2] = 1e3 * (large_next(state) - 0.5);
+        f->spin[2] = 1e3 * (random_share(state) - 0.5);
         f->angular_momentum[2] = f->mass * radius * radius * (1 - centre * centre) * f->spin[2];
         last = cut;
     }
@@ -118,20 +111,20 @@ static inline bool large_record(const large_study *study, size_t p, int64_t repl
 {
     uint64_t state = 1000003 * p + (uint64_t)replica;
     const double speed = study->value[p][5].real;
-    for (int i = 0; i < 4; i++) large_next(&state);
+    for (int i = 0; i < 4; i++) random_share(&state);
     fracas_record_init(record);
     record->outcome = FRACAS_FRAGMENTED;
     record->fragments = study->fragments +
-                        llrint(0.2 * (double)study->fragments * (large_next(&state) - 0.5));
+                        llrint(0.2 * (double)study->fragments * (random_share(&state) - 0.5));
     record->nfragment = (size_t)record->fragments;
     record->broken = record->cracked = record->fragments;
     record->steps = 1000;
-    record->onset_time = 1e-6 * (1 + 0.1 * large_next(&state));
+    record->onset_time = 1e-6 * (1 + 0.1 * random_share(&state));
     record->end_time = 1e-5;
     record->time_step = 1e-8;
     record->mass = 2750 * 1e-6 * 2 * M_PI * 8e-3;
     record->kinetic = record->work = 0.5 * record->mass * speed * speed;
-    record->dissipated = 1e-4 * (double)record->fragments * (1 + 0.02 * large_next(&state));
+    record->dissipated = 1e-4 * (double)record->fragments * (1 + 0.02 * random_share(&state));
     record->elastic = record->cohesive = record->friction = record->created =
         record->dissipated_bending = record->residual_end = 0;
     record->residual = 1e-5 * record->dissipated;

@@ -32,6 +32,19 @@
     CLEARED(fracas_record) name; \
     fracas_record_init(&name)
 
+/* A number in [0, 1), by Knuth's MMIX generator. */
+static inline double random_share(uint64_t *state)
+{
+    *state = *state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(*state >> 11) * 0x1p-53;
+}
+
+/* In [-1/2, 1/2). */
+static inline double random_noise(uint64_t *state)
+{
+    return random_share(state) - 0.5;
+}
+
 /* Memory; the test fails without. */
 static inline void *taken(size_t size)
 {

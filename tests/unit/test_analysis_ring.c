@@ -188,12 +188,6 @@ static void make_table(made_table *made)
         .ncolumns = NCOLUMNS, .column = column, .npoints = NPOINTS, .point = made->row};
 }
 
-static double next(uint64_t *state) /* in [0, 1), by Knuth's MMIX generator */
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53;
-}
-
 /* Sizes near the mean, one dust in each ring; all thrown outward, with some scatter. */
 static void make_fragments(size_t p, uint64_t *state, fracas_record *record)
 {
@@ -202,15 +196,16 @@ static void make_fragments(size_t p, uint64_t *state, fracas_record *record)
     record->fragment = zeroed((size_t)n, sizeof *record->fragment);
     record->nfragment = (size_t)n;
     for (int64_t k = 0; k < n; k++) {
-        int64_t cut = llrint(((double)k + 1 + 0.9 * (next(state) - 0.5)) * ELEMENTS / (double)n);
+        int64_t cut = llrint(((double)k + 1 + 0.9 * (random_share(state) - 0.5)) * ELEMENTS /
+                             (double)n);
         if (k == 2) cut = last + 1;
         if (k + 1 == n) cut = ELEMENTS;
         fracas_fragment *fragment = &record->fragment[k];
         double turn = 2 * M_PI / ELEMENTS, half = turn * (double)(cut - last) / 2,
                out = sin(half) / half;
-        double angle = turn * (double)(cut + last) / 2 + 2e-3 * (next(state) - 0.5);
-        double scatter = 0.06 * speed * (next(state) - 0.5),
-               along = 0.06 * speed * (next(state) - 0.5);
+        double angle = turn * (double)(cut + last) / 2 + 2e-3 * (random_share(state) - 0.5);
+        double scatter = 0.06 * speed * (random_share(state) - 0.5),
+               along = 0.06 * speed * (random_share(state) - 0.5);
         double distance = (radius + (speed + scatter) * record->end_time / 2) * out;
         fragment->elements = cut - last;
         fragment->dust = cut - last == 1;
@@ -221,8 +216,8 @@ static void make_fragments(size_t p, uint64_t *state, fracas_record *record)
         fragment->velocity[0] = (speed * out + scatter) * cos(angle) - along * sin(angle);
         fragment->velocity[1] = (speed * out + scatter) * sin(angle) + along * cos(angle);
         fragment->angular_momentum[2] = fragment->mass * radius * radius * half * half / 3 * 2e4 *
-                                        (next(state) - 0.5);
-        for (int i = 0; i < 3; i++) fragment->spin[i] = 1e4 * (next(state) - 0.5);
+                                        (random_share(state) - 0.5);
+        for (int i = 0; i < 3; i++) fragment->spin[i] = 1e4 * (random_share(state) - 0.5);
         record->fragments_dust += fragment->dust;
         last = cut;
     }

@@ -95,13 +95,6 @@ static int64_t outcome_of(const truth *of, size_t p, int64_t replica)
     return FRACAS_FRAGMENTED;
 }
 
-/* A number in [0, 1) that differs from call to call, by Knuth's MMIX generator. */
-static double next(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53;
-}
-
 /* Fragments between cuts near every (elements/fragments)-th interface: their sizes add up to the
  * length. */
 static void make_fragments(const truth *of, size_t p, uint64_t *state, fracas_record *record)
@@ -110,7 +103,8 @@ static void make_fragments(const truth *of, size_t p, uint64_t *state, fracas_re
     record->fragment = zeroed((size_t)n, sizeof *record->fragment);
     record->nfragment = (size_t)n;
     for (int64_t k = 0; k < n; k++) {
-        double place = ((double)k + 1 + 0.9 * (next(state) - 0.5)) * (double)elements / (double)n;
+        double place = ((double)k + 1 + 0.9 * (random_share(state) - 0.5)) * (double)elements /
+                       (double)n;
         int64_t cut = k + 1 == n ? elements : llrint(place);
         fracas_fragment *fragment = &record->fragment[k];
         fragment->elements = cut - last;
@@ -156,12 +150,12 @@ static void make_record(const truth *of, size_t p, int64_t replica, fracas_recor
     record->cracked = 2 * record->broken;
     record->steps = 1000;
     double end = 5e-3 / (of->materials ? (p % 2 ? 1e5 : 1e4) : 1e3 * pow(10, (double)p));
-    record->onset_time = intact ? NAN : 0.4 * end * (1 + 0.01 * next(&state));
+    record->onset_time = intact ? NAN : 0.4 * end * (1 + 0.01 * random_share(&state));
     record->end_time = end;
     record->time_step = end / 1000;
     record->mass = 2750 * 1e-6 * 50e-3;
-    record->dissipated = intact ? 0
-                                : 1.7e-4 * (double)record->fragments * (1 + 0.02 * next(&state));
+    record->dissipated =
+        intact ? 0 : 1.7e-4 * (double)record->fragments * (1 + 0.02 * random_share(&state));
     record->dissipated_bending = record->friction = 0;
     record->created = 1e-3 * (p == 2 ? 14 : 1) * record->dissipated;
     record->residual = (p == 1 && of->endings ? 2e-3 : 2e-4) * record->dissipated *

@@ -3,6 +3,7 @@
 /* Files that a campaign names: strengths given line by line, what is said of wrong ones, and what
  * stands for a file in a point. And what is drawn once a point: the moves of a mesh's nodes. */
 #define FOLDER "fracas-test"
+#include "tests/support/kinds.h"
 #include "tests/support/folder.h"
 
 #include "tests/support/strengths.h"
@@ -19,18 +20,9 @@
 
 /* ---- strengths of a file ---- */
 
-static const fracas_kind *kind_named(const char *name)
-{
-    for (size_t k = 0; k < fracas_strength_section.nkinds; k++)
-        if (strcmp(fracas_strength_section.kinds[k]->name, name) == 0)
-            return fracas_strength_section.kinds[k];
-    fail_msg("no distribution %s", name);
-    return NULL;
-}
-
 static const fracas_kind *file_kind(void)
 {
-    return kind_named("file");
+    return kind_of(&fracas_strength_section, "file");
 }
 
 static void test_values(void **state)
@@ -123,7 +115,8 @@ static fracas_err sample_places(const char *text, size_t n, const double (*posit
                                 size_t stride, double *got)
 {
     const fracas_attachment file = {.path = "p.csv", .text = text, .size = strlen(text)};
-    const fracas_strength strength = {.distribution = kind_named("positions"), .file = &file};
+    const fracas_strength strength = {
+        .distribution = kind_of(&fracas_strength_section, "positions"), .file = &file};
     TRY(fracas_strength_check(&strength));
     assert_true(fracas_strength_is_placed(&strength) && fracas_strength_is_given(&strength));
     return sample_strengths(&strength, &(fracas_stream){.seed = 1}, n, NULL, position, stride, got);
@@ -171,7 +164,8 @@ static void test_places(void **state)
     assert_true(got == 6);
     assert_int_equal(sample_places("0,0,6", 0, NULL, 1, NULL), FRACAS_OK); /* a single triangle */
     const fracas_attachment file = {.path = "p.csv", .text = texts[2], .size = strlen(texts[2])};
-    const fracas_strength strength = {.distribution = kind_named("positions"), .file = &file};
+    const fracas_strength strength = {
+        .distribution = kind_of(&fracas_strength_section, "positions"), .file = &file};
     assert_int_equal(fracas_strength_count(&strength), 6); /* all lines */
     assert_true(quantile_of(&strength, 1, 0.1) == 1 && quantile_of(&strength, 1, 0.9) == 99);
     assert_true(mean_of_strength(&strength, 1) == (1 + 2 + 99 + 7 + 3 + 4) / 6.0);

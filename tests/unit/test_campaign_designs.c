@@ -4,6 +4,7 @@
 #include "campaigns/plan/point_model.h"
 #include "sampler/design/design.h"
 #include "sampler/design/uncertain.h"
+#include "tests/support/kinds.h"
 #include "tests/support/campaign_text.h"
 
 #include "base/units.h"
@@ -39,15 +40,6 @@ static uint64_t name_of(const char *path)
     return word[0];
 }
 
-static const fracas_kind *kind(const char *name)
-{
-    for (size_t i = 0; i < fracas_uncertain_section.nkinds; i++)
-        if (strcmp(fracas_uncertain_section.kinds[i]->name, name) == 0)
-            return fracas_uncertain_section.kinds[i];
-    fail_msg("no distribution %s", name);
-    return NULL;
-}
-
 /* Parameters are named by the first half of their paths' hash, seed 7 is the campaign's; units,
  * rounding, whole numbers. */
 static void test_points(void **state)
@@ -57,12 +49,19 @@ static void test_points(void **state)
     const double tied[16] = {1, 0.5, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     const uint64_t name[4] = {name_of("material.young"), name_of("cohesive.fracture_energy"),
                               name_of("loading.rate"), name_of("mesh.elements")};
-    const fracas_uncertain young = {
-        .kind = kind("normal"), .mean = 370e9, .deviation = 10e9, .minimum = 365e9, .maximum = NAN};
-    const fracas_uncertain energy = {
-        .kind = kind("weibull"), .minimum = 0, .scale = 50, .shape = 10};
-    const fracas_uncertain rate = {.kind = kind("log-uniform"), .minimum = 1e3, .maximum = 1e5};
-    const fracas_uncertain elements = {.kind = kind("uniform"), .minimum = 50.5, .maximum = 950.5};
+    const fracas_uncertain young = {.kind = kind_of(&fracas_uncertain_section, "normal"),
+                                    .mean = 370e9,
+                                    .deviation = 10e9,
+                                    .minimum = 365e9,
+                                    .maximum = NAN};
+    const fracas_uncertain energy = {.kind = kind_of(&fracas_uncertain_section, "weibull"),
+                                     .minimum = 0,
+                                     .scale = 50,
+                                     .shape = 10};
+    const fracas_uncertain rate = {
+        .kind = kind_of(&fracas_uncertain_section, "log-uniform"), .minimum = 1e3, .maximum = 1e5};
+    const fracas_uncertain elements = {
+        .kind = kind_of(&fracas_uncertain_section, "uniform"), .minimum = 50.5, .maximum = 950.5};
     for (size_t t = 0; t < FRACAS_COUNT(types); t++) {
         OWN(fracas_campaign) campaign = read_design(types[t], YOUNG ENERGY RATE ELEMENTS TIED);
         const fracas_design design = {fracas_design_types[t], 7, 9, 4, name, tied};

@@ -6,18 +6,6 @@
 #include "engine/loading/loading.h"
 #include "tests/support/test.h"
 
-static const fracas_value *at(const fracas_campaign *campaign, size_t point, const char *path)
-{
-    size_t column = fracas_point_table_find(&campaign->table, path);
-    if (column == SIZE_MAX) fail_msg("no column %s", path);
-    return &campaign->table.point[point].value[column];
-}
-
-static double real(const fracas_campaign *campaign, size_t point, const char *path)
-{
-    return at(campaign, point, path)->real;
-}
-
 static void check_hex(const fracas_hash *hash, const char *expected)
 {
     char hex[FRACAS_HASH_HEX];

@@ -14,12 +14,6 @@ static size_t column(const fracas_campaign *campaign, const char *path)
     return fracas_point_table_find(&campaign->table, path);
 }
 
-static double real(const fracas_campaign *campaign, size_t point, const char *path)
-{
-    assert_int_not_equal(column(campaign, path), SIZE_MAX);
-    return campaign->table.point[point].value[column(campaign, path)].real;
-}
-
 /* What is not given has no column, and so no trace in a hash; what is given has. */
 static void test_what_is_given_counts(void **state)
 {

@@ -35,13 +35,6 @@ static fracas_campaign *read_membrane(const char *find, const char *put)
     return campaign;
 }
 
-static const fracas_value *at(const fracas_campaign *campaign, size_t point, const char *path)
-{
-    size_t column = fracas_point_table_find(&campaign->table, path);
-    if (column == SIZE_MAX) fail_msg("no column %s", path);
-    return &campaign->table.point[point].value[column];
-}
-
 static fracas_model *model_of(const fracas_campaign *campaign, size_t point)
 {
     fracas_model *model;

@@ -8,6 +8,7 @@
 #include "sampler/stream.h"
 
 #include "base/hash.h"
+#include "tests/support/kinds.h"
 #include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
@@ -317,15 +318,6 @@ static void test_margins(void **state)
 
 /* ---- distributions ---- */
 
-static const fracas_kind *kind(const char *name)
-{
-    for (size_t i = 0; i < fracas_uncertain_section.nkinds; i++)
-        if (strcmp(fracas_uncertain_section.kinds[i]->name, name) == 0)
-            return fracas_uncertain_section.kinds[i];
-    fail_msg("no distribution %s", name);
-    return NULL;
-}
-
 static void assert_quantile(const fracas_uncertain *uncertain, fracas_probability p,
                             double expected, double tolerance)
 {
@@ -339,15 +331,23 @@ static void assert_quantile(const fracas_uncertain *uncertain, fracas_probabilit
 static void test_distributions(void **state)
 {
     static const double probes[] = {1e-9, 1e-4, 0.03, 0.3, 0.5, 0.77, 0.99, 0.99999};
-    const fracas_uncertain uniform = {.kind = kind("uniform"), .minimum = -3.0, .maximum = 5.0};
+    const fracas_uncertain uniform = {
+        .kind = kind_of(&fracas_uncertain_section, "uniform"), .minimum = -3.0, .maximum = 5.0};
     const fracas_uncertain log_uniform = {
-        .kind = kind("log-uniform"), .minimum = 1e3, .maximum = 1e5};
-    const fracas_uncertain normal = {
-        .kind = kind("normal"), .mean = 370.0, .deviation = 200.0, .minimum = NAN, .maximum = NAN};
-    const fracas_uncertain lognormal = {.kind = kind("lognormal"), .median = 4.0, .sigma = 0.5};
-    const fracas_uncertain weibull = {
-        .kind = kind("weibull"), .minimum = -20.0, .scale = 50.0, .shape = 10.0};
-    const fracas_uncertain gamma_law = {.kind = kind("gamma"), .scale = 3.0, .shape = 2.5};
+        .kind = kind_of(&fracas_uncertain_section, "log-uniform"), .minimum = 1e3, .maximum = 1e5};
+    const fracas_uncertain normal = {.kind = kind_of(&fracas_uncertain_section, "normal"),
+                                     .mean = 370.0,
+                                     .deviation = 200.0,
+                                     .minimum = NAN,
+                                     .maximum = NAN};
+    const fracas_uncertain lognormal = {
+        .kind = kind_of(&fracas_uncertain_section, "lognormal"), .median = 4.0, .sigma = 0.5};
+    const fracas_uncertain weibull = {.kind = kind_of(&fracas_uncertain_section, "weibull"),
+                                      .minimum = -20.0,
+                                      .scale = 50.0,
+                                      .shape = 10.0};
+    const fracas_uncertain gamma_law = {
+        .kind = kind_of(&fracas_uncertain_section, "gamma"), .scale = 3.0, .shape = 2.5};
     for (size_t i = 0; i < FRACAS_COUNT(probes); i++) {
         const fracas_probability p = fracas_probability_of(probes[i]);
         const double z = gsl_cdf_ugaussian_Pinv(p.below);
@@ -372,7 +372,7 @@ static void test_cut_normal(void **state)
     const double mean = 10.0, deviation = 4.0;
     for (size_t b = 0; b < FRACAS_COUNT(bounds); b++) {
         const double low = bounds[b][0], high = bounds[b][1];
-        const fracas_uncertain normal = {.kind = kind("normal"),
+        const fracas_uncertain normal = {.kind = kind_of(&fracas_uncertain_section, "normal"),
                                          .mean = mean,
                                          .deviation = deviation,
                                          .minimum = mean + deviation * low,
@@ -399,14 +399,25 @@ static void test_cut_normal(void **state)
 
 static void test_distribution_checks(void **state)
 {
-    const fracas_uncertain turned = {.kind = kind("uniform"), .minimum = 5.0, .maximum = 3.0};
-    const fracas_uncertain equal = {.kind = kind("log-uniform"), .minimum = 5.0, .maximum = 5.0};
-    const fracas_uncertain crossed = {
-        .kind = kind("normal"), .mean = 0.0, .deviation = 1.0, .minimum = 1.0, .maximum = -1.0};
-    const fracas_uncertain far = {
-        .kind = kind("normal"), .mean = 0.0, .deviation = 1.0, .minimum = 7.0, .maximum = NAN};
-    const fracas_uncertain open = {
-        .kind = kind("normal"), .mean = 0.0, .deviation = 1.0, .minimum = 1.0, .maximum = NAN};
+    const fracas_uncertain turned = {
+        .kind = kind_of(&fracas_uncertain_section, "uniform"), .minimum = 5.0, .maximum = 3.0};
+    const fracas_uncertain equal = {
+        .kind = kind_of(&fracas_uncertain_section, "log-uniform"), .minimum = 5.0, .maximum = 5.0};
+    const fracas_uncertain crossed = {.kind = kind_of(&fracas_uncertain_section, "normal"),
+                                      .mean = 0.0,
+                                      .deviation = 1.0,
+                                      .minimum = 1.0,
+                                      .maximum = -1.0};
+    const fracas_uncertain far = {.kind = kind_of(&fracas_uncertain_section, "normal"),
+                                  .mean = 0.0,
+                                  .deviation = 1.0,
+                                  .minimum = 7.0,
+                                  .maximum = NAN};
+    const fracas_uncertain open = {.kind = kind_of(&fracas_uncertain_section, "normal"),
+                                   .mean = 0.0,
+                                   .deviation = 1.0,
+                                   .minimum = 1.0,
+                                   .maximum = NAN};
     const fracas_uncertain *const wrong[] = {&turned, &equal, &crossed};
     for (size_t i = 0; i < FRACAS_COUNT(wrong); i++) {
         assert_int_equal(fracas_uncertain_check(wrong[i]), FRACAS_USAGE);

@@ -35,12 +35,6 @@ static double off(const double found[3], vector expected)
     return length(plus((vector){{found[0], found[1], found[2]}}, -1, expected));
 }
 
-static double noise(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53 - 0.5;
-}
-
 /* Two unit vectors across each other and their normal, far from every axis: columns of a rotation
  * by quaternion (1, 2, 3, 4)/sqrt(30). */
 static const vector along = {{-20.0 / 30, 20.0 / 30, 10.0 / 30}},
@@ -185,9 +179,10 @@ static void in_the_plane_the_spin_is_upright(void **unused)
         fracas_fragment_sums sums = {0};
         double x[9][2], mass[9], polar = 0;
         for (int k = 0; k < 9; k++) {
-            const double at[3] = {x[k][0] = noise(&state), x[k][1] = noise(&state), 0},
-                         v[3] = {noise(&state), noise(&state), 0};
-            fracas_fragment_sums_add(&sums, mass[k] = 1 + noise(&state), at, v);
+            const double at[3] = {x[k][0] = random_noise(&state), x[k][1] = random_noise(&state),
+                                  0},
+                         v[3] = {random_noise(&state), random_noise(&state), 0};
+            fracas_fragment_sums_add(&sums, mass[k] = 1 + random_noise(&state), at, v);
         }
         const fracas_fragment f = only(&sums);
         for (int k = 0; k < 9; k++)
@@ -248,9 +243,9 @@ static void momenta_are_those_of_the_nodes(void **unused)
     memset(sums, 0, sizeof sums);
     vector momentum = {{0}}, moment = {{0}};
     for (int k = 0; k < NODES; k++) {
-        const vector x = {{noise(&state), noise(&state), noise(&state)}},
-                     v = {{noise(&state), noise(&state), noise(&state)}};
-        const double mass = 0.6 + noise(&state);
+        const vector x = {{random_noise(&state), random_noise(&state), random_noise(&state)}},
+                     v = {{random_noise(&state), random_noise(&state), random_noise(&state)}};
+        const double mass = 0.6 + random_noise(&state);
         fracas_fragment_sums_add(&sums[k % COUNT], mass, x.at, v.at);
         sums[k % COUNT].elements = k % COUNT;
         momentum = plus(momentum, mass, v);

@@ -2,6 +2,7 @@
 /* Where strengths are: one for each Gauss point, and a factor that depends on the position; from
  * the file to the field. */
 #define FOLDER "fracas-test"
+#include "tests/support/kinds.h"
 #include "tests/support/folder.h"
 
 #include "campaigns/plan/forecast.h"
@@ -14,15 +15,6 @@
 #include "tests/support/test.h"
 
 /* ---- the factor ---- */
-
-static const fracas_kind *distribution(const char *name)
-{
-    for (size_t k = 0; k < fracas_strength_section.nkinds; k++)
-        if (strcmp(fracas_strength_section.kinds[k]->name, name) == 0)
-            return fracas_strength_section.kinds[k];
-    fail_msg("no distribution %s", name);
-    return NULL;
-}
 
 /* The factor at one place, by a profile. */
 static double factor_of(const char *text, const fracas_kind *along, const double position[3])
@@ -86,10 +78,11 @@ static void what_is_wrong_is_said(void **state)
     for (size_t t = 0; t < sizeof table / sizeof *table; t++) {
         const fracas_attachment file = {
             .path = "f.csv", .text = table[t].text, .size = strlen(table[t].text)};
-        const fracas_strength strength = {.distribution = distribution("constant"),
-                                          .value = 1,
-                                          .factor = &file,
-                                          .factor_along = &fracas_along_x};
+        const fracas_strength strength = {
+            .distribution = kind_of(&fracas_strength_section, "constant"),
+            .value = 1,
+            .factor = &file,
+            .factor_along = &fracas_along_x};
         assert_int_equal(fracas_strength_check(&strength), FRACAS_USAGE);
         if (!strstr(fracas_message(), table[t].words))
             fail_msg("no \"%s\" in: %s", table[t].words, fracas_message());
@@ -109,13 +102,16 @@ static void a_field_is_the_law_times_the_factor(void **state)
     const fracas_attachment one = {.path = "1.csv", .text = ones, .size = strlen(ones)},
                             half = {.path = "f.csv", .text = halves, .size = strlen(halves)};
     const fracas_strength law[] = {
-        {.distribution = distribution("weibull"), .minimum = 264e6, .scale = 50e6, .shape = 2},
-        {.distribution = distribution("flaws"),
+        {.distribution = kind_of(&fracas_strength_section, "weibull"),
+         .minimum = 264e6,
+         .scale = 50e6,
+         .shape = 2},
+        {.distribution = kind_of(&fracas_strength_section, "flaws"),
          .own[0] = 1e9,
          .own[1] = 3,
          .minimum = 1e6,
          .maximum = 1e9},
-        {.distribution = distribution("file"), .file = &file}};
+        {.distribution = kind_of(&fracas_strength_section, "file"), .file = &file}};
     double position[N][3] = {{0}}, plain[N], got[N];
     for (int i = 0; i < N; i++) position[i][1] = i;
     for (size_t l = 0; l < sizeof law / sizeof *law; l++) {

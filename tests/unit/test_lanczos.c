@@ -40,12 +40,6 @@ static void mass(void *context, const double *w, double *result)
     multiply(p->mass, p->n, w, result);
 }
 
-static double next_random(uint64_t *x)
-{
-    *x = *x * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*x >> 11) * 0x1p-53 * 2 - 1;
-}
-
 /* M = B B^T/n + 1/2, K = L Q diag(value) Q^T L^T with M = L L^T and Q orthogonal: its eigenvalues
  * are `value`; GSL says so too. */
 static void make(pencil *p, size_t n, const double *value, bool unit_mass, uint64_t *seed)
@@ -56,14 +50,14 @@ static void make(pencil *p, size_t n, const double *value, bool unit_mass, uint6
     gsl_vector *tau = gsl_vector_alloc(n);
     p->n = n;
     p->applied = 0;
-    for (size_t i = 0; i < n * n; i++) b->data[i] = next_random(seed);
+    for (size_t i = 0; i < n * n; i++) b->data[i] = 2 * random_noise(seed);
     gsl_matrix_set_identity(m);
     if (!unit_mass) gsl_blas_dgemm(CblasNoTrans, CblasTrans, 1.0 / (double)n, b, b, 0.5, m);
     gsl_matrix_memcpy(l, m);
     gsl_linalg_cholesky_decomp1(l);
     for (size_t i = 0; i < n; i++)
         for (size_t j = i + 1; j < n; j++) gsl_matrix_set(l, i, j, 0);
-    for (size_t i = 0; i < n * n; i++) b->data[i] = next_random(seed);
+    for (size_t i = 0; i < n * n; i++) b->data[i] = 2 * random_noise(seed);
     gsl_linalg_QR_decomp(b, tau);
     gsl_linalg_QR_unpack(b, tau, q, r);
     gsl_blas_dgemm(CblasNoTrans, CblasNoTrans, 1, l, q, 0, b); /* L Q */
@@ -96,7 +90,7 @@ static void make(pencil *p, size_t n, const double *value, bool unit_mass, uint6
 static double solve(pencil *p, uint64_t *seed)
 {
     double start[MOST], largest = NAN;
-    for (size_t i = 0; i < p->n; i++) start[i] = next_random(seed);
+    for (size_t i = 0; i < p->n; i++) start[i] = 2 * random_noise(seed);
     OK(fracas_lanczos(&(fracas_lanczos_problem){apply, mass, p, p->n}, start, &largest));
     return largest;
 }
@@ -118,7 +112,7 @@ static void random_pencils(void **unused)
             i / 60 %
             5; /* dense at the top (0), or at the bottom: as meshes with small elements have it */
         for (size_t j = 0; j < n; j++) {
-            value[j] = 1e10 * pow(0.5 * (1 + next_random(&seed)), 1 + skew);
+            value[j] = 1e10 * pow(0.5 * (1 + 2 * random_noise(&seed)), 1 + skew);
             if (j < n / 6) value[j] = 0; /* motions of the body as a whole */
             second = fmax(second, fmin(top, value[j]));
             top = fmax(top, value[j]);

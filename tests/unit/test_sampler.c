@@ -4,6 +4,7 @@
 #include "base/hash.h"
 #include "sampler/special/incomplete_gamma.h"
 #include "sampler/special/normal.h"
+#include "tests/support/kinds.h"
 #include "tests/support/strengths.h"
 #include "tests/support/test.h"
 
@@ -14,15 +15,6 @@
 #include <inttypes.h>
 
 #include <Random123/philox.h>
-
-static const fracas_kind *kind(const char *name)
-{
-    for (size_t i = 0; i < fracas_strength_section.nkinds; i++)
-        if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0)
-            return fracas_strength_section.kinds[i];
-    fail_msg("no distribution %s", name);
-    return NULL;
-}
 
 static const double VOLUME = 2e-9; /* m3, of every interface where not said otherwise */
 
@@ -95,7 +87,9 @@ static void weibull_is_gsl_in_both_tails(void **state)
 {
     static const double shapes[] = {0.1, 0.5, 1.0, 2.0, 5.0, 40.0, 1000.0};
     for (size_t k = 0; k < FRACAS_COUNT(shapes); k++) {
-        fracas_strength two = {.distribution = kind("weibull"), .scale = 50e6, .shape = shapes[k]};
+        fracas_strength two = {.distribution = kind_of(&fracas_strength_section, "weibull"),
+                               .scale = 50e6,
+                               .shape = shapes[k]};
         fracas_strength three = two;
         three.minimum = 264e6;
         for (int i = 0; i < PROBES; i++) {
@@ -134,8 +128,9 @@ static void lognormal_is_gsl_in_both_tails(void **state)
 {
     static const double sigmas[] = {0.01, 0.2, 1.0, 10.0};
     for (size_t k = 0; k < FRACAS_COUNT(sigmas); k++) {
-        fracas_strength strength = {
-            .distribution = kind("lognormal"), .median = 300e6, .sigma = sigmas[k]};
+        fracas_strength strength = {.distribution = kind_of(&fracas_strength_section, "lognormal"),
+                                    .median = 300e6,
+                                    .sigma = sigmas[k]};
         for (int i = 0; i < PROBES; i++) {
             double rest, u = probe(i, &rest);
             double expected = u < 0.5 ? gsl_cdf_lognormal_Pinv(u, log(300e6), sigmas[k])
@@ -147,8 +142,11 @@ static void lognormal_is_gsl_in_both_tails(void **state)
 
 static void uniform_and_constant(void **state)
 {
-    fracas_strength uniform = {.distribution = kind("uniform"), .minimum = 100e6, .maximum = 350e6};
-    fracas_strength constant = {.distribution = kind("constant"), .value = 123e6};
+    fracas_strength uniform = {.distribution = kind_of(&fracas_strength_section, "uniform"),
+                               .minimum = 100e6,
+                               .maximum = 350e6};
+    fracas_strength constant = {.distribution = kind_of(&fracas_strength_section, "constant"),
+                                .value = 123e6};
     for (int i = 0; i < PROBES; i++) {
         double rest, u = probe(i, &rest);
         assert_close(quantile_of(&uniform, VOLUME, u), gsl_cdf_flat_Pinv(u, 100e6, 350e6), 1e-15);
@@ -162,12 +160,16 @@ static void uniform_and_constant(void **state)
 static void means_are_exact(void **state)
 {
     for (double shape = 0.1; shape < 1000.0; shape *= 1.07) {
-        fracas_strength weibull = {
-            .distribution = kind("weibull"), .minimum = 1e6, .scale = 50e6, .shape = shape};
+        fracas_strength weibull = {.distribution = kind_of(&fracas_strength_section, "weibull"),
+                                   .minimum = 1e6,
+                                   .scale = 50e6,
+                                   .shape = shape};
         assert_close(mean_of_strength(&weibull, VOLUME),
                      1e6 + 50e6 * gsl_sf_gamma(1.0 + 1.0 / shape), 1e-14);
     }
-    fracas_strength lognormal = {.distribution = kind("lognormal"), .median = 300e6, .sigma = 0.7};
+    fracas_strength lognormal = {.distribution = kind_of(&fracas_strength_section, "lognormal"),
+                                 .median = 300e6,
+                                 .sigma = 0.7};
     assert_close(mean_of_strength(&lognormal, VOLUME), 300e6 * exp(0.245), 1e-15 * 2);
 }
 
@@ -177,18 +179,27 @@ enum { EXAMPLES = 7 };
 static const fracas_strength *example(size_t k)
 {
     static fracas_strength strength[EXAMPLES];
-    strength[0] = (fracas_strength){
-        .distribution = kind("weibull"), .minimum = 264e6, .scale = 50e6, .shape = 2.0};
-    strength[1] = (fracas_strength){
-        .distribution = kind("lognormal"), .median = 300e6, .sigma = 0.3};
-    strength[2] = (fracas_strength){
-        .distribution = kind("uniform"), .minimum = 264e6, .maximum = 364e6};
-    strength[3] = (fracas_strength){.distribution = kind("constant"), .value = 300e6};
-    strength[4] = (fracas_strength){
-        .distribution = kind("normal"), .mean = 300e6, .deviation = 120e6};
-    strength[5] = (fracas_strength){.distribution = kind("gamma"), .shape = 9.0, .scale = 30e6};
-    strength[6] = (fracas_strength){
-        .distribution = kind("flaws"), .minimum = 100e6, .maximum = 400e6, .own = {1e9, 3.0}};
+    strength[0] = (fracas_strength){.distribution = kind_of(&fracas_strength_section, "weibull"),
+                                    .minimum = 264e6,
+                                    .scale = 50e6,
+                                    .shape = 2.0};
+    strength[1] = (fracas_strength){.distribution = kind_of(&fracas_strength_section, "lognormal"),
+                                    .median = 300e6,
+                                    .sigma = 0.3};
+    strength[2] = (fracas_strength){.distribution = kind_of(&fracas_strength_section, "uniform"),
+                                    .minimum = 264e6,
+                                    .maximum = 364e6};
+    strength[3] = (fracas_strength){.distribution = kind_of(&fracas_strength_section, "constant"),
+                                    .value = 300e6};
+    strength[4] = (fracas_strength){.distribution = kind_of(&fracas_strength_section, "normal"),
+                                    .mean = 300e6,
+                                    .deviation = 120e6};
+    strength[5] = (fracas_strength){
+        .distribution = kind_of(&fracas_strength_section, "gamma"), .shape = 9.0, .scale = 30e6};
+    strength[6] = (fracas_strength){.distribution = kind_of(&fracas_strength_section, "flaws"),
+                                    .minimum = 100e6,
+                                    .maximum = 400e6,
+                                    .own = {1e9, 3.0}};
     return &strength[k];
 }
 
@@ -282,7 +293,9 @@ static void corners_are_positive_and_finite(void **state)
 static void check_names_both_bounds(void **state)
 {
     for (size_t k = 0; k < EXAMPLES; k++) OK(fracas_strength_check(example(k)));
-    fracas_strength swapped = {.distribution = kind("uniform"), .minimum = 350e6, .maximum = 100e6};
+    fracas_strength swapped = {.distribution = kind_of(&fracas_strength_section, "uniform"),
+                               .minimum = 350e6,
+                               .maximum = 100e6};
     assert_int_equal(fracas_strength_check(&swapped), FRACAS_USAGE);
     assert_non_null(strstr(fracas_message(), "strength.minimum is 350000000 Pa"));
     assert_non_null(strstr(fracas_message(), "strength.maximum 100000000 Pa"));
@@ -312,7 +325,9 @@ static void normal_tail_is_erfc(void **state)
  * z, 1e-15 relative, counts at most |z|/(k + z) < 0.4 times. */
 static void normal_far_from_zero_is_gsl(void **state)
 {
-    fracas_strength normal = {.distribution = kind("normal"), .mean = 300e6, .deviation = 10e6};
+    fracas_strength normal = {.distribution = kind_of(&fracas_strength_section, "normal"),
+                              .mean = 300e6,
+                              .deviation = 10e6};
     for (int i = 0; i < PROBES; i++) {
         double rest, u = probe(i, &rest);
         double z = u < 0.5 ? gsl_cdf_ugaussian_Pinv(u) : gsl_cdf_ugaussian_Qinv(rest);
@@ -349,8 +364,9 @@ static void normal_inverts_its_law_in_both_tails(void **state)
     static const double ks[] = {1e-6, 0.01, 0.3, 1.0, 2.5, 4.0, 8.0, 8.3, 9.0, 20.0};
     double largest = 0.0;
     for (size_t j = 0; j < FRACAS_COUNT(ks); j++) {
-        fracas_strength normal = {
-            .distribution = kind("normal"), .mean = ks[j] * 50e6, .deviation = 50e6};
+        fracas_strength normal = {.distribution = kind_of(&fracas_strength_section, "normal"),
+                                  .mean = ks[j] * 50e6,
+                                  .deviation = 50e6};
         long double k = (long double)normal.mean / 50e6L, kept = 0.5L * erfcl(-k / sqrtl(2.0L));
         double before = 0.0;
         for (int i = 0; i < PROBES; i++) {
@@ -456,7 +472,9 @@ static void gamma_is_gsl_in_both_tails(void **state)
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     int compared = 0, asked = 0;
     for (size_t k = 0; k < FRACAS_COUNT(shapes); k++) {
-        fracas_strength gamma = {.distribution = kind("gamma"), .shape = shapes[k], .scale = 30e6};
+        fracas_strength gamma = {.distribution = kind_of(&fracas_strength_section, "gamma"),
+                                 .shape = shapes[k],
+                                 .scale = 30e6};
         for (int i = 0; i < PROBES; i += 7) {
             double rest, u = probe(i, &rest);
             double expected = u < 0.5 ? gsl_cdf_gamma_Pinv(u, shapes[k], 30e6)
@@ -501,7 +519,7 @@ static void flaws_invert_their_law(void **state)
     for (size_t e = 0; e < FRACAS_COUNT(exponents); e++)
         for (size_t m = 0; m < FRACAS_COUNT(numbers); m++)
             for (int i = 0; i < PROBES; i++) {
-                fracas_strength flaws = {.distribution = kind("flaws"),
+                fracas_strength flaws = {.distribution = kind_of(&fracas_strength_section, "flaws"),
                                          .maximum = 400e6,
                                          .own = {numbers[m] / VOLUME, exponents[e]}};
                 double rest, u = probe(i, &rest), sigma_c = quantile_of(&flaws, VOLUME, u);
@@ -553,7 +571,7 @@ static void flaws_mean_is_the_integral(void **state)
             assert_int_equal(
                 gsl_integration_cquad(&f, 0.0, 1.0, 0.0, 1e-11, space, &integral, &error, NULL), 0);
             assert_close(fracas_stretched_exponential(numbers[m], exponents[e]), integral, 2e-11);
-            fracas_strength flaws = {.distribution = kind("flaws"),
+            fracas_strength flaws = {.distribution = kind_of(&fracas_strength_section, "flaws"),
                                      .minimum = 100e6,
                                      .maximum = 400e6,
                                      .own = {numbers[m] / VOLUME, exponents[e]}};

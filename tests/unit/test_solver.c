@@ -181,12 +181,6 @@ static void a_fragment_across_the_end_is_in_one_piece(void **unused)
     assert_int_equal(count_broken(model, 0), 1);
 }
 
-static double noise(uint64_t *state)
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53 - 0.5;
-}
-
 enum { N = 12, FIELDS = 7 };
 
 /* Sums over the piece that begins at element `first`, walking right until an interface that is
@@ -234,8 +228,9 @@ static void fragments_are_sums_over_their_elements(void **unused)
         size_t broken = 0, last = N - 1;
         for (size_t e = 0; e < N; e++) {
             double *at = batch->step.state + e * FIELDS;
-            for (int f = 0; f < 4; f++) at[f] = f < 2 ? 2e-4 * noise(&seed) : 20 * noise(&seed);
-            at[4] = noise(&seed) + 0.5 < 0.05 * (trial / 10) ? 1.0 : 0.99;
+            for (int f = 0; f < 4; f++)
+                at[f] = f < 2 ? 2e-4 * random_noise(&seed) : 20 * random_noise(&seed);
+            at[4] = random_noise(&seed) + 0.5 < 0.05 * (trial / 10) ? 1.0 : 0.99;
             if (trial / 10 == 1) at[4] = e == (size_t)trial % N ? 1.0 : 0.0; /* exactly one */
             if (e < model->interfaces && at[4] >= 1) broken++, last = e;
             momentum += 0.5 * 2750 * 1e-6 * 1e-4 * (at[2] + at[3]);
@@ -284,11 +279,11 @@ static void nitsche_is_the_secant_law(void **unused)
     uint64_t seed = 3;
     int loading = 0, unloading = 0, contact = 0, open = 0;
     for (int i = 0; i < 20000; i++) {
-        const double sigma_c = 300e6 * (1 + noise(&seed)), delta_c = 200 / sigma_c;
-        const double spring = sigma_c / delta_c * (1.5 + 50 * (noise(&seed) + 0.5)),
-                     mean = 4e8 * noise(&seed);
-        const double damage = i % 3 == 0 ? 0 : i % 7 == 0 ? 1 : 0.98 * (noise(&seed) + 0.5);
-        const double q = 2.5 * delta_c * noise(&seed), opened = damage * delta_c;
+        const double sigma_c = 300e6 * (1 + random_noise(&seed)), delta_c = 200 / sigma_c;
+        const double spring = sigma_c / delta_c * (1.5 + 50 * (random_noise(&seed) + 0.5)),
+                     mean = 4e8 * random_noise(&seed);
+        const double damage = i % 3 == 0 ? 0 : i % 7 == 0 ? 1 : 0.98 * (random_noise(&seed) + 0.5);
+        const double q = 2.5 * delta_c * random_noise(&seed), opened = damage * delta_c;
         const double trial = damage >= 1 ? spring * q : mean + spring * q;
         double traction, now = opened;
         if (damage >= 1) {

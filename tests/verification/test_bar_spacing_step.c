@@ -6,12 +6,6 @@
 
 #include <gsl/gsl_eigen.h>
 
-static double random_number(uint64_t *state) /* in [-1/2, 1/2) */
-{
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) * 0x1p-53 - 0.5;
-}
-
 typedef struct {
     const fracas_model *model;
     bool ring, nitsche, broken;
@@ -183,7 +177,7 @@ static double march(const fracas_model *model, bool broken, double factor)
     batch->step.time[0] = 0;
     if (broken) press_together(model, batch);
     for (size_t e = 0; e < n; e++) { /* tied nodes start together */
-        *field(batch, e, V_RIGHT) = 1e-9 * random_number(&seed);
+        *field(batch, e, V_RIGHT) = 1e-9 * random_noise(&seed);
         *field(batch, (e + 1) % n, V_LEFT) = *field(batch, e, V_RIGHT);
     }
     if (model->interfaces < n) *field(batch, 0, V_LEFT) = *field(batch, n - 1, V_RIGHT) = 0;

@@ -8,12 +8,6 @@
 static const double PI = 3.14159265358979323846;
 static const double MICRON = 1e-6; /* delta_c of plane_kind at its strength */
 
-static double next_random(uint64_t *x)
-{
-    *x = *x * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*x >> 11) * 0x1p-53;
-}
-
 #define ASSERT_CLOSED(w, where, number)                                                            \
     do {                                                                                           \
         if (!((w)->excess <= 1))                                                                   \
@@ -199,14 +193,14 @@ static void traction_follows_separation(void **unused)
     int loading = 0, unloading = 0;
     for (int i = 0; i < 3000; i++) {
         const plane_test_law law = i % 2 ? PLANE_STANDARD : PLANE_NITSCHE;
-        const plane_case kind = plane_kind(law, 0.4 + 2 * next_random(&seed),
-                                           2 + 30 * next_random(&seed), 0, 0);
+        const plane_case kind = plane_kind(law, 0.4 + 2 * random_share(&seed),
+                                           2 + 30 * random_share(&seed), 0, 0);
         plane_walk w = plane_begin(kind);
         for (int leg = 0; leg < 20; leg++) {
-            const plane_at here = to(law == PLANE_NITSCHE ? 80e6 * (next_random(&seed) - 0.5) : 0,
-                                     60e6 * (next_random(&seed) - 0.5),
-                                     1.3 * next_random(&seed) - 0.2,
-                                     (1.6 * next_random(&seed) - 0.8) / kind.beta_c);
+            const plane_at here = to(law == PLANE_NITSCHE ? 80e6 * (random_share(&seed) - 0.5) : 0,
+                                     60e6 * (random_share(&seed) - 0.5),
+                                     1.3 * random_share(&seed) - 0.2,
+                                     (1.6 * random_share(&seed) - 0.8) / kind.beta_c);
             const double before = w.memory.damage;
             plane_step(&w, here);
             if (!w.out.cracked || w.memory.damage >= 1) continue;
@@ -257,12 +251,12 @@ static void traction_is_continuous(void **unused)
     uint64_t seed = 11;
     long onsets = 0, breaks = 0;
     for (int i = 0; i < 400; i++) {
-        const plane_case kind = plane_kind(PLANE_NITSCHE, 0.4 + 2 * next_random(&seed),
-                                           2 + 20 * next_random(&seed), 0, 0);
+        const plane_case kind = plane_kind(PLANE_NITSCHE, 0.4 + 2 * random_share(&seed),
+                                           2 + 20 * random_share(&seed), 0, 0);
         plane_walk w = plane_begin(kind);
         for (int leg = 0; leg < 12; leg++) {
-            const plane_at end = to(0, 0, 1.6 * next_random(&seed) - 0.3,
-                                    (2 * next_random(&seed) - 1) / kind.beta_c);
+            const plane_at end = to(0, 0, 1.6 * random_share(&seed) - 0.3,
+                                    (2 * random_share(&seed) - 1) / kind.beta_c);
             const plane_at start = w.at;
             for (int k = 1; k <= 100; k++) {
                 const plane_out old = w.out;
@@ -290,12 +284,12 @@ static void extrinsic_onset_is_continuous(void **unused)
 {
     uint64_t seed = 13;
     for (int i = 0; i < 3000; i++) {
-        const plane_case kind = plane_kind(i % 2 ? PLANE_STANDARD : PLANE_PAPER,
-                                           0.4 + 2 * next_random(&seed),
-                                           4 + 20 * next_random(&seed), i % 3 ? 0.4 : 0, i / 2 % 2);
+        const plane_case kind = plane_kind(
+            i % 2 ? PLANE_STANDARD : PLANE_PAPER, 0.4 + 2 * random_share(&seed),
+            4 + 20 * random_share(&seed), i % 3 ? 0.4 : 0, i / 2 % 2);
         plane_walk w = plane_begin(kind);
-        const double t_n = kind.sigma_c * (4 * next_random(&seed) - 2),
-                     t_t = kind.sigma_c * 8 * kind.beta_c * (next_random(&seed) - 0.5);
+        const double t_n = kind.sigma_c * (4 * random_share(&seed) - 2),
+                     t_t = kind.sigma_c * 8 * kind.beta_c * (random_share(&seed) - 0.5);
         const plane_at on = kind.onset_mean ? (plane_at){t_n, t_t, 0.1 * MICRON, -0.1 * MICRON}
                                             : (plane_at){0.5 * t_n, 0.5 * t_t, 0.5 * t_n / kind.k_n,
                                                          0.5 * t_t / kind.k_t};
@@ -331,14 +325,14 @@ static void onset_is_at_the_strength(void **unused)
 {
     uint64_t seed = 17;
     for (int i = 0; i < 20000; i++) {
-        const plane_case kind = plane_kind((plane_test_law)(i % 3), 0.3 + 3 * next_random(&seed),
-                                           4 + 20 * next_random(&seed), i / 3 % 2 ? 0.5 : 0,
+        const plane_case kind = plane_kind((plane_test_law)(i % 3), 0.3 + 3 * random_share(&seed),
+                                           4 + 20 * random_share(&seed), i / 3 % 2 ? 0.5 : 0,
                                            i / 6 % 2);
-        const double t_n = 300e6 * (next_random(&seed) - 0.5),
-                     t_t = 600e6 * (next_random(&seed) - 0.5) * kind.beta_c;
+        const double t_n = 300e6 * (random_share(&seed) - 0.5),
+                     t_t = 600e6 * (random_share(&seed) - 0.5) * kind.beta_c;
         const double value = t_n >= 0 ? hypot(t_n, t_t / kind.beta_c)
                                       : fmax(0, (fabs(t_t) - kind.mu_c * fabs(t_n)) / kind.beta_c);
-        const double part = next_random(&seed),
+        const double part = random_share(&seed),
                      other = kind.onset_mean
                                  ? 0
                                  : 1; /* the flux: any split of it; the mean: all of it */
@@ -392,11 +386,12 @@ static void steps_do_not_decide_the_peak(void **unused)
     uint64_t seed = 37;
     int opened = 0;
     for (int i = 0; i < 400; i++) {
-        const plane_case kind = plane_kind(PLANE_NITSCHE, 0.4 + 2 * next_random(&seed),
-                                           4 + 20 * next_random(&seed), 0, 1);
-        const double angle = PI * (next_random(&seed) - 0.5), c = kind.sigma_c * cos(angle),
+        const plane_case kind = plane_kind(PLANE_NITSCHE, 0.4 + 2 * random_share(&seed),
+                                           4 + 20 * random_share(&seed), 0, 1);
+        const double angle = PI * (random_share(&seed) - 0.5), c = kind.sigma_c * cos(angle),
                      s = kind.sigma_c * kind.beta_c * sin(angle);
-        const double beyond = 0.4 * next_random(&seed) - 0.1, last = 1.1 + 0.5 * next_random(&seed);
+        const double beyond = 0.4 * random_share(&seed) - 0.1,
+                     last = 1.1 + 0.5 * random_share(&seed);
         const double peak = kind.sigma_c * (1 + fmax(0, beyond));
         double damage = 0;
         for (int steps = 1; steps <= 1000; steps *= 10) {
@@ -475,13 +470,13 @@ static void friction_obeys_the_pressure_at_the_break(void **unused)
     uint64_t seed = 19;
     int breaks = 0;
     for (int i = 0; i < 300; i++) {
-        const plane_case kind = plane_kind(PLANE_NITSCHE, 0.5 + next_random(&seed),
-                                           3 + 10 * next_random(&seed), 0.2 + next_random(&seed),
+        const plane_case kind = plane_kind(PLANE_NITSCHE, 0.5 + random_share(&seed),
+                                           3 + 10 * random_share(&seed), 0.2 + random_share(&seed),
                                            i % 2);
         plane_walk w = plane_begin(kind);
-        const double m_n = -200e6 * next_random(&seed), q_n = 0.1 * (next_random(&seed) - 0.6);
+        const double m_n = -200e6 * random_share(&seed), q_n = 0.1 * (random_share(&seed) - 0.6);
         plane_go(&w, to(m_n, 0, q_n, 0), 100);
-        const double m_t = 300e6 * (2 * next_random(&seed) - 1);
+        const double m_t = 300e6 * (2 * random_share(&seed) - 1);
         for (int k = 0; k < 4000; k++) {
             plane_step(&w, to(m_n, m_t * k / 4000, q_n, 12.0 * k / 4000));
             if (w.memory.damage < 1) continue;
@@ -508,16 +503,16 @@ static void no_cycle_gains_energy(void **unused)
     long gains = 0, breaks = 0;
     for (int i = 0; i < 10000; i++) {
         const plane_test_law law = (plane_test_law)(i % 3);
-        const plane_case kind = plane_kind(law, 0.5 + 1.5 * next_random(&seed),
-                                           3 + 20 * next_random(&seed), i / 3 % 2 ? 0.3 : 0, 0);
+        const plane_case kind = plane_kind(law, 0.5 + 1.5 * random_share(&seed),
+                                           3 + 20 * random_share(&seed), i / 3 % 2 ? 0.3 : 0, 0);
         plane_walk w = plane_begin(kind);
-        const double box = pow(10, 1.2 * next_random(&seed) - 0.6);
+        const double box = pow(10, 1.2 * random_share(&seed) - 0.6);
         plane_at start = w.at;
         double work = 0, stored = 0, slack = 0;
         for (int leg = 0; leg < 10; leg++) {
             const double before = w.rubbed, before_slack = w.slack;
-            plane_at next = to(0, 0, box * (2 * next_random(&seed) - 1) * (leg % 3 == 1 ? 0.1 : 1),
-                               2 * box * (2 * next_random(&seed) - 1));
+            plane_at next = to(0, 0, box * (2 * random_share(&seed) - 1) * (leg % 3 == 1 ? 0.1 : 1),
+                               2 * box * (2 * random_share(&seed) - 1));
             if (leg == 9) next = start;
             plane_go(&w, next, 40);
             assert_true(w.rubbed - before >= -(w.slack - before_slack) - 1e-12 * kind.energy);
@@ -548,10 +543,10 @@ static void cut_peaks_are_booked(void **unused)
     uint64_t seed = 29;
     long cut = 0;
     for (int i = 0; i < 2000; i++) {
-        plane_case kind = plane_kind(PLANE_NITSCHE, 0.4 + 2 * next_random(&seed),
-                                     0.3 + 4 * next_random(&seed), i % 3 ? 0 : 0.5, i / 3 % 2);
-        const double angle = 2 * PI * next_random(&seed), most = sqrt(kind.k_n * kind.energy),
-                     m = most * 3 * next_random(&seed);
+        plane_case kind = plane_kind(PLANE_NITSCHE, 0.4 + 2 * random_share(&seed),
+                                     0.3 + 4 * random_share(&seed), i % 3 ? 0 : 0.5, i / 3 % 2);
+        const double angle = 2 * PI * random_share(&seed), most = sqrt(kind.k_n * kind.energy),
+                     m = most * 3 * random_share(&seed);
         plane_walk w = plane_begin(kind);
         plane_go(&w, (plane_at){.q_n = m * cos(angle) / kind.k_n, .q_t = m * sin(angle) / kind.k_t},
                  400);
@@ -617,11 +612,11 @@ static void lanes_do_what_one_does(void **unused)
         plane_case kind[8];
         const plane_case *kinds[8];
         plane_memory one[8] = {{0}}, wide[FRACAS_NISAS][FRACAS_LANES_MAX + 1][8] = {{{{0}}}};
-        const double coupling = 0.5 + 1.5 * next_random(&seed);
+        const double coupling = 0.5 + 1.5 * random_share(&seed);
         for (int l = 0; l < 8; l++) {
             kind[l] = plane_kind((plane_test_law)(i % 3), coupling, 4, i / 3 % 2 ? 0.3 : 0,
                                  i / 6 % 2);
-            kind[l].sigma_c *= 0.8 + 0.4 * next_random(&seed);
+            kind[l].sigma_c *= 0.8 + 0.4 * random_share(&seed);
             kinds[l] = &kind[l];
         }
         for (int k = 0; k < 300; k++) {
@@ -629,10 +624,10 @@ static void lanes_do_what_one_does(void **unused)
             plane_out a[8], b[8];
             memset(a, 0, sizeof a); /* padding too */
             for (int l = 0; l < 8; l++) {
-                in[l] = to(150e6 * (2 * next_random(&seed) - 1),
-                           150e6 * (2 * next_random(&seed) - 1),
-                           2.4 * next_random(&seed) * k / 300 - 0.5,
-                           (3 * next_random(&seed) - 1.5) * k / 300);
+                in[l] = to(150e6 * (2 * random_share(&seed) - 1),
+                           150e6 * (2 * random_share(&seed) - 1),
+                           2.4 * random_share(&seed) * k / 300 - 0.5,
+                           (3 * random_share(&seed) - 1.5) * k / 300);
                 plane_call_baseline_1(kinds + l, in + l, one + l, a + l);
                 cracked += a[l].cracks;
                 broken += a[l].breaks;
