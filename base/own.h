@@ -9,10 +9,10 @@
 
 /* `OWNED char *text = NULL;`: free(text) at the end of the scope. Set it to NULL to give it away.
  */
-#define OWNED __attribute__((cleanup(fracas_own_free)))
+#define OWNED __attribute__((cleanup(fracas_own_free), unused))
 
 /* `OWN(fracas_index) index = NULL;`: a pointer, ended by the function that FRACAS_OWNER names. */
-#define OWN(type) __attribute__((cleanup(type##_own_end))) type *
+#define OWN(type) __attribute__((cleanup(type##_own_end), unused)) type *
 #define FRACAS_OWNER(type, end)                         \
     static inline void type##_own_end(type *const *one) \
     {                                                   \

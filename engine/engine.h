@@ -62,7 +62,8 @@ typedef struct {
 } fracas_batch_options;
 
 /* A batch of `count` (1 to 8) realizations of `model`, which must outlive it. It makes all its
- * allocations here. FRACAS_USAGE for a width below `count` or an instruction set this CPU lacks. */
+ * allocations here. Lanes beyond `count` repeat lane 0 and give no record. FRACAS_USAGE for a width
+ * below `count` or an instruction set this CPU lacks. */
 FRACAS_MUST_USE fracas_err fracas_batch_create(const fracas_model *model, size_t count,
                                                const fracas_batch_options *options,
                                                fracas_batch **batch);

@@ -31,7 +31,7 @@ typedef struct {
  * dissipated energy D grew by at most quiet_fraction D.
  * `peak-multiple`: at `multiple` times the time of the first peak of the elastic energy, a maximum
  * followed by a fall by more than `drop` of it.
- * Both at `end` at the latest, with TIME_LIMIT if something has cracked. */
+ * Both at `end` at the latest, with TIME_LIMIT if something has cracked, else INTACT. */
 bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now,
                        fracas_outcome *outcome);
 

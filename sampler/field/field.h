@@ -22,8 +22,9 @@ typedef struct {
 typedef struct fracas_field fracas_field;
 
 /* The field of these strengths over these sites, which are copied as far as they are needed;
- * `strength` must outlive it. FRACAS_USAGE where they do not go together (a file with other sites
- * than these), FRACAS_ENVIRONMENT without memory. */
+ * `strength` must outlive it. FRACAS_USAGE where they do not go together (`positions`: a file with
+ * other sites than these; the caller checks the number of lines of `file`), FRACAS_ENVIRONMENT
+ * without memory. */
 FRACAS_MUST_USE fracas_err fracas_field_create(const fracas_strength *strength,
                                                const fracas_sites *sites, fracas_field **field);
 void fracas_field_destroy(fracas_field *field); /* NULL is allowed */

@@ -10,8 +10,9 @@
  * The caller has called fracas_signals_catch: a signal drains the run, a second one (not SIGUSR1,
  * SIGUSR2) kills it, and done realizations are kept. A run with options->walltime, counted from
  * `began` (fracas_now), is drained and at last killed before its end: FRACAS_INTERRUPTED. If mpirun
- * ends early it is started again, up to three times in a row with no new durable realization:
- * FRACAS_ENVIRONMENT. On return no process of the run is left on this machine. */
+ * ends early it is started again, k seconds after the k-th start in a row with no new durable
+ * realization; the third such start, the first one counts, ends the run: FRACAS_ENVIRONMENT. On
+ * return no process of the run is left on this machine. */
 FRACAS_MUST_USE fracas_err fracas_launcher_run(const fracas_run_options *options, double began,
                                                int argc, char **argv, bool *ran);
 

@@ -27,7 +27,7 @@ typedef struct {
     size_t workers;
     size_t width;   /* realizations of a batch, 1 to FRACAS_LANES_MAX */
     double seconds; /* target duration of a lease [s]; 0: one batch each */
-    double memory;  /* longest time of results in a worker's memory [s] */
+    double memory;  /* longest time of results in a worker's memory [s], --segment-age */
     double limit;   /* longest time of a lease [s]; 0: 600 s + 50 x predicted */
     bool shuffle;   /* random points, replicas and sizes instead of the longest first */
     uint64_t seed;  /* for the shuffle */
