@@ -428,6 +428,24 @@ static void pressed_faces_stick_at_the_onset(void **unused)
     }
 }
 
+/* The same with beta_c = 0.6 under a pressure of sigma_c: faces hold up to mu_c sigma_c + beta_c p,
+ * p = sigma_c, and open beyond. */
+static void pressed_faces_hold_friction_and_the_peak(void **unused)
+{
+    static const double held[] = {1.7, 1.9, -1.7, -1.9};
+    for (int i = 0; i < 4; i++) {
+        const plane_case kind = plane_kind(PLANE_NITSCHE, 0.6, 10, 1.2, 1);
+        const double m_n = 1.5 * kind.sigma_c, t_n = -kind.sigma_c;
+        plane_walk w = plane_begin(kind);
+        plane_step(&w, (plane_at){.m_n = m_n, .q_n = (t_n - m_n) / kind.k_n});
+        assert_true(w.out.cracks && w.memory.damage == 0);
+        plane_at next = w.at;
+        next.q_t = held[i] * kind.sigma_c / kind.k_t;
+        plane_step(&w, next);
+        assert_true((w.memory.damage > 0) == (fabs(held[i]) > 1.8));
+    }
+}
+
 /* Broken faces: T_n = k_n min(0, q_n), whatever m; friction that sticks up to mu_c |T_n|, T_t = k_t
  * (q_t - slip), then slides. */
 static void broken_faces_touch_and_rub(void **unused)
@@ -649,6 +667,6 @@ static void lanes_do_what_one_does(void **unused)
 TESTS(the_ledger_closes_on_every_path, the_ledger_closes_with_a_critical_opening,
       a_full_break_takes_the_fracture_energy, traction_follows_separation, traction_is_continuous,
       extrinsic_onset_is_continuous, onset_is_at_the_strength, steps_do_not_decide_the_peak,
-      pressed_faces_stick_at_the_onset, broken_faces_touch_and_rub,
-      friction_obeys_the_pressure_at_the_break, no_cycle_gains_energy, cut_peaks_are_booked,
-      extremes_stay_finite, lanes_do_what_one_does)
+      pressed_faces_stick_at_the_onset, pressed_faces_hold_friction_and_the_peak,
+      broken_faces_touch_and_rub, friction_obeys_the_pressure_at_the_break, no_cycle_gains_energy,
+      cut_peaks_are_booked, extremes_stay_finite, lanes_do_what_one_does)
