@@ -64,7 +64,7 @@ zombies()
 # Five in a row that have written nothing: that is enough. Meanwhile nobody is left a zombie.
 campaign one.yaml 1 '1e5 1/s'
 export FRACAS_TEST_FAULT=hang:0:0
-program=$fracas fracas=$faulty
+program=$faulty
 start one.yaml --study five --jobs 1 --isolation none
 last=
 for death in 1 2 3 4 5; do
@@ -80,8 +80,7 @@ done
 status=0
 wait "$session" || status=$?
 session=
-unset FRACAS_TEST_FAULT
-fracas=$program
+unset FRACAS_TEST_FAULT program
 [ $status -eq 6 ] || { cat background >&2; fail "status $status after five deaths"; }
 grep -q 'compute server of rank 0 died of signal 9 .*and 4 died before it with no segment in between; it is not started again' background ||
     { cat background >&2; fail "it did not say why it gave up"; }
