@@ -198,29 +198,3 @@ for command in 'verify aged' 'status aged' 'report aged' 'reindex aged' 'merge a
     expect 5 "$fracas" $command
     said 'aged/.* has format version 1; this program reads 3: use the program version that wrote it, or compute the study again'
 done
-
-# Killed at a call that changes a file: the first, one in the middle, the last (tests/support/failing_calls.h). Repeated, it ends well.
-library=$(dirname "$fracas")/tests/failing_calls.so
-# killed STATUS K COMMAND: the command on a copy that has something to do for it, killed at the K-th call; 0 only counts.
-killed()
-{
-    rm -rf victim state
-    cp -r lost victim
-    rm victim/study.h5
-    echo half > victim/segments/.x.h5.tmp-1
-    head -c 1200 /dev/zero > state
-    expect "$1" env FAILING_CALLS="disk parent $2 kill" FAILING_STATE=state FAILING_UNDER=victim FAILING_ALONE=1 LD_PRELOAD="$library" \
-        ASAN_OPTIONS=verify_asan_link_order=0 "$fracas" "$3" victim
-}
-for command in reindex gc merge; do
-    killed 0 0 $command
-    calls=$(od -An -tu8 -N8 state | tr -d ' ')
-    [ "$calls" -ge 1 ] || fail "$command changes no file"
-    for at in 1 $(((calls + 1) / 2)) "$calls"; do
-        killed 137 "$at" $command
-        expect 0 "$fracas" $command victim
-        expect 0 "$fracas" merge victim
-        same undisturbed victim
-        expect 0 "$fracas" verify victim --full
-    done
-done
