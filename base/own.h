@@ -11,13 +11,17 @@
  */
 #define OWNED __attribute__((cleanup(fracas_own_free), unused))
 
-/* `OWN(fracas_index) index = NULL;`: a pointer, ended by the function that FRACAS_OWNER names. */
+/* `OWN(fracas_index) index = NULL;`: a pointer, ended by the function that FRACAS_OWNER names.
+ * OWN(FILE) closes a file. */
 #define OWN(type) __attribute__((cleanup(type##_own_end), unused)) type *
 #define FRACAS_OWNER(type, end)                         \
     static inline void type##_own_end(type *const *one) \
     {                                                   \
         end(*one);                                      \
     }
+
+/* `FRACAS_CLEARED(fracas_record) record = {0};`: a value, cleared by fracas_record_clear. */
+#define FRACAS_CLEARED(type) __attribute__((cleanup(type##_clear), unused)) type
 
 static inline void fracas_own_free(void *variable)
 {

@@ -4,6 +4,7 @@
 #define FRACAS_ANALYSIS_DATA_ROOM_H
 
 #include "base/err.h"
+#include "base/own.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -24,8 +25,5 @@ void *fracas_room_array(fracas_room *room, size_t count, size_t size);
 /* FRACAS_ENVIRONMENT with "no memory for <purpose>" if an array is lacking. */
 FRACAS_MUST_USE fracas_err fracas_room_check(const fracas_room *room, const char *what);
 void fracas_room_clear(fracas_room *room);
-
-/* `FRACAS_CLEARED(fracas_room) room = {0};`: cleared at the end of its scope. */
-#define FRACAS_CLEARED(type) __attribute__((cleanup(type##_clear))) type
 
 #endif

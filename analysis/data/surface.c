@@ -3,7 +3,6 @@
 
 #include "base/partition.h"
 #include "base/own.h"
-#include "analysis/data/room.h"
 
 #include <math.h>
 #include <stdbool.h>

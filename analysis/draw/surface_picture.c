@@ -6,7 +6,7 @@
 #include "analysis/draw/chart.h"
 #include "analysis/draw/trail.h"
 #include "analysis/draw/facets.h"
-#include "analysis/data/room.h"
+#include "base/own.h"
 
 #include <math.h>
 #include <stdlib.h>

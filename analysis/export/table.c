@@ -3,7 +3,6 @@
 
 #include "analysis/data/format.h"
 #include "base/own.h"
-#include "analysis/data/room.h"
 
 #include <inttypes.h>
 #include <math.h>

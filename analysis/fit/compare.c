@@ -2,7 +2,7 @@
 #include "analysis/fit/point.h"
 
 #include "analysis/fit/sample.h"
-#include "analysis/data/room.h"
+#include "base/own.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>

@@ -3,7 +3,6 @@
 
 #include "analysis/scaling/scaling.h"
 #include "analysis/data/format.h"
-#include "analysis/data/room.h"
 #include "base/own.h"
 
 #include <math.h>

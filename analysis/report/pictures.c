@@ -5,7 +5,6 @@
 #include "analysis/data/output.h"
 #include "analysis/report/page.h"
 #include "base/own.h"
-#include "analysis/data/room.h"
 
 #include <errno.h>
 #include <inttypes.h>

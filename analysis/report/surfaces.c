@@ -4,7 +4,7 @@
 #include "analysis/data/field.h"
 #include "analysis/data/output.h"
 #include "analysis/draw/chart.h"
-#include "analysis/data/room.h"
+#include "base/own.h"
 
 #include <math.h>
 

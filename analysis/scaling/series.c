@@ -2,7 +2,7 @@
 #include "analysis/scaling/scaling.h"
 
 #include "analysis/summary/study.h"
-#include "analysis/data/room.h"
+#include "base/own.h"
 
 #include <math.h>
 #include <stdio.h>

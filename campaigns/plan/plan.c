@@ -2,6 +2,7 @@
 #include "campaigns/plan/plan.h"
 
 #include "base/json.h"
+#include "base/own.h"
 #include "base/units.h"
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/warnings.h"
@@ -27,7 +28,7 @@ typedef struct {
     double slowest;                              /* element-steps per second */
 } campaign_plan;
 
-static void plan_clear(campaign_plan *plan)
+static void campaign_plan_clear(campaign_plan *plan)
 {
     free(plan->forecast);
     free(plan->varied);
@@ -82,7 +83,7 @@ static fracas_err sheet_init(size_t rows, size_t columns, text_sheet *sheet)
     return sheet->cell && sheet->width ? FRACAS_OK : fracas_no_memory("the plan");
 }
 
-static void sheet_clear(text_sheet *sheet)
+static void text_sheet_clear(text_sheet *sheet)
 {
     free(sheet->cell);
     free(sheet->width);
@@ -231,7 +232,7 @@ static void print_warnings(const campaign_plan *plan, FILE *out)
 static fracas_err print_text(const campaign_plan *plan, FILE *out)
 {
     const size_t points = plan->table->npoints, own = 1 + plan->nvaried, last = points + 2;
-    __attribute__((cleanup(sheet_clear))) text_sheet sheet = {0};
+    FRACAS_CLEARED(text_sheet) sheet = {0};
     TRY(sheet_init(last + 1, own + OWN_COLUMNS, &sheet));
     put_heads(plan, &sheet);
     for (size_t p = 0; p < points; p++) put_point(plan, p, &sheet);
@@ -318,7 +319,7 @@ fracas_err fracas_plan_print(const fracas_campaign *campaign, int jobs, FILE *ou
 {
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     if (jobs <= 0) jobs = cores > 0 ? (int)cores : 1;
-    __attribute__((cleanup(plan_clear))) campaign_plan plan = {0};
+    FRACAS_CLEARED(campaign_plan) plan = {0};
     TRY(plan_init(campaign, jobs, &plan));
     if (json) print_json(&plan, out);
     else TRY(print_text(&plan, out));

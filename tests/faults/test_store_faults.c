@@ -125,7 +125,7 @@ static reading read_all(const char *path)
                same_points(fracas_reader_points(reader)) &&
                same_header(fracas_reader_header(reader));
         for (size_t i = 0; !err && same && i < ALL; i++) {
-            CLEARED(fracas_record) wanted, found;
+            FRACAS_CLEARED(fracas_record) wanted, found;
             size_t point;
             int64_t replica;
             fracas_record_init(&found);
@@ -588,7 +588,7 @@ static void segments_are_whole_or_not_there(void **state)
         OK(fracas_reader_open(sample_path(folder, entry->d_name), &reader));
         assert_int_equal(fracas_reader_realizations(reader), 40);
         for (size_t row = 0; row < 40; row++) {
-            CLEARED(fracas_record) record;
+            FRACAS_CLEARED(fracas_record) record;
             size_t point;
             int64_t replica;
             fracas_record_init(&record);

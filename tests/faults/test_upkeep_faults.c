@@ -379,7 +379,7 @@ static void try_every_call(const trial *t)
 static void count_outcomes(size_t point, int64_t first, int64_t end, trial *t)
 {
     for (int64_t r = first; r < end; r++) {
-        CLEARED(fracas_record) record;
+        FRACAS_CLEARED(fracas_record) record;
         sample_record(point, r, MOST, &record);
         if (record.outcome == FRACAS_FAILED) t->failed++;
         else t->done++;

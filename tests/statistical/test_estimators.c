@@ -134,7 +134,7 @@ static void repeat(size_t n, bool apart, int repetitions, const double truth[NNU
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(random, (unsigned long)(20261122 + n + apart));
-    CLEARED(fracas_ensemble) ensemble;
+    FRACAS_CLEARED(fracas_ensemble) ensemble;
     fracas_ensemble_init(&ensemble, 0);
     *of = (tally){.repetitions = repetitions};
     for (int r = 0; r < repetitions; r++) {

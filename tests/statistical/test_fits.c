@@ -57,8 +57,8 @@ static void a_wrong_law_is_found(void **state)
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     const fracas_family *family = &fracas_family_exponential;
-    CLEARED(fracas_ensemble) ensemble;
-    CLEARED(fracas_point_fits) fits;
+    FRACAS_CLEARED(fracas_ensemble) ensemble;
+    FRACAS_CLEARED(fracas_point_fits) fits;
     OK(synthetic_ensemble(&truth[1], random, &ensemble));
     OK(fracas_point_fits_of(&ensemble, &family, 1, RESAMPLES, 1, &fits));
     assert_true(fits.family[0].goodness.ks_p == 1.0 / (RESAMPLES + 1) &&
@@ -77,8 +77,8 @@ static void nested_families(void **state)
         synthetic what = truth[0];
         what.how = (dependence)how;
         for (size_t r = 0; r < REPETITIONS; r++) {
-            CLEARED(fracas_ensemble) ensemble;
-            CLEARED(fracas_fit_sample) sample;
+            FRACAS_CLEARED(fracas_ensemble) ensemble;
+            FRACAS_CLEARED(fracas_fit_sample) sample;
             fracas_fit fit[2];
             fracas_fit_comparison comparison;
             OK(synthetic_ensemble(&what, random, &ensemble));
@@ -107,8 +107,8 @@ static void not_nested_families(void **state)
                       .realizations = 200,
                       .fragments = 40};
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    CLEARED(fracas_ensemble) ensemble;
-    CLEARED(fracas_fit_sample) sample;
+    FRACAS_CLEARED(fracas_ensemble) ensemble;
+    FRACAS_CLEARED(fracas_fit_sample) sample;
     fracas_fit fit[2], swapped[2];
     fracas_fit_comparison comparison, other;
     OK(synthetic_ensemble(&what, random, &ensemble));

@@ -45,8 +45,8 @@ static inline fit_check fit_check_of(const synthetic *what, size_t repetitions, 
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(random, seed);
     for (size_t r = 0; r < repetitions; r++) {
-        CLEARED(fracas_ensemble) ensemble;
-        CLEARED(fracas_point_fits) fits;
+        FRACAS_CLEARED(fracas_ensemble) ensemble;
+        FRACAS_CLEARED(fracas_point_fits) fits;
         OK(synthetic_ensemble(what, random, &ensemble));
         OK(fracas_point_fits_of(&ensemble, &what->family, 1, resamples, seed + r, &fits));
         const fracas_family_fit *fit = &fits.family[0];

@@ -72,7 +72,7 @@ static inline fracas_err synthetic_ensemble(const synthetic *what, gsl_rng *rand
     ensemble->surface = !(what->lattice > 0);
     fracas_err err = FRACAS_OK;
     for (size_t i = 0; i < what->realizations && !err; i++) {
-        CLEARED(fracas_record) record;
+        FRACAS_CLEARED(fracas_record) record;
         synthetic_realization(what, random, &record);
         err = fracas_ensemble_add(ensemble, i, (int64_t)i, &value, &record);
     }

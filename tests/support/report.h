@@ -29,7 +29,7 @@ static inline void report_write_index(const char *folder, const fracas_point_tab
     OWNED fracas_segment_row *row = zeroed(all, sizeof *row);
     for (size_t p = 0; p < table->npoints; p++) {
         for (int64_t replica = 0; replica < table->point[p].replicas; replica++) {
-            CLEARED(fracas_record) record;
+            FRACAS_CLEARED(fracas_record) record;
             make(context, p, replica, &record);
             row[count] = (fracas_segment_row){.point = table->point[p].hash,
                                               .replica = replica,
@@ -55,7 +55,7 @@ static inline void report_write_study(const char *folder, const fracas_file_head
     OK(fracas_writer_create(path, header, table, &writer));
     for (size_t p = 0; p < table->npoints; p++) {
         for (int64_t replica = 0; replica < table->point[p].replicas; replica++) {
-            CLEARED(fracas_record) record;
+            FRACAS_CLEARED(fracas_record) record;
             make(context, p, replica, &record);
             OK(fracas_writer_append(writer, p, replica, &record));
         }

@@ -277,7 +277,7 @@ static inline void sample_segment(const char *study, const char *name,
     fracas_writer_own_seal(writer);
     OK(fracas_writer_provenance(writer, SAMPLE_PROVENANCE));
     for (size_t i = 0; i < count; i++) {
-        CLEARED(fracas_record) record;
+        FRACAS_CLEARED(fracas_record) record;
         sample_record(what[i].point, what[i].replica, most, &record);
         row[i] = (fracas_segment_row){table->point[what[i].point].hash, what[i].replica, (int64_t)i,
                                       fracas_summary_of(&record)};

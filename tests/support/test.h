@@ -24,12 +24,9 @@
         if (call) fail_msg("%s: %s", #call, fracas_message()); \
     } while (0)
 
-/* Cleared where the block ends (OWNED and OWN: base/own.h). */
-#define CLEARED(type) __attribute__((cleanup(type##_clear))) type
-
 /* A record that is initialised here, and cleared where the block ends. */
-#define RECORD(name)             \
-    CLEARED(fracas_record) name; \
+#define RECORD(name)                    \
+    FRACAS_CLEARED(fracas_record) name; \
     fracas_record_init(&name)
 
 /* A number in [0, 1), by Knuth's MMIX generator. */

@@ -198,7 +198,7 @@ static void names_come_before_their_numbers(void **state)
                                 {{.real = NAN, .text = ""}, {.real = NAN, .text = "rigid-link"}}};
     fracas_point_row point[] = {{.value = value[0]}, {.value = value[1]}};
     fracas_point_table table = {.ncolumns = 2, .column = column, .npoints = 2, .point = point};
-    CLEARED(fracas_columns) columns;
+    FRACAS_CLEARED(fracas_columns) columns;
     char label[64];
     OK(fracas_columns_create(&table, &columns));
     assert_int_equal(columns.count, 1);
@@ -263,7 +263,7 @@ static void statistics_of_records(void **state)
     fracas_value length = {.real = 0.06, .text = ""};
     fracas_point_row point = {.value = &length};
     fracas_point_table table = {.ncolumns = 1, .column = column, .npoints = 1, .point = &point};
-    CLEARED(fracas_point_statistics) statistics;
+    FRACAS_CLEARED(fracas_point_statistics) statistics;
     fracas_point_statistics_init(&table, 0, &statistics);
     assert_true(isnan(statistics.law[FRACAS_LAW_ZMR])); /* no material in the table */
     const int64_t outcome[] = {FRACAS_FRAGMENTED, FRACAS_NONFINITE, FRACAS_INTACT,

@@ -96,7 +96,7 @@ static void pattern_of_uniform_expansion(void **state)
     expanded_ring(radius, push, 120, share, N, fragment);
     fragment[3].dust = 1;
     fracas_record record = {.nfragment = N, .fragment = fragment, .end_time = 2e-6};
-    CLEARED(fracas_ring_pattern) pattern;
+    FRACAS_CLEARED(fracas_ring_pattern) pattern;
     OK(fracas_ring_pattern_create(&record, radius, &pattern));
     assert_int_equal(pattern.n, N);
     assert_true(pattern.time == 2e-6 && fabs(pattern.expansion - 120) < 1e-11);
@@ -303,7 +303,7 @@ static void assert_columns(const double real[][3], size_t npoints, const char *e
         row[p] = (fracas_point_row){.value = value[p]};
     }
     fracas_point_table table = {.ncolumns = 3, .column = columns, .npoints = npoints, .point = row};
-    CLEARED(fracas_columns) shown, others;
+    FRACAS_CLEARED(fracas_columns) shown, others;
     char text[128] = "";
     OK(fracas_columns_create(&table, &shown));
     OK(fracas_columns_without_rate(&table, &shown, &others));
@@ -401,7 +401,7 @@ static void laws_of_mixed_series(void **state)
             point[p].scales.modulus = p % 2 ? table[i].odd_modulus : table[i].even_modulus;
             point[p].scales.size = 1e-4 + (p % 2 ? table[i].odd : table[i].even) * (double)p;
         }
-        CLEARED(fracas_chart) chart;
+        FRACAS_CLEARED(fracas_chart) chart;
         fracas_chart_init(&chart);
         OK(fracas_figure_rate(&analysis, false, &chart));
         size_t curves = 0;

@@ -33,7 +33,7 @@ static void crack_across(const grid_shape *shape, const fracas_stored_mesh *mesh
 static void assert_state(const fracas_stored_mesh *mesh, const fracas_record *record, double time,
                          size_t fragments, size_t cracked, size_t broken)
 {
-    CLEARED(fracas_surface_state) state;
+    FRACAS_CLEARED(fracas_surface_state) state;
     OK(fracas_surface_state_create(mesh, record, time, &state));
     assert_int_equal(state.nfragments, fragments);
     assert_int_equal(state.ncracked, cracked);
@@ -47,9 +47,9 @@ static void assert_state(const fracas_stored_mesh *mesh, const fracas_record *re
  * them. */
 static void a_plate_is_cut_in_two_and_in_four(void **state)
 {
-    CLEARED(fracas_stored_mesh) mesh;
-    CLEARED(fracas_record) record;
-    CLEARED(fracas_surface_state) now;
+    FRACAS_CLEARED(fracas_stored_mesh) mesh;
+    FRACAS_CLEARED(fracas_record) record;
+    FRACAS_CLEARED(fracas_surface_state) now;
     fracas_surface_times times;
     grid_make(&plate, &mesh);
     assert_null(fracas_stored_mesh_fault(&mesh));
@@ -89,9 +89,9 @@ static void small_pieces_are_dust(void **state)
     } expected[] = {
         {1, 2, 1}, {1 | 2, 2, 1}, {1 | 2 | 4, 3, 2}, {1 | 2 | 8, 2, 0}, {1 | 2 | 4 | 8, 2, 0}};
     for (size_t k = 0; k < sizeof expected / sizeof *expected; k++) {
-        CLEARED(fracas_stored_mesh) mesh;
-        CLEARED(fracas_record) record;
-        CLEARED(fracas_surface_state) now;
+        FRACAS_CLEARED(fracas_stored_mesh) mesh;
+        FRACAS_CLEARED(fracas_record) record;
+        FRACAS_CLEARED(fracas_surface_state) now;
         grid_make(&plate, &mesh);
         grid_record(&mesh, 1, &record);
         for (size_t i = 0; i < mesh.ninterfaces; i++) {
@@ -112,8 +112,8 @@ static void small_pieces_are_dust(void **state)
 static void a_ring_cracks_through(void **state)
 {
     static const int64_t width[2] = {1, 2}, nowhere[2] = {1, 7};
-    CLEARED(fracas_stored_mesh) mesh;
-    CLEARED(fracas_record) record;
+    FRACAS_CLEARED(fracas_stored_mesh) mesh;
+    FRACAS_CLEARED(fracas_record) record;
     double time;
     grid_make(&ring, &mesh);
     assert_null(fracas_stored_mesh_fault(&mesh));
@@ -143,8 +143,8 @@ static void a_ring_cracks_through(void **state)
 static void edges_that_meet_have_no_width(void **state)
 {
     static const int64_t corner[2] = {1, 3};
-    CLEARED(fracas_stored_mesh) mesh;
-    CLEARED(fracas_record) record;
+    FRACAS_CLEARED(fracas_stored_mesh) mesh;
+    FRACAS_CLEARED(fracas_record) record;
     double time;
     grid_make(&plate, &mesh);
     grid_record(&mesh, 100, &record);
@@ -188,8 +188,8 @@ static void crack_through_against_a_walk(void **state)
     uint64_t random = 11;
     size_t through = 0;
     for (int round = 0; round < 60; round++) {
-        CLEARED(fracas_stored_mesh) mesh;
-        CLEARED(fracas_record) record;
+        FRACAS_CLEARED(fracas_stored_mesh) mesh;
+        FRACAS_CLEARED(fracas_record) record;
         double found, least = NAN;
         grid_make(round % 2 ? &plate : &ring, &mesh);
         grid_record(&mesh, 100, &record);
@@ -272,7 +272,7 @@ static char *draw(const fracas_stored_mesh *mesh, const fracas_record *record, d
 {
     char *text;
     size_t size;
-    CLEARED(fracas_surface_state) now;
+    FRACAS_CLEARED(fracas_surface_state) now;
     FILE *out = open_memstream(&text, &size);
     OK(fracas_surface_state_create(mesh, record, time, &now));
     const fracas_surface_picture picture = {"a & b", show, 800, true};
@@ -295,8 +295,8 @@ static path_measures measure(const char *svg, const char *class)
  * outline, of which there are 30 at most: 0.02. */
 static void fragments_are_filled(void **state)
 {
-    CLEARED(fracas_stored_mesh) mesh;
-    CLEARED(fracas_record) record;
+    FRACAS_CLEARED(fracas_stored_mesh) mesh;
+    FRACAS_CLEARED(fracas_record) record;
     const double square = 7840.0 / 6 * 7840.0 / 6;
     grid_make(&plate, &mesh);
     grid_record(&mesh, 100, &record);
@@ -348,8 +348,8 @@ static void fragments_are_filled(void **state)
  * sides, 45 m long altogether. */
 static void holes_stay_holes(void **state)
 {
-    CLEARED(fracas_stored_mesh) mesh;
-    CLEARED(fracas_record) record;
+    FRACAS_CLEARED(fracas_stored_mesh) mesh;
+    FRACAS_CLEARED(fracas_record) record;
     grid_make(&ring, &mesh);
     grid_record(&mesh, 100, &record);
     OWNED char *svg = draw(&mesh, &record, 1, FRACAS_SHOW_CRACKS);
@@ -362,8 +362,8 @@ static void holes_stay_holes(void **state)
  * parabola, in both fragments beside it, and what is left of it by 2/3 of 0.1 squares larger. */
 static void curved_edges_are_curved(void **state)
 {
-    CLEARED(fracas_stored_mesh) straight, curved;
-    CLEARED(fracas_record) record;
+    FRACAS_CLEARED(fracas_stored_mesh) straight, curved;
+    FRACAS_CLEARED(fracas_record) record;
     grid_shape shape = plate;
     grid_make(&shape, &straight);
     shape.middles = true;
@@ -399,8 +399,8 @@ static void flat_pictures_stay_as_they_are(void **state)
     static const uint64_t expected[] = {0xa0103701084ef84c, 0xe576ce8a4a7738b5, 0x3c7ad3191731f98a};
     uint64_t random = 3;
     const grid_shape curved = {.nx = 12, .ny = 3, .rolled = true, .middles = true};
-    CLEARED(fracas_stored_mesh) mesh;
-    CLEARED(fracas_record) record;
+    FRACAS_CLEARED(fracas_stored_mesh) mesh;
+    FRACAS_CLEARED(fracas_record) record;
     grid_make(&curved, &mesh);
     grid_record(&mesh, 100, &record);
     for (size_t i = 0; i < mesh.ninterfaces; i++) {
@@ -424,11 +424,11 @@ static void neighbours_have_different_tints(void **state)
 {
     uint64_t random = 5;
     const grid_shape large = {.nx = 30, .ny = 20};
-    CLEARED(fracas_stored_mesh) mesh;
+    FRACAS_CLEARED(fracas_stored_mesh) mesh;
     fracas_record record;
     grid_make(&large, &mesh);
     for (int round = 0; round < 20; round++) {
-        CLEARED(fracas_surface_state) now;
+        FRACAS_CLEARED(fracas_surface_state) now;
         OWNED uint8_t *tint;
         grid_record(&mesh, 1, &record);
         for (size_t i = 0; i < mesh.ninterfaces; i++)
@@ -452,8 +452,8 @@ static void pictures_stay_small(void **state)
 {
     uint64_t random = 7;
     const grid_shape huge = {.nx = 150, .ny = 100};
-    CLEARED(fracas_stored_mesh) mesh;
-    CLEARED(fracas_record) record;
+    FRACAS_CLEARED(fracas_stored_mesh) mesh;
+    FRACAS_CLEARED(fracas_record) record;
     grid_make(&huge, &mesh);
     grid_record(&mesh, 1, &record);
     for (size_t i = 0; i < mesh.ninterfaces; i++) record.interface[i].break_time = 0.1;

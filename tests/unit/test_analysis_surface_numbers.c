@@ -70,7 +70,7 @@ static void make_analysis(size_t bars, size_t bent, fracas_point_statistics poin
 /* The names of the table's columns in a row, as "rate n fail ...". */
 static void names_of(const fracas_analysis *analysis, char names[512])
 {
-    CLEARED(fracas_result_table) table;
+    FRACAS_CLEARED(fracas_result_table) table;
     OK(fracas_result_table_create(analysis, false, &table));
     names[0] = '\0';
     for (size_t c = 0; c < table.columns; c++)
@@ -79,7 +79,7 @@ static void names_of(const fracas_analysis *analysis, char names[512])
 
 static size_t curves_of(const fracas_analysis *analysis, bool normalised, size_t *marks)
 {
-    CLEARED(fracas_chart) chart;
+    FRACAS_CLEARED(fracas_chart) chart;
     size_t curves = 0;
     *marks = 0;
     fracas_chart_init(&chart);
@@ -142,7 +142,7 @@ static void surfaces_have_no_laws_of_one_dimension(void **state)
 static void cell_says(const fracas_analysis *analysis, size_t row, const char *name,
                       const char *wanted)
 {
-    CLEARED(fracas_result_table) table;
+    FRACAS_CLEARED(fracas_result_table) table;
     size_t c = 0;
     OK(fracas_result_table_create(analysis, false, &table));
     while (strcmp(fracas_result_table_cell(&table, 0, c), name)) assert_true(++c < table.columns);
@@ -172,7 +172,7 @@ static void fragments_of_surfaces_fly_and_turn(void **state)
     record.outcome = FRACAS_INTACT;
     record.fragments = (int64_t)(record.nfragment = 1);
     record.fragment = &whole;
-    CLEARED(fracas_point_statistics) one;
+    FRACAS_CLEARED(fracas_point_statistics) one;
     fracas_point_statistics_init(analysis.table, 1, &one);
     OK(fracas_point_statistics_add(&one, 0, 0, &record));
     OK(fracas_point_statistics_finish(&one));

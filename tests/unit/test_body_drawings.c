@@ -147,8 +147,9 @@ static void drawings_show_the_nearest(void **state)
         size_t seen = 0;
         fracas_frame frame;
         make_body(looks[l].octant, looks[l].octant ? 16 : 8, 1, 25, false, &b);
-        CLEARED(fracas_facets) facets = look(&b, looks[l].view.azimuth, looks[l].view.elevation,
-                                             looks[l].explode, looks[l].thickness);
+        FRACAS_CLEARED(fracas_facets)
+        facets = look(&b, looks[l].view.azimuth, looks[l].view.elevation, looks[l].explode,
+                      looks[l].thickness);
         OK(fracas_tint_fragments(&b.mesh, &b.now, &tint));
         OWNED char *svg = draw(&b, &looks[l].view, looks[l].explode, looks[l].thickness,
                                FRACAS_SHOW_FRAGMENTS);

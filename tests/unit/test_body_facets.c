@@ -35,7 +35,7 @@ static void half_of_a_sphere_shows(void **state)
     make_body(false, 8, 2, 30, false, &b);
     const double c = widest(&b.mesh);
     for (size_t v = 0; v < sizeof view / sizeof *view; v++) {
-        CLEARED(fracas_facets) facets = look(&b, view[v][0], view[v][1], 0, 0);
+        FRACAS_CLEARED(fracas_facets) facets = look(&b, view[v][0], view[v][1], 0, 0);
         size_t shown = 0, outer = 0;
         double area = 0;
         assert_int_equal(facets.nfacets, b.mesh.nelements);
@@ -68,7 +68,7 @@ static void all_of_an_octant_shows(void **state)
     make_body(true, 20, 1, 20, false, &b);
     const double h = M_PI / 2 / 20, exact = 3 * M_PI / 4 / sqrt(3);
     for (int side = 1; side >= -1; side -= 2) {
-        CLEARED(fracas_facets)
+        FRACAS_CLEARED(fracas_facets)
         facets = look(&b, side > 0 ? 45 : 225, side * 35.264389682754654, 0, 0);
         double area = 0;
         for (size_t f = 0; f < facets.nfacets; f++) {
@@ -144,8 +144,8 @@ static void the_nearest_is_drawn_last(void **state)
     for (size_t l = 0; l < sizeof looks / sizeof *looks; l++) {
         body b;
         make_body(looks[l].octant, looks[l].octant ? 16 : 8, 2, 25, false, &b);
-        CLEARED(fracas_facets) facets = look(&b, looks[l].view[0], looks[l].view[1],
-                                             looks[l].explode, looks[l].thickness);
+        FRACAS_CLEARED(fracas_facets)
+        facets = look(&b, looks[l].view[0], looks[l].view[1], looks[l].explode, looks[l].thickness);
         size_t hidden = 0;
         for (size_t f = 0; f < facets.nfacets; f++) hidden += facets.facet[f].layer < 0;
         if (!looks[l].octant)
@@ -164,7 +164,7 @@ static void fragments_move_apart(void **state)
 {
     body b;
     make_body(true, 20, 2, 9, false, &b);
-    CLEARED(fracas_facets) still = look(&b, 45, 35, 0, 0), apart = look(&b, 45, 35, 0.3, 0);
+    FRACAS_CLEARED(fracas_facets) still = look(&b, 45, 35, 0, 0), apart = look(&b, 45, 35, 0.3, 0);
     const fracas_view view = {45, 35};
     const size_t nfragments = b.now.nfragments;
     double(*centre)[4] = zeroed(nfragments + 1, sizeof *centre); /* the last one of all */
@@ -227,9 +227,9 @@ static void the_thickness_shows_at_borders(void **state)
     body b;
     make_body(true, 20, 2, 0, false, &b);
     const double t = 0.04, exact = M_PI / 2 * t;
-    CLEARED(fracas_facets) back = look(&b, 225, -35.264389682754654, 0, t),
-                           front = look(&b, 45, 35.264389682754654, 0, t);
-    CLEARED(fracas_facets) side = look(&b, 180, 0, 0, t);
+    FRACAS_CLEARED(fracas_facets)
+    back = look(&b, 225, -35.264389682754654, 0, t), front = look(&b, 45, 35.264389682754654, 0, t);
+    FRACAS_CLEARED(fracas_facets) side = look(&b, 180, 0, 0, t);
     double area = 0;
     size_t lines = 0;
     for (size_t f = back.nskin; f < back.nfacets; f++) {

@@ -478,7 +478,7 @@ static void test_bytes(void **state)
 static bool cracks(const fracas_model *model, double strength)
 {
     OWN(fracas_batch) batch;
-    CLEARED(fracas_record) record;
+    FRACAS_CLEARED(fracas_record) record;
     const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
     OK(fracas_batch_create(model, 1, &options, &batch));
     size_t stride;

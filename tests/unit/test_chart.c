@@ -79,7 +79,7 @@ static char *written_of(void (*make)(fracas_chart *chart),
 {
     char *text;
     size_t size;
-    CLEARED(fracas_chart) chart;
+    FRACAS_CLEARED(fracas_chart) chart;
     FILE *out = open_memstream(&text, &size);
     assert_non_null(out);
     make(&chart);

@@ -218,7 +218,7 @@ static void singular_covariances_are_factorised(void **state)
         const fracas_strength strength = correlated(
             way ? &fracas_covariance_gaussian : &fracas_covariance_exponential, way ? 3 : 0.3, NAN);
         OWN(fracas_covariance) covariance = covariance_of(&strength);
-        CLEARED(fracas_dense_factor) factor;
+        FRACAS_CLEARED(fracas_dense_factor) factor;
         uint32_t order[N];
         sites_scattered(N, sites);
         for (size_t i = 0; i < N; i++) {

@@ -46,7 +46,7 @@ static void make_four(double lattice, fracas_ensemble *ensemble)
 /* 7 of sum 19 and squares 71; 1 1 2 2 3 4 6 in order, whose sums are 2 6 9 13 19. */
 static void sizes_by_number_and_by_mass(void **state)
 {
-    CLEARED(fracas_ensemble) ensemble;
+    FRACAS_CLEARED(fracas_ensemble) ensemble;
     fracas_pooled pooled;
     make_four(0, &ensemble);
     OK(fracas_pooled_of(&ensemble, 1, &pooled));
@@ -69,7 +69,7 @@ static void sizes_by_number_and_by_mass(void **state)
  * numbers count from there. */
 static void sizes_on_a_lattice_and_above_the_cut(void **state)
 {
-    CLEARED(fracas_ensemble) ensemble;
+    FRACAS_CLEARED(fracas_ensemble) ensemble;
     fracas_pooled pooled;
     make_four(1, &ensemble);
     ensemble.size[3] = nextafter(2, 3); /* as roundings have it: the same size */
@@ -96,7 +96,7 @@ static void sizes_on_a_lattice_and_above_the_cut(void **state)
  * 108/7 over 3. m0 = (7 - 15/7)/3 = 34/21. */
 static void variance_of_unequal_groups(void **state)
 {
-    CLEARED(fracas_ensemble) ensemble;
+    FRACAS_CLEARED(fracas_ensemble) ensemble;
     fracas_pooled pooled;
     make_four(0, &ensemble);
     OK(fracas_pooled_of(&ensemble, 1, &pooled));
@@ -113,7 +113,7 @@ static void variance_of_unequal_groups(void **state)
 static void estimates_at_their_ends(void **state)
 {
     const fracas_replica_values value = {0};
-    CLEARED(fracas_ensemble) ensemble;
+    FRACAS_CLEARED(fracas_ensemble) ensemble;
     fracas_pooled pooled;
     fracas_replica_convergence convergence;
     fracas_ensemble_init(&ensemble, 0);
@@ -140,8 +140,8 @@ static void estimates_at_their_ends(void **state)
  * all replicas have alike is converged. */
 static void numbers_that_settle_and_others(void **state)
 {
-    CLEARED(fracas_ensemble) ensemble;
-    CLEARED(fracas_replica_convergence) of;
+    FRACAS_CLEARED(fracas_ensemble) ensemble;
+    FRACAS_CLEARED(fracas_replica_convergence) of;
     fracas_ensemble_init(&ensemble, 0);
     for (int i = 0; i < 40; i++) {
         const fracas_replica_values value = {.count = i % 2 ? 101 : 99,
@@ -234,7 +234,7 @@ static void read_bands(int64_t replicas, fracas_bands *bands)
     fracas_bands_collector collector;
     OK(fracas_bands_begin(INTERVALS, INTERVALS, (size_t)replicas, bands, &collector));
     for (int64_t replica = 0; replica < replicas; replica++) {
-        CLEARED(fracas_record) record;
+        FRACAS_CLEARED(fracas_record) record;
         make_history(replica, &record);
         fracas_bands_add(&collector, &record);
     }
@@ -244,7 +244,7 @@ static void read_bands(int64_t replicas, fracas_bands *bands)
 /* 0 to 29: mean 14.5, quantiles at 1.45 and 27.55 of the order. */
 static void band_of_many(void **state)
 {
-    CLEARED(fracas_bands) bands;
+    FRACAS_CLEARED(fracas_bands) bands;
     read_bands(MOST, &bands);
     assert_int_equal(bands.count, 4); /* all have ended before 4 */
     assert_int_equal(bands.realizations, MOST);
@@ -269,7 +269,7 @@ static void band_of_many(void **state)
 /* Kinetic 0, 7, 14. */
 static void band_of_few(void **state)
 {
-    CLEARED(fracas_bands) bands;
+    FRACAS_CLEARED(fracas_bands) bands;
     read_bands(3, &bands);
     assert_true(bands.extremes && bands.count == 4 && bands.running[3] == 2);
     assert_near(bands.energy[2][FRACAS_BAND_kinetic].mean, 7);

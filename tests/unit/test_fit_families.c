@@ -121,8 +121,8 @@ static void fits_recover_the_truth(void **state)
         what.lattice = (double)(i % 2);
         what.realizations = 100;
         what.fragments = 100;
-        CLEARED(fracas_ensemble) ensemble;
-        CLEARED(fracas_fit_sample) sample;
+        FRACAS_CLEARED(fracas_ensemble) ensemble;
+        FRACAS_CLEARED(fracas_fit_sample) sample;
         fracas_fit fit;
         double truth[FRACAS_FAMILY_PARAMETERS];
         OK(synthetic_ensemble(&what, random, &ensemble));
@@ -146,8 +146,8 @@ static fracas_fit fit_of(const synthetic *what, const fracas_family *family, uns
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(random, seed);
-    CLEARED(fracas_ensemble) ensemble;
-    CLEARED(fracas_fit_sample) sample;
+    FRACAS_CLEARED(fracas_ensemble) ensemble;
+    FRACAS_CLEARED(fracas_fit_sample) sample;
     fracas_fit fit;
     OK(synthetic_ensemble(what, random, &ensemble));
     OK(fracas_fit_sample_create(&ensemble, &sample));
@@ -198,8 +198,8 @@ static void cells_of_a_lattice(void **state)
     what.realizations = 30;
     what.fragments = 50;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    CLEARED(fracas_ensemble) ensemble;
-    CLEARED(fracas_fit_sample) sample;
+    FRACAS_CLEARED(fracas_ensemble) ensemble;
+    FRACAS_CLEARED(fracas_fit_sample) sample;
     uint32_t once[30];
     double count[FRACAS_FIT_CELLS], mean, cv, total = 0, expected = 0;
     OK(synthetic_ensemble(&what, random, &ensemble));
@@ -245,8 +245,8 @@ static void whole_bodies_are_left_out(void **state)
 {
     enum { BROKEN = 20, PIECES = 50 };
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    CLEARED(fracas_ensemble) with, without, alone;
-    CLEARED(fracas_fit_sample) a, b, c;
+    FRACAS_CLEARED(fracas_ensemble) with, without, alone;
+    FRACAS_CLEARED(fracas_fit_sample) a, b, c;
     fracas_fit fit_a, fit_b, fit_c;
     fracas_ensemble_init(&with, 0);
     fracas_ensemble_init(&without, 0);
@@ -287,8 +287,8 @@ static void whole_bodies_are_left_out(void **state)
 static void sizes_that_are_nearly_alike(void **state)
 {
     enum { REALIZATIONS = 40, PIECES = 50 };
-    CLEARED(fracas_ensemble) ensemble;
-    CLEARED(fracas_fit_sample) sample;
+    FRACAS_CLEARED(fracas_ensemble) ensemble;
+    FRACAS_CLEARED(fracas_fit_sample) sample;
     uint32_t weight[REALIZATIONS] = {2};
     double size[PIECES], mean, cv;
     fracas_ensemble_init(&ensemble, 0);
@@ -309,8 +309,8 @@ static void carried_samples_have_the_law(void **state)
     what.realizations = 30;
     what.fragments = 50;
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    CLEARED(fracas_ensemble) ensemble;
-    CLEARED(fracas_fit_sample) sample, carried;
+    FRACAS_CLEARED(fracas_ensemble) ensemble;
+    FRACAS_CLEARED(fracas_fit_sample) sample, carried;
     fracas_fit fit;
     double probability[FRACAS_FIT_CELLS], seen = 0, law_below = 0;
     OK(synthetic_ensemble(&what, random, &ensemble));

@@ -278,7 +278,7 @@ static void a_forecast_knows_the_factor(void **state)
 static void check_points(const char *text, size_t points)
 {
     OWN(fracas_campaign) campaign = good(text);
-    CLEARED(fracas_sample) sample;
+    FRACAS_CLEARED(fracas_sample) sample;
     if (fracas_sample_draw(campaign, 0, 4, &sample)) fail_msg("%s", fracas_message());
     const fracas_stream stream = fracas_point_stream(campaign, 0, FRACAS_PURPOSE_STRENGTH, 4);
     assert_int_equal(fracas_model_strengths_per_interface(sample.model), points);
@@ -306,7 +306,7 @@ static void each_gauss_point_has_its_own(void **state)
     OWN(fracas_campaign) campaign = good(
         SURFACE("membrane", "width: 2 mm, height: 1 mm", "divisions: 3",
                 CONSTANT ", per: gauss-point, factor: f.csv, factor_along: x"));
-    CLEARED(fracas_sample) sample;
+    FRACAS_CLEARED(fracas_sample) sample;
     if (fracas_sample_draw(campaign, 0, 0, &sample)) fail_msg("%s", fracas_message());
     size_t right = 0;
     for (size_t k = 0; k < sample.n; k++) {

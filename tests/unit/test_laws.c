@@ -53,7 +53,7 @@ static void published_moments_are_the_published_shapes(void **state)
     for (size_t k = 0; k < FRACAS_COUNT(published); k++) {
         const fracas_strength given = law_by_moments("weibull", published[k].minimum,
                                                      published[k].mean, published[k].deviation);
-        CLEARED(fracas_strength) ready;
+        FRACAS_CLEARED(fracas_strength) ready;
         OK(fracas_strength_init(&given, &ready));
         assert_close(ready.shape, published[k].shape, 5e-4);
         assert_close(ready.scale, published[k].scale, 5e-4);
@@ -84,7 +84,7 @@ static void moments_come_back(void **state)
     for (size_t k = 0; k < FRACAS_COUNT(given); k++) {
         const double mean = given[k].mean, deviation = given[k].ratio * mean;
         const fracas_strength law = law_by_moments(given[k].law, given[k].minimum, mean, deviation);
-        CLEARED(fracas_strength) ready;
+        FRACAS_CLEARED(fracas_strength) ready;
         OK(fracas_strength_check(&law));
         OK(fracas_strength_init(&law, &ready));
         assert_close(fracas_strength_mean(&ready, one), mean, 1e-12);

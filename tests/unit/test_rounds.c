@@ -114,7 +114,7 @@ static void rounds_go_on_until_they_are_narrow(void **state)
     assert_int_equal(decision[2].stop, FRACAS_AT_MAXIMUM);
     free(decision);
     OK(fracas_rounds_check(campaign, index_));
-    CLEARED(fracas_rounds) again;
+    FRACAS_CLEARED(fracas_rounds) again;
     OK(fracas_rounds_init(&again, campaign, index_));
     assert_int_equal(again.open, 0);
     assert_int_equal(again.point[0].replicas, 8);
@@ -203,7 +203,7 @@ static void a_decision_that_does_not_follow_is_damage(void **state)
 static void a_stronger_rule_decides_again(void **state)
 {
     OWNED fracas_decision *decision;
-    CLEARED(fracas_rounds) again;
+    FRACAS_CLEARED(fracas_rounds) again;
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
     OWN(fracas_campaign) now = make(
@@ -233,7 +233,7 @@ static void mean_size_by_hand(void **state)
 /* A larger maximum alone goes on where the smaller one ended. */
 static void a_larger_maximum_goes_on(void **state)
 {
-    CLEARED(fracas_rounds) again;
+    FRACAS_CLEARED(fracas_rounds) again;
     commit(0, 0, 7, 0.5, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
     commit(0, 8, 15, 0.5, FRACAS_FRAGMENTED);
@@ -259,7 +259,7 @@ static void a_rule_looks_at_its_quantity(void **state)
     for (int q = 0; q < 3; q++) {
         char text[200];
         OWNED fracas_decision *decision;
-        CLEARED(fracas_rounds) again;
+        FRACAS_CLEARED(fracas_rounds) again;
         snprintf(text, sizeof text,
                  "{minimum: 8, maximum: 24, until: {quantity: %s, relative-half-width: 0.2}}",
                  quantity[q]);
@@ -312,7 +312,7 @@ static void points_of_a_segment_are_decided_together(void **state)
     look(0, &decision, 0);
     free(decision);
     tampered("DROP TRIGGER refuse");
-    CLEARED(fracas_rounds) again;
+    FRACAS_CLEARED(fracas_rounds) again;
     OK(fracas_rounds_init(&again, campaign, index_));
     look(0, &decision, 1);
     free(decision);

@@ -83,7 +83,7 @@ static void settled_waits_for_quiet_after_the_first_onset(void **unused)
  * peak at step 7. */
 static void history_keeps_intervals_onset_peak_and_end(void **unused)
 {
-    CLEARED(fracas_history) history;
+    FRACAS_CLEARED(fracas_history) history;
     RECORD(record);
     OK(fracas_history_init(&history, 2, 1.0));
     for (int step = 0; step <= 12; step++) {
@@ -137,7 +137,7 @@ static void the_ledger_adds_every_term(void **unused)
 
 static void fragments_are_connected_elements(void **unused)
 {
-    CLEARED(fracas_partition) p;
+    FRACAS_CLEARED(fracas_partition) p;
     OK(fracas_partition_init(&p, 8));
     fracas_partition_unite(&p, 7, 2);
     fracas_partition_unite(&p, 2, 5);

@@ -32,7 +32,7 @@ static int tear_down(void **state)
 static void write_meshes(fracas_writer *writer, const grid_shape *shape)
 {
     for (size_t p = 0; shape && p < SAMPLE_POINTS; p++) {
-        CLEARED(fracas_stored_mesh) mesh = {0};
+        FRACAS_CLEARED(fracas_stored_mesh) mesh = {0};
         if (p == 1) grid_make(shape, &mesh);
         OK(fracas_writer_mesh(writer, &mesh));
     }
@@ -128,7 +128,7 @@ static void write_file_of(const char *path, int64_t replicas, size_t most, bool 
     OK(fracas_writer_create(path, &header, &table, &writer));
     for (size_t p = 0; p < SAMPLE_POINTS; p++)
         for (int64_t r = 0; r < replicas; r++) {
-            CLEARED(fracas_record) record;
+            FRACAS_CLEARED(fracas_record) record;
             sample_record(p, r, most, &record);
             OK(fracas_writer_append(writer, p, r, &record));
         }
@@ -177,10 +177,10 @@ static void write_and_tell(const char *path)
     enum { SOME = 5, ROWS = 7 };
     static const grid_shape shape = {.nx = 3, .ny = 2, .rolled = true, .middles = true};
     fracas_file_seal seal;
-    CLEARED(fracas_stored_mesh) mesh;
+    FRACAS_CLEARED(fracas_stored_mesh) mesh;
     write_file_of(path, SOME, ROWS, true, &shape, &seal);
     for (size_t i = 0; i < SAMPLE_POINTS * SOME; i++) {
-        CLEARED(fracas_record) r;
+        FRACAS_CLEARED(fracas_record) r;
         uint64_t bits;
         sample_record(i / SOME, (int64_t)(i % SOME), ROWS, &r);
         sample_make_canonical(&r);
@@ -211,7 +211,7 @@ static void write_and_tell(const char *path)
 static void check_row(fracas_reader *reader, size_t row, int64_t replicas, size_t most,
                       unsigned parts)
 {
-    CLEARED(fracas_record) wanted, found;
+    FRACAS_CLEARED(fracas_record) wanted, found;
     size_t point;
     int64_t replica;
     fracas_record_init(&found);
@@ -434,7 +434,7 @@ static void other_files_are_refused(void **state)
 static void records_survive_packing(void **state)
 {
     for (int64_t replica = 0; replica < 50; replica++) {
-        CLEARED(fracas_record) record, back;
+        FRACAS_CLEARED(fracas_record) record, back;
         sample_record(1, replica, 9, &record);
         size_t size = fracas_record_packed_size(&record);
         OWNED char *bytes = malloc(size + 1);

@@ -91,7 +91,7 @@ static void commit_different(void)
     fracas_segment_row row[10];
     OK(fracas_writer_create(sample_path(study, "segments/d.h5"), &header, &table, &writer));
     for (int64_t r = 0; r < 10; r++) {
-        CLEARED(fracas_record) record;
+        FRACAS_CLEARED(fracas_record) record;
         sample_record(1, r, MOST, &record);
         if (r == 3) record.momentum[1] = 0.125;
         row[r] = (fracas_segment_row){point_row[1].hash, r, r, fracas_summary_of(&record)};

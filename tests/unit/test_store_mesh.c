@@ -57,7 +57,7 @@ static void commit(size_t size, size_t interfaces)
         snprintf(path, sizeof path, "segments/%s", name);
         OK(fracas_writer_create(sample_path(study, path), &header, &table, &writer));
         for (size_t i = begin; i < end; i++) {
-            CLEARED(fracas_record) record;
+            FRACAS_CLEARED(fracas_record) record;
             const size_t point = i / EACH;
             const int64_t replica = (int64_t)(i % EACH);
             make_record(point, replica, point == SURFACE ? interfaces : 7, &record);
@@ -90,7 +90,7 @@ static int set_up_surface(void **state)
 
 static size_t interfaces_of(const grid_shape *of)
 {
-    CLEARED(fracas_stored_mesh) mesh;
+    FRACAS_CLEARED(fracas_stored_mesh) mesh;
     grid_make(of, &mesh);
     return mesh.ninterfaces;
 }
@@ -335,9 +335,9 @@ static void bodies_are_drawn_as_asked_for(void **state)
     static const double time = 9e-6;
     OWNED char *said, *wanted, *folder = strdup(sample_path(study, "drawn"));
     size_t size;
-    CLEARED(fracas_stored_mesh) mesh = {0};
-    CLEARED(fracas_record) record;
-    CLEARED(fracas_surface_state) now;
+    FRACAS_CLEARED(fracas_stored_mesh) mesh = {0};
+    FRACAS_CLEARED(fracas_record) record;
+    FRACAS_CLEARED(fracas_surface_state) now;
     make_octant_study();
     FILE *out = open_memstream(&said, &size);
     const fracas_picture_request request = {.point = SURFACE,

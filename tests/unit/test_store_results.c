@@ -37,7 +37,7 @@ static void cut(fracas_record *record, unsigned parts)
 
 static void check_record(const walk *w, size_t point, int64_t replica, const fracas_record *record)
 {
-    CLEARED(fracas_record) wanted;
+    FRACAS_CLEARED(fracas_record) wanted;
     sample_record(point - w->shift, replica, MOST, &wanted);
     sample_make_canonical(&wanted);
     cut(&wanted, w->parts);

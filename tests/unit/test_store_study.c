@@ -173,7 +173,7 @@ static void segments_without_provenance_are_adopted(void **state)
     for (int i = 0; i < 2; i++) {
         fracas_file_header header = sample_header();
         fracas_writer *writer;
-        CLEARED(fracas_record) record;
+        FRACAS_CLEARED(fracas_record) record;
         fracas_file_seal seal;
         char name[32];
         snprintf(name, sizeof name, "segments/old%d.h5", i);
@@ -308,7 +308,7 @@ static void verify_compares_every_record(void **state)
     fracas_file_seal seal;
     OK(fracas_writer_create(sample_path(study, "study.h5"), &header, &table, &writer));
     for (size_t i = 0; i < ALL; i++) {
-        CLEARED(fracas_record) record;
+        FRACAS_CLEARED(fracas_record) record;
         sample_record(i / REPLICAS, (int64_t)(i % REPLICAS), MOST, &record);
         if (i == 77) record.end_time = 1.5;
         if (i == 78 && record.nhistory) record.history[0].work = 2.5;

@@ -86,7 +86,7 @@ static void a_segment_wins_over_a_failure(void **state)
     sample_realization what[] = {{0, 5}, {1, 7}};
     fracas_file_seal seal;
     fracas_segment_row row[2];
-    CLEARED(fracas_record) record;
+    FRACAS_CLEARED(fracas_record) record;
     sample_segment(study, "a.h5", &table, what, 2, MOST, &seal, row);
     sample_record(0, 5, MOST, &record);
     assert_int_not_equal(record.outcome, FRACAS_FAILED);
@@ -258,7 +258,7 @@ static void choose_done(sample_realization *what, size_t count)
 {
     int64_t replica = 6;
     for (size_t i = 0; i < count; replica++) {
-        CLEARED(fracas_record) record;
+        FRACAS_CLEARED(fracas_record) record;
         sample_record(0, replica, MOST, &record);
         if (record.outcome != FRACAS_FAILED) what[i++] = (sample_realization){0, replica};
     }

@@ -52,7 +52,7 @@ static void onset_time_is_strength_over_stress_rate(void **unused)
                 OK(fracas_model_create(&spec, &model));
                 OWN(fracas_batch) batch = batch_of(model, 301e6);
                 bar_set_strength(batch, 0, 37, 300e6);
-                CLEARED(fracas_record) record = run_alone(batch);
+                FRACAS_CLEARED(fracas_record) record = run_alone(batch);
                 assert_true(record.cracked > 0);
                 assert_true(fabs(record.onset_time / exact - 1) < 1e-6);
             }

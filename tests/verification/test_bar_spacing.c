@@ -118,10 +118,10 @@ static void nearly_equal_lengths_give_the_uniform_run(void **unused)
         OWN(fracas_model) model;
         OK(fracas_model_create(&spec, &model));
         const double time_step = model->time_step;
-        CLEARED(fracas_record) uniform = run_to_fragments(&spec, time_step);
+        FRACAS_CLEARED(fracas_record) uniform = run_to_fragments(&spec, time_step);
         if (i / 2) bar_perturb(&spec, 1e-14, 1, noise);
         else bar_grade(&spec, 1);
-        CLEARED(fracas_record) varied = run_to_fragments(&spec, time_step);
+        FRACAS_CLEARED(fracas_record) varied = run_to_fragments(&spec, time_step);
         assert_int_equal(varied.cracked, uniform.cracked);
         assert_int_equal(varied.broken, uniform.broken);
         assert_int_equal(varied.fragments, uniform.fragments);

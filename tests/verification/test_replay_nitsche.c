@@ -117,7 +117,7 @@ static void write_figure(const dynfrag1d_run *run, const curve *const *curves, i
     snprintf(path, sizeof path, "%s/replay-%s.svg", folder, run->name);
     FILE *file = fopen(path, "w");
     if (!file) fail_msg("cannot write %s", path);
-    CLEARED(fracas_chart) chart;
+    FRACAS_CLEARED(fracas_chart) chart;
     fracas_chart_init(&chart);
     snprintf(chart.title, sizeof chart.title, "Dissipated energy and fragments of run %s",
              run->name);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/session/upkeep.h"
 
+#include "base/own.h"
 #include "campaigns/scheduler/session/meshes.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/session/rounds.h"
@@ -26,10 +27,8 @@ typedef struct {
     {                             \
         .study = (of), .lock = -1 \
     }
-#define HELD __attribute__((cleanup(release))) holding
 
-/* At the end of the scope. */
-static void release(holding *h)
+static void holding_clear(holding *h)
 {
     fracas_rounds_clear(&h->rounds);
     fracas_index_close(h->index);
@@ -67,7 +66,7 @@ static fracas_err count(fracas_index *index, fracas_upkeep *end)
 fracas_err fracas_upkeep_reindex(const char *study, const fracas_campaign *campaign,
                                  const fracas_said *said, fracas_upkeep *end)
 {
-    HELD h = HOLDING(study);
+    FRACAS_CLEARED(holding) h = HOLDING(study);
     const fracas_file_header header = fracas_campaign_header(campaign);
     TRY(fracas_study_lock(study, false, &h.lock));
     TRY(fracas_study_reindex(study, &header, &campaign->table, said));
@@ -81,7 +80,7 @@ fracas_err fracas_upkeep_reindex(const char *study, const fracas_campaign *campa
 fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaign,
                                const fracas_said *said, fracas_upkeep *end, bool *written)
 {
-    HELD h = HOLDING(study);
+    FRACAS_CLEARED(holding) h = HOLDING(study);
     bool settled;
     int64_t failed;
     const fracas_file_header header = fracas_campaign_header(campaign);
@@ -111,7 +110,7 @@ fracas_err fracas_upkeep_collect(const char *study, const fracas_campaign *campa
                                  void (*found)(void *context, const fracas_collected *item),
                                  void *context, uint64_t *freed)
 {
-    HELD h = HOLDING(study);
+    FRACAS_CLEARED(holding) h = HOLDING(study);
     fracas_collect_options options = {.dry = dry, .found = found, .context = context};
     for (const fracas_attached *a = campaign->attached; a; a = a->next) options.nattachments++;
     OWNED const char **digest = calloc(options.nattachments + 1, sizeof *digest);
@@ -130,7 +129,7 @@ fracas_err fracas_upkeep_collect(const char *study, const fracas_campaign *campa
 fracas_err fracas_upkeep_retry(const char *study, const fracas_campaign *campaign, int64_t point,
                                int64_t *rows)
 {
-    HELD h = HOLDING(study);
+    FRACAS_CLEARED(holding) h = HOLDING(study);
     const fracas_file_header header = fracas_campaign_header(campaign);
     if (point >= (int64_t)campaign->npoints)
         return fracas_fail(FRACAS_USAGE, "--point %" PRId64 ": %s has the points 0 to %zu", point,
@@ -221,8 +220,8 @@ fracas_err fracas_upkeep_join(const char *into, const char *from, const fracas_s
     fracas_err err = choose_longer(&j);
     if (!err) err = lock_both(&j);
     if (!err) err = join(&j, joined, both, end);
-    release(&j.from);
-    release(&j.into);
+    holding_clear(&j.from);
+    holding_clear(&j.into);
     fracas_campaign_destroy(j.ours);
     fracas_campaign_destroy(j.theirs);
     return err;

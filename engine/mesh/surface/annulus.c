@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Circles of nodes, as many as their lengths ask for, and strips of triangles between them. */
 #include "base/elementary.h"
+#include "base/own.h"
 #include "engine/mesh/surface/parts.h"
 
 #include <math.h>
@@ -103,7 +104,7 @@ fracas_err fracas_surface_annulus(double inner, double outer,
     for (double circle = 1.0; circle <= body.layers && vertices <= (double)FRACAS_SURFACE_LARGEST;
          circle++)
         vertices += nodes_of(&body, circle);
-    FRACAS_SURFACE_DRAFT draft = {0};
+    FRACAS_CLEARED(fracas_surface_draft) draft = {0};
     TRY(fracas_surface_draft_init(&draft, vertices, 2.0 * vertices - ends, ends));
     fill(&body, &draft);
     return fracas_surface_draft_finish(&draft, fineness, surface);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From arrays to a surface: neighbours found, elements and nodes put in a new order. */
+#include "base/own.h"
 #include "engine/mesh/surface/parts.h"
 
 #include <inttypes.h>
@@ -19,7 +20,7 @@ typedef struct {
     uint32_t *node;    /* where a node goes */
 } assembly;
 
-static void clear(assembly *work)
+static void assembly_clear(assembly *work)
 {
     free(work->side);
     free(work->neighbour);
@@ -205,7 +206,7 @@ fracas_err fracas_surface_assemble(const fracas_surface_arrays *arrays,
 {
     fracas_surface *made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("a mesh");
-    __attribute__((cleanup(clear))) assembly work = {.arrays = arrays};
+    FRACAS_CLEARED(assembly) work = {.arrays = arrays};
     fracas_err err = assemble(&work, made);
     if (err) fracas_surface_destroy(made);
     else *surface = made;

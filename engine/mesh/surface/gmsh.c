@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/mesh/surface/gmsh.h"
 
+#include "base/own.h"
 #include "engine/mesh/surface/gmsh_scan.h"
 
 #include <inttypes.h>
@@ -33,7 +34,7 @@ typedef struct {
     int order;    /* 0: no triangle so far */
 } mesh;
 
-static void clear(mesh *m)
+static void mesh_clear(mesh *m)
 {
     free(m->node);
     free(m->node_entry);
@@ -409,7 +410,7 @@ typedef struct {
     size_t nnodes;
 } resolved;
 
-static void clear_resolved(resolved *out)
+static void resolved_clear(resolved *out)
 {
     free(out->new_node);
     free(out->element);
@@ -472,8 +473,8 @@ static fracas_err resolve_lines(const mesh *m, resolved *out)
 
 fracas_err fracas_surface_read_gmsh(const void *bytes, size_t size, const fracas_surface **surface)
 {
-    __attribute__((cleanup(clear))) mesh m = {.scan = {.text = bytes, .size = size}};
-    __attribute__((cleanup(clear_resolved))) resolved out = {0};
+    FRACAS_CLEARED(mesh) m = {.scan = {.text = bytes, .size = size}};
+    FRACAS_CLEARED(resolved) out = {0};
     TRY(read_file(&m));
     TRY(allocate_resolved(&m, &out));
     TRY(resolve_elements(&m, &out));

@@ -95,9 +95,6 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_surface_draft_init(fracas_surface_draft *draft, double nvertices,
                                                      double nelements, double ntags);
 void fracas_surface_draft_clear(fracas_surface_draft *draft);
-/* A draft that is cleared with its scope. */
-#define FRACAS_SURFACE_DRAFT \
-    __attribute__((cleanup(fracas_surface_draft_clear))) fracas_surface_draft
 
 /* Perturbs, adds mid-side nodes, assembles. */
 FRACAS_MUST_USE fracas_err fracas_surface_draft_finish(const fracas_surface_draft *draft,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Squares cut in two along alternating diagonals. */
+#include "base/own.h"
 #include "engine/mesh/surface/parts.h"
 
 #include <math.h>
@@ -54,7 +55,7 @@ fracas_err fracas_surface_rectangle(double width, double height,
     TRY(fracas_surface_divide(fineness, shorter, LEG, &few));
     const double many = floor(longer * (few / shorter) + 0.5);
     const double nx = width < height ? few : many, ny = width < height ? many : few;
-    FRACAS_SURFACE_DRAFT draft = {0};
+    FRACAS_CLEARED(fracas_surface_draft) draft = {0};
     TRY(fracas_surface_draft_init(&draft, (nx + 1.0) * (ny + 1.0), 2.0 * nx * ny, 2.0 * (nx + ny)));
     fill(&draft, width, height, (size_t)nx, (size_t)ny);
     return fracas_surface_draft_finish(&draft, fineness, surface);

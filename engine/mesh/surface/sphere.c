@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Spheres: each face of a polyhedron cut into divisions^2 triangles. */
 #include "base/elementary.h"
+#include "base/own.h"
 #include "engine/mesh/surface/parts.h"
 
 #include <math.h>
@@ -149,7 +150,7 @@ static fracas_err make(const polyhedron *solid, double radius,
     const double solid_angle = is_closed ? 4.0 * FRACAS_PI : 0.5 * FRACAS_PI;
     double n; /* n^2 equilateral triangles are as large as the part of the sphere over a face */
     TRY(fracas_surface_divide(fineness, radius, sqrt(EQUILATERAL * faces / solid_angle), &n));
-    FRACAS_SURFACE_DRAFT draft = {0};
+    FRACAS_CLEARED(fracas_surface_draft) draft = {0};
     TRY(fracas_surface_draft_init(
         &draft, (double)solid->nvertices + edges * (n - 1.0) + faces * (n - 1.0) * (n - 2.0) / 2.0,
         faces * n * n, is_closed ? 0.0 : 3.0 * n));
