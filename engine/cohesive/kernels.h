@@ -26,34 +26,32 @@ typedef struct {
 
 #include "engine/cohesive/laws.list.h"
 
-/* Law number `law` at a point of a surface; `point` has its values, brought up to date. */
+/* Both at a point of a surface, whose values `point` has. */
+#define FRACAS_LAW(name, bar, ring, membrane, shell) \
+    FRACAS_IF_##membrane(IS_LAW(name)) FRACAS_IF_##shell(IS_LAW(name))
+
+/* Law number `law`; the values are brought up to date. */
 LANES_FUNCTION plane_result plane_law(int law, const plane_interface *at, const plane_input *in,
                                       double *point)
 {
 #define IS_LAW(name) \
     if (law == FRACAS_LAW_##name) return plane_at_##name(at, in, point);
-#define FRACAS_LAW(name, bar, ring, membrane, shell) \
-    FRACAS_IF_##membrane(IS_LAW(name)) FRACAS_IF_##shell(IS_LAW(name))
 #include "engine/cohesive/laws.list.h"
-#undef FRACAS_LAW
 #undef IS_LAW
     __builtin_unreachable();
 }
 
-/* Opening at a point of a surface, over that of the break: D of law number `law` reaches 1 with it.
- */
+/* Opening over that of the break: D of law number `law` reaches 1 with it. */
 LANES_FUNCTION vd plane_opening(int law, const plane_interface *at, const plane_input *in,
                                 const double *point)
 {
 #define IS_LAW(name) \
     if (law == FRACAS_LAW_##name) return plane_opening_##name(at, in, point);
-#define FRACAS_LAW(name, bar, ring, membrane, shell) \
-    FRACAS_IF_##membrane(IS_LAW(name)) FRACAS_IF_##shell(IS_LAW(name))
 #include "engine/cohesive/laws.list.h"
-#undef FRACAS_LAW
 #undef IS_LAW
     __builtin_unreachable();
 }
+#undef FRACAS_LAW
 
 /* Law number `law` at an interface of a chain. */
 LANES_FUNCTION line_result line_law(int law, const line_input *in)

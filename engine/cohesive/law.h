@@ -8,7 +8,7 @@
  *       how the kernels use the law: FLUX or RIGID for chains, YES for surfaces, or NO.
  *   FRACAS_LAW_TABLES is defined: parameters and traits, compiled once (law.c).
  *   Neither is defined: the functions over lanes (engine/cohesive/kernels.h). A law that says FLUX
- *       defines line_NAME (line.h). One that says YES defines plane_at_NAME, which brings the
+ *       defines line_NAME (kernels.h). One that says YES defines plane_at_NAME, which brings the
  *       point's fields up to date (plane.h), and plane_opening_NAME, from which break times are
  *       interpolated.
  * D is 0 before the onset and exactly 1 once broken; fragments and events compare with 1. The
