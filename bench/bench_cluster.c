@@ -147,11 +147,7 @@ static bool earlier(const event *a, const event *b)
 
 static void push(world *w, event e)
 {
-    if (w->nheap == w->room) {
-        w->room = 2 * w->room + 1024;
-        w->heap = realloc(w->heap, w->room * sizeof *w->heap);
-        if (!w->heap) demand(fracas_no_memory("the events"));
-    }
+    demand(fracas_grow(&w->heap, sizeof *w->heap, w->nheap, &w->room, "the events"));
     e.order = w->order++;
     size_t i = w->nheap++;
     for (; i && earlier(&e, &w->heap[(i - 1) / 2]); i = (i - 1) / 2)

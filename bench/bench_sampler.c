@@ -27,9 +27,8 @@ static fracas_strength strength_of(const char *name)
                                 .shape = 2,
                                 .median = 300e6,
                                 .sigma = 0.1};
-    if (strcmp(name, "normal") ==
-        0) /* elsewhere the moments replace a distribution's own numbers */
-        strength.mean = 10 * (strength.deviation = 30e6);
+    /* elsewhere the moments replace a distribution's own numbers */
+    if (strcmp(name, "normal") == 0) strength.mean = 10 * (strength.deviation = 30e6);
     else memcpy(strength.own, (double[]){1e9, 3}, 2 * sizeof *strength.own);
     for (size_t i = 0; i < fracas_strength_section.nkinds; i++)
         if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0)

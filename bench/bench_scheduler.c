@@ -272,9 +272,8 @@ int main(int argc, char **argv)
     for (int i = 1; i < argc && n < 2 * FRACAS_MOST_OPTIONS + 6; i++) words[n++] = argv[i];
     fracas_err err = fracas_arguments_read(&command, n, words, &arguments);
     if (!err && arguments.help)
-        for (size_t i = 0; i < FRACAS_COUNT(options); i++)
-            printf("  --%-12s %-11s %s\n", options[i].name,
-                   options[i].argument ? options[i].argument : "", options[i].doc);
+        for (const fracas_option *o = options; o->name; o++)
+            printf("  --%-12s %-11s %s\n", o->name, o->argument ? o->argument : "", o->doc);
     else if (!err) err = measure(&arguments, argc, argv);
     if (err) fprintf(stderr, "bench_scheduler: %s\n", fracas_message());
     return err;

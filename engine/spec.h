@@ -46,9 +46,9 @@ typedef struct {
 
 typedef struct {
     const fracas_kind *law;
-    double fracture_energy;  /* J/m2; stershic: 0 where the critical opening is given */
-    double beta;             /* nitsche: interface stiffness K = beta E/h; 1 */
-    double critical_opening; /* m, stershic: 0 where the fracture energy is given */
+    double fracture_energy;  /* J/m2; 0 where the critical opening is given */
+    double beta;             /* interface stiffness by E/h; 1 */
+    double critical_opening; /* m; 0 where the fracture energy is given */
     double penalty;          /* stershic: stiffness of contact / (E/h); 1 */
     double refinement;       /* stershic: factor xi of the time step for each critical zone; 1 */
     const fracas_kind *critical_zone; /* stershic: softening, steep: links with finer time steps */

@@ -114,7 +114,7 @@ static fracas_err check_strengths(const fracas_model *model, const fracas_point 
  *   circumferential velocity v   the same with a = v^2/R */
 static double chain_stress_bound(const fracas_spec *spec, double t)
 {
-    const fracas_ring_drive drive = fracas_loading_traits_of(spec)->ring(spec, t);
+    const fracas_ring_maxima drive = fracas_loading_traits_of(spec)->ring(spec, t);
     const double radius = spec->geometry.radius;
     if (drive.outward == 0 && drive.along == 0) return drive.stress;
     return drive.stress +

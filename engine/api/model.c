@@ -36,8 +36,25 @@ static fracas_err check_steps(const fracas_model *model)
                        end, most_steps(model), model->spec.cohesive.refinement, MOST_STEPS);
 }
 
+/* A formulation asks shape, spacing and loading for traits that only its partners have. */
+static fracas_err check_partners(const fracas_spec *spec)
+{
+    const fracas_kind *model = spec->formulation, *const chosen[] = {spec->geometry.shape,
+                                                                     spec->mesh.spacing,
+                                                                     spec->loading.type};
+    for (size_t c = 0; c < FRACAS_COUNT(chosen); c++) {
+        size_t g = 0;
+        while (g < model->ngoes_with && model->goes_with[g] != chosen[c]) g++;
+        if (g == model->ngoes_with)
+            return fracas_fail(FRACAS_USAGE, "model %s does not go with %s", model->name,
+                               chosen[c]->name);
+    }
+    return FRACAS_OK;
+}
+
 fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
 {
+    TRY(check_partners(spec));
     fracas_model *model = calloc(1, sizeof *model);
     if (!model) return fracas_no_memory("a model");
     model->spec = *spec;

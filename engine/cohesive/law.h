@@ -33,7 +33,8 @@ enum {
 };
 #undef FRACAS_LAW
 
-/* First values of a surface's point in every law: damage D, and the peak p [Pa], 0 before onset. */
+/* First values of a surface's point in every law: damage D, and the peak p [Pa], 0 before onset;
+ * then its own, SURFACE_POINT_FIELDS_MOST in all. */
 enum { SURFACE_DAMAGE, SURFACE_PEAK, SURFACE_POINT_FIELDS, SURFACE_POINT_FIELDS_MOST = 8 };
 
 typedef struct {
@@ -45,7 +46,8 @@ typedef struct {
     /* Slope of its steepest softening by sigma_c/delta_c; laws with `flux`, whose stiffness must
      * exceed it. */
     double steepest;
-    int fields[2]; /* surfaces: values of a point, without and with friction */
+    int fields[2]; /* surfaces: values of a point, without and with friction, at most
+                      SURFACE_POINT_FIELDS_MOST */
     /* Chains. */
     double (*contact)(const fracas_cohesive *); /* stiffness of contact by E/h; NULL: at most 1 */
     bool contact_by_strength; /* contact stiffens with the strength  (cohesive.9) */

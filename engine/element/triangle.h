@@ -14,8 +14,7 @@ void fracas_triangle_shape(int order, double xi, double eta, double *value,
 
 /* Points at which bulk stresses are kept: 1 for order 1, 3 for order 2 (point g nearest to vertex
  * g, l_g = 2/3); both integrate the elastic energy of a straight-sided triangle exactly. A stress
- * linear over the triangle is  (membrane.2) s = sum_g (2 l_g - 1/3) s_g Derivatives of the shape
- * functions there. */
+ * linear over the triangle is s = sum_g (2 l_g - 1/3) s_g  (membrane.2). Derivatives there: */
 #define T_(x) ((x) / 3.0)
 #define LIST_(...)  \
     {               \

@@ -19,8 +19,7 @@ struct fracas_model {
     double element_size, longest;     /* m: mean and largest length h of an element */
     double *table;                    /* the formulation's own; freed with the model */
     const struct fracas_chain *chain; /* fields of a chain's state; NULL of a surface */
-    double
-        *sizes; /* m, lengths of a chain's elements; NULL: all element_size; freed with the model */
+    double *sizes; /* m, a chain's elements; NULL: all element_size; freed with the model */
     const struct fracas_surface *surface;     /* NULL of a chain; destroyed with the model */
     void *plan;                               /* the formulation's own, freed by plan_destroy */
     double critical_closed, critical_cracked; /* s: all interfaces uncracked; broken, in contact */

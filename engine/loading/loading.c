@@ -34,14 +34,14 @@ static double imposed_rate_of(const fracas_spec *spec)
     return spec->loading.rate;
 }
 
-static fracas_ring_drive rate_ring(const fracas_spec *spec, double t)
+static fracas_ring_maxima rate_ring(const fracas_spec *spec, double t)
 {
-    return (fracas_ring_drive){.stress = spec->material.young * spec->loading.rate * t};
+    return (fracas_ring_maxima){.stress = spec->material.young * spec->loading.rate * t};
 }
 
 static fracas_ring_motion rate_motion(const fracas_spec *spec, double radius)
 {
-    return (fracas_ring_motion){.drive = RING_HELD, .level = spec->loading.rate * radius};
+    return (fracas_ring_motion){.drive = FRACAS_RING_HELD, .level = spec->loading.rate * radius};
 }
 
 const fracas_kind fracas_loading_imposed_rate = {
@@ -65,11 +65,11 @@ static double initial_rate(const fracas_spec *spec)
 }
 
 /* A free ring comes to E v/c and swings back (docs/theory/ring.md). */
-static fracas_ring_drive velocity_ring(const fracas_spec *spec, double t)
+static fracas_ring_maxima velocity_ring(const fracas_spec *spec, double t)
 {
     const double young = spec->material.young, radius = spec->geometry.radius,
                  speed = sqrt(young / spec->material.density);
-    return (fracas_ring_drive){
+    return (fracas_ring_maxima){
         .stress = young * fabs(spec->loading.radial) / radius * fmin(t, radius / speed),
         .along = spec->loading.circumferential};
 }
@@ -118,18 +118,18 @@ static double held_rate(const fracas_spec *spec)
     return is_radial(spec) ? spec->loading.velocity / spec->geometry.radius : NAN;
 }
 
-static fracas_ring_drive held_ring(const fracas_spec *spec, double t)
+static fracas_ring_maxima held_ring(const fracas_spec *spec, double t)
 {
     const double v = spec->loading.velocity, a = spec->loading.acceleration;
-    if (!is_radial(spec)) return (fracas_ring_drive){.along = fmax(fabs(v), fabs(v + a * t))};
-    return (fracas_ring_drive){.stress = spec->material.young * t / spec->geometry.radius *
-                                         (v + 0.5 * t * fmax(0, a))};
+    if (!is_radial(spec)) return (fracas_ring_maxima){.along = fmax(fabs(v), fabs(v + a * t))};
+    return (fracas_ring_maxima){.stress = spec->material.young * t / spec->geometry.radius *
+                                          (v + 0.5 * t * fmax(0, a))};
 }
 
 static fracas_ring_motion held_motion(const fracas_spec *spec, double radius)
 {
     const double swell = radius / spec->geometry.radius;
-    return (fracas_ring_motion){.drive = RING_HELD,
+    return (fracas_ring_motion){.drive = FRACAS_RING_HELD,
                                 .circumferential = !is_radial(spec),
                                 .level = spec->loading.velocity * swell,
                                 .rate = spec->loading.acceleration * swell};
@@ -157,18 +157,18 @@ static const fracas_param force[] = {
      false, offsetof(fracas_loading, force_rate)},
 };
 
-static fracas_ring_drive force_ring(const fracas_spec *spec, double t)
+static fracas_ring_maxima force_ring(const fracas_spec *spec, double t)
 {
     const double f = spec->loading.force, rate = spec->loading.force_rate, mass = mass_of(spec);
     if (is_radial(spec))
-        return (fracas_ring_drive){.outward = fmax(fabs(f), fabs(f + rate * t)) / mass};
-    return (fracas_ring_drive){.along = t * (fabs(f) + 0.5 * t * fabs(rate)) / mass};
+        return (fracas_ring_maxima){.outward = fmax(fabs(f), fabs(f + rate * t)) / mass};
+    return (fracas_ring_maxima){.along = t * (fabs(f) + 0.5 * t * fabs(rate)) / mass};
 }
 
 static fracas_ring_motion force_motion(const fracas_spec *spec, double radius)
 {
     (void)radius;
-    return (fracas_ring_motion){.drive = RING_FORCED,
+    return (fracas_ring_motion){.drive = FRACAS_RING_FORCED,
                                 .circumferential = !is_radial(spec),
                                 .level = spec->loading.force,
                                 .rate = spec->loading.force_rate};

@@ -10,16 +10,17 @@ typedef struct {
     double stress;  /* by a prescribed or initial radial velocity [Pa] */
     double outward; /* radial acceleration by the load [m/s2] */
     double along;   /* circumferential velocity [m/s] */
-} fracas_ring_drive;
+} fracas_ring_maxima;
 
 /* Nothing, one component of the velocity or a force is prescribed for every node. */
-typedef enum { RING_FREE, RING_HELD, RING_FORCED } ring_drive;
+typedef enum { FRACAS_RING_FREE, FRACAS_RING_HELD, FRACAS_RING_FORCED } fracas_ring_drive;
 
 typedef struct {
-    ring_drive drive;
+    fracas_ring_drive drive;
     int circumferential; /* direction of the drive; else radial */
     double level, rate;  /* level + rate t: velocity [m/s], force by length of the ring [N/m] */
-    double start[2];     /* RING_FREE: velocities outward and along the ring at the start [m/s] */
+    double
+        start[2]; /* FRACAS_RING_FREE: velocities outward and along the ring at the start [m/s] */
 } fracas_ring_motion;
 
 /* Stretch (1, ratio) strain of a plate at a time t. */
@@ -31,8 +32,8 @@ typedef struct {
 
 /* Traits of a loading. Functions are NULL for bodies without this loading. */
 typedef struct {
-    double (*rate)(const fracas_spec *spec); /* strain rate at the start [1/s]; NULL: none */
-    fracas_ring_drive (*ring)(const fracas_spec *spec, double t); /* bar: stress alone */
+    double (*rate)(const fracas_spec *spec); /* strain rate at the start [1/s]; NULL, NaN: none */
+    fracas_ring_maxima (*ring)(const fracas_spec *spec, double t); /* bar: stress alone */
     /* Prescribed to nodes at this radius [m], those of a polygon around the ring's circle. */
     fracas_ring_motion (*motion)(const fracas_spec *spec, double radius);
     double (*path)(const fracas_spec *spec, double t); /* circumferential, ring [m]; NULL: 0 */

@@ -187,9 +187,8 @@ static double survival(double x, double power)
     return x < 1.0 ? fracas_exp(power * fracas_log1p(-x)) : 0.0;
 }
 
-/* (distributions.18) integral_0^1 (1 - delta y)^power dy and the same of y (1 - delta y)^power, 0
- * <= delta
- * <= 1. */
+/* (distributions.18) Integrals over y in [0, 1] of (1 - delta y)^power and y (1 - delta y)^power;
+ * delta from 0 to 1. */
 static void decay(double delta, double power, double *plain, double *first)
 {
     if (delta * fmax(power, 1.0) >= 0.5) {

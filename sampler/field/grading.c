@@ -62,12 +62,7 @@ FRACAS_MUST_USE static fracas_err read_profile(const fracas_attachment *file, pr
         TRY(next_place(&lines, &p, &found));
         if (!found) break;
         TRY(check_order(&lines, of, p.at));
-        if (of->count == room) {
-            room = 2 * room + 16;
-            place *more = realloc(of->place, room * sizeof *more);
-            if (!more) return fracas_no_memory("the profile of a factor");
-            of->place = more;
-        }
+        TRY(fracas_grow(&of->place, sizeof p, of->count, &room, "the profile of a factor"));
         of->place[of->count++] = p;
     }
     if (of->count > 0) return FRACAS_OK;

@@ -5,9 +5,8 @@
 
 #include <stddef.h>
 
-/* (distributions.3) For small x the two gamma functions would cancel; there ln Gamma(1 + 2x) - 2 ln
- * Gamma(1
- * + x) by its series. */
+/* (distributions.3) For small x the two gamma functions would cancel: there by the series of
+ * ln Gamma(1 + 2x) - 2 ln Gamma(1 + x). */
 double fracas_weibull_variation(double x)
 {
     static const double c[29] = {

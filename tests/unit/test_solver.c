@@ -459,6 +459,9 @@ static void a_batch_refuses_what_it_cannot_run(void **unused)
     spec.time.end = 1e20;
     assert_int_equal(fracas_model_create(&spec, &model), FRACAS_USAGE);
     assert_non_null(strstr(fracas_message(), "time steps"));
+    spec.loading.type = &fracas_loading_centrifugal; /* has no answers for a chain */
+    assert_int_equal(fracas_model_create(&spec, &model), FRACAS_USAGE);
+    assert_non_null(strstr(fracas_message(), "model bar does not go with centrifugal"));
 }
 
 TESTS(stop_at_a_set_time, settled_waits_for_quiet_after_the_first_onset,

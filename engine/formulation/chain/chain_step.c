@@ -22,6 +22,13 @@ static double size_of(const chain_operator *o, size_t e)
     return o->bar.sizes ? o->bar.sizes[e] : o->bar.size;
 }
 
+static void close_operator(chain_operator *o)
+{
+    if (o) free(o->step.state);
+    free(o);
+}
+FRACAS_OWNER(chain_operator, close_operator)
+
 /* The operator of a chain: all interfaces uncracked, or all broken and in contact. A regular chain
  * has the largest frequency of a short one: 1024 elements are enough. */
 static fracas_err open_operator(const fracas_model *model, bool contact, chain_operator **out)
@@ -45,11 +52,9 @@ static fracas_err open_operator(const fracas_model *model, bool contact, chain_o
                                   .size = h,
                                   .sizes = model->sizes,
                                   .nodal_mass = 0.5 * spec->material.density * h}};
-    o->step.state = calloc(n * BAR_FIELDS, sizeof *o->step.state);
     *out = o;
-    if (o->step.state) return FRACAS_OK;
-    free(o);
-    return fracas_no_memory("the critical time step");
+    o->step.state = calloc(n * BAR_FIELDS, sizeof *o->step.state);
+    return o->step.state ? FRACAS_OK : fracas_no_memory("the critical time step");
 }
 
 /* result = M^-1 K w, w = (left, right) node of each element. */
@@ -99,21 +104,17 @@ static void fill_start(const chain_operator *o, double *start)
 
 static fracas_err critical_step(const fracas_model *model, bool contact, double *step)
 {
-    chain_operator *o = NULL;
+    OWN(chain_operator) o = NULL;
     TRY(open_operator(model, contact, &o));
     const size_t n = 2 * o->bar.elements;
     double omega_squared = 0;
     OWNED double *start = malloc(n * sizeof *start);
-    fracas_err err = start ? FRACAS_OK : fracas_no_memory("the critical time step");
-    if (!err) {
-        fill_start(o, start);
-        err = fracas_lanczos(&(fracas_lanczos_problem){apply, multiply_by_mass, o, n, 1e-9}, start,
-                             &omega_squared);
-    }
-    free(o->step.state);
-    free(o);
+    if (!start) return fracas_no_memory("the critical time step");
+    fill_start(o, start);
+    TRY(fracas_lanczos(&(fracas_lanczos_problem){apply, multiply_by_mass, o, n, 1e-9}, start,
+                       &omega_squared));
     *step = FRACAS_CENTRAL_DIFFERENCE_LIMIT / sqrt(omega_squared);
-    return err;
+    return FRACAS_OK;
 }
 
 /* (bar.16) */

@@ -44,7 +44,7 @@ static fracas_ring_constants constants_of(const fracas_model *model)
     const double young = spec->material.young, h = model->element_size;
     const fracas_ring_motion motion = motion_of(model);
     /* a node's share of a force per length, by area */
-    const double share = motion.drive == RING_FORCED ? 0.5 * h / spec->geometry.area : 1.0;
+    const double share = motion.drive == FRACAS_RING_FORCED ? 0.5 * h / spec->geometry.area : 1.0;
     return (fracas_ring_constants){
         .elements = model->elements,
         .table = model->table,
@@ -113,8 +113,9 @@ static void start_velocities(const fracas_model *model, double velocity[2])
     const double back = has_flux(model) ? 0.5 * model->time_step : 0.0;
     velocity[0] = motion.start[0];
     velocity[1] = motion.start[1];
-    if (ring.drive == RING_HELD) velocity[ring.circumferential] = ring.level - ring.rate * back;
-    if (ring.drive == RING_FORCED)
+    if (ring.drive == FRACAS_RING_HELD)
+        velocity[ring.circumferential] = ring.level - ring.rate * back;
+    if (ring.drive == FRACAS_RING_FORCED)
         velocity[ring.circumferential] = -ring.level / ring.nodal_mass * back;
 }
 

@@ -137,7 +137,7 @@ LANES_FUNCTION ring_vector ring_drive_node(ring_context *c, size_t vertex, ring_
 {
     const fracas_ring_constants *ring = c->ring;
     ring_vector after = {central_kick(v.x, force.x, c->kick), central_kick(v.y, force.y, c->kick)};
-    if (ring->drive == RING_FREE) return after;
+    if (ring->drive == FRACAS_RING_FREE) return after;
     const double *table = ring->table + vertex * RING_TABLE;
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
     ring_vector place = {lanes_set(ring->radius * table[RING_COS]) + u.x,
@@ -145,7 +145,7 @@ LANES_FUNCTION ring_vector ring_drive_node(ring_context *c, size_t vertex, ring_
     ring_vector out = ring_scale(one / lanes_sqrt(ring_dot(place, place)), place);
     ring_vector along = ring->circumferential ? (ring_vector){zero - out.y, out.x} : out;
     vd change = c->kick * c->drive, push = c->drive;
-    if (ring->drive == RING_HELD) {
+    if (ring->drive == FRACAS_RING_HELD) {
         change = c->next_drive - ring_dot(after, along);
         push = change * c->inertia;
     }
@@ -158,7 +158,7 @@ LANES_FUNCTION ring_vector ring_drive_node(ring_context *c, size_t vertex, ring_
 /* Work of the drive since the step before [J]  (ring.11). */
 LANES_FUNCTION vd ring_drive_work(const ring_context *c)
 {
-    if (c->ring->drive == RING_FREE) return lanes_set(0.0);
+    if (c->ring->drive == FRACAS_RING_FREE) return lanes_set(0.0);
     const vd half = lanes_set(0.5), area = lanes_set(c->ring->area);
     vd before = lanes_load(c->step->driven + c->first);
     lanes_store(c->step->driven + c->first, area * c->driven_next);

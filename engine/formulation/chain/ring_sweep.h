@@ -12,8 +12,8 @@
 enum {
     RING_U_LEFT, /* displacement of the element's left node, x and y [m] */
     RING_U_RIGHT = RING_U_LEFT + 2,
-    RING_V_LEFT = RING_U_RIGHT +
-                  2, /* its velocity, half a step before that, after the sweep ahead */
+    /* its velocity [m/s], half a step behind the displacement, ahead of it after the sweep */
+    RING_V_LEFT = RING_U_RIGHT + 2,
     RING_V_RIGHT = RING_V_LEFT + 2,
     RING_DAMAGE = RING_V_RIGHT + 2, /* delta_max/delta_c of the interface */
     RING_STRENGTH,                  /* sigma_c [Pa] */
@@ -43,7 +43,7 @@ typedef struct {
     double area;             /* m2 */
     double refinement, time_step, zone; /* stershic: xi; s, unrefined; m */
     int steep; /* stershic: closing links on steep secants refine the time step too */
-    ring_drive drive;
+    fracas_ring_drive drive;
     int circumferential; /* direction of the drive; else radial */
     double level, rate;  /* drive: level + rate t is the velocity held [m/s], or the force on
                             a node per area [Pa] */

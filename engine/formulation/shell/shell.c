@@ -211,9 +211,9 @@ static fracas_err hold_edge(const fracas_model *model, const fracas_surface_bord
         model->surface->node[model->surface->element[border->element * SHELL_NODES + border->edge]];
     if (!edge->shell)
         return fracas_fail(FRACAS_USAGE,
-                           "an edge with tag %d is to slide, which edges of shells do not: let it "
-                           "be a symmetry, a diaphragm, held, fixed, clamped or free",
-                           (int)border->tag);
+                           "an edge with tag %d is %s, which edges of shells cannot be: let it be "
+                           "a symmetry, a diaphragm, held, fixed, clamped or free",
+                           (int)border->tag, kind->name);
     if (plane && axis == 3)
         return fracas_fail(FRACAS_USAGE,
                            "an edge with tag %d is a %s, but at (%g, %g, %g) m it does not lie in "

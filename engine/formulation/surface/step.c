@@ -104,24 +104,19 @@ static void fill_start(const fracas_surface_tables *t, double *start)
  * [1/s]. */
 static fracas_err largest_frequency(const fracas_model *model, int contact, double *omega)
 {
-    fracas_surface_operator *op;
+    OWN(fracas_surface_operator) op = NULL;
     TRY(fracas_surface_operator_open(model, contact, &op));
     const fracas_surface_tables *t = op->constants.tables;
     const size_t n = fracas_surface_unknowns(t) * t->nelements;
-    double square = 0, *start = malloc(n * sizeof *start);
-    fracas_err err = start ? FRACAS_OK : fracas_no_memory("the critical time step");
-    if (!err) {
-        fill_start(t, start);
-        err = fracas_lanczos(&(fracas_lanczos_problem){apply, multiply_by_mass, op, n}, start,
-                             &square);
-    }
-    free(start);
-    fracas_surface_operator_close(op);
+    double square = 0;
+    OWNED double *start = malloc(n * sizeof *start);
+    if (!start) return fracas_no_memory("the critical time step");
+    fill_start(t, start);
+    TRY(fracas_lanczos(&(fracas_lanczos_problem){apply, multiply_by_mass, op, n}, start, &square));
     *omega = sqrt(square);
-    if (!err && !(square > 0))
-        return fracas_fail(
-            FRACAS_USAGE, "every node of the mesh is held: leave an edge free, or refine the mesh");
-    return err;
+    if (square > 0) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "every node of the mesh is held: leave an edge free, or refine the mesh");
 }
 
 /* (membrane.16) */

@@ -83,12 +83,12 @@ static fracas_err check_beta(const fracas_model *model)
         model->spec.cohesive.beta, model->surface->order == 2 ? "quadratic" : "linear", least);
 }
 
-/* Something moves: not all starts at rest, or edges are held. */
+/* Something moves: not all starts at rest, or an edge moves with the load. */
 static fracas_err check_motion(const fracas_model *model)
 {
     if (!stretch_of(model).shock || tables_of(model)->moves) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "loading.start is rest, and all edges are free: nothing would "
-                                     "ever move; let an edge be held, or start moving");
+    return fracas_fail(FRACAS_USAGE, "loading.start is rest, and no edge moves: nothing would ever "
+                                     "move; let an edge be held, or start moving");
 }
 
 double fracas_surface_inverse_size(const fracas_surface *surface, size_t i)
@@ -121,6 +121,10 @@ fracas_err fracas_surface_model_init(fracas_model *model)
 {
     const fracas_surface_body *body = model->formulation->kind.traits;
     fracas_surface_tables *t;
+    const fracas_law *law = fracas_law_of(&model->spec);
+    if (law->fields[1] > SURFACE_POINT_FIELDS_MOST)
+        return fracas_fail(FRACAS_BUG, "law %s has %d values a point, %d are allowed",
+                           law->kind.name, law->fields[1], (int)SURFACE_POINT_FIELDS_MOST);
     TRY(check_noise(&model->spec));
     TRY(fracas_mesh_make(&model->spec, &model->surface));
     TRY(body->check_mesh(model->surface));

@@ -238,6 +238,7 @@ FRACAS_MUST_USE fracas_err fracas_surface_operator_open(const fracas_model *mode
 void fracas_surface_operator_apply(fracas_surface_operator *op, const double *u,
                                    double *acceleration);
 void fracas_surface_operator_close(fracas_surface_operator *op); /* NULL is allowed */
+FRACAS_OWNER(fracas_surface_operator, fracas_surface_operator_close)
 
 /* The model's critical steps, dt_c = Omega_c/omega_max of both operators  (membrane.16). */
 FRACAS_MUST_USE fracas_err fracas_surface_critical_step(fracas_model *model);
