@@ -93,6 +93,17 @@ fracas_err fracas_grow(void *array, size_t size, size_t count, size_t *room, con
     return FRACAS_OK;
 }
 
+fracas_err fracas_path(char **path, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    const int length = vasprintf(path, format, arguments);
+    va_end(arguments);
+    if (length >= 0) return FRACAS_OK;
+    *path = NULL;
+    return fracas_no_memory("a file name");
+}
+
 const char *fracas_message(void)
 {
     return message;

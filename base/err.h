@@ -53,6 +53,10 @@ FRACAS_MUST_USE fracas_err fracas_no_memory(const char *what);
 FRACAS_MUST_USE fracas_err fracas_grow(void *array, size_t size, size_t count, size_t *room,
                                        const char *what);
 
+/* *path: a file name as printf writes it, freed by the caller. After fracas_no_memory it is NULL.
+ */
+FRACAS_MUST_USE fracas_err fracas_path(char **path, const char *format, ...) FRACAS_PRINTF(2, 3);
+
 /* The message of the last failure of this thread; "" before the first. Never NULL. */
 const char *fracas_message(void);
 

@@ -18,8 +18,8 @@ static fracas_err export(const fracas_arguments *arguments)
     OWN(fracas_analysis) analysis = NULL;
     OWNED char *folder = NULL;
     const char *to = fracas_given(arguments, "to");
-    if ((to ? asprintf(&folder, "%s", to) : asprintf(&folder, "%s/export", arguments->operand)) < 0)
-        return fracas_no_memory("a path");
+    TRY(to ? fracas_path(&folder, "%s", to)
+           : fracas_path(&folder, "%s/export", arguments->operand));
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
     TRY(fracas_export_write(analysis, folder, fracas_given(arguments, "histories") != NULL));
     printf("export: %s/datapackage.json\n", folder);

@@ -25,23 +25,19 @@ fracas_err fracas_disk_fail(const char *verb, const char *path)
 
 fracas_err fracas_disk_join(const char *folder, const char *name, char **path)
 {
-    if (asprintf(path, "%s/%s", folder, name) < 0) return fracas_no_memory("a file name");
-    return FRACAS_OK;
+    return fracas_path(path, "%s/%s", folder, name);
 }
 
 fracas_err fracas_disk_segment(const char *study, const char *name, char **path)
 {
-    if (asprintf(path, "%s/segments/%s", study, name) < 0) return fracas_no_memory("a file name");
-    return FRACAS_OK;
+    return fracas_path(path, "%s/segments/%s", study, name);
 }
 
 fracas_err fracas_disk_temporary(const char *path, char **temporary)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
-    if (asprintf(temporary, "%.*s.%s%s%ld", (int)(name - path), path, name, temporary_mark,
-                 (long)getpid()) < 0)
-        return fracas_no_memory("a file name");
-    return FRACAS_OK;
+    return fracas_path(temporary, "%.*s.%s%s%ld", (int)(name - path), path, name, temporary_mark,
+                       (long)getpid());
 }
 
 bool fracas_disk_is_temporary(const char *name)
@@ -152,10 +148,7 @@ fracas_err fracas_disk_set_aside(const char *path, char **aside)
     OWNED char *name = NULL;
     *aside = NULL;
     if (!dot || (slash && dot < slash)) dot = path + strlen(path);
-    if (asprintf(&name, "%.*s.damaged", (int)(dot - path), path) < 0) {
-        name = NULL;
-        return fracas_no_memory("a file name");
-    }
+    TRY(fracas_path(&name, "%.*s.damaged", (int)(dot - path), path));
     if (rename(path, name) == 0) TRY(fracas_disk_sync_folder(path));
     else if (errno != ENOENT) return fracas_disk_fail("rename", path);
     *aside = name;

@@ -186,12 +186,10 @@ static fracas_err index_bytes(const collection *c, uint64_t *bytes)
     static const char *const tail[] = {"", "-wal"};
     *bytes = 0;
     for (int t = 0; t < 2; t++) {
-        char *path;
+        OWNED char *path = NULL;
         struct stat info;
-        if (asprintf(&path, "%s%s", c->index->path, tail[t]) < 0)
-            return fracas_no_memory("a file name");
+        TRY(fracas_path(&path, "%s%s", c->index->path, tail[t]));
         if (stat(path, &info) == 0) *bytes += (uint64_t)info.st_size;
-        free(path);
     }
     return FRACAS_OK;
 }

@@ -156,11 +156,9 @@ static fracas_err choose_name(const joining *j, const fracas_known_segment *segm
         free(*name);
         free(*path);
         *path = NULL;
-        const int length = other ? asprintf(name, "%.*s-%016" PRIx64 ".h5", stem, segment->name,
-                                            segment->seal.checksum)
-                                 : asprintf(name, "%s", segment->name);
-        if (length < 0) *name = NULL;
-        if (!*name) return fracas_no_memory("a file name");
+        TRY(other ? fracas_path(name, "%.*s-%016" PRIx64 ".h5", stem, segment->name,
+                                segment->seal.checksum)
+                  : fracas_path(name, "%s", segment->name));
         TRY(fracas_disk_segment(j->into, *name, path));
         *there = access(*path, F_OK) == 0;
         if (!*there) return FRACAS_OK;

@@ -120,18 +120,11 @@ static fracas_err look_at_old(reindexing *r)
 
 /* ---- the new index ---- */
 
-static fracas_err path_of(const char *file, const char *stamp, const char *end, char **path)
-{
-    if (asprintf(path, "%s%s%s", file, stamp, end) >= 0) return FRACAS_OK;
-    *path = NULL;
-    return fracas_no_memory("a file name");
-}
-
 static void drop_nursery(const reindexing *r)
 {
     for (int t = 0; t < NTAILS; t++) {
         OWNED char *path = NULL;
-        if (!path_of(r->fresh, "", tail[t], &path)) unlink(path);
+        if (!fracas_path(&path, "%s%s", r->fresh, tail[t])) unlink(path);
     }
     rmdir(r->nursery);
 }
@@ -250,8 +243,8 @@ static fracas_err move_old(const reindexing *r)
     for (int t = 0; t < NTAILS; t++) {
         OWNED char *from = NULL;
         OWNED char *to = NULL;
-        TRY(path_of(r->old, "", tail[t], &from));
-        TRY(path_of(r->old, stamp, tail[t], &to));
+        TRY(fracas_path(&from, "%s%s", r->old, tail[t]));
+        TRY(fracas_path(&to, "%s%s%s", r->old, stamp, tail[t]));
         if (rename(from, to) < 0 && errno != ENOENT) return fracas_disk_fail("move away", from);
         if (t == 0 && access(to, F_OK) == 0) fracas_say_line(r->said, "the index before is %s", to);
     }
@@ -264,7 +257,7 @@ static fracas_err exchange(const reindexing *r)
     for (int t = 1; whole && t < NTAILS; t++) {
         OWNED char *path = NULL;
         struct stat info;
-        TRY(path_of(r->old, "", tail[t], &path));
+        TRY(fracas_path(&path, "%s%s", r->old, tail[t]));
         whole = stat(path, &info) < 0 || info.st_size == 0 || strcmp(tail[t], "-shm") == 0;
     }
     if (!whole) TRY(move_old(r));
