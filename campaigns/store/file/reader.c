@@ -378,7 +378,8 @@ fracas_err fracas_reader_mesh_interfaces(fracas_reader *reader, size_t point, si
     int64_t begin;
     *interfaces = 0;
     if (!reader->meshes) return FRACAS_OK;
-    return find_ragged(reader, &fracas_mesh_parts[2], point, &begin, interfaces);
+    return find_ragged(reader, &fracas_mesh_parts[FRACAS_MESH_INTERFACES], point, &begin,
+                       interfaces);
 }
 
 static fracas_err load_mesh(fracas_reader *reader, size_t point, fracas_stored_mesh *mesh)

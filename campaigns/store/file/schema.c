@@ -236,8 +236,10 @@ const fracas_ragged fracas_record_parts[FRACAS_NPARTS] = {
     PART(fracas_record, HISTORY, "/history", history),
     PART(fracas_record, INTERFACE, "/interface", interface)};
 const fracas_ragged fracas_mesh_parts[FRACAS_NMESH_PARTS] = {
-    MESH_PART(NODE, node, nnodes), MESH_PART(ELEMENT, element, nelements),
-    MESH_PART(INTERFACE, interface, ninterfaces), MESH_PART(BORDER, border, nborders)};
+    [FRACAS_MESH_NODES] = MESH_PART(NODE, node, nnodes),
+    [FRACAS_MESH_ELEMENTS] = MESH_PART(ELEMENT, element, nelements),
+    [FRACAS_MESH_INTERFACES] = MESH_PART(INTERFACE, interface, ninterfaces),
+    [FRACAS_MESH_BORDERS] = MESH_PART(BORDER, border, nborders)};
 _Static_assert(FRACAS_READ_FRAGMENTS == 1 << 0 && FRACAS_READ_HISTORY == 1 << 1 &&
                    FRACAS_READ_INTERFACES == 1 << 2,
                "parts are in the order of their bits");

@@ -70,8 +70,15 @@ typedef struct {
     size_t rows, count; /* offsets of the pointer to the rows and of their number in the owner */
 } fracas_ragged;
 
-enum { FRACAS_NPARTS = 3, FRACAS_NMESH_PARTS = 4 };
+enum { FRACAS_NPARTS = 3 };
 extern const fracas_ragged fracas_record_parts[FRACAS_NPARTS]; /* by the bits of FRACAS_READ_ALL */
+enum {
+    FRACAS_MESH_NODES,
+    FRACAS_MESH_ELEMENTS,
+    FRACAS_MESH_INTERFACES,
+    FRACAS_MESH_BORDERS,
+    FRACAS_NMESH_PARTS
+};
 extern const fracas_ragged fracas_mesh_parts[FRACAS_NMESH_PARTS]; /* for a fracas_stored_mesh */
 
 /* The rows of an owner and their number. */

@@ -221,7 +221,7 @@ static fracas_err put_mesh(fracas_writer *writer, const fracas_stored_mesh *mesh
 static fracas_err begin_meshes(fracas_writer *writer)
 {
     static const fracas_stored_mesh none = {0};
-    TRY(fracas_h5_create_group(&writer->h5, "/mesh"));
+    TRY(fracas_h5_create_group(&writer->h5, fracas_mesh_parts[FRACAS_MESH_NODES].group));
     writer->meshes = true;
     for (int p = 0; p < FRACAS_NMESH_PARTS; p++) TRY(create_ragged(writer, &fracas_mesh_parts[p]));
     for (size_t p = 0; p < writer->npassed; p++) TRY(put_mesh(writer, &none));
