@@ -28,6 +28,7 @@ const char *__lsan_default_suppressions(void)
 static char calls[64];      /* f: fsync of a file, d: of a folder, r: rename */
 static int fail_at = -1;    /* number of the call that fails ... */
 static int fail_with = EIO; /* ... with this */
+static bool renamed_open;   /* a file was renamed while it was open here */
 
 static bool call_fails(char name)
 {
@@ -45,8 +46,21 @@ int fsync(int fd)
     return call_fails(folder ? 'd' : 'f') ? -1 : (int)syscall(SYS_fsync, fd);
 }
 
+static bool is_open(const char *path)
+{
+    char entry[32], file[512];
+    for (int fd = 0; fd < 256; fd++) {
+        snprintf(entry, sizeof entry, "/proc/self/fd/%d", fd);
+        const ssize_t length = readlink(entry, file, sizeof file);
+        if (length > 0 && (size_t)length == strlen(path) && !memcmp(file, path, (size_t)length))
+            return true;
+    }
+    return false;
+}
+
 int rename(const char *from, const char *to)
 {
+    renamed_open = renamed_open || is_open(from);
     return call_fails('r') ? -1 : (int)syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to);
 }
 
@@ -477,6 +491,35 @@ static void an_interrupted_merge_leaves_no_seal(void **state)
     fracas_index_close(index);
 }
 
+/* A segment is damaged after its records were read. */
+static fracas_err damage_it(const void *context, size_t point, fracas_stored_mesh *mesh)
+{
+    const int fd = open(context, O_WRONLY);
+    assert_int_equal(pwrite(fd, "x", 1, 30000), 1);
+    close(fd);
+    return fracas_fail(FRACAS_DAMAGED, "%s: damaged", (const char *)context);
+}
+
+static void a_merge_sets_no_open_segment_aside(void **state)
+{
+    fracas_index *index;
+    fracas_file_seal seal;
+    fracas_segment_row row[ALL];
+    fracas_file_header header = sample_header();
+    OWNED char *folder = realpath(study, NULL);
+    const fracas_mesh_source meshes = {.get = damage_it,
+                                       .context = sample_path(folder, "segments/a.h5")};
+    write_segment(&seal, row);
+    OK(fracas_index_open(folder, true, &index));
+    OK(fracas_index_plan(index, &table));
+    OK(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"));
+    renamed_open = false;
+    sample_fails(fracas_study_merge(folder, index, &header, &table, &meshes), FRACAS_INTERRUPTED,
+                 "a.damaged");
+    assert_false(renamed_open);
+    fracas_index_close(index);
+}
+
 static void full_disk_leaves_the_index_as_it_was(void **state)
 {
     fracas_index *index;
@@ -605,6 +648,7 @@ TESTS_EACH(set_up, tear_down, flipped_bytes_are_found, lost_columns_are_found,
            truncated_files_are_found, overwritten_stretches_are_found,
            damaged_rows_of_the_index_are_found, full_disk_is_said_and_leaves_nothing,
            bytes_are_durable_before_their_name, an_interrupted_merge_leaves_no_seal,
-           limits_are_said_with_their_remedy, too_many_open_files_are_said,
-           setting_aside_can_fail_anywhere, full_disk_leaves_the_index_as_it_was,
-           commits_survive_the_death_of_the_process, segments_are_whole_or_not_there)
+           a_merge_sets_no_open_segment_aside, limits_are_said_with_their_remedy,
+           too_many_open_files_are_said, setting_aside_can_fail_anywhere,
+           full_disk_leaves_the_index_as_it_was, commits_survive_the_death_of_the_process,
+           segments_are_whole_or_not_there)

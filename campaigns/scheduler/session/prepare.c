@@ -86,6 +86,16 @@ fracas_err fracas_study_settled(const char *study, fracas_index *index,
     return FRACAS_OK;
 }
 
+/* The index is closed on return. */
+static fracas_err look_at(const char *study, const fracas_campaign *campaign, bool *settled,
+                          int64_t *failed)
+{
+    OWN(fracas_index) index = NULL;
+    TRY(fracas_index_open(study, false, &index));
+    TRY(fracas_study_settled(study, index, campaign, settled, failed));
+    return *settled ? fracas_study_sound(study, index, settled) : FRACAS_OK;
+}
+
 fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign, bool force,
                                 bool *settled, int64_t *failed)
 {
@@ -97,10 +107,7 @@ fracas_err fracas_study_examine(const char *study, const fracas_campaign *campai
     if (!fracas_index_exists(study)) return FRACAS_OK;
     int lock;
     TRY(fracas_study_lock_to_look(study, force, &lock));
-    OWN(fracas_index) index = NULL;
-    fracas_err err = fracas_index_open(study, false, &index);
-    if (!err) err = fracas_study_settled(study, index, campaign, settled, failed);
-    if (!err && *settled) err = fracas_study_sound(study, index, settled);
+    fracas_err err = look_at(study, campaign, settled, failed);
     if (access(file, F_OK)) *settled = false; /* to be written again */
     close(lock);
     return err;

@@ -149,6 +149,14 @@ typedef struct {
     const fracas_said *said;
 } joining;
 
+static void joining_clear(joining *j)
+{
+    holding_clear(&j->from);
+    holding_clear(&j->into);
+    fracas_campaign_destroy(j->ours);
+    fracas_campaign_destroy(j->theirs);
+}
+
 static fracas_err read_campaign(const char *study, fracas_campaign **campaign)
 {
     char file[4096];
@@ -214,15 +222,10 @@ static fracas_err join(joining *j, fracas_joined *joined, int64_t *both, fracas_
 fracas_err fracas_upkeep_join(const char *into, const char *from, const fracas_said *said,
                               fracas_joined *joined, int64_t *both, fracas_upkeep *end)
 {
-    joining j = {.into = HOLDING(into), .from = HOLDING(from), .said = said};
+    FRACAS_CLEARED(joining) j = {.into = HOLDING(into), .from = HOLDING(from), .said = said};
     *joined = (fracas_joined){0};
     *both = 0;
-    fracas_err err = choose_longer(&j);
-    if (!err) err = lock_both(&j);
-    if (!err) err = join(&j, joined, both, end);
-    holding_clear(&j.from);
-    holding_clear(&j.into);
-    fracas_campaign_destroy(j.ours);
-    fracas_campaign_destroy(j.theirs);
-    return err;
+    TRY(choose_longer(&j));
+    TRY(lock_both(&j));
+    return join(&j, joined, both, end);
 }

@@ -79,9 +79,9 @@ static fracas_err plan_damaged_again(const char *study, fracas_index *index)
                        text);
 }
 
-fracas_err fracas_study_merge(const char *study, fracas_index *index,
-                              const fracas_file_header *header, const fracas_point_table *table,
-                              const fracas_mesh_source *meshes)
+/* No segment is open on return. */
+static fracas_err merge(const char *study, fracas_index *index, const fracas_file_header *header,
+                        const fracas_point_table *table, const fracas_mesh_source *meshes)
 {
     OWNED char *path = NULL;
     merging m = {.table = table, .complete = true};
@@ -97,12 +97,18 @@ fracas_err fracas_study_merge(const char *study, fracas_index *index,
     if (!err) err = fracas_study_each_planned(segments, index, &want);
     if (!err) err = append_decisions(&m, index);
     if (!err && meshes && header->interfaces) err = append_meshes(&m, meshes);
-    if (!err)
-        err = fracas_index_seal_study(index,
-                                      NULL); /* a death from here on leaves no seal: merged again */
+    /* A death from here on leaves no seal: merged again. */
+    if (!err) err = fracas_index_seal_study(index, NULL);
     if (err) fracas_writer_abandon(m.writer);
     else err = fracas_writer_finish(m.writer, m.complete, &seal);
-    if (!err) err = fracas_index_seal_study(index, &seal);
+    return err ? err : fracas_index_seal_study(index, &seal);
+}
+
+fracas_err fracas_study_merge(const char *study, fracas_index *index,
+                              const fracas_file_header *header, const fracas_point_table *table,
+                              const fracas_mesh_source *meshes)
+{
+    const fracas_err err = merge(study, index, header, table, meshes);
     return err == FRACAS_DAMAGED ? plan_damaged_again(study, index) : err;
 }
 
