@@ -164,7 +164,48 @@ static void index_modes_and_versions(void **state)
     sample_spill(sample_path(study, "segments/index.sqlite"),
                  "no database, but long enough to be looked at", 44);
     sample_fails(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED,
-                 "reindex");
+                 "cannot open: damaged");
+    assert_non_null(strstr(fracas_message(), "reindex"));
+}
+
+/* ---- statements ---- */
+
+/* Whatever a lease meets, later commits wait for the disk. */
+static void a_failed_lease_leaves_commits_durable(void **state)
+{
+    OK(fracas_sql_script(index_, "CREATE TRIGGER no BEFORE UPDATE ON realization BEGIN SELECT "
+                                 "RAISE(ABORT, 'not now'); END"));
+    sample_fails(fracas_index_lease(index_, &point_row[0].hash, 0, 3), FRACAS_BUG, "not now");
+    assert_string_equal(first_value(index_, "PRAGMA synchronous"), "2");
+}
+
+static void statements_are_as_many_as_are_used(void **state)
+{
+    enum { MANY = 200 };
+    static char text[MANY][32];
+    for (int64_t twice = 0; twice < 2; twice++)
+        for (int64_t s = 0; s < MANY; s++) {
+            int64_t found;
+            snprintf(text[s], sizeof text[s], "SELECT %d + ?1", (int)s);
+            OK(fracas_sql_numbers(index_, text[s], SQL_VALUES(SQL_INTEGER(twice)), &found, NULL));
+            assert_int_equal(found, s + twice);
+        }
+}
+
+/* Its rows would begin anew, without end. */
+static void a_statement_is_not_started_within_itself(void **state)
+{
+    static const char text[] = "SELECT replica FROM realization ORDER BY replica";
+    sqlite3_stmt *outer, *inner;
+    bool row;
+    OK(fracas_sql_start(index_, text, NULL, 0, &outer));
+    OK(fracas_sql_next(index_, outer, &row));
+    assert_true(row);
+    sample_fails(fracas_sql_start(index_, text, NULL, 0, &inner), FRACAS_BUG, "started twice");
+    assert_null(inner);
+    fracas_sql_end(outer);
+    OK(fracas_sql_start(index_, text, NULL, 0, &inner));
+    fracas_sql_end(inner);
 }
 
 /* ---- the file of the index ---- */
@@ -266,4 +307,6 @@ static void a_study_that_cannot_be_written_can_be_read(void **state)
 
 TESTS_EACH(set_up, tear_down, plan_is_in_order_and_grows, leases_end_with_the_next_plan,
            first_commit_stays, commits_are_whole, index_modes_and_versions,
-           an_index_without_tables_is_none, a_study_that_cannot_be_written_can_be_read)
+           a_failed_lease_leaves_commits_durable, statements_are_as_many_as_are_used,
+           a_statement_is_not_started_within_itself, an_index_without_tables_is_none,
+           a_study_that_cannot_be_written_can_be_read)

@@ -2,7 +2,6 @@
 /* The index: opening the database, its tables and its statements. */
 #include "campaigns/store/index/index.h"
 
-#include "base/param.h"
 #include "campaigns/store/file/disk.h"
 
 #include <ctype.h>
@@ -70,7 +69,8 @@ fracas_err fracas_index_error(const fracas_index *index, const char *doing)
 
 static fracas_err check(const fracas_index *index, int code)
 {
-    return code == SQLITE_OK ? FRACAS_OK : fracas_index_error(index, "read or write");
+    return code == SQLITE_OK ? FRACAS_OK
+                             : fracas_index_error(index, index->opened ? "read or write" : "open");
 }
 
 static int bind(sqlite3_stmt *statement, int n, const fracas_sql_value *value)
@@ -81,30 +81,41 @@ static int bind(sqlite3_stmt *statement, int n, const fracas_sql_value *value)
     case SQLITE_FLOAT: return sqlite3_bind_double(statement, n, value->real); /* NaN: NULL */
     case SQLITE_TEXT: return sqlite3_bind_text(statement, n, value->text, -1, SQLITE_TRANSIENT);
     case SQLITE_BLOB:
+        if (!value->hash) return sqlite3_bind_null(statement, n);
         fracas_hash_hex(value->hash, hex);
         return sqlite3_bind_text(statement, n, hex, -1, SQLITE_TRANSIENT);
     default: return sqlite3_bind_null(statement, n);
     }
 }
 
+/* Finds the statement, or prepares it. */
+static fracas_err prepare(fracas_index *index, const char *text, sqlite3_stmt **prepared)
+{
+    size_t s = 0;
+    while (s < index->nstatements && index->statement[s].text != text) s++;
+    if (s == index->nstatements) {
+        TRY(fracas_grow(&index->statement, sizeof *index->statement, s, &index->room,
+                        "the statements of the index"));
+        fracas_statement *new = &index->statement[s];
+        TRY(check(index, sqlite3_prepare_v3(index->db, text, -1, SQLITE_PREPARE_PERSISTENT,
+                                            &new->prepared, NULL)));
+        new->text = text;
+        index->nstatements++;
+    }
+    *prepared = index->statement[s].prepared;
+    return FRACAS_OK;
+}
+
 fracas_err fracas_sql_start(fracas_index *index, const char *text, const fracas_sql_value *value,
                             size_t count, sqlite3_stmt **statement)
 {
-    size_t s = 0;
+    sqlite3_stmt *prepared;
     *statement = NULL;
-    while (s < FRACAS_COUNT(index->statement) && index->statement[s].prepared &&
-           index->statement[s].text != text)
-        s++;
-    if (s == FRACAS_COUNT(index->statement))
-        return fracas_fail(FRACAS_BUG, "%s: too many statements: %s", index->path, text);
-    if (!index->statement[s].prepared)
-        TRY(check(index, sqlite3_prepare_v3(index->db, text, -1, SQLITE_PREPARE_PERSISTENT,
-                                            &index->statement[s].prepared, NULL)));
-    index->statement[s].text = text;
-    sqlite3_reset(index->statement[s].prepared);
-    for (size_t n = 0; n < count; n++)
-        TRY(check(index, bind(index->statement[s].prepared, (int)n + 1, &value[n])));
-    *statement = index->statement[s].prepared;
+    TRY(prepare(index, text, &prepared));
+    if (sqlite3_stmt_busy(prepared))
+        return fracas_fail(FRACAS_BUG, "%s: started twice: %s", index->path, text);
+    for (size_t n = 0; n < count; n++) TRY(check(index, bind(prepared, (int)n + 1, &value[n])));
+    *statement = prepared;
     return FRACAS_OK;
 }
 
@@ -264,12 +275,9 @@ static fracas_err check_version(fracas_index *index)
 /* True if the write-ahead log holds anything, which a reader must not pass over. */
 static bool has_log(const char *path)
 {
-    char *name;
+    OWNED char *name = NULL;
     struct stat info;
-    if (asprintf(&name, "%s-wal", path) < 0) return true;
-    bool has = stat(name, &info) == 0 && info.st_size > 0;
-    free(name);
-    return has;
+    return fracas_path(&name, "%s-wal", path) || (stat(name, &info) == 0 && info.st_size > 0);
 }
 
 /* "file:" and the path with all but plain characters as %XX; freed by the caller, NULL without
@@ -353,7 +361,9 @@ static fracas_err open_database(fracas_index *index, const char *study, bool cre
         return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas; %s", index->path, remedy);
     if (create) TRY(create_tables(index));
     TRY(check_version(index));
-    return run_printed(index, fracas_index_print_check, "prepare a statement");
+    TRY(run_printed(index, fracas_index_print_check, "read its tables"));
+    index->opened = true;
+    return FRACAS_OK;
 }
 
 bool fracas_index_exists(const char *study)
@@ -390,8 +400,8 @@ fracas_err fracas_index_open(const char *study, bool create, fracas_index **inde
 void fracas_index_close(fracas_index *index)
 {
     if (!index) return;
-    for (size_t s = 0; s < FRACAS_COUNT(index->statement); s++)
-        sqlite3_finalize(index->statement[s].prepared);
+    for (size_t s = 0; s < index->nstatements; s++) sqlite3_finalize(index->statement[s].prepared);
+    free(index->statement);
     sqlite3_close(index->db);
     free(index->path);
     free(index);

@@ -8,15 +8,19 @@
 
 #include <sqlite3.h>
 
+typedef struct {
+    const char *text;
+    sqlite3_stmt *prepared; /* at its first use */
+} fracas_statement;
+
 struct fracas_index {
     sqlite3 *db;
     char *path;
     bool local;   /* WAL: a filesystem of this machine */
     bool reading; /* the study cannot be written */
-    struct {
-        const char *text;
-        sqlite3_stmt *prepared;
-    } statement[64]; /* each prepared at its first use */
+    bool opened;  /* false while fracas_index_open is at work */
+    fracas_statement *statement;
+    size_t nstatements, room;
 };
 
 /* fracas_index_open with the kind of filesystem given. */
@@ -27,7 +31,7 @@ FRACAS_MUST_USE fracas_err fracas_index_open_as(const char *study, bool create, 
 FRACAS_MUST_USE fracas_err fracas_index_error(const fracas_index *index, const char *doing);
 
 /* An argument of a statement: SQL_INTEGER(5), SQL_REAL(NAN), SQL_TEXT("5"), SQL_HASH(&hash); {0} is
- * NULL, as is a NaN. */
+ * NULL, as are a NaN and an absent hash or text. */
 typedef struct {
     int type; /* SQLITE_INTEGER, ...; SQLITE_BLOB: a hash */
     int64_t integer;
@@ -56,7 +60,7 @@ typedef struct {
         sizeof((const fracas_sql_value[]){__VA_ARGS__}) / sizeof(fracas_sql_value)
 
 /* Starts a statement, whose `text` lives as long as the index and is known by its address, with
- * these arguments; *statement belongs to the index. */
+ * these arguments; *statement belongs to the index. FRACAS_BUG if it is started and not ended. */
 FRACAS_MUST_USE fracas_err fracas_sql_start(fracas_index *index, const char *text,
                                             const fracas_sql_value *value, size_t count,
                                             sqlite3_stmt **statement);
@@ -108,6 +112,9 @@ FRACAS_MUST_USE fracas_err fracas_index_find_point(fracas_index *index, const fr
 /* The same of a point that must be there, else FRACAS_DAMAGED. */
 FRACAS_MUST_USE fracas_err fracas_index_need_point(fracas_index *index, const fracas_hash *point,
                                                    int64_t *id);
+
+/* Counts the points. */
+FRACAS_MUST_USE fracas_err fracas_index_points(fracas_index *index, int64_t *points);
 
 /* Plans the missing replicas of a point, within a transaction. */
 FRACAS_MUST_USE fracas_err fracas_index_plan_point(fracas_index *index,

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const char remedy[] = "remove it and run again: it is made anew from the segments";
+
 static const char *const status_text[] = {
     [FRACAS_PLANNED] = "planned",   [FRACAS_LEASED] = "leased",           [FRACAS_DONE] = "done",
     [FRACAS_FAILED_ROW] = "failed", [FRACAS_QUARANTINED] = "quarantined",
@@ -61,10 +63,7 @@ fracas_err fracas_index_need_point(fracas_index *index, const fracas_hash *point
     if (*id) return FRACAS_OK;
     char hex[FRACAS_HASH_HEX];
     fracas_hash_hex(point, hex);
-    return fracas_fail(
-        FRACAS_DAMAGED,
-        "%s has no point %s; remove it and run again: it is made anew from the segments",
-        index->path, hex);
+    return fracas_fail(FRACAS_DAMAGED, "%s has no point %s; %s", index->path, hex, remedy);
 }
 
 /* ---- planning ---- */
@@ -234,11 +233,16 @@ fracas_err fracas_index_lease(fracas_index *index, const fracas_hash *point, int
     int64_t id;
     TRY(fracas_index_need_point(index, point, &id));
     if (index->local) TRY(fracas_sql_script(index, "PRAGMA synchronous = NORMAL"));
-    TRY(fracas_sql_do(index,
-                      "UPDATE realization SET status = 'leased' WHERE point = ?1 AND replica >= ?2 "
-                      "AND replica < ?2 + ?3 AND status = 'planned'",
-                      SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(replica), SQL_INTEGER(count))));
-    return index->local ? fracas_sql_script(index, "PRAGMA synchronous = FULL") : FRACAS_OK;
+    fracas_err err = fracas_sql_do(
+        index,
+        "UPDATE realization SET status = 'leased' WHERE point = ?1 AND replica >= ?2 AND replica < "
+        "?2 + ?3 AND status = 'planned'",
+        SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(replica), SQL_INTEGER(count)));
+    /* After a failure, too, whose message stays: later commits wait for the disk. */
+    if (index->local &&
+        sqlite3_exec(index->db, "PRAGMA synchronous = FULL", NULL, NULL, NULL) != SQLITE_OK && !err)
+        err = fracas_index_error(index, "read or write");
+    return err;
 }
 
 fracas_err fracas_index_fail(fracas_index *index, const fracas_hash *point, int64_t replica,
@@ -344,10 +348,8 @@ static fracas_err load_segments(fracas_index *index, fracas_known_segment **segm
                                  hex ? strtoull(hex, &end, 16) : 0};
         int64_t rows = sqlite3_column_int64(s, 4);
         if (!name || strchr(name, '/') || !hex || strlen(hex) != 16 || *end || rows < 0)
-            return fracas_fail(FRACAS_DAMAGED,
-                               "%s: a row of its table `segment` is damaged; remove it and run "
-                               "again: it is made anew from the segments",
-                               index->path);
+            return fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `segment` is damaged; %s",
+                               index->path, remedy);
         (*segment)[*count] = (fracas_known_segment){sqlite3_column_int64(s, 0), strdup(name), seal,
                                                     rows};
         if (!(*segment)[(*count)++].name) return fracas_no_memory("the list of segments");
@@ -405,13 +407,18 @@ static void add_to(fracas_index_counts *counts, fracas_row_status status, int64_
     if (outcome >= 0 && outcome < FRACAS_NOUTCOMES) counts->outcome[outcome]++;
 }
 
+fracas_err fracas_index_points(fracas_index *index, int64_t *points)
+{
+    return fracas_sql_numbers(index, "SELECT count(*) FROM point", NULL, 0, points, NULL);
+}
+
 /* Counts every row into *counts, and those of point id `i` into each[i - 1], for i to `most`. */
 static fracas_err count_all(fracas_index *index, fracas_index_counts *counts,
                             fracas_index_counts **each, int64_t most)
 {
     OWN(sqlite3_stmt) s = NULL;
     *counts = (fracas_index_counts){0};
-    TRY(fracas_sql_numbers(index, "SELECT count(*) FROM point", NULL, 0, &counts->points, NULL));
+    TRY(fracas_index_points(index, &counts->points));
     TRY(fracas_sql_numbers(index, "SELECT count(*), coalesce(sum(bytes), 0) FROM segment", NULL, 0,
                            &counts->segments, &counts->bytes));
     TRY(fracas_sql_start(index, "SELECT status, outcome, point FROM realization", NULL, 0, &s));
@@ -452,8 +459,6 @@ fracas_err fracas_index_count_points(fracas_index *index, const fracas_point_tab
 }
 
 /* ---- decisions on the number of replicas, and the summaries they rest on ---- */
-
-static const char remedy[] = "remove it and run again: it is made anew from the segments";
 
 double fracas_decision_relative(const fracas_decision *decision)
 {

@@ -25,7 +25,7 @@ static fracas_err remove_temporary(void *report, const char *path, const char *n
 }
 
 /* Removes half-written files of merges and workers. */
-static fracas_err sweep(const char *study, FILE *report)
+static fracas_err sweep(const void *study, FILE *report)
 {
     OWNED char *folder = NULL;
     TRY(fracas_disk_each(study, remove_temporary, report));
@@ -34,8 +34,8 @@ static fracas_err sweep(const char *study, FILE *report)
 }
 
 /* *report: the text written by `write`, freed by the caller. */
-static fracas_err report_of(fracas_err (*write)(void *context, FILE *report), void *context,
-                            char **report)
+static fracas_err report_of(fracas_err (*write)(const void *context, FILE *report),
+                            const void *context, char **report)
 {
     OWNED char *text = NULL;
     size_t size;
@@ -50,14 +50,9 @@ static fracas_err report_of(fracas_err (*write)(void *context, FILE *report), vo
     return FRACAS_OK;
 }
 
-static fracas_err sweep_to(void *study, FILE *report)
-{
-    return sweep(study, report);
-}
-
 fracas_err fracas_study_sweep(const char *study, char **report)
 {
-    return report_of(sweep_to, (void *)(uintptr_t)study, report);
+    return report_of(sweep, study, report);
 }
 
 /* ---- lost segments ---- */
@@ -350,7 +345,7 @@ static fracas_err check_index(fracas_index *index, const fracas_point_table *tab
     struct stat info;
     int64_t points, id, known = 0;
     if (stat(index->path, &info) == 0 && info.st_size <= MOST) TRY(fracas_index_quick_check(index));
-    TRY(fracas_sql_numbers(index, "SELECT count(*) FROM point", NULL, 0, &points, NULL));
+    TRY(fracas_index_points(index, &points));
     for (size_t p = 0; p < table->npoints; p++) {
         TRY(fracas_index_find_point(index, &table->point[p].hash, &id));
         known += id != 0;
@@ -370,7 +365,7 @@ typedef struct {
     fracas_identity identity;
 } recovery;
 
-static fracas_err recover(void *context, FILE *report)
+static fracas_err recover(const void *context, FILE *report)
 {
     const recovery *r = context;
     OWNED char *folder = NULL;

@@ -20,8 +20,7 @@ static const char plan_again[] =
 static fracas_err run(fracas_index *index, const char *text, const fracas_hash *point,
                       int64_t *rows)
 {
-    TRY(fracas_sql_do(index, text,
-                      SQL_VALUES({.type = point ? SQLITE_BLOB : SQLITE_NULL, .hash = point})));
+    TRY(fracas_sql_do(index, text, SQL_VALUES(SQL_HASH(point))));
     *rows = sqlite3_changes64(index->db);
     return FRACAS_OK;
 }
