@@ -56,7 +56,8 @@ static inline int64_t fracas_point_most(const fracas_point *point)
 }
 
 /* Reads a campaign file. FRACAS_USAGE with "file:line:column: finding; allowed values; nearest key"
- * for any error in it or if there is none, FRACAS_ENVIRONMENT if it cannot be opened or read. */
+ * for any error in it, and if the file is not there; FRACAS_ENVIRONMENT if it cannot be opened or
+ * read. */
 FRACAS_MUST_USE fracas_err fracas_campaign_read(const char *path, fracas_campaign **campaign);
 void fracas_campaign_destroy(fracas_campaign *campaign); /* NULL is allowed */
 FRACAS_OWNER(fracas_campaign, fracas_campaign_destroy)

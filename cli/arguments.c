@@ -36,6 +36,17 @@ void fracas_arguments_set(fracas_arguments *arguments, const char *option, const
     if (i < FRACAS_MOST_OPTIONS) arguments->value[i] = value;
 }
 
+/* *text: the value of an option, NULL if it was not given. FRACAS_BUG for no option of the command.
+ */
+static fracas_err value_of(const fracas_arguments *arguments, const char *option, const char **text)
+{
+    const size_t i = find(arguments->command, option);
+    if (i == FRACAS_MOST_OPTIONS)
+        return fracas_fail(FRACAS_BUG, "%s has no option --%s", arguments->command->name, option);
+    *text = arguments->value[i];
+    return FRACAS_OK;
+}
+
 static fracas_err unknown_option(const fracas_command *command, const char *given)
 {
     const char *name = given + strspn(given, "-");
@@ -159,7 +170,8 @@ fracas_err fracas_arguments_read(const fracas_command *command, int argc, char *
 fracas_err fracas_arguments_integer(const fracas_arguments *arguments, const char *option,
                                     int minimum, int maximum, int *value)
 {
-    const char *text = fracas_given(arguments, option);
+    const char *text;
+    TRY(value_of(arguments, option, &text));
     if (!text) return FRACAS_OK;
     char *end;
     errno = 0;
@@ -175,7 +187,8 @@ fracas_err fracas_arguments_integer(const fracas_arguments *arguments, const cha
 fracas_err fracas_arguments_real(const fracas_arguments *arguments, const char *option,
                                  double scale, double *value)
 {
-    const char *text = fracas_given(arguments, option);
+    const char *text;
+    TRY(value_of(arguments, option, &text));
     if (!text) return FRACAS_OK;
     char *end;
     double number = strtod(text, &end) * scale;
@@ -189,7 +202,8 @@ fracas_err fracas_arguments_real(const fracas_arguments *arguments, const char *
 fracas_err fracas_arguments_word(const fracas_arguments *arguments, const char *option,
                                  const char *const *words, size_t count, int *value)
 {
-    const char *text = fracas_given(arguments, option);
+    const char *text;
+    TRY(value_of(arguments, option, &text));
     if (!text) return FRACAS_OK;
     fracas_words known;
     fracas_words_init(&known, text);
@@ -241,8 +255,9 @@ static bool read_duration(const char *text, double *seconds)
 fracas_err fracas_arguments_time(const fracas_arguments *arguments, const char *option,
                                  double *seconds)
 {
-    const char *text = fracas_given(arguments, option);
+    const char *text;
     double value;
+    TRY(value_of(arguments, option, &text));
     if (!text) return FRACAS_OK;
     if ((!read_clock(text, &value) && !read_duration(text, &value)) || value <= 0)
         return fracas_fail(FRACAS_USAGE,

@@ -67,7 +67,7 @@ FRACAS_MUST_USE fracas_err fracas_arguments_read(const fracas_command *command, 
                                                  char **argv, fracas_arguments *arguments);
 
 /* The value of an option as a whole number in [minimum, maximum]; *value is unchanged if it was
- * not given. FRACAS_USAGE for anything else. */
+ * not given. FRACAS_USAGE for anything else, FRACAS_BUG for no option of the command. */
 FRACAS_MUST_USE fracas_err fracas_arguments_integer(const fracas_arguments *arguments,
                                                     const char *option, int minimum, int maximum,
                                                     int *value);

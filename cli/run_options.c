@@ -111,8 +111,7 @@ fracas_err fracas_cli_run_as(const fracas_arguments *arguments, const char *file
             code = fracas_no_memory("the arguments of the run");
         else argc++;
     }
-    if (code) argv[argc] = NULL;
-    else code = runner(&run, argc, argv);
+    if (!code) code = runner(&run, argc, argv);
     for (int i = BEFORE; i < argc; i++) free(argv[i]);
     return code;
 }

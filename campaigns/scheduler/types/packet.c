@@ -12,7 +12,7 @@ fracas_err fracas_packet_create(fracas_packet_kind kind, const void *body, size_
     if (size > INT32_MAX - sizeof(fracas_packet)) /* MPI counts in int */
         return fracas_fail(FRACAS_ENVIRONMENT,
                            "a message of %zu bytes is above the limit of %d; use a smaller "
-                           "--segment-bytes, or fewer output.history rows",
+                           "--segment-size, or fewer output.history rows",
                            size, INT32_MAX);
     fracas_packet *m = malloc(sizeof *m + size);
     if (!m) return fracas_no_memory("a message");
