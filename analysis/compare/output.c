@@ -37,12 +37,9 @@ static void paint_value(const fracas_compared_value *value,
 {
     char *cell[NCOLUMNS], unit[32] = "";
     const double means[] = {fabs(value->a.mean), fabs(value->b.mean)};
-    fracas_prefix prefix = {1, "", ""};
+    const fracas_prefix prefix = fracas_prefix_in(quantity->unit, means, 2);
     for (size_t c = 0; c < NCOLUMNS; c++) cell[c] = fracas_result_table_cell(table, row, c);
-    if (strcmp(quantity->unit, "1")) {
-        prefix = fracas_prefix_for(means, 2);
-        FRACAS_PRINT(unit, "%s%s", prefix.symbol, quantity->unit);
-    }
+    if (strcmp(quantity->unit, "1")) FRACAS_PRINT(unit, "%s%s", prefix.symbol, quantity->unit);
     snprintf(cell[WHAT], FRACAS_CELL, "%s%s%s%s", quantity->key, *unit ? " [" : "", unit,
              *unit ? "]" : "");
     fracas_format_estimate(&value->a, prefix.factor, "+-", cell[MEAN_A], FRACAS_CELL);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/data/format.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -185,4 +186,12 @@ fracas_prefix fracas_prefix_over(const double *value, size_t stride, size_t coun
 fracas_prefix fracas_prefix_for(const double *value, size_t count)
 {
     return fracas_prefix_over(value, sizeof *value, count);
+}
+
+fracas_prefix fracas_prefix_in(const char *unit, const double *value, size_t count)
+{
+    const size_t symbol = strcspn(unit, " /0123456789");
+    const bool takes = symbol > 0 && !isdigit((unsigned char)unit[symbol]) &&
+                       strncmp(unit, "kg", 2) != 0;
+    return takes ? fracas_prefix_for(value, count) : (fracas_prefix){1, "", ""};
 }

@@ -102,6 +102,10 @@ static const fracas_field statistics_fields[] = {
 };
 const fracas_fields fracas_statistics = FRACAS_FIELDS(statistics_fields);
 
+static const char without_modulus[] =
+    "its strengths have no modulus M: they are neither weibull nor flaws that most interfaces "
+    "have, or the study does not hold it";
+
 bool fracas_outcome_usable(int64_t outcome)
 {
     return outcome == FRACAS_FRAGMENTED || outcome == FRACAS_INTACT || outcome == FRACAS_TIME_LIMIT;
@@ -115,14 +119,6 @@ const char *fracas_outcome_name(int64_t outcome)
         [FRACAS_ENERGY_DRIFT] = "ENERGY_DRIFT", [FRACAS_FAILED] = "FAILED",
     };
     return outcome >= 0 && outcome < FRACAS_NOUTCOMES ? name[outcome] : "?";
-}
-
-/* Flaws have a modulus unless most interfaces are without one. */
-static const char *without_modulus(const fracas_point_table *table, size_t point)
-{
-    return isfinite(fracas_columns_real(table, point, "strength.flaw_density"))
-               ? "most interfaces are without a flaw"
-               : "its strengths have no Weibull modulus: they are neither weibull nor flaws";
 }
 
 void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
@@ -151,7 +147,7 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
     statistics->scales.modulus = modulus;
     statistics->without_mott = statistics->surface       ? "the law is of one dimension"
                                : !(statistics->rate > 0) ? "there is no strain rate"
-                               : isnan(modulus)          ? without_modulus(table, point)
+                               : isnan(modulus)          ? without_modulus
                                                          : NULL;
     fracas_ensemble_init(&statistics->ensemble, lattice > 0 ? lattice : 0);
     statistics->ensemble.surface = statistics->surface;

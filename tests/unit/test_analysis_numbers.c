@@ -135,6 +135,12 @@ static void prefixes(void **state)
     assert_string_equal(fracas_prefix_for((double[]){999}, 1).symbol, "");
     assert_string_equal(fracas_prefix_for((double[]){1e-14}, 1).symbol, "n");
     assert_string_equal(fracas_prefix_for(NULL, 0).symbol, "");
+    static const struct {
+        const char *unit, *prefix;
+    } of[] = {{"J", "u"},    {"m/s", "u"}, {"rad/s", "u"}, {"J/m2", "u"}, {"kg", ""},
+              {"kg m2", ""}, {"m2", ""},   {"1/s", ""},    {"1", ""}};
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++)
+        assert_string_equal(fracas_prefix_in(of[i].unit, &(double){31e-6}, 1).symbol, of[i].prefix);
 }
 
 /* rate x young, with mesh.elements zipped to the rate and density to young; derived.* never tells
