@@ -144,14 +144,16 @@ static fracas_err put_package(const fracas_analysis *analysis, const fracas_csv_
  * others. */
 static fracas_err remove_package(const char *folder)
 {
-    const char *const name[] = {package_file, "histories.csv"};
+    char histories[64];
+    FRACAS_PRINT(histories, "%s.csv", fracas_csv_table_histories.name);
+    const char *const name[] = {package_file, histories};
     for (size_t i = 0; i < 2; i++) {
         OWNED char *path = NULL;
         TRY(fracas_disk_join(folder, name[i], &path));
         const int reason = unlink(path) ? errno : 0;
         if (reason && reason != ENOENT)
             return fracas_fail_system(reason, "cannot replace %s", path);
-        if (reason) break; /* no package was there: a histories.csv would be somebody else's */
+        if (reason) break; /* no package was there: histories would be somebody else's */
     }
     return FRACAS_OK;
 }

@@ -59,10 +59,10 @@ static void record_fields(const fracas_csv_table *table, const fracas_analysis *
         dataset_fields(&fracas_store_sets[table->set].column[c], visit, context);
 }
 
-static void put_values(int set, size_t first, const void *row, FILE *out)
+static void put_values(const fracas_store_set *set, size_t first, const void *row, FILE *out)
 {
-    for (size_t c = first; c < fracas_store_sets[set].ncolumns; c++) {
-        const fracas_store_column *column = &fracas_store_sets[set].column[c];
+    for (size_t c = first; c < set->ncolumns; c++) {
+        const fracas_store_column *column = &set->column[c];
         const char *value = (const char *)row + column->offset;
         for (size_t i = 0; i < column->width;
              i++, value += sizeof(int64_t)) { /* in memory integers are int64_t, reals double */
@@ -72,6 +72,17 @@ static void put_values(int set, size_t first, const void *row, FILE *out)
         }
     }
     putc('\n', out);
+}
+
+/* The rows of the table in one realization: itself, or those of its part. */
+static const void *rows_of(const fracas_csv_table *table, const fracas_stored_realization *of,
+                           size_t *count)
+{
+    for (size_t i = 0; i < FRACAS_NPARTS; i++)
+        if (table->parts == 1U << i)
+            return fracas_ragged_get(&fracas_record_parts[i], &of->record, count);
+    *count = 1;
+    return of;
 }
 
 typedef struct {
@@ -84,19 +95,15 @@ static fracas_err print_rows(void *context, fracas_result *result)
     const record_printer *to = context;
     const fracas_record *record = &result->record;
     const fracas_stored_realization whole = {(int64_t)result->point, result->replica, *record};
-    const bool fragments = to->table->set == FRACAS_SET_FRAGMENT, numbered = to->table->number;
-    const char *row = !numbered   ? (const void *)&whole
-                      : fragments ? (const void *)record->fragment
-                                  : (const void *)record->history;
-    const size_t size = fragments ? sizeof *record->fragment : sizeof *record->history,
-                 count = !numbered   ? 1
-                         : fragments ? record->nfragment
-                                     : record->nhistory;
+    const fracas_store_set *set = &fracas_store_sets[to->table->set];
+    const bool numbered = to->table->number;
+    size_t count;
+    const char *row = rows_of(to->table, &whole, &count);
     for (size_t i = 0; i < count; i++) {
         fprintf(to->out, "%zu,%" PRId64 ",%s", result->point, result->replica,
                 fracas_outcome_name(record->outcome));
         if (numbered) fprintf(to->out, ",%zu", i);
-        put_values(to->table->set, numbered ? 0 : PLACE, row + i * size, to->out);
+        put_values(set, numbered ? 0 : PLACE, row + i * set->row_size, to->out);
     }
     return FRACAS_OK;
 }

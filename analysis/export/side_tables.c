@@ -112,35 +112,42 @@ static const fracas_table_column motion_column[] = {
 };
 #undef AT
 
+/* A function of scaling.h as the `list` of a table. */
+#define LIST(name, type, made)                                                                 \
+    static fracas_err list_##name(const fracas_analysis *analysis, void **rows, size_t *count) \
+    {                                                                                          \
+        type *list = NULL;                                                                     \
+        const fracas_err err = made;                                                           \
+        *rows = list;                                                                          \
+        return err;                                                                            \
+    }
+LIST(slopes, fracas_size_slope, fracas_size_slopes(analysis, &list, count))
+LIST(windows, fracas_size_window, fracas_size_windows(analysis, &list, count))
+LIST(crossovers, fracas_size_crossover, fracas_size_crossovers(analysis, true, &list, count))
+
 #define COLUMNS(name) name##_legend, name##_column, FRACAS_COUNT(name##_column)
 const fracas_side_table fracas_side_tables[FRACAS_SIDE_TABLES] = {
     {"slopes", "Slope of log(mean size) against log(strain rate)", COLUMNS(slope),
-     sizeof(fracas_size_slope), NULL},
+     sizeof(fracas_size_slope), NULL, list_slopes},
     {"windows", "Slope from each strain rate to the next", COLUMNS(window),
-     sizeof(fracas_size_window), NULL},
+     sizeof(fracas_size_window), NULL, list_windows},
     {"crossovers", "Crossover from the quasi-static to the dynamic regime", COLUMNS(crossover),
-     sizeof(fracas_size_crossover), has_rates},
+     sizeof(fracas_size_crossover), has_rates, list_crossovers},
     {"motion", "Velocities of the fragments of rings at the end", COLUMNS(motion),
-     sizeof(fracas_point_statistics), is_ring},
+     sizeof(fracas_point_statistics), is_ring, NULL},
 };
 
 fracas_err fracas_side_table_create(const fracas_analysis *analysis, fracas_side_table_name name,
                                     bool unicode, fracas_result_table *table)
 {
     const fracas_side_table *of = &fracas_side_tables[name];
-    OWNED fracas_size_slope *slope = NULL;
-    OWNED fracas_size_window *window = NULL;
-    OWNED fracas_size_crossover *crossover = NULL;
+    OWNED void *list = NULL;
     fracas_table_rows rows = {analysis->point, analysis->table->npoints, of->size, analysis,
                               of->keep};
-    if (name == FRACAS_SLOPES) TRY(fracas_size_slopes(analysis, &slope, &rows.count));
-    if (name == FRACAS_WINDOWS) TRY(fracas_size_windows(analysis, &window, &rows.count));
-    if (name == FRACAS_CROSSOVERS)
-        TRY(fracas_size_crossovers(analysis, true, &crossover, &rows.count));
-    if (name != FRACAS_MOTION)
-        rows.first = slope    ? (const void *)slope
-                     : window ? (const void *)window
-                              : (const void *)crossover;
+    if (of->list) {
+        TRY(of->list(analysis, &list, &rows.count));
+        rows.first = list;
+    }
     return fracas_table_make(of->column, of->columns, &rows, unicode, table);
 }
 

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/export/csv.h"
+
+#include "analysis/data/output.h"
+
+#include <stdio.h>
+
+typedef struct {
+    FILE *out;
+    bool first;
+} head;
+
+static void put_name(void *context, const fracas_field *field)
+{
+    head *of = context;
+    if (!of->first) putc(',', of->out);
+    of->first = false;
+    fracas_csv_text(field->key, of->out);
+}
+
+void fracas_csv_fields(const fracas_csv_table *table, const fracas_analysis *analysis,
+                       fracas_field_visit *visit, void *context)
+{
+    if (table->fields) table->fields(table, analysis, visit, context);
+    for (size_t i = 0; i < FRACAS_TABLE_PARTS && table->columns[i]; i++)
+        fracas_fields_walk(table->columns[i], ".", visit, context);
+}
+
+fracas_err fracas_csv_write(const fracas_csv_table *table, const fracas_analysis *analysis,
+                            FILE *out)
+{
+    head of = {out, true};
+    fracas_csv_fields(table, analysis, put_name, &of);
+    putc('\n', out);
+    return table->rows(table, analysis, out);
+}
+
+fracas_err fracas_csv_file(const fracas_csv_table *table, const fracas_analysis *analysis,
+                           const char *folder)
+{
+    char name[64];
+    fracas_output_file output;
+    FRACAS_PRINT(name, "%s.csv", table->name);
+    TRY(fracas_output_open(folder, name, &output));
+    return fracas_output_close(&output, fracas_csv_write(table, analysis, output.file));
+}
