@@ -7,11 +7,12 @@
 #include "analysis/analysis.h"
 #include "analysis/data/estimate.h"
 #include "analysis/data/numbers.h"
-#include "analysis/summary/study.h"
+#include "analysis/data/text.h"
 
 #define FRACAS_ONE_MORE(key, unit, doc) +1
 enum {
     FRACAS_COMPARED_VALUES = FRACAS_COMPARED_NUMBERS(FRACAS_ONE_MORE),
+    FRACAS_FIRST_VALUES = FRACAS_FIRST_NUMBERS(FRACAS_ONE_MORE), /* the first of these */
     FRACAS_COMPARE_PERMUTATIONS = 9999
 };
 #undef FRACAS_ONE_MORE

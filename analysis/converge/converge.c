@@ -2,7 +2,6 @@
 #include "analysis/converge/rows.h"
 
 #include "analysis/compare/methods.h"
-#include "base/param.h"
 #include "analysis/data/room.h"
 #include "base/own.h"
 
@@ -47,21 +46,6 @@ void fracas_convergence_destroy(fracas_convergence *convergence)
 }
 
 /* ---- rows ---- */
-
-/* The first numbers of a table of results. Among all numbers some would move by chance even
- * where a campaign converges. */
-static bool is_headline(const fracas_compared_quantity *number)
-{
-    static const size_t headline[] = {offsetof(fracas_replica_values, count),
-                                      offsetof(fracas_replica_values, count_large),
-                                      offsetof(fracas_replica_values, size),
-                                      offsetof(fracas_replica_values, dissipated),
-                                      offsetof(fracas_replica_values, dissipated_bending),
-                                      offsetof(fracas_replica_values, onset_time)};
-    for (size_t h = 0; h < FRACAS_COUNT(headline); h++)
-        if (number->offset == headline[h]) return true;
-    return false;
-}
 
 static double value_of(const fracas_ensemble *ensemble, size_t i,
                        const fracas_compared_quantity *number)
@@ -173,12 +157,11 @@ static fracas_err compare_point(fracas_convergence *convergence, size_t p,
     const bool lost = before->nrealizations == 0 || after->nrealizations == 0,
                paired = map->paired && !lost;
     double count[2] = {NAN, NAN}; /* without dust it is the count again */
-    for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++) {
+    for (size_t v = 0; v < FRACAS_FIRST_VALUES; v++) {
         fracas_convergence_row row = {.refinement = map->name,
                                       .point = p,
                                       .number = &fracas_compared_quantities[v],
                                       .paired = map->paired};
-        if (!is_headline(row.number)) continue;
         gather(before, after, row.number, paired, samples);
         if (paired)
             fracas_difference_of_pairs(samples->value[0], samples->value[1], samples->n[0], 1,

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Page and figures of a convergence. */
 #include "analysis/converge/rows.h"
+#include "analysis/draw/chart.h"
 #include "analysis/data/format.h"
 #include "analysis/report/page.h"
+#include "base/own.h"
 #include "base/param.h"
+#include "campaigns/store/file/disk.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -22,8 +24,8 @@ static bool has_change(const fracas_convergence_row *row)
     return isfinite(row->value.difference);
 }
 
-size_t fracas_convergence_rows_of(const fracas_convergence *convergence,
-                                  const fracas_compared_quantity *number)
+/* Number of rows with a change. */
+static size_t rows_of(const fracas_convergence *convergence, const fracas_compared_quantity *number)
 {
     size_t count = 0;
     for (size_t i = 0; i < convergence->nrows; i++)
@@ -67,7 +69,7 @@ static subject subject_of(const fracas_convergence *convergence,
         if (!isfinite(row->value.relative)) of.relative = false;
         most = fmax(most, fabs(row->value.difference));
     }
-    if (!of.relative && strcmp(number->unit, "1") != 0) of.prefix = fracas_prefix_for(&most, 1);
+    if (!of.relative) of.prefix = fracas_prefix_in(number->unit, &most, 1);
     return of;
 }
 
@@ -87,8 +89,8 @@ static fracas_err add_boxes(const subject *what, fracas_panel *panel)
     const fracas_convergence *convergence = what->convergence;
     fracas_series *series;
     size_t n = 0;
-    TRY(fracas_panel_add(panel, FRACAS_BOXES, BOX_LOOK,
-                         fracas_convergence_rows_of(convergence, what->number), &series));
+    TRY(fracas_panel_add(panel, FRACAS_BOXES, BOX_LOOK, rows_of(convergence, what->number),
+                         &series));
     FRACAS_PRINT(series->name, "95 %% as it is");
     for (size_t i = 0; i < convergence->nrows; i++) {
         const fracas_convergence_row *row = &convergence->row[i];
@@ -176,13 +178,16 @@ static void put_words(const subject *what, bool tolerance, fracas_chart *chart)
         of[FRACAS_NUMBER_HOLDS], of[FRACAS_NUMBER_UNCLEAR] + of[FRACAS_NUMBER_UNKNOWN], beyond);
 }
 
-fracas_err fracas_convergence_figure(const fracas_convergence *convergence,
-                                     const fracas_compared_quantity *number, fracas_chart *chart)
+/* The figure of one number: its change at each refinement, a mark a row, filled if it differs, with
+ * its interval; behind it a box, the interval of the number as it is. No panel if there is no row.
+ */
+static fracas_err draw_figure(const fracas_convergence *convergence,
+                              const fracas_compared_quantity *number, fracas_chart *chart)
 {
     const size_t npoints = convergence->study->table->npoints;
     const subject what = subject_of(convergence, number);
     bool tolerance = false;
-    if (fracas_convergence_rows_of(convergence, number) == 0) return FRACAS_OK;
+    if (rows_of(convergence, number) == 0) return FRACAS_OK;
     chart->width = (int)fmin(
         fmax(FRACAS_CHART_WIDE, MARGINS + MARK_PIXELS * (double)(convergence->nlevels * npoints)),
         WIDEST);
@@ -223,9 +228,8 @@ static fracas_err put_figures(fracas_page *page)
     fracas_chart_init(&chart);
     fracas_page_grid(page, "wide");
     for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++)
-        TRY(fracas_page_chart(
-            page, &chart,
-            fracas_convergence_figure(page->of, &fracas_compared_quantities[v], &chart)));
+        TRY(fracas_page_chart(page, &chart,
+                              draw_figure(page->of, &fracas_compared_quantities[v], &chart)));
     fracas_page_grid_end(page);
     return FRACAS_OK;
 }
@@ -259,18 +263,16 @@ static const fracas_page_entry sections[] = {
 fracas_err fracas_convergence_write_page(const fracas_convergence *convergence, const char *folder,
                                          const char *title)
 {
-    char *to, lead[160];
-    if (asprintf(&to, "%s/report", folder) < 0) return fracas_no_memory("a path");
+    OWNED char *to = NULL;
+    char lead[160];
+    TRY(fracas_disk_join(folder, "report", &to));
     fracas_page page = {
         .analysis = convergence->study, .folder = to, .of = convergence, .source = title};
     const size_t npoints = convergence->study->table->npoints;
     FRACAS_PRINT(lead, "What refinement changes: %zu point%s, %zu numbers, tolerance %g %%",
                  npoints, npoints == 1 ? "" : "s", convergence->nrows,
                  100 * convergence->tolerance);
-    fracas_err err = mkdir(to, 0777) && errno != EEXIST
-                         ? fracas_fail_system(errno, "cannot make the folder %s", to)
-                         : FRACAS_OK;
-    if (!err) err = fracas_page_write(&page, title, lead, sections, FRACAS_COUNT(sections));
-    free(to);
-    return err;
+    if (mkdir(to, 0777) && errno != EEXIST)
+        return fracas_fail_system(errno, "cannot make the folder %s", to);
+    return fracas_page_write(&page, title, lead, sections, FRACAS_COUNT(sections));
 }

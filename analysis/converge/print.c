@@ -6,7 +6,6 @@
 #include "analysis/data/output.h"
 #include "analysis/export/tables.h"
 #include "base/json.h"
-#include "base/param.h"
 #include "base/own.h"
 
 #include <errno.h>
@@ -15,6 +14,8 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+
+enum { NCOLUMNS = 8 };
 
 static fracas_err add_note(fracas_convergence *convergence, const char *refinement, size_t point,
                            fracas_convergence_note **note)
@@ -74,8 +75,9 @@ fracas_err fracas_convergence_note_study(fracas_convergence *convergence, const 
     return FRACAS_OK;
 }
 
-void fracas_convergence_note_line(const fracas_convergence *convergence,
-                                  const fracas_convergence_note *note, char *text, size_t size)
+/* "mesh, radial 12 m/s: 7 of 10 realizations ..." */
+static void note_line(const fracas_convergence *convergence, const fracas_convergence_note *note,
+                      char *text, size_t size)
 {
     const fracas_label label = fracas_analysis_label(convergence->study, note->point);
     snprintf(text, size, "%s%s%s: %s", note->refinement, *label.text ? ", " : "", label.text,
@@ -87,14 +89,13 @@ static fracas_prefix prefix_of(const fracas_convergence *convergence,
                                const fracas_compared_quantity *number)
 {
     double ends[2] = {INFINITY, 0};
-    if (!strcmp(number->unit, "1")) return (fracas_prefix){1, "", ""};
     for (size_t i = 0; i < convergence->nrows; i++) {
         const fracas_convergence_row *row = &convergence->row[i];
         if (row->number != number || !(row->value.a.mean > 0)) continue;
         ends[0] = fmin(ends[0], row->value.a.mean);
         ends[1] = fmax(ends[1], row->value.a.mean);
     }
-    return fracas_prefix_for(ends, 2);
+    return fracas_prefix_in(number->unit, ends, 2);
 }
 
 /* "+0.8 +- 2.0": in per cent of the number as it is. Round-off has no digits worth a reader's time.
@@ -123,8 +124,8 @@ static void fill_row(const fracas_convergence *convergence, size_t i, bool unico
     const fracas_prefix prefix = prefix_of(convergence, row->number);
     const bool pure = !strcmp(row->number->unit, "1");
     const char *sign = unicode ? "\u00b1" : "+-";
-    char *cell[FRACAS_CONVERGENCE_COLUMNS];
-    for (size_t c = 0; c < FRACAS_CONVERGENCE_COLUMNS; c++)
+    char *cell[NCOLUMNS];
+    for (size_t c = 0; c < NCOLUMNS; c++)
         cell[c] = fracas_result_table_cell(table, FRACAS_RESULT_TABLE_HEAD + i, c);
     snprintf(cell[0], FRACAS_CELL, "%s", row->refinement);
     fracas_cell_label(convergence->study, row->point, NULL, cell[1]);
@@ -142,9 +143,9 @@ static void fill_row(const fracas_convergence *convergence, size_t i, bool unico
 fracas_err fracas_convergence_table_create(const fracas_convergence *convergence, bool unicode,
                                            fracas_result_table *table)
 {
-    static const char *const head[FRACAS_CONVERGENCE_COLUMNS] = {
-        "", "point", "number", "as it is", "refined", "change [%]", "half widths", ""};
-    TRY(fracas_table_empty(convergence->nrows, FRACAS_CONVERGENCE_COLUMNS, head, table));
+    static const char *const head[NCOLUMNS] = {"",        "point",      "number",      "as it is",
+                                               "refined", "change [%]", "half widths", ""};
+    TRY(fracas_table_empty(convergence->nrows, NCOLUMNS, head, table));
     for (size_t i = 0; i < convergence->nrows; i++) fill_row(convergence, i, unicode, table);
     return FRACAS_OK;
 }
@@ -227,8 +228,7 @@ void fracas_convergence_conclude(const fracas_convergence *convergence,
     }
     for (size_t i = 0; i < convergence->nnotes; i++) {
         int used = FRACAS_PRINT(text, "warning: ");
-        fracas_convergence_note_line(convergence, &convergence->note[i], text + used,
-                                     sizeof text - (size_t)used);
+        note_line(convergence, &convergence->note[i], text + used, sizeof text - (size_t)used);
         line(context, text);
     }
     conclude_replicas(convergence, line, context);
@@ -346,7 +346,7 @@ static void write_notes(const fracas_convergence *convergence, fracas_json *json
     fracas_json_array(json, "warnings");
     for (size_t i = 0; i < convergence->nnotes; i++) {
         const fracas_convergence_note *note = &convergence->note[i];
-        fracas_convergence_note_line(convergence, note, text, sizeof text);
+        note_line(convergence, note, text, sizeof text);
         fracas_json_object(json, NULL);
         fracas_json_text(json, "refinement", note->refinement);
         if (note->point == SIZE_MAX) fracas_json_text(json, "point", NULL);

@@ -5,7 +5,6 @@
 
 #include "analysis/compare/compare.h"
 #include "analysis/converge/converge.h"
-#include "analysis/draw/chart.h"
 #include "analysis/summary/study.h"
 #include "analysis/export/tables.h"
 
@@ -69,10 +68,6 @@ FRACAS_MUST_USE fracas_err fracas_convergence_note_study(fracas_convergence *con
                                                          const char *refinement,
                                                          const fracas_analysis *analysis,
                                                          const char *study);
-/* "mesh, radial 12 m/s: 7 of 10 realizations ..." */
-void fracas_convergence_note_line(const fracas_convergence *convergence,
-                                  const fracas_convergence_note *note, char *text, size_t size);
-
 /* Adds the rows of one point, `before` in the study as it is, from the realizations of its refined
  * self. */
 FRACAS_MUST_USE fracas_err fracas_convergence_compare(fracas_convergence *convergence,
@@ -85,8 +80,6 @@ FRACAS_MUST_USE fracas_err fracas_convergence_compare(fracas_convergence *conver
 double fracas_convergence_replicas(const fracas_convergence *convergence,
                                    const fracas_convergence_row *row);
 
-enum { FRACAS_CONVERGENCE_COLUMNS = 8 };
-
 /* A line a row: refinement, point, number, its mean as it is and refined, change in per cent, in
  * half widths, verdict. */
 FRACAS_MUST_USE fracas_err fracas_convergence_table_create(const fracas_convergence *convergence,
@@ -98,15 +91,5 @@ FRACAS_MUST_USE fracas_err fracas_convergence_table_create(const fracas_converge
 typedef void fracas_convergence_line(void *context, const char *text);
 void fracas_convergence_conclude(const fracas_convergence *convergence,
                                  fracas_convergence_line *line, void *context);
-
-/* Number of rows with a change: all but those of points without a usable realization. */
-size_t fracas_convergence_rows_of(const fracas_convergence *convergence,
-                                  const fracas_compared_quantity *number);
-/* The figure of one number: its change at each refinement, a mark a row, filled if it differs, with
- * its interval; behind it a box, the interval of the number as it is. No panel if there is no row.
- */
-FRACAS_MUST_USE fracas_err fracas_convergence_figure(const fracas_convergence *convergence,
-                                                     const fracas_compared_quantity *number,
-                                                     fracas_chart *chart);
 
 #endif

@@ -11,6 +11,11 @@
 /* Writes a formatted text into an array of characters, cut where it is too long. */
 #define FRACAS_PRINT(array, ...) snprintf(array, sizeof(array), __VA_ARGS__)
 
+/* The name of a point for a reader, "rate 1e4 1/s". */
+typedef struct {
+    char text[256];
+} fracas_label;
+
 /* Appends a formatted text, after the separator unless *text is empty. */
 void fracas_append(char *text, size_t size, const char *separator, const char *format, ...)
     FRACAS_PRINTF(4, 5);

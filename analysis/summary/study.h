@@ -66,10 +66,6 @@ FRACAS_MUST_USE fracas_err fracas_analysis_warnings(const fracas_analysis *analy
 bool fracas_analysis_any_surface(const fracas_analysis *analysis);
 bool fracas_analysis_all_surfaces(const fracas_analysis *analysis);
 
-typedef struct {
-    char text[256];
-} fracas_label;
-
 /* "rate 1e4 1/s": the point by its varying parameters; "" of the study as a whole, SIZE_MAX. */
 fracas_label fracas_analysis_label(const fracas_analysis *analysis, size_t point);
 
