@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/compare/methods.h"
+#include "analysis/data/random.h"
 #include "analysis/data/room.h"
 
 #include <gsl/gsl_combination.h>
-#include <gsl/gsl_rng.h>
 #include <gsl/gsl_sf_gamma.h>
 #include <math.h>
 #include <string.h>
@@ -11,14 +11,17 @@
 static const double hair = 1e-10; /* statistics equal to rounding are equal */
 
 typedef struct {
+    double *sum, *square, *known; /* a value each */
+    double *cut;                  /* fragments up to each cut, and all of them */
+} totals;
+
+typedef struct {
     const fracas_two_samples *of;
     size_t n;      /* na + nb */
     double *value; /* as given, less their mean and over their deviation: equal in statistic, better
                       in rounding */
     bool *in_a;    /* the assignment */
-    double *sum, *square, *known; /* for side a: a value each */
-    double *all_sum, *all_square, *all_known;
-    double *cut, *all_cut;      /* fragments up to each cut, of side a and of both */
+    totals a, all; /* side a, and both sides */
     double *statistic;          /* nvalues + 1 */
     double *observed, *reached; /* nvalues + 1 */
 } permuter;
@@ -43,37 +46,45 @@ static void standardise(permuter *p)
     }
 }
 
-static void add_up(const permuter *p, bool all, double *sum, double *square, double *known,
-                   double *cut)
+static void take_totals(fracas_room *room, const fracas_two_samples *of, totals *t)
+{
+    FRACAS_TAKE(room, t->sum, of->nvalues);
+    FRACAS_TAKE(room, t->square, of->nvalues);
+    FRACAS_TAKE(room, t->known, of->nvalues);
+    FRACAS_TAKE(room, t->cut, of->ncuts);
+}
+
+static void add_up(const permuter *p, bool all, totals *to)
 {
     const size_t nv = p->of->nvalues, nc = p->of->ncuts;
-    memset(sum, 0, nv * sizeof *sum);
-    memset(square, 0, nv * sizeof *square);
-    memset(known, 0, nv * sizeof *known);
-    memset(cut, 0, (nc + 1) * sizeof *cut);
+    memset(to->sum, 0, nv * sizeof *to->sum);
+    memset(to->square, 0, nv * sizeof *to->square);
+    memset(to->known, 0, nv * sizeof *to->known);
+    memset(to->cut, 0, (nc + 1) * sizeof *to->cut);
     for (size_t i = 0; i < p->n; i++) {
         if (!all && !p->in_a[i]) continue;
         for (size_t v = 0; v < nv; v++) {
             const double x = p->value[i * nv + v];
             if (!isfinite(x)) continue;
-            sum[v] += x;
-            square[v] += x * x;
-            known[v]++;
+            to->sum[v] += x;
+            to->square[v] += x * x;
+            to->known[v]++;
         }
         const double *below = p->of->below + i * nc;
-        for (size_t c = 0; c < nc; c++) cut[c] += below[c];
-        cut[nc] += p->of->fragments[i];
+        for (size_t c = 0; c < nc; c++) to->cut[c] += below[c];
+        to->cut[nc] += p->of->fragments[i];
     }
 }
 
 /* |T| of one value  (compare.6) */
-static double welch(double sum, double square, double n, double all_sum, double all_square,
-                    double all_n)
+static double welch(const permuter *p, size_t v)
 {
-    const double m = all_n - n, mean = sum / n, other = (all_sum - sum) / m;
+    const double sum = p->a.sum[v], square = p->a.square[v], n = p->a.known[v];
+    const double rest = p->all.sum[v] - sum, m = p->all.known[v] - n;
+    const double mean = sum / n, other = rest / m;
     if (!(n >= 2 && m >= 2)) return NAN;
     double a = (square - sum * mean) / (n - 1),
-           b = (all_square - square - (all_sum - sum) * other) / (m - 1);
+           b = (p->all.square[v] - square - rest * other) / (m - 1);
     a = a > hair ? a : 0; /* equal values, over a deviation of 1 */
     b = b > hair ? b : 0;
     const double difference = fabs(mean - other);
@@ -99,20 +110,18 @@ static double distance(const permuter *p)
 {
     double most = 0;
     const size_t nc = p->of->ncuts;
-    const double a = p->cut[nc], b = p->all_cut[nc] - a;
+    const double *cut = p->a.cut, *all = p->all.cut;
+    const double a = cut[nc], b = all[nc] - a;
     if (!(a > 0 && b > 0)) return NAN;
-    for (size_t c = 0; c < nc; c++)
-        most = fmax(most, fabs(p->cut[c] / a - (p->all_cut[c] - p->cut[c]) / b));
+    for (size_t c = 0; c < nc; c++) most = fmax(most, fabs(cut[c] / a - (all[c] - cut[c]) / b));
     return most;
 }
 
 static void evaluate(permuter *p)
 {
-    add_up(p, false, p->sum, p->square, p->known, p->cut);
+    add_up(p, false, &p->a);
     for (size_t v = 0; v < p->of->nvalues; v++)
-        p->statistic[v] = p->of->paired ? paired(p, v)
-                                        : welch(p->sum[v], p->square[v], p->known[v], p->all_sum[v],
-                                                p->all_square[v], p->all_known[v]);
+        p->statistic[v] = p->of->paired ? paired(p, v) : welch(p, v);
     p->statistic[p->of->nvalues] = distance(p);
 }
 
@@ -154,9 +163,8 @@ static fracas_err enumerate(permuter *p, int64_t *count)
 
 static fracas_err draw(permuter *p, int64_t permutations, uint64_t seed)
 {
-    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    OWN(gsl_rng) random = fracas_random(seed);
     if (!random) return fracas_no_memory("a permutation test");
-    gsl_rng_set(random, (unsigned long)(seed ^ seed >> 32)); /* it takes 32 bits */
     for (int64_t b = 0; b < permutations; b++) {
         if (p->of->paired) {
             for (size_t i = 0; i < p->of->na; i++) flip(p, i, gsl_rng_uniform_int(random, 2));
@@ -170,7 +178,6 @@ static fracas_err draw(permuter *p, int64_t permutations, uint64_t seed)
         }
         take(p);
     }
-    gsl_rng_free(random);
     return FRACAS_OK;
 }
 
@@ -182,7 +189,7 @@ static fracas_err test(permuter *p, int64_t permutations, uint64_t seed, fracas_
     const double all = of->paired ? exp2((double)of->na)
                                   : exp(gsl_sf_lnchoose((unsigned)p->n, (unsigned)of->na));
     standardise(p);
-    add_up(p, true, p->all_sum, p->all_square, p->all_known, p->all_cut);
+    add_up(p, true, &p->all);
     for (size_t i = 0; i < p->n; i++) p->in_a[i] = i < of->na;
     evaluate(p);
     memcpy(p->observed, p->statistic, (of->nvalues + 1) * sizeof *p->observed);
@@ -206,7 +213,7 @@ fracas_err fracas_permutation_test(const fracas_two_samples *samples, int64_t pe
                                    uint64_t seed, fracas_permuted *result, int64_t *count,
                                    bool *exact)
 {
-    const size_t nv = samples->nvalues, nc = samples->ncuts, n = samples->na + samples->nb;
+    const size_t nv = samples->nvalues, n = samples->na + samples->nb;
     for (size_t v = 0; v <= nv; v++) result[v] = (fracas_permuted){NAN, NAN};
     *count = 0;
     *exact = false;
@@ -215,14 +222,8 @@ fracas_err fracas_permutation_test(const fracas_two_samples *samples, int64_t pe
     FRACAS_CLEARED(fracas_room) room = {0};
     FRACAS_TAKE(&room, p.value, n * nv);
     FRACAS_TAKE(&room, p.in_a, n);
-    FRACAS_TAKE(&room, p.sum, nv);
-    FRACAS_TAKE(&room, p.square, nv);
-    FRACAS_TAKE(&room, p.known, nv);
-    FRACAS_TAKE(&room, p.all_sum, nv);
-    FRACAS_TAKE(&room, p.all_square, nv);
-    FRACAS_TAKE(&room, p.all_known, nv);
-    FRACAS_TAKE(&room, p.cut, nc);
-    FRACAS_TAKE(&room, p.all_cut, nc);
+    take_totals(&room, samples, &p.a);
+    take_totals(&room, samples, &p.all);
     FRACAS_TAKE(&room, p.statistic, nv);
     FRACAS_TAKE(&room, p.observed, nv);
     FRACAS_TAKE(&room, p.reached, nv);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/estimate/bootstrap.h"
 
+#include "analysis/data/random.h"
 #include "analysis/data/room.h"
 
 #include <gsl/gsl_cdf.h>
-#include <gsl/gsl_rng.h>
 #include <gsl/gsl_sort.h>
 #include <math.h>
 #include <string.h>
@@ -166,10 +166,8 @@ static void student(const resampling *r, const fracas_bootstrap_options *options
 static fracas_err resample(resampling *r, const fracas_bootstrap_options *options,
                            fracas_interval *interval, double *value)
 {
-    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    OWN(gsl_rng) random = fracas_random(options->seed);
     if (!random) return fracas_no_memory("a bootstrap");
-    gsl_rng_set(random,
-                (unsigned long)(options->seed ^ options->seed >> 32)); /* it takes 32 bits */
     for (size_t b = 0; b < r->most; b++) {
         draw(r, random);
         r->statistic(r->context, r->weight, value);
@@ -178,7 +176,6 @@ static fracas_err resample(resampling *r, const fracas_bootstrap_options *option
     for (size_t v = 0; v < r->nvalues; v++)
         summarise(r->found + v * r->most, r->most, r->left_out + v * r->groups, r->groups,
                   upper(r->n, options), &interval[v]);
-    gsl_rng_free(random);
     return FRACAS_OK;
 }
 

@@ -2,6 +2,7 @@
 #include "analysis/fit/point.h"
 
 #include "analysis/fit/sample.h"
+#include "analysis/data/random.h"
 #include "analysis/data/room.h"
 
 #include <gsl/gsl_randist.h>
@@ -100,13 +101,8 @@ fracas_err fracas_fit_carry(const fracas_fit_sample *sample, const double *proba
     size_t *end;
     FRACAS_TAKE(&carried->room, owner, fragments);
     FRACAS_TAKE(&carried->room, end, n);
-    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    if (!random || carried->room.lacking) {
-        if (random) gsl_rng_free(random);
-        fracas_fit_sample_clear(carried);
-        return fracas_no_memory("a resample");
-    }
-    gsl_rng_set(random, (unsigned long)(seed ^ seed >> 32)); /* it takes 32 bits */
+    OWN(gsl_rng) random = fracas_random(seed);
+    if (!random || carried->room.lacking) return fracas_no_memory("a resample");
     for (size_t i = 0, begin = 0; i < n; i++) {
         carried->first[i] = begin;
         begin += (size_t)sample->kept[i];
@@ -114,7 +110,6 @@ fracas_err fracas_fit_carry(const fracas_fit_sample *sample, const double *proba
     order(sample, random, place, owner);
     move(sample, probability, owner, end, carried);
     compact(end, carried);
-    gsl_rng_free(random);
     return FRACAS_OK;
 }
 

@@ -24,7 +24,8 @@ fracas_fit_distance fracas_fit_distance_of(size_t ncells, const double *count,
 /* The sample with every fragment moved to its cell under a family: the fragment of rank r of N (by
  * size, in random order within a cell) to the cell of the quantile (r - 1/2)/N  (fits.11). Together
  * the fragments have this distribution; realizations keep their numbers of fragments and the
- * dependence of these on each other. Has no sizes, only cells. Cleared by the caller. */
+ * dependence of these on each other. Has no sizes, only cells. Cleared by the caller, also after an
+ * error. */
 FRACAS_MUST_USE fracas_err fracas_fit_carry(const fracas_fit_sample *sample,
                                             const double *probability, uint64_t seed,
                                             fracas_fit_sample *carried);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/fit/sample.h"
 
+#include "analysis/data/random.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -173,18 +175,15 @@ void fracas_fit_sample_moments(const fracas_fit_sample *sample, const uint32_t *
 
 fracas_err fracas_fit_draw_create(size_t n, uint64_t seed, fracas_fit_draw *draw)
 {
-    *draw = (fracas_fit_draw){.n = n,
-                              .weight = malloc((n + 1) * sizeof *draw->weight),
-                              .random = gsl_rng_alloc(gsl_rng_mt19937)};
-    if (!draw->weight || !draw->random) return fracas_no_memory("a resample");
-    gsl_rng_set(draw->random, (unsigned long)(seed ^ seed >> 32)); /* it takes 32 bits */
-    return FRACAS_OK;
+    *draw = (fracas_fit_draw){
+        .n = n, .weight = malloc((n + 1) * sizeof *draw->weight), .random = fracas_random(seed)};
+    return draw->weight && draw->random ? FRACAS_OK : fracas_no_memory("a resample");
 }
 
 void fracas_fit_draw_clear(fracas_fit_draw *draw)
 {
     free(draw->weight);
-    if (draw->random) gsl_rng_free(draw->random);
+    gsl_rng_free(draw->random);
     *draw = (fracas_fit_draw){0};
 }
 

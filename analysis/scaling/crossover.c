@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/scaling/scaling.h"
+#include "analysis/data/random.h"
 #include "analysis/data/room.h"
+#include "base/own.h"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <gsl/gsl_randist.h>
-#include <gsl/gsl_rng.h>
 #include <gsl/gsl_sort.h>
 #include <math.h>
 #include <stdio.h>
@@ -188,27 +189,22 @@ static fracas_err resample(fitter *of, const double best[NPARAMETERS], int64_t r
                            uint64_t seed, fracas_size_crossover *crossover)
 {
     const size_t most = (size_t)resamples;
-    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
-    double *found = malloc((NPARAMETERS * most + 1) * sizeof *found);
+    OWN(gsl_rng) random = fracas_random(seed);
+    OWNED double *found = malloc((NPARAMETERS * most + 1) * sizeof *found);
     size_t count = 0;
-    if (random && found) {
-        gsl_rng_set(random, (unsigned long)(seed ^ seed >> 32)); /* it takes 32 bits */
-        for (size_t b = 0; b < most; b++) {
-            double parameter[NPARAMETERS] = {best[SIZE], best[RATE], best[EXPONENT]};
-            draw(of, best, crossover, random);
-            if (!isfinite(descend(of, parameter))) continue;
-            for (size_t j = 0; j < NPARAMETERS; j++) found[j * most + count] = parameter[j];
-            count++;
-        }
-        if (count < most * 95 / 100) count = 0; /* draws without a fit are not missing at random */
-        summarise(found + SIZE * most, count, best[SIZE], 1, &crossover->size);
-        summarise(found + RATE * most, count, best[RATE], 1, &crossover->rate);
-        summarise(found + EXPONENT * most, count, best[EXPONENT], -1, &crossover->exponent);
+    if (!random || !found) return fracas_no_memory("a crossover");
+    for (size_t b = 0; b < most; b++) {
+        double parameter[NPARAMETERS] = {best[SIZE], best[RATE], best[EXPONENT]};
+        draw(of, best, crossover, random);
+        if (!isfinite(descend(of, parameter))) continue;
+        for (size_t j = 0; j < NPARAMETERS; j++) found[j * most + count] = parameter[j];
+        count++;
     }
-    const bool room = random && found;
-    if (random) gsl_rng_free(random);
-    free(found);
-    return room ? FRACAS_OK : fracas_no_memory("a crossover");
+    if (count < most * 95 / 100) count = 0; /* draws without a fit are not missing at random */
+    summarise(found + SIZE * most, count, best[SIZE], 1, &crossover->size);
+    summarise(found + RATE * most, count, best[RATE], 1, &crossover->rate);
+    summarise(found + EXPONENT * most, count, best[EXPONENT], -1, &crossover->exponent);
+    return FRACAS_OK;
 }
 
 static fracas_err fit(fitter *of, int64_t resamples, uint64_t seed,
@@ -303,12 +299,12 @@ static fracas_err fit_series(const fracas_size_series *series, int64_t resamples
     FRACAS_TAKE(&room, of.error, series->n);
     FRACAS_TAKE(&room, of.mean, series->n);
     FRACAS_TAKE(&room, of.known, series->n);
-    fracas_err err = fracas_room_check(&room, "a crossover");
-    if (!err) err = fit_taken(series, resamples, seed, &of, crossover);
+    TRY(fracas_room_check(&room, "a crossover"));
+    TRY(fit_taken(series, resamples, seed, &of, crossover));
     crossover->rate_normalised = scaled(&crossover->rate, 1 / series->scales.rate);
     crossover->size_normalised = scaled(&crossover->size, 1 / series->scales.size);
     crossover->low_exponent = *crossover->reason ? NAN : 0;
-    return err;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_crossover_fit(const fracas_size_series *series, int64_t resamples, uint64_t seed,
