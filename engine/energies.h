@@ -10,7 +10,7 @@ typedef enum {
     FRACAS_ROLE_KINETIC, /* + */
     FRACAS_ROLE_STORED,  /* + */
     FRACAS_ROLE_SINK,    /* +, lost so far */
-    FRACAS_ROLE_PART,    /* 0, part of the sink above it */
+    FRACAS_ROLE_PART,    /* 0, part of the energy above it */
     FRACAS_ROLE_SOURCE,  /* -, put in by the method so far */
     FRACAS_ROLE_LOAD     /* -, work of the load so far, integrated by the ledger (bar.13) */
 } fracas_energy_role;

@@ -402,21 +402,28 @@ fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fr
 
 /* Curves of the balance (bar.14), in the order of its energies; colours are those of the figure of
  * bands. */
-enum { RESIDUAL = FRACAS_ENERGIES, DASHES = 6 };
+enum { RESIDUAL = FRACAS_ENERGIES };
 
-/* Kinetic energy at the start, as of a flying ring. It would dwarf all other energies, and is left
- * out [J]. */
-static double kinetic_start(const fracas_point_statistics *statistics)
+/* The energy that a part is a part of; of any other energy itself. */
+static size_t whole_of(size_t which)
+{
+    while (fracas_energies[which].role == FRACAS_ROLE_PART) which--;
+    return which;
+}
+
+/* Kinetic energy and its parts at the start, as of a flying ring. They would dwarf all other
+ * energies, and are left out [J]. */
+static double start_of(const fracas_point_statistics *statistics, size_t which)
 {
     const fracas_history_row *first = statistics->history;
-    return statistics->nhistory > 0 && first->time == 0 ? first->kinetic : 0;
+    const bool kinetic = fracas_energies[whole_of(which)].role == FRACAS_ROLE_KINETIC;
+    return kinetic && statistics->nhistory > 0 && first->time == 0 ? first->energy[which] : 0;
 }
 
 static double energy(const fracas_point_statistics *statistics, size_t row, size_t which)
 {
     const fracas_history_row *of = &statistics->history[row];
-    if (which == RESIDUAL) return of->residual;
-    return of->energy[which] - (which == 0 ? kinetic_start(statistics) : 0);
+    return which == RESIDUAL ? of->residual : of->energy[which] - start_of(statistics, which);
 }
 
 static double largest_energy(const fracas_point_statistics *statistics, size_t which)
@@ -427,13 +434,14 @@ static double largest_energy(const fracas_point_statistics *statistics, size_t w
     return largest;
 }
 
-/* A part, or a sink after the first, has a curve if it is ever above 0; created energy has none. */
+/* A part, or a sink after the first, has a curve if it is ever above 0; created energy and its
+ * parts have none. */
 static bool has_curve(const fracas_point_statistics *statistics, size_t which)
 {
     const fracas_energy_role role = fracas_energies[which].role;
     const bool later = role == FRACAS_ROLE_SINK && which > 0 &&
-                       fracas_energies[which - 1].role >= FRACAS_ROLE_SINK;
-    if (role == FRACAS_ROLE_SOURCE) return false;
+                       fracas_energies[whole_of(which - 1)].role == FRACAS_ROLE_SINK;
+    if (fracas_energies[whole_of(which)].role == FRACAS_ROLE_SOURCE) return false;
     return !(role == FRACAS_ROLE_PART || later) || largest_energy(statistics, which) > 0;
 }
 
@@ -447,7 +455,7 @@ static fracas_err add_energy(const fracas_point_statistics *statistics, size_t w
                                     "_"); /* "dissipated_bending" is shown as dissipated, bending */
     FRACAS_PRINT(series->name, "%.*s%s%s%s", length, key, key[length] ? ", " : "",
                  key[length] ? key + length + 1 : "",
-                 which == 0 && kinetic_start(statistics) > 0 ? " - start" : "");
+                 which != RESIDUAL && start_of(statistics, which) > 0 ? " - start" : "");
     for (size_t i = 0; i < statistics->nhistory; i++) {
         double value = energy(statistics, i, which) * energy_factor;
         series->x[i] = statistics->history[i].time * time_factor;
@@ -456,17 +464,18 @@ static fracas_err add_energy(const fracas_point_statistics *statistics, size_t w
     return FRACAS_OK;
 }
 
-/* The curves of all energies, and of the residual below them. A part has the colour of its sink and
- * other dashes. */
+/* The curves of all energies, and of the residual below them. A part has the colour of its whole
+ * and other dashes, each its own. */
 static fracas_err add_energies(const fracas_point_statistics *statistics, double time, double joule,
                                fracas_chart *chart)
 {
     fracas_panel *panel = fracas_chart_add(chart, LOW);
     unsigned look = 0;
     for (size_t e = 0; e < FRACAS_ENERGIES; e++) {
-        const bool part = fracas_energies[e].role == FRACAS_ROLE_PART;
-        if (has_curve(statistics, e))
-            TRY(add_energy(statistics, e, part ? look - 1 + DASHES : look, time, joule, panel));
+        const unsigned part = (unsigned)(e -
+                                         whole_of(e)); /* 0: no part, 1: the first of its whole */
+        const unsigned own = part ? look - 1 + part * FRACAS_CHART_COLOURS : look;
+        if (has_curve(statistics, e)) TRY(add_energy(statistics, e, own, time, joule, panel));
         look += !part && fracas_energies[e].role != FRACAS_ROLE_SOURCE;
     }
     return add_energy(statistics, RESIDUAL, look, time, joule, fracas_chart_add(chart, STRIP));
@@ -495,9 +504,10 @@ fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
         FRACAS_PRINT(chart->panel[p].y.label, "energy [%sJ]", joule.sign);
     char motion[128] =
         "Kinetic energy is that of the motion beside the imposed stretching, work likewise.";
-    if (kinetic_start(statistics) > 0)
-        FRACAS_PRINT(motion, "Kinetic energy less the %.4g J that the %s starts with.",
-                     kinetic_start(statistics), statistics->surface ? "surface" : "ring");
+    const double start = start_of(statistics, 0); /* kinetic energy comes first */
+    if (start > 0)
+        FRACAS_PRINT(motion, "Kinetic energy less the %.4g J that the %s starts with.", start,
+                     statistics->surface ? "surface" : "ring");
     else if (statistics->surface) motion[0] = '\0';
     FRACAS_PRINT(
         chart->caption,

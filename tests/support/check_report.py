@@ -449,12 +449,15 @@ for p in pictures:
 class Page(html.parser.HTMLParser):
     def __init__(self):
         super().__init__()
-        self.open, self.marks, self.rows, self.links, self.bands = [], 0, {}, [], 0
+        self.open, self.marks, self.rows, self.links, self.bands = [], {}, {}, [], 0
         self.lists, self.warnings, self.captions, self.cells, self.scripts = [], 0, [], {}, 0
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
-        self.marks += attributes.get("class") == "mark"
+        if tag == "figure":
+            self.figure = attributes["id"]
+        if attributes.get("class") == "mark":
+            self.marks[self.figure] = self.marks.get(self.figure, 0) + 1
         self.bands += str(attributes.get("class")).startswith("band ")
         if tag == "table":
             self.table = attributes["id"]
@@ -496,8 +499,13 @@ page = Page()
 page.feed(source_text)
 assert page.open == []
 assert page.scripts == 1
-fitted = sum(line[2] == "mark" for path in glob.glob(report + "/fits-point-*.csv") for line in csv.reader(open(path, encoding="utf-8")))
-assert page.marks == 4 * with_mean + 3 * fitted  # on two and three pairs of axes
+# Marks on two and three pairs of axes; of a figure, for a new one may have marks, too.
+for name in ("size-against-rate", "size-against-rate-normalised"):
+    assert page.marks.get(name, 0) == 2 * with_mean, name
+for path in glob.glob(report + "/fits-point-*.csv"):
+    name = os.path.basename(path)[:-4]
+    with open(path, encoding="utf-8") as file:
+        assert page.marks.get(name, 0) == 3 * sum(line[2] == "mark" for line in csv.reader(file)), name
 for number, caption in enumerate((caption for caption in page.captions if caption.startswith("Figure")), 1):
     assert caption.startswith(f"Figure {number}. ") and f", campaign {summary['campaign'][:12]}, fracas {summary['version']}." in caption
 assert number == len(drawn) - len(glob.glob(os.path.join(report, "surface-*-*-*.svg"))) + len(glob.glob(os.path.join(report, "surface-*.csv")))
