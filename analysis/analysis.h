@@ -4,7 +4,6 @@
 #ifndef FRACAS_ANALYSIS_ANALYSIS_H
 #define FRACAS_ANALYSIS_ANALYSIS_H
 
-#include "base/own.h"
 #include "base/err.h"
 #include "base/hash.h"
 #include "base/own.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A mean over replicas and how well it is known. */
+/* Means over replicas, and numbers of a part of them: how well they are known, and whether two
+ * parts are alike. */
 #ifndef FRACAS_ANALYSIS_DATA_ESTIMATE_H
 #define FRACAS_ANALYSIS_DATA_ESTIMATE_H
 

@@ -87,7 +87,7 @@ FRACAS_MUST_USE fracas_err fracas_panel_add(fracas_panel *panel, fracas_series_k
                                             unsigned look, size_t n, fracas_series **series);
 
 /* Opens the <svg> element of a drawing of so many pixels; the caller closes it. `standalone`: a
- * file of its own, with its style, on white; else for a page with the style sheets of assets.h,
+ * file of its own, with its style, on white; else for a page with the style sheets below,
  * light or dark as the reader has it. */
 void fracas_svg_begin(const char *title, int width, double height, bool standalone, FILE *out);
 /* Writes the whole element. */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Facets of a surface in space: triangles facing the reader, in the frame of the view. The shell is
- * a solid with the surface in its middle: an element shows its outer skin or, turned away, its
- * inner one; at an edge, the cut through the thickness may show, too. */
+/* A surface in space for a drawing: its facets (triangles facing the reader, in the frame of the
+ * view), which of them hide others, and tints of its fragments. The shell is a solid with the
+ * surface in its middle: an element shows its outer skin or, turned away, its inner one; at an
+ * edge, the cut through the thickness may show, too. */
 #ifndef FRACAS_ANALYSIS_DRAW_FACETS_H
 #define FRACAS_ANALYSIS_DRAW_FACETS_H
 

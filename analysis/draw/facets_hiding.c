@@ -268,28 +268,25 @@ static bool is_edge_on(const fracas_facets *facets, size_t f)
 /* Facets drawn at once: connected ones, as long as they hide nothing that hides them. */
 typedef struct {
     size_t count;
-    uint32_t *of;   /* for each facet */
+    uint32_t *of;   /* for each facet: labels of the partition */
     int32_t *layer; /* for each part */
     bool *split;    /* for each part: it hides some of itself, or a part that hides it */
 } parts;
 
-static fracas_err find_parts(hiding *h, parts *p)
+static fracas_err find_parts(hiding *h, fracas_partition *partition, parts *p)
 {
     const fracas_facets *facets = h->facets;
-    fracas_partition partition;
-    TRY(fracas_partition_init(&partition, facets->nfacets));
+    TRY(fracas_partition_init(partition, facets->nfacets));
     for (size_t f = 0; f < facets->nfacets; f++)
         for (int side = 0; side < 3; side++) {
             const int32_t other = facets->facet[f].neighbour[side];
             if (other >= 0 && facets->facet[f].layer >= 0 && facets->facet[other].layer >= 0)
-                fracas_partition_unite(&partition, (uint32_t)f, (uint32_t)other);
+                fracas_partition_unite(partition, (uint32_t)f, (uint32_t)other);
         }
-    p->count = fracas_partition_label(&partition);
-    FRACAS_TAKE(&h->room, p->of, facets->nfacets);
+    p->count = fracas_partition_label(partition);
+    p->of = partition->label;
     FRACAS_TAKE(&h->room, p->layer, p->count + facets->nfacets); /* room for all of them split */
     FRACAS_TAKE(&h->room, p->split, p->count + facets->nfacets);
-    for (size_t f = 0; f < facets->nfacets && p->of; f++) p->of[f] = partition.label[f];
-    fracas_partition_clear(&partition);
     return fracas_room_check(&h->room, "the facets of a picture");
 }
 
@@ -323,10 +320,11 @@ static void split_parts(const hiding *h, parts *p)
 static fracas_err find_layers(hiding *h)
 {
     fracas_facets *facets = h->facets;
+    FRACAS_CLEARED(fracas_partition) partition = {0};
     parts p = {0};
     for (size_t f = 0; f < facets->nfacets; f++)
         facets->facet[f].layer = is_edge_on(facets, f) || is_hidden(h, f) ? -1 : 0;
-    TRY(find_parts(h, &p));
+    TRY(find_parts(h, &partition, &p));
     raise_parts(h, &p);
     split_parts(h, &p);
     raise_parts(h, &p);

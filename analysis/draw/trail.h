@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Edges written as an SVG path of few long lines. */
+/* Places of a mesh in a drawing, and its edges as an SVG path of few long lines. */
 #ifndef FRACAS_ANALYSIS_DRAW_TRAIL_H
 #define FRACAS_ANALYSIS_DRAW_TRAIL_H
 

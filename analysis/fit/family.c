@@ -66,7 +66,7 @@ static weibull weibull_of(double mean, double cv)
     return law;
 }
 
-/* Shifts to begin with: none, half of the smallest size, most of it. */
+/* Shifts to begin with: half of the smallest size, most of it, nearly none. */
 static double start_shift(const fracas_family_moments *moments, int which)
 {
     static const double share[FRACAS_FAMILY_STARTS] = {0.5, 0.9, 0.02};

@@ -4,7 +4,6 @@
 #ifndef FRACAS_ANALYSIS_FIT_FITS_H
 #define FRACAS_ANALYSIS_FIT_FITS_H
 
-#include "base/own.h"
 #include "analysis/analysis.h"
 #include "analysis/fit/family.h"
 #include "base/err.h"
@@ -44,6 +43,8 @@ FRACAS_MUST_USE fracas_err fracas_fits_create(const fracas_analysis *analysis, s
 void fracas_fits_destroy(fracas_fits *fits); /* NULL is allowed */
 FRACAS_OWNER(fracas_fits, fracas_fits_destroy)
 
+/* Adds a copy of the row behind the others; fits to begin with may be {0}. FRACAS_ENVIRONMENT
+ * without memory. */
 FRACAS_MUST_USE fracas_err fracas_fits_append(fracas_fits *fits, const fracas_fits_row *row);
 
 /* STUDY/fits.csv, whole: temporary, synced, renamed. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sizes of a point's fragments in cells, by realization: the data of a fit
- * (docs/theory/fits.md). */
+/* The sizes of a point's fragments in cells, by realization: the data of a fit; and random weights
+ * of its realizations, a resample (docs/theory/fits.md). */
 #ifndef FRACAS_ANALYSIS_FIT_SAMPLE_H
 #define FRACAS_ANALYSIS_FIT_SAMPLE_H
 

@@ -119,9 +119,8 @@ static fracas_err write_caption(const fracas_broken_surface *surface, int64_t re
              (long long)replica,
              broken ? "the first that ended FRAGMENTED"
                     : "of typical dissipated energy, for none ended FRAGMENTED");
-    for (int k = 0; k < (flat ? 3 : 2); k++) {
+    for (int k = 0; k < (flat ? 3 : 2); k++)
         fracas_append(text, size, "; ", "%s: %s", what[k], fracas_surface_time(at[k], true).text);
-    }
     fracas_append(text, size, ".", "%s", flat ? "" : " Seen from the direction (1, 1, 1)");
     if (explode_of(&surface->mesh) > 0)
         fracas_append(

@@ -45,8 +45,6 @@ FRACAS_MUST_USE fracas_err fracas_size_series_create(const struct fracas_analysi
                                                      fracas_size_series **list, size_t *count);
 void fracas_size_series_free(fracas_size_series *list, size_t count);
 
-struct fracas_analysis;
-
 enum { FRACAS_SLOPE_POINTS = 3 }; /* a line through fewer has no residual to judge it by */
 
 /* A straight line through (x_i, y_i) by weighted least squares. */
