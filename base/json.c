@@ -31,22 +31,26 @@ static void open_level(fracas_json *json, const char *key, char bracket)
     before_value(json, key);
     putc(bracket, json->out);
     json->first[++json->depth] = true;
+    json->end[json->depth] = bracket == '{' ? '}' : ']';
 }
 
-static void close_level(fracas_json *json, char bracket)
+void fracas_json_close(fracas_json *json)
 {
+    const char end = json->end[json->depth];
     bool empty = json->first[json->depth--];
     if (!empty) fprintf(json->out, "\n%*s", 2 * json->depth, "");
-    putc(bracket, json->out);
+    putc(end, json->out);
 }
 
 void fracas_json_begin(fracas_json *json, FILE *out)
 {
     *json = (fracas_json){.out = out, .first = {true}};
+    open_level(json, NULL, '{');
 }
 
 void fracas_json_end(fracas_json *json)
 {
+    while (json->depth > 0) fracas_json_close(json);
     putc('\n', json->out);
 }
 
@@ -57,14 +61,6 @@ void fracas_json_object(fracas_json *json, const char *key)
 void fracas_json_array(fracas_json *json, const char *key)
 {
     open_level(json, key, '[');
-}
-void fracas_json_close_object(fracas_json *json)
-{
-    close_level(json, '}');
-}
-void fracas_json_close_array(fracas_json *json)
-{
-    close_level(json, ']');
 }
 
 void fracas_json_real(fracas_json *json, const char *key, double value)

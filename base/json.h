@@ -11,17 +11,18 @@ typedef struct {
     FILE *out;
     int depth;
     bool first[16]; /* nothing written yet at this depth */
+    char end[16];   /* bracket that closes this depth */
 } fracas_json;
 
+/* Opens an object; the end closes it, with every level open in it, and writes a newline. */
 void fracas_json_begin(fracas_json *json, FILE *out);
-void fracas_json_end(fracas_json *json); /* closes with a newline */
+void fracas_json_end(fracas_json *json);
 
-/* `key` is NULL inside an array and at the top. Numbers are written with 17 digits; NaN and
+/* `key` is NULL inside an array. Numbers are written with 17 digits; NaN and
  * infinities as null. */
 void fracas_json_object(fracas_json *json, const char *key);
 void fracas_json_array(fracas_json *json, const char *key);
-void fracas_json_close_object(fracas_json *json);
-void fracas_json_close_array(fracas_json *json);
+void fracas_json_close(fracas_json *json); /* the innermost of them */
 void fracas_json_real(fracas_json *json, const char *key, double value);
 void fracas_json_integer(fracas_json *json, const char *key, int64_t value);
 void fracas_json_boolean(fracas_json *json, const char *key, bool value);

@@ -198,13 +198,11 @@ static void print_numbers(const bench *b, const fracas_timings *t, double wall, 
         {"memory", "rank 0: memory, at most [bytes]", t->memory},
     };
     fracas_json json;
-    fracas_json_begin(&json, stdout);
-    if (as_json) fracas_json_object(&json, NULL);
+    if (as_json) fracas_json_begin(&json, stdout);
     for (size_t i = 0; i < FRACAS_COUNT(number); i++) {
         if (as_json) fracas_json_real(&json, number[i].name, number[i].value);
         else printf("%-50s %.6g\n", number[i].text, number[i].value);
     }
-    if (as_json) fracas_json_close_object(&json);
     if (as_json) fracas_json_end(&json);
 }
 

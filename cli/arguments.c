@@ -157,13 +157,13 @@ fracas_err fracas_arguments_read(const fracas_command *command, int argc, char *
     if (optind < arguments->argc)
         return fracas_fail(FRACAS_USAGE, "%s: one argument too many: `%s`; see `fracas help %s`",
                            command->name, argv[optind], command->name);
-    if (command->operand && !arguments->operand)
+    const char *missing = command->operand && !arguments->operand ? command->operand
+                          : command->second && !arguments->second ? command->second
+                                                                  : NULL;
+    if (missing)
         return fracas_fail(FRACAS_USAGE, "%s: %s is missing: fracas %s %s%s%s", command->name,
-                           command->operand, command->name, command->operand,
-                           command->second ? " " : "", command->second ? command->second : "");
-    if (command->second && !arguments->second)
-        return fracas_fail(FRACAS_USAGE, "%s: %s is missing: fracas %s %s %s", command->name,
-                           command->second, command->name, command->operand, command->second);
+                           missing, command->name, command->operand, command->second ? " " : "",
+                           command->second ? command->second : "");
     return FRACAS_OK;
 }
 

@@ -20,7 +20,7 @@ enum { FRACAS_MOST_OPTIONS = 32 }; /* per subcommand */
 typedef struct fracas_arguments fracas_arguments;
 struct fracas_campaign;
 
-/* A subcommand is one file with one const fracas_command and one line in main.c. */
+/* A subcommand is one const fracas_command and one line in main.c. */
 typedef struct {
     const char *name;
     const char *operand;          /* its name in the help; NULL: none */

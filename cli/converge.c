@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/run_options.h"
+#include "cli/run.h"
 
 #include "analysis/converge/converge.h"
 #include "base/param.h"
@@ -78,18 +78,15 @@ static fracas_err find_folder(converging *c)
 static bool has_more(const char *study, const char *file, fracas_refinement by, int64_t *replicas)
 {
     char path[STUDY_PATH + 2 * NAME];
-    fracas_campaign *there;
-    fracas_refined refined = {0};
+    OWN(fracas_campaign) there = NULL;
+    FRACAS_CLEARED(fracas_refined) refined = {0};
     snprintf(path, sizeof path, "%s/campaign.yaml", study);
     if (fracas_campaign_read(path, &there)) return false;
     *replicas = 0;
     for (size_t p = 0; p < there->npoints; p++)
         if (there->point[p].replicas > *replicas) *replicas = there->point[p].replicas;
-    fracas_campaign_destroy(there);
-    const bool fits = !fracas_refined_create(file, *replicas, by, &refined) && refined.campaign &&
-                      !fracas_study_fits(study, refined.campaign);
-    fracas_refined_clear(&refined);
-    return fits;
+    return !fracas_refined_create(file, *replicas, by, &refined) && refined.campaign &&
+           !fracas_study_fits(study, refined.campaign);
 }
 
 /* If only the replicas differ, the error names the number to ask for: the maximum over all studies.
@@ -249,8 +246,10 @@ static fracas_err add_refinement(const converging *c, fracas_refinement by,
     return fracas_convergence_add(convergence, c->study[by], &map);
 }
 
-static fracas_err compare_with(const converging *c, fracas_convergence *convergence)
+static fracas_err compare(const converging *c, double tolerance)
 {
+    OWN(fracas_convergence) convergence = NULL;
+    TRY(fracas_convergence_create(c->study[FRACAS_REFINE_NOTHING], tolerance, &convergence));
     for (fracas_refinement r = FRACAS_REFINE_MESH; r < FRACAS_NREFINEMENTS; r++) {
         const fracas_refined *refined = &c->refined[r];
         if (refined->campaign) TRY(add_refinement(c, r, convergence));
@@ -274,13 +273,6 @@ static fracas_err compare_with(const converging *c, fracas_convergence *converge
     return FRACAS_OK;
 }
 
-static fracas_err compare(const converging *c, double tolerance)
-{
-    OWN(fracas_convergence) convergence = NULL;
-    TRY(fracas_convergence_create(c->study[FRACAS_REFINE_NOTHING], tolerance, &convergence));
-    return compare_with(c, convergence);
-}
-
 static fracas_err converge_with(converging *c)
 {
     double tolerance = 0.02;
@@ -302,13 +294,12 @@ static fracas_err converge_with(converging *c)
 
 static fracas_err converge(const fracas_arguments *arguments)
 {
-    converging *c = calloc(1, sizeof *c);
+    OWNED converging *c = calloc(1, sizeof *c);
     if (!c) return fracas_no_memory("the convergence");
     c->arguments = arguments;
     c->began = fracas_now();
     fracas_err err = converge_with(c);
     for (size_t r = 0; r < FRACAS_NREFINEMENTS; r++) fracas_refined_clear(&c->refined[r]);
-    free(c);
     return err;
 }
 

@@ -85,7 +85,7 @@ static const char seal[] =
 
 fracas_err fracas_job_write(const fracas_job *job, FILE *out)
 {
-    char *text = NULL;
+    OWNED char *text = NULL;
     size_t size = 0;
     FILE *memory = open_memstream(&text, &size);
     if (!memory) return fracas_no_memory("the batch script");
@@ -95,20 +95,18 @@ fracas_err fracas_job_write(const fracas_job *job, FILE *out)
     fputs(fracas_job_body, memory);
     const bool whole = !fclose(memory);
     if (whole) fprintf(out, "%s%s%016" PRIx64 "\n", text, seal, fracas_checksum_of(text, size));
-    free(text);
     return whole ? FRACAS_OK : fracas_no_memory("the batch script");
 }
 
 fracas_err fracas_job_is_own(FILE *in, bool *own)
 {
     enum { MOST = 1 << 20 };
-    char *text = malloc(MOST + 1);
+    OWNED char *text = malloc(MOST + 1);
     if (!text) return fracas_no_memory("the batch script");
     text[fread(text, 1, MOST, in)] = '\0';
     const char *last = strstr(text, seal);
     uint64_t checksum = 0;
     *own = !*text || (last && sscanf(last + sizeof seal - 1, "%16" SCNx64, &checksum) == 1 &&
                       checksum == fracas_checksum_of(text, (size_t)(last - text)));
-    free(text);
     return FRACAS_OK;
 }

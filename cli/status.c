@@ -44,7 +44,7 @@ static void write_counts(fracas_json *json, const fracas_index_counts *counts)
     fracas_json_object(json, "outcomes");
     for (int o = 0; o < FRACAS_NOUTCOMES; o++)
         fracas_json_integer(json, fracas_outcome_name(o), counts->outcome[o]);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 static void write_failure(void *json, const fracas_index_row *row, const char *reason)
@@ -54,13 +54,13 @@ static void write_failure(void *json, const fracas_index_row *row, const char *r
     fracas_json_integer(json, "replica", row->replica);
     fracas_json_integer(json, "attempts", row->attempts);
     fracas_json_text(json, "reason", reason);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 /* The decisions on the replicas of a point, by round. */
 static fracas_err write_decisions(fracas_json *json, const fracas_status *status, size_t p)
 {
-    fracas_decision *decision;
+    OWNED fracas_decision *decision = NULL;
     size_t count;
     if (status->campaign->point[p].rule.maximum == 0) return FRACAS_OK;
     TRY(fracas_index_decisions(status->index, &status->campaign->point[p].hash, &decision, &count));
@@ -74,10 +74,9 @@ static fracas_err write_decisions(fracas_json *json, const fracas_status *status
         fracas_json_real(json, "mean", decision[d].mean);
         fracas_json_real(json, "half_width", decision[d].half_width);
         fracas_json_text(json, "stop", fracas_sequential_stop_name[decision[d].stop]);
-        fracas_json_close_object(json);
+        fracas_json_close(json);
     }
-    fracas_json_close_array(json);
-    free(decision);
+    fracas_json_close(json);
     return FRACAS_OK;
 }
 
@@ -85,7 +84,6 @@ static fracas_err write_json(const fracas_status *status)
 {
     fracas_json json;
     fracas_json_begin(&json, stdout);
-    fracas_json_object(&json, NULL);
     fracas_json_text(&json, "study", status->study);
     fracas_json_text(&json, "campaign", status->campaign->name);
     fracas_json_boolean(&json, "complete", status->complete);
@@ -109,14 +107,12 @@ static fracas_err write_json(const fracas_status *status)
         fracas_json_text(&json, "hash", hash);
         write_counts(&json, &status->point[i]);
         if (!code) code = write_decisions(&json, status, i);
-        fracas_json_close_object(&json);
+        fracas_json_close(&json);
     }
-    fracas_json_close_array(&json);
+    fracas_json_close(&json);
     fracas_json_array(&json, "failures");
     if (!code && status->all.failed)
         code = fracas_index_failures(status->index, &status->campaign->table, write_failure, &json);
-    fracas_json_close_array(&json);
-    fracas_json_close_object(&json);
     fracas_json_end(&json);
     return code;
 }
@@ -124,7 +120,7 @@ static fracas_err write_json(const fracas_status *status)
 static fracas_err print_points(const fracas_status *status)
 {
     const fracas_point_table *table = &status->campaign->table;
-    bool *varies = malloc((table->ncolumns + 1) * sizeof *varies);
+    OWNED bool *varies = malloc((table->ncolumns + 1) * sizeof *varies);
     if (!varies) return fracas_no_memory("the points");
     for (size_t c = 0; c < table->ncolumns; c++) varies[c] = fracas_point_table_varies(table, c);
     fputs("\nrealizations    done  failed  point\n", stdout);
@@ -140,7 +136,6 @@ static fracas_err print_points(const fracas_status *status)
         }
         putchar('\n');
     }
-    free(varies);
     return FRACAS_OK;
 }
 
@@ -149,7 +144,7 @@ static fracas_err print_decisions(const fracas_status *status)
     bool first = true;
     for (size_t p = 0; p < status->campaign->npoints; p++) {
         const fracas_sequential_rule *rule = &status->campaign->point[p].rule;
-        fracas_decision *decision;
+        OWNED fracas_decision *decision = NULL;
         size_t count;
         if (rule->maximum == 0) continue;
         TRY(fracas_index_decisions(status->index, &status->campaign->point[p].hash, &decision,
@@ -169,7 +164,6 @@ static fracas_err print_decisions(const fracas_status *status)
                    fracas_sequential_stop_name[decision[d].stop]);
         }
         first = first && !count;
-        free(decision);
     }
     return FRACAS_OK;
 }
@@ -225,7 +219,7 @@ static fracas_err print_text(const fracas_status *status)
 /* Counts the part of the study. */
 static fracas_err count_part(fracas_status *status)
 {
-    fracas_index_row *row;
+    OWNED fracas_index_row *row = NULL;
     size_t count;
     TRY(fracas_index_part(status->index, &status->part, &status->parts));
     status->part_all = status->all.realizations;
@@ -237,7 +231,6 @@ static fracas_err count_part(fracas_status *status)
     status->part_left = 0;
     for (size_t i = 0; i < count; i++)
         status->part_left += row[i].status == FRACAS_PLANNED || row[i].status == FRACAS_LEASED;
-    free(row);
     return FRACAS_OK;
 }
 
@@ -267,14 +260,14 @@ static fracas_err count(fracas_status *status)
 
 static fracas_err status(const fracas_arguments *arguments, const fracas_campaign *campaign)
 {
-    fracas_status state = {.study = arguments->operand, .campaign = campaign};
-    TRY(fracas_index_open(state.study, false, &state.index));
-    state.point = calloc(campaign->npoints, sizeof *state.point);
-    fracas_err code = state.point ? count(&state) : fracas_no_memory("the counts of the points");
-    if (!code) code = fracas_given(arguments, "json") ? write_json(&state) : print_text(&state);
-    free(state.point);
-    fracas_index_close(state.index);
-    return code;
+    OWN(fracas_index) index = NULL;
+    OWNED fracas_index_counts *point = calloc(campaign->npoints, sizeof *point);
+    if (!point) return fracas_no_memory("the counts of the points");
+    TRY(fracas_index_open(arguments->operand, false, &index));
+    fracas_status state = {
+        .study = arguments->operand, .campaign = campaign, .index = index, .point = point};
+    TRY(count(&state));
+    return fracas_given(arguments, "json") ? write_json(&state) : print_text(&state);
 }
 
 const fracas_command fracas_command_status = {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/job.h"
-#include "cli/run_options.h"
+#include "cli/run.h"
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
@@ -127,12 +127,11 @@ static fracas_err find_places(submission *s)
 static fracas_err check_place(const char *path)
 {
     bool own;
-    FILE *file = fopen(path, "r");
+    OWN(FILE) file = fopen(path, "r");
     if (!file && errno == ENOENT) return FRACAS_OK;
     if (!file) return fracas_fail(FRACAS_ENVIRONMENT, "cannot open %s: %s", path, strerror(errno));
-    fracas_err err = fracas_job_is_own(file, &own);
-    fclose(file);
-    if (err || own) return err;
+    TRY(fracas_job_is_own(file, &own));
+    if (own) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "submit: %s is there already and is not as `fracas submit` writes it: move "
                        "it away, or give --script PATH",

@@ -1,7 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/upkeep.h"
+/* Commands on a study that compute nothing: reindex, merge, merge-studies, gc. */
+#include "cli/cli.h"
+
+#include "base/json.h"
+#include "campaigns/campaign.h"
+#include "campaigns/scheduler/session/upkeep.h"
 
 #include <inttypes.h>
+#include <stdio.h>
+
+/* Actions as lines, in JSON those of "said", then counts of the study. */
+typedef struct {
+    const char *study;
+    fracas_said said;
+    fracas_json *json; /* NULL: in words */
+    fracas_json writer;
+    bool dry; /* gc --dry-run */
+} output;
 
 static void print_line(void *json, const char *text)
 {
@@ -9,48 +24,215 @@ static void print_line(void *json, const char *text)
     else puts(text);
 }
 
-void fracas_cli_upkeep_begin(fracas_cli_upkeep *upkeep, const char *study, bool json)
+static void begin(output *out, const fracas_arguments *arguments)
 {
-    *upkeep = (fracas_cli_upkeep){.study = study, .with_json = json};
-    if (json) {
-        fracas_json_begin(&upkeep->json, stdout);
-        fracas_json_object(&upkeep->json, NULL);
-        fracas_json_text(&upkeep->json, "study", study);
-        fracas_json_array(&upkeep->json, "said");
-    }
-    upkeep->said = (fracas_said){print_line, json ? &upkeep->json : NULL};
+    *out = (output){.study = arguments->operand};
+    if (!fracas_given(arguments, "json")) return;
+    out->json = &out->writer;
+    fracas_json_begin(out->json, stdout);
+    fracas_json_text(out->json, "study", out->study);
 }
 
-void fracas_cli_upkeep_counts(fracas_cli_upkeep *upkeep, const fracas_upkeep *end)
+static void begin_lines(output *out, const fracas_arguments *arguments)
 {
-    if (upkeep->with_json) {
-        fracas_json_close_array(&upkeep->json);
-        upkeep->closed = true;
-        fracas_json_integer(&upkeep->json, "realizations", end->realizations);
-        fracas_json_integer(&upkeep->json, "done", end->done);
-        fracas_json_integer(&upkeep->json, "failed", end->failed);
-        fracas_json_integer(&upkeep->json, "missing", end->missing);
-        fracas_json_integer(&upkeep->json, "segments", end->segments);
+    begin(out, arguments);
+    if (out->json) fracas_json_array(out->json, "said");
+    out->said = (fracas_said){print_line, out->json};
+}
+
+/* After the last line. */
+static void print_counts(const output *out, const fracas_upkeep *end)
+{
+    if (!out->json) {
+        printf("%s: %" PRId64 " realizations, %" PRId64 " done in %" PRId64 " segments, %" PRId64
+               " failed, %" PRId64 " missing\n",
+               out->study, end->realizations, end->done, end->segments, end->failed, end->missing);
         return;
     }
-    printf("%s: %" PRId64 " realizations, %" PRId64 " done in %" PRId64 " segments, %" PRId64
-           " failed, %" PRId64 " missing\n",
-           upkeep->study, end->realizations, end->done, end->segments, end->failed, end->missing);
+    fracas_json_close(out->json);
+    fracas_json_integer(out->json, "realizations", end->realizations);
+    fracas_json_integer(out->json, "done", end->done);
+    fracas_json_integer(out->json, "failed", end->failed);
+    fracas_json_integer(out->json, "missing", end->missing);
+    fracas_json_integer(out->json, "segments", end->segments);
 }
 
-void fracas_cli_upkeep_next(const fracas_cli_upkeep *upkeep, const fracas_upkeep *end)
+/* In words, which command goes on. */
+static void print_next(const output *out, const fracas_upkeep *end)
 {
-    if (upkeep->with_json) return;
+    if (out->json) return;
     if (end->missing)
-        printf("`fracas run %s/campaign.yaml --study %s` computes what is missing\n", upkeep->study,
-               upkeep->study);
-    else printf("`fracas merge %s` writes study.h5\n", upkeep->study);
+        printf("`fracas run %s/campaign.yaml --study %s` computes what is missing\n", out->study,
+               out->study);
+    else printf("`fracas merge %s` writes study.h5\n", out->study);
 }
 
-void fracas_cli_upkeep_end(fracas_cli_upkeep *upkeep)
+/* Passes `code` on; after an error the output is ended, too. */
+static fracas_err finish(output *out, fracas_err code)
 {
-    if (!upkeep->with_json) return;
-    if (!upkeep->closed) fracas_json_close_array(&upkeep->json);
-    fracas_json_close_object(&upkeep->json);
-    fracas_json_end(&upkeep->json);
+    if (out->json) fracas_json_end(out->json);
+    return code;
 }
+
+/* ---- reindex ---- */
+
+static fracas_err reindex(const fracas_arguments *arguments, const fracas_campaign *campaign)
+{
+    output out;
+    fracas_upkeep end;
+    begin_lines(&out, arguments);
+    fracas_err code = fracas_upkeep_reindex(out.study, campaign, &out.said, &end);
+    if (!code) print_counts(&out, &end);
+    if (!code) print_next(&out, &end);
+    return finish(&out, code);
+}
+
+const fracas_command fracas_command_reindex = {
+    .name = "reindex",
+    .operand = "STUDY",
+    .doc = "Makes the index of STUDY anew from its segments",
+    .more = "\nFor an index.sqlite that is lost or damaged. Every segment is read; one that is "
+            "damaged is set aside, one of another study\n"
+            "is left and named. From an index that can still be read it takes over what no segment "
+            "has: which realizations FAILED and why,\n"
+            "attempts, provenance, events; one that cannot stays as index.sqlite.before-TIME. The "
+            "new one takes its place when it is whole.\n",
+    .options = fracas_json_option,
+    .run_on = reindex,
+};
+
+/* ---- merge ---- */
+
+static fracas_err merge(const fracas_arguments *arguments, const fracas_campaign *campaign)
+{
+    output out;
+    fracas_upkeep end = {0};
+    bool written = false;
+    begin_lines(&out, arguments);
+    fracas_err code = fracas_upkeep_merge(out.study, campaign, &out.said, &end, &written);
+    if (!code || code == FRACAS_SOME_FAILED || (code == FRACAS_INTERRUPTED && out.json)) {
+        print_counts(&out, &end);
+        if (out.json) fracas_json_boolean(out.json, "written", written);
+        else printf("%s/study.h5 is %s\n", out.study, written ? "written" : "there already");
+    }
+    return finish(&out, code);
+}
+
+const fracas_command fracas_command_merge = {
+    .name = "merge",
+    .operand = "STUDY",
+    .doc = "Writes STUDY/study.h5 from its segments, and computes nothing",
+    .more = "\nWhat a run does at its end; for a study whose realizations are all there, as after "
+            "`fracas reindex` or `fracas merge-studies`.\n"
+            "Status 3, saying how many, if some are missing.\n",
+    .options = fracas_json_option,
+    .run_on = merge,
+};
+
+/* ---- merge-studies ---- */
+
+static void print_joined(const output *out, const char *from, const fracas_joined *joined,
+                         int64_t both)
+{
+    if (!out->json) {
+        printf("from %s: %" PRId64 " realizations in %" PRId64 " segments, %" PRId64
+               " failures; %" PRId64 " realizations are in both, and the same\n",
+               from, joined->realizations, joined->segments, joined->failed, both);
+        return;
+    }
+    fracas_json_text(out->json, "from", from);
+    fracas_json_integer(out->json, "taken_realizations", joined->realizations);
+    fracas_json_integer(out->json, "taken_segments", joined->segments);
+    fracas_json_integer(out->json, "taken_failures", joined->failed);
+    fracas_json_integer(out->json, "in_both", both);
+}
+
+static fracas_err merge_studies(const fracas_arguments *arguments)
+{
+    const char *from = arguments->second;
+    output out;
+    fracas_joined joined;
+    fracas_upkeep end;
+    int64_t both;
+    TRY(fracas_cli_check_study(arguments->operand));
+    TRY(fracas_cli_check_study(from));
+    begin_lines(&out, arguments);
+    fracas_err code = fracas_upkeep_join(out.study, from, &out.said, &joined, &both, &end);
+    if (!code) {
+        print_counts(&out, &end);
+        print_joined(&out, from, &joined, both);
+        print_next(&out, &end);
+    }
+    return finish(&out, code);
+}
+
+const fracas_command fracas_command_merge_studies = {
+    .name = "merge-studies",
+    .operand = "A",
+    .second = "B",
+    .doc = "Adds to study A what study B has of the same campaign",
+    .more = "\nFor a campaign that was computed in two places, as by `fracas run FILE --part 1/2` "
+            "and `--part 2/2`. The campaign of one may\n"
+            "be an extension of the other's; program version, seed and output options must be the "
+            "same. What both have is compared\n"
+            "bit for bit before anything is copied: status 5 names the first difference. B stays "
+            "as it is, but for damaged\n"
+            "segments, which are set aside.\n",
+    .options = fracas_json_option,
+    .run = merge_studies,
+};
+
+/* ---- gc ---- */
+
+static const fracas_option gc_options[] = {
+    {"dry-run", NULL, "only say what it would remove"}, {"json", NULL, "print it as JSON"}, {0}};
+
+static void print_item(void *context, const fracas_collected *item)
+{
+    const output *out = context;
+    if (!out->json) {
+        printf("%s %s (%" PRIu64 " bytes): %s\n",
+               !item->removed ? "left"
+               : out->dry     ? "would free"
+                              : "freed",
+               item->path, item->bytes, item->why);
+        return;
+    }
+    fracas_json_object(out->json, NULL);
+    fracas_json_text(out->json, "path", item->path);
+    fracas_json_integer(out->json, "bytes", (int64_t)item->bytes);
+    fracas_json_boolean(out->json, "removed", item->removed);
+    fracas_json_text(out->json, "why", item->why);
+    fracas_json_close(out->json);
+}
+
+static fracas_err gc(const fracas_arguments *arguments, const fracas_campaign *campaign)
+{
+    output out;
+    uint64_t freed = 0;
+    begin(&out, arguments);
+    out.dry = fracas_given(arguments, "dry-run");
+    if (out.json) fracas_json_boolean(out.json, "dry_run", out.dry);
+    if (out.json) fracas_json_array(out.json, "found");
+    fracas_err code = fracas_upkeep_collect(out.study, campaign, out.dry, print_item, &out, &freed);
+    if (out.json) {
+        fracas_json_close(out.json);
+        fracas_json_integer(out.json, "bytes", (int64_t)freed);
+    } else if (!code) {
+        printf("%s: %" PRIu64 " bytes %s\n", out.study, freed,
+               out.dry ? "would be freed" : "freed");
+    }
+    return finish(&out, code);
+}
+
+const fracas_command fracas_command_gc = {
+    .name = "gc",
+    .operand = "STUDY",
+    .doc = "Removes from STUDY what nobody needs",
+    .more = "\nHalf-written files, segments whose realizations another segment has, damaged ones "
+            "that were set aside, what interrupted\n"
+            "commands left behind, attachments that campaign.yaml does not name; and gives free "
+            "pages of the index back. What it does not know it lists and leaves.\n",
+    .options = gc_options,
+    .run_on = gc,
+};

@@ -43,11 +43,9 @@ static void keep_note(void *context, const char *text)
 /* Checks decisions on replicas against their realizations. */
 static fracas_err check_decisions(const char *study, const fracas_campaign *campaign)
 {
-    fracas_index *index;
+    OWN(fracas_index) index = NULL;
     TRY(fracas_index_open(study, false, &index));
-    fracas_err err = fracas_rounds_check(campaign, index);
-    fracas_index_close(index);
-    return err;
+    return fracas_rounds_check(campaign, index);
 }
 
 static void report(verification *v, const char *problem)
@@ -59,44 +57,38 @@ static void report(verification *v, const char *problem)
 /* Some realizations are not computed yet. */
 static bool is_growing(const char *study)
 {
-    fracas_index *index;
+    OWN(fracas_index) index = NULL;
     fracas_index_counts counts = {0};
-    if (fracas_index_open(study, false, &index)) return false;
-    const bool known = !fracas_index_count(index, &counts);
-    fracas_index_close(index);
-    return known && counts.planned + counts.leased > 0;
+    return !fracas_index_open(study, false, &index) && !fracas_index_count(index, &counts) &&
+           counts.planned + counts.leased > 0;
 }
 
 /* The campaign file of the study against study.h5, where there is one. */
 static void verify_campaign(verification *v)
 {
-    fracas_campaign *campaign;
-    fracas_reader *reader;
+    OWN(fracas_campaign) campaign = NULL;
+    OWN(fracas_reader) reader = NULL;
     char file[PATH_MAX];
     if (fracas_cli_read_campaign(v->study, &campaign)) {
         report(v, fracas_message());
         return;
     }
     snprintf(file, sizeof file, "%s/study.h5", v->study);
+    if (access(file, F_OK) || v->problems || fracas_reader_open(file, &reader)) return;
     const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
-    if (access(file, F_OK) == 0 && !v->problems && !fracas_reader_open(file, &reader)) {
-        const bool same = fracas_hash_equal(&fracas_reader_header(reader)->campaign,
-                                            &campaign->hash);
-        if (!same && !is_growing(v->study))
-            report(v,
-                   "campaign.yaml is not the campaign of study.h5, which is older: run the file it "
-                   "was made from");
-        else if (!same)
-            fprintf(v->notes,
-                    "study.h5 is older than campaign.yaml, which asks for more: `fracas run "
-                    "%s/campaign.yaml --study %s` goes on%c",
-                    v->study, v->study, '\0');
-        else if ((v->full && fracas_reader_check_meshes(reader, &meshes)) ||
-                 check_decisions(v->study, campaign))
+    if (fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash)) {
+        if ((v->full && fracas_reader_check_meshes(reader, &meshes)) ||
+            check_decisions(v->study, campaign))
             report(v, fracas_message());
-        fracas_reader_close(reader);
+    } else if (is_growing(v->study)) {
+        fprintf(v->notes,
+                "study.h5 is older than campaign.yaml, which asks for more: `fracas run "
+                "%s/campaign.yaml --study %s` goes on%c",
+                v->study, v->study, '\0');
+    } else {
+        report(v, "campaign.yaml is not the campaign of study.h5, which is older: run the file it "
+                  "was made from");
     }
-    fracas_campaign_destroy(campaign);
 }
 
 static fracas_err verify_all(verification *v)
@@ -108,52 +100,50 @@ static fracas_err verify_all(verification *v)
     return FRACAS_OK;
 }
 
-static fracas_err print_json(verification *v, char *const *notes, const size_t *size)
+static void begin_json(const verification *v)
 {
-    fracas_json json;
-    v->json = &json;
-    fracas_json_begin(&json, stdout);
-    fracas_json_object(&json, NULL);
-    fracas_json_text(&json, "study", v->study);
-    fracas_json_boolean(&json, "full", v->full);
-    fracas_json_array(&json, "problems");
-    fracas_err code = verify_all(v);
-    fracas_json_close_array(&json);
-    fracas_json_array(&json, "notes");
-    fflush(v->notes);
-    for (const char *note = *notes; note < *notes + *size; note += strlen(note) + 1)
-        fracas_json_text(&json, NULL, note);
-    fracas_json_close_array(&json);
-    fracas_json_boolean(&json, "sound", !code && !v->problems);
-    fracas_json_close_object(&json);
-    fracas_json_end(&json);
-    return code;
+    fracas_json_begin(v->json, stdout);
+    fracas_json_text(v->json, "study", v->study);
+    fracas_json_boolean(v->json, "full", v->full);
+    fracas_json_array(v->json, "problems");
 }
 
-static fracas_err print_text(verification *v, char *const *notes, const size_t *size)
+/* The notes, and whether the study is sound. */
+static void print_end(const verification *v, const char *notes, size_t size, bool sound)
 {
-    fracas_err code = verify_all(v);
-    fflush(v->notes);
-    for (const char *note = *notes; note < *notes + *size; note += strlen(note) + 1)
-        printf("note: %s\n", note);
-    if (!code && !v->problems)
+    if (v->json) {
+        fracas_json_close(v->json);
+        fracas_json_array(v->json, "notes");
+    }
+    for (const char *note = notes; note < notes + size; note += strlen(note) + 1) {
+        if (v->json) fracas_json_text(v->json, NULL, note);
+        else printf("note: %s\n", note);
+    }
+    if (v->json) {
+        fracas_json_close(v->json);
+        fracas_json_boolean(v->json, "sound", sound);
+        fracas_json_end(v->json);
+    } else if (sound) {
         printf("%s is sound%s\n", v->study,
                v->full ? "" : " (sizes, checksums, index; --full compares every value)");
-    return code;
+    }
 }
 
 static fracas_err verify(const fracas_arguments *arguments)
 {
-    char *notes = NULL;
+    OWNED char *notes = NULL;
     size_t size = 0;
-    verification v = {.study = arguments->operand, .full = fracas_given(arguments, "full") != NULL};
+    fracas_json json;
+    verification v = {.study = arguments->operand,
+                      .full = fracas_given(arguments, "full"),
+                      .json = fracas_given(arguments, "json") ? &json : NULL};
     TRY(fracas_cli_check_study(v.study));
     v.notes = open_memstream(&notes, &size);
     if (!v.notes) return fracas_no_memory("the notes");
-    fracas_err code = fracas_given(arguments, "json") ? print_json(&v, &notes, &size)
-                                                      : print_text(&v, &notes, &size);
+    if (v.json) begin_json(&v);
+    fracas_err code = verify_all(&v);
     fclose(v.notes);
-    free(notes);
+    print_end(&v, notes, size, !code && !v.problems);
     if (code || !v.problems) return code;
     return fracas_fail(FRACAS_DAMAGED, "%s has %lld problem%s", v.study, (long long)v.problems,
                        v.problems > 1 ? "s" : "");

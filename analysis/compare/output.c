@@ -177,11 +177,11 @@ static void write_point(fracas_json *json, const fracas_compared_point *point)
         fracas_json_object(json, fracas_compared_quantities[v].key);
         fracas_json_text(json, "unit", fracas_compared_quantities[v].unit);
         fracas_fields_json(json, &value_fields, &point->value[v]);
-        fracas_json_close_object(json);
+        fracas_json_close(json);
     }
-    fracas_json_close_object(json);
+    fracas_json_close(json);
     fracas_fields_json_object(json, "size_distribution", &distribution_fields, point);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 static void write_study(fracas_json *json, const char *key, const fracas_analysis *analysis,
@@ -197,8 +197,8 @@ static void write_study(fracas_json *json, const char *key, const fracas_analysi
     fracas_json_text(json, "version", analysis->header.version);
     fracas_json_array(json, "unmatched");
     for (size_t i = 0; i < count; i++) fracas_json_integer(json, NULL, (int64_t)only[i]);
-    fracas_json_close_array(json);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
+    fracas_json_close(json);
 }
 
 void fracas_comparison_write_json(const fracas_comparison *comparison, const fracas_analysis *a,
@@ -206,13 +206,10 @@ void fracas_comparison_write_json(const fracas_comparison *comparison, const fra
 {
     fracas_json json;
     fracas_json_begin(&json, out);
-    fracas_json_object(&json, NULL);
     write_study(&json, "a", a, comparison->only_a, comparison->nonly_a);
     write_study(&json, "b", b, comparison->only_b, comparison->nonly_b);
     fracas_json_text(&json, "matched_by", *comparison->how ? comparison->how : NULL);
     fracas_json_array(&json, "points");
     for (size_t i = 0; i < comparison->npoints; i++) write_point(&json, &comparison->point[i]);
-    fracas_json_close_array(&json);
-    fracas_json_close_object(&json);
     fracas_json_end(&json);
 }

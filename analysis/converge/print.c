@@ -335,9 +335,9 @@ static void write_left(const fracas_convergence *convergence, fracas_json *json)
         fracas_json_text(json, "refinement", convergence->left[i].refinement);
         fracas_json_integer(json, "points", (int64_t)convergence->left[i].points);
         fracas_json_text(json, "why", convergence->left[i].why);
-        fracas_json_close_object(json);
+        fracas_json_close(json);
     }
-    fracas_json_close_array(json);
+    fracas_json_close(json);
 }
 
 static void write_notes(const fracas_convergence *convergence, fracas_json *json)
@@ -352,16 +352,15 @@ static void write_notes(const fracas_convergence *convergence, fracas_json *json
         if (note->point == SIZE_MAX) fracas_json_text(json, "point", NULL);
         else fracas_json_integer(json, "point", (int64_t)note->point);
         fracas_json_text(json, "text", text);
-        fracas_json_close_object(json);
+        fracas_json_close(json);
     }
-    fracas_json_close_array(json);
+    fracas_json_close(json);
 }
 
 void fracas_convergence_write_json(const fracas_convergence *convergence, FILE *out)
 {
     fracas_json json;
     fracas_json_begin(&json, out);
-    fracas_json_object(&json, NULL);
     fracas_json_real(&json, "tolerance", convergence->tolerance);
     for (int v = 0; v < FRACAS_NUMBER_VERDICTS; v++)
         fracas_json_integer(&json, fracas_number_verdict_name[v],
@@ -375,10 +374,8 @@ void fracas_convergence_write_json(const fracas_convergence *convergence, FILE *
         fracas_fields_json(&json, &place_fields, &row);
         fracas_fields_json(&json, &label_fields, &row);
         fracas_fields_json(&json, &change_fields, &row);
-        fracas_json_close_object(&json);
+        fracas_json_close(&json);
     }
-    fracas_json_close_array(&json);
-    fracas_json_close_object(&json);
     fracas_json_end(&json);
 }
 

@@ -81,7 +81,7 @@ void fracas_fields_json_object(fracas_json *json, const char *key, const fracas_
 {
     fracas_json_object(json, key);
     fracas_fields_json(json, fields, row);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 typedef struct {

@@ -34,17 +34,17 @@ static void put_field(void *context, const fracas_field *field)
         fracas_json_array(json, "enum");
         for (int o = 0; o < FRACAS_NOUTCOMES; o++)
             fracas_json_text(json, NULL, fracas_outcome_name(o));
-        fracas_json_close_array(json);
-        fracas_json_close_object(json);
+        fracas_json_close(json);
+        fracas_json_close(json);
     }
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 static void put_key(fracas_json *json, const char *name, const char *const *key)
 {
     fracas_json_array(json, name);
     for (size_t i = 0; i < FRACAS_TABLE_KEY && key[i]; i++) fracas_json_text(json, NULL, key[i]);
-    fracas_json_close_array(json);
+    fracas_json_close(json);
 }
 
 static void put_schema(fracas_json *json, const fracas_csv_table *table,
@@ -53,10 +53,10 @@ static void put_schema(fracas_json *json, const fracas_csv_table *table,
     fracas_json_object(json, "schema");
     fracas_json_array(json, "fields");
     fracas_csv_fields(table, analysis, put_field, json);
-    fracas_json_close_array(json);
+    fracas_json_close(json);
     fracas_json_array(json, "missingValues");
     fracas_json_text(json, NULL, "");
-    fracas_json_close_array(json);
+    fracas_json_close(json);
     put_key(json, "primaryKey", table->key);
     if (table->parent) {
         fracas_json_array(json, "foreignKeys");
@@ -65,11 +65,11 @@ static void put_schema(fracas_json *json, const fracas_csv_table *table,
         fracas_json_object(json, "reference");
         fracas_json_text(json, "resource", table->parent->name);
         put_key(json, "fields", table->parent->key);
-        fracas_json_close_object(json);
-        fracas_json_close_object(json);
-        fracas_json_close_array(json);
+        fracas_json_close(json);
+        fracas_json_close(json);
+        fracas_json_close(json);
     }
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 static fracas_err put_resource(fracas_json *json, const fracas_csv_table *table,
@@ -93,7 +93,7 @@ static fracas_err put_resource(fracas_json *json, const fracas_csv_table *table,
     fracas_json_integer(json, "bytes", (int64_t)bytes);
     fracas_json_text(json, "hash", hash);
     put_schema(json, table, analysis);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
     return FRACAS_OK;
 }
 
@@ -116,8 +116,8 @@ static void put_source(fracas_json *json, const fracas_analysis *analysis)
     FRACAS_PRINT(text, "study.h5 of fracas %s: campaign %s, seed %s", analysis->header.version,
                  hash, seed);
     fracas_json_text(json, "title", text);
-    fracas_json_close_object(json);
-    fracas_json_close_array(json);
+    fracas_json_close(json);
+    fracas_json_close(json);
     fracas_json_text(json, "campaign", hash);
     fracas_json_text(json, "seed",
                      seed); /* text: a 64-bit number is more than every JSON reader keeps */
@@ -130,12 +130,9 @@ static fracas_err put_package(const fracas_analysis *analysis, const fracas_csv_
 {
     fracas_json json;
     fracas_json_begin(&json, out);
-    fracas_json_object(&json, NULL);
     put_source(&json, analysis);
     fracas_json_array(&json, "resources");
     for (; *table; table++) TRY(put_resource(&json, *table, analysis, folder));
-    fracas_json_close_array(&json);
-    fracas_json_close_object(&json);
     fracas_json_end(&json);
     return FRACAS_OK;
 }

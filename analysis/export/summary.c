@@ -45,7 +45,7 @@ static void put_interval(fracas_json *json, const fracas_fits_row *row)
     fracas_json_real(json, "high", row->high);
     fracas_json_text(json, "unit", row->unit);
     fracas_json_integer(json, "resamples", row->resamples);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 static void put_data(fracas_json *json, const fracas_fits *of)
@@ -61,7 +61,7 @@ static void put_data(fracas_json *json, const fracas_fits *of)
         const fracas_fits_row *row = find(of, "data", ends[i]);
         if (row) put_interval(json, row);
     }
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 /* True of "x0" and "x0/mean" of a family with a parameter x0. */
@@ -91,8 +91,8 @@ static void put_family(fracas_json *json, const fracas_fits *of, const fracas_fa
     for (size_t i = 0; i < of->n; i++)
         if (!strcmp(of->row[i].family, family->name) && is_parameter(family, of->row[i].quantity))
             put_interval(json, &of->row[i]);
-    fracas_json_close_object(json);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
+    fracas_json_close(json);
 }
 
 static void put_comparison(fracas_json *json, const fracas_fits *of)
@@ -105,7 +105,7 @@ static void put_comparison(fracas_json *json, const fracas_fits *of)
     fracas_json_real(json, "p", p->value);
     fracas_json_integer(json, "resamples", p->resamples);
     fracas_json_text(json, "note", p->note);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 static void put_fits(fracas_json *json, size_t point, const fracas_fits *fits)
@@ -123,9 +123,9 @@ static void put_fits(fracas_json *json, size_t point, const fracas_fits *fits)
         const fracas_fits_row *fitted = find(&of, fracas_families[f]->name, "fitted");
         if (fitted) put_family(json, &of, fracas_families[f], fitted);
     }
-    fracas_json_close_array(json);
+    fracas_json_close(json);
     put_comparison(json, &of);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 /* ---- convergence ---- */
@@ -136,7 +136,7 @@ static void put_convergence(fracas_json *json, const fracas_analysis *analysis, 
     fracas_json_array(json, "convergence");
     for (const fracas_running *row = of->row; row < of->row + of->count; row++)
         fracas_fields_json_object(json, NULL, &fracas_running_fields, row);
-    fracas_json_close_array(json);
+    fracas_json_close(json);
 }
 
 /* ---- energies ---- */
@@ -163,8 +163,8 @@ static void put_energies(fracas_json *json, const fracas_analysis *analysis, siz
     fracas_json_real(json, "time", bands->time[last]);
     fracas_json_integer(json, "running", bands->running[last]);
     fracas_fields_json(json, &fracas_energy_fields, bands->energy[last]);
-    fracas_json_close_object(json);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
+    fracas_json_close(json);
 }
 
 static void write_parameters(fracas_json *json, const fracas_point_table *table, size_t p)
@@ -176,7 +176,7 @@ static void write_parameters(fracas_json *json, const fracas_point_table *table,
             fracas_json_text(json, table->column[c].path, *value->text ? value->text : NULL);
         else fracas_json_real(json, table->column[c].path, value->real);
     }
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 static void write_unit(void *json, const fracas_field *leaf)
@@ -192,29 +192,29 @@ static void write_units(fracas_json *json, const fracas_point_table *table)
     for (size_t c = 0; c < table->ncolumns; c++)
         if (!table->column[c].text)
             fracas_json_text(json, table->column[c].path, table->column[c].unit);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
     fracas_json_object(json, "statistics");
     fracas_fields_walk(&fracas_statistics, ".", write_unit, json);
-    fracas_json_close_object(json);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
+    fracas_json_close(json);
 }
 
 static void write_statistics(fracas_json *json, const fracas_point_statistics *statistics)
 {
     fracas_json_object(json, "statistics");
     fracas_fields_json_flat(json, &fracas_statistics, statistics);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
     fracas_json_object(json, "outcomes");
     for (int o = 0; o < FRACAS_NOUTCOMES; o++)
         fracas_json_integer(json, fracas_outcome_name(o), statistics->outcome[o]);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 static void write_reasons(fracas_json *json, const fracas_point_statistics *statistics)
 {
     fracas_json_object(json, "reasons");
     if (statistics->without_mott) fracas_json_text(json, "law.mott", statistics->without_mott);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 /* The last decision on the replicas of a point, for print. */
@@ -271,7 +271,7 @@ static void write_point(fracas_json *json, const fracas_analysis *analysis, size
     put_convergence(json, analysis, p);
     put_energies(json, analysis, p);
     put_fits(json, p, fits);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 /* A list of `count` structs of `size` bytes, freed; where it could not be made, the message. */
@@ -282,7 +282,7 @@ static void write_list(fracas_json *json, const char *key, const fracas_fields *
     if (made) fracas_json_text(json, NULL, fracas_message());
     for (size_t i = 0; i < count && !made; i++)
         fracas_fields_json_object(json, NULL, fields, (const char *)list + i * size);
-    fracas_json_close_array(json);
+    fracas_json_close(json);
     if (!made) free(list);
 }
 
@@ -335,7 +335,6 @@ void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fi
     const fracas_progress progress = fracas_analysis_progress(analysis);
     fracas_json json;
     fracas_json_begin(&json, out);
-    fracas_json_object(&json, NULL);
     fracas_json_text(&json, "name", analysis->name);
     fracas_json_text(&json, "campaign", hash);
     fracas_json_text(&json, "seed",
@@ -348,13 +347,12 @@ void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fi
     fracas_json_array(&json, "varying");
     for (size_t i = 0; i < analysis->shown.count; i++)
         fracas_json_text(&json, NULL, analysis->table->column[analysis->shown.column[i]].path);
-    fracas_json_close_array(&json);
+    fracas_json_close(&json);
     write_units(&json, analysis->table);
     fracas_json_array(&json, "points");
     for (size_t p = 0; p < analysis->table->npoints; p++) write_point(&json, analysis, p, fits);
-    fracas_json_close_array(&json);
+    fracas_json_close(&json);
     write_lists(&json, analysis);
-    fracas_json_close_object(&json);
     fracas_json_end(&json);
 }
 

@@ -170,12 +170,9 @@ void fracas_fits_write_json(const fracas_fits *fits, FILE *out)
 {
     fracas_json json;
     fracas_json_begin(&json, out);
-    fracas_json_object(&json, NULL);
     fracas_json_text(&json, "campaign", fits->campaign);
     fracas_json_array(&json, "fits");
     for (const fracas_fits_row *row = fits->row; row < fits->row + fits->n; row++)
         fracas_fields_json_object(&json, NULL, &row_fields, row);
-    fracas_json_close_array(&json);
-    fracas_json_close_object(&json);
     fracas_json_end(&json);
 }

@@ -278,7 +278,7 @@ static void print_json_point(const campaign_plan *plan, size_t p, fracas_json *j
         if (column->text) fracas_json_text(json, column->path, value->text);
         else fracas_json_real(json, column->path, value->real);
     }
-    fracas_json_close_object(json);
+    fracas_json_close(json);
     fracas_json_integer(json, "replicas", point->replicas);
     fracas_json_integer(json, "replicas_maximum", fracas_point_most(&plan->campaign->point[p]));
     fracas_json_integer(json, "elements", forecast->elements);
@@ -287,14 +287,13 @@ static void print_json_point(const campaign_plan *plan, size_t p, fracas_json *j
     fracas_json_real(json, "element_steps_per_second", forecast->speed);
     fracas_json_real(json, "seconds", forecast->time);
     fracas_json_real(json, "bytes", forecast->bytes);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
 }
 
 static void print_json(const campaign_plan *plan, FILE *out)
 {
     fracas_json json;
     fracas_json_begin(&json, out);
-    fracas_json_object(&json, NULL);
     fracas_json_text(&json, "name", plan->campaign->name);
     fracas_json_integer(&json, "jobs", plan->jobs);
     fracas_json_integer(&json, "points", (int64_t)plan->table->npoints);
@@ -304,14 +303,12 @@ static void print_json(const campaign_plan *plan, FILE *out)
     fracas_json_real(&json, "bytes", plan->bytes);
     fracas_json_array(&json, "point");
     for (size_t p = 0; p < plan->table->npoints; p++) print_json_point(plan, p, &json);
-    fracas_json_close_array(&json);
+    fracas_json_close(&json);
     fracas_json_array(&json, "warnings");
     char text[400];
     for (size_t p = 0; p < plan->table->npoints; p++)
         for (int w = 0; w < FRACAS_PLAN_WARNINGS; w++)
             if (warning_of(plan, p, w, text, sizeof text)) fracas_json_text(&json, NULL, text);
-    fracas_json_close_array(&json);
-    fracas_json_close_object(&json);
     fracas_json_end(&json);
 }
 

@@ -96,8 +96,8 @@ static void print_extreme_json(fracas_json *json, const fracas_sample *sample, c
     fracas_json_integer(json, "gauss_point", (int64_t)(k % sample->points));
     fracas_json_array(json, "position");
     for (int i = 0; i < 3; i++) fracas_json_real(json, NULL, sample->position[k][i]);
-    fracas_json_close_array(json);
-    fracas_json_close_object(json);
+    fracas_json_close(json);
+    fracas_json_close(json);
 }
 
 static void print_json(const fracas_sample *sample, const summary *of, double law, FILE *out)
@@ -107,7 +107,6 @@ static void print_json(const fracas_sample *sample, const summary *of, double la
     fracas_hash_hex(&point->hash, hex);
     fracas_json json;
     fracas_json_begin(&json, out);
-    fracas_json_object(&json, NULL);
     fracas_json_text(&json, "campaign", sample->campaign->name);
     fracas_json_integer(&json, "point", (int64_t)sample->point);
     fracas_json_text(&json, "hash", hex);
@@ -124,7 +123,6 @@ static void print_json(const fracas_sample *sample, const summary *of, double la
     for (int q = 0; q < PARTS; q++) fracas_json_real(&json, part_keys[q], of->quantile[q]);
     print_extreme_json(&json, sample, "weakest", of->weakest);
     print_extreme_json(&json, sample, "strongest", of->strongest);
-    fracas_json_close_object(&json);
     fracas_json_end(&json);
 }
 

@@ -55,18 +55,16 @@ static void json_is_well_formed(void **unused)
     FILE *out = open_memstream(&text, &size);
     fracas_json json;
     fracas_json_begin(&json, out);
-    fracas_json_object(&json, NULL);
     fracas_json_text(&json, "a \"b\"\n", "\\");
     fracas_json_array(&json, "list");
     fracas_json_real(&json, NULL, 0.1);
     fracas_json_real(&json, NULL, NAN);
     fracas_json_integer(&json, NULL, -3);
-    fracas_json_close_array(&json);
+    fracas_json_close(&json);
     fracas_json_object(&json, "empty");
-    fracas_json_close_object(&json);
+    fracas_json_close(&json);
     fracas_json_boolean(&json, "yes", true);
     fracas_json_text(&json, "none", NULL);
-    fracas_json_close_object(&json);
     fracas_json_end(&json);
     fclose(out);
     assert_string_equal(text, "{\n  \"a \\\"b\\\"\\u000a\": \"\\\\\",\n  \"list\": [\n    "

@@ -65,7 +65,6 @@ fracas_err fracas_provenance_make(const fracas_provenance *provenance,
     const char *job = getenv("SLURM_JOB_ID");
     fracas_json json;
     fracas_json_begin(&json, out);
-    fracas_json_object(&json, NULL);
     fracas_json_text(&json, "host", provenance->host);
     fracas_json_integer(&json, "pid", getpid());
     if (job) fracas_json_text(&json, "slurm_job", job);
@@ -77,7 +76,6 @@ fracas_err fracas_provenance_make(const fracas_provenance *provenance,
                      (double)provenance->began.tv_sec + 1e-9 * (double)provenance->began.tv_nsec);
     fracas_json_real(&json, "wall_seconds", provenance->wall);
     fracas_json_real(&json, "compute_seconds", provenance->compute);
-    fracas_json_close_object(&json);
     fracas_json_end(&json);
     if (fclose(out)) return fracas_no_memory("the provenance of a segment");
     return FRACAS_OK;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Common options of run, extend, retry, converge and submit. */
-#ifndef FRACAS_CLI_RUN_OPTIONS_H
-#define FRACAS_CLI_RUN_OPTIONS_H
+#ifndef FRACAS_CLI_RUN_H
+#define FRACAS_CLI_RUN_H
 
 #include "cli/cli.h"
 
