@@ -2,7 +2,7 @@
 /* Membranes that break: lanes do not depend on each other, momenta are kept, ledgers close, and the
  * numbers of nodes and elements and the directions of axes do not matter. */
 #include "tests/support/gmsh.h"
-#include "tests/support/same_record.h"
+#include "tests/support/lanes.h"
 #include "tests/support/membrane_cracks.h"
 #include "tests/support/test.h"
 
@@ -55,39 +55,16 @@ static fracas_spec spec_of(const variant *v, int64_t divisions, double rate, dou
     return spec;
 }
 
-/* Replicas first, first + 1, ...; replica r is in place r - first. */
-static void run(const fracas_model *model, uint64_t first, size_t count, int width, fracas_isa isa,
-                fracas_record *record)
-{
-    OWN(fracas_batch) batch = batch_with(
-        model, count,
-        (fracas_batch_options){.history = 20, .interfaces = true, .width = width, .isa = isa});
-    for (size_t l = 0; l < count; l++) bar_draw(batch, l, 0.3, first + l);
-    for (size_t l = 0; l < count; l++) fracas_record_init(&record[l]);
-    OK(fracas_batch_run(batch, record));
-}
-
-/* Replicas first to first + count - 1 in every place they can have in such a batch. */
-static void check_batch(const fracas_model *model, const fracas_record alone[8], uint64_t first,
-                        size_t count, int width, fracas_isa isa)
-{
-    fracas_record together[8];
-    run(model, first, count, width, isa, together);
-    for (size_t l = 0; l < count; l++) {
-        assert_same_record(&alone[first + l], &together[l]);
-        fracas_record_clear(&together[l]);
-    }
-}
-
 static void a_lane_is_its_run_alone(void **unused)
 {
+    const lane_kind kind = {.scatter = 0.3};
     for (int v = 0; v < VARIANTS; v++) {
         OWN(fracas_model) model = distorted_model(
             spec_of(&variants[v], variants[v].order == 1 ? 10 : 6, 3e4, 4e-7), DISTORTION, 3);
         fracas_record alone[8];
         int64_t fewest = INT64_MAX, most = 0, cracked = 0;
+        run_alone(model, &kind, alone);
         for (size_t r = 0; r < 8; r++) {
-            run(model, r, 1, 1, FRACAS_ISA_BASELINE, &alone[r]);
             fewest = alone[r].fragments < fewest ? alone[r].fragments : fewest;
             most = alone[r].fragments > most ? alone[r].fragments : most;
             cracked += alone[r].cracked;
@@ -96,20 +73,7 @@ static void a_lane_is_its_run_alone(void **unused)
             "variant %2d: %zu elements, %lld to %lld fragments, %lld cracked interfaces a lane\n",
             v, model->elements, (long long)fewest, (long long)most, (long long)cracked / 8);
         assert_true(fewest > 1 && most > fewest); /* they break, and are different */
-        for (fracas_isa isa = FRACAS_ISA_BASELINE; isa <= FRACAS_ISA_AVX512; isa++) {
-            fracas_isa had;
-            if (fracas_isa_choose(isa, &had)) {
-                if (v == 0)
-                    print_message("[  skipped ] this CPU has no %s\n", fracas_isa_name[isa]);
-                continue;
-            }
-            check_batch(model, alone, 7, 1, 1, isa);
-            check_batch(model, alone, 2, 4, 4, isa);
-            check_batch(model, alone, 0, 8, 8, isa);
-        }
-        check_batch(model, alone, 5, 3, 8,
-                    FRACAS_ISA_BEST); /* another place, and lanes that repeat the first */
-        for (size_t r = 0; r < 8; r++) fracas_record_clear(&alone[r]);
+        check_lanes(model, &kind, alone);
     }
 }
 
@@ -260,7 +224,8 @@ static double residual_of(int which, double safety, double *created, double *wor
     OWN(fracas_model) model = distorted_model(spec, DISTORTION, 3);
     fracas_record record[4];
     double residual = 0;
-    run(model, 0, 4, 4, FRACAS_ISA_BEST, record);
+    run_replicas(model, 0, 4, 0.3, (fracas_batch_options){.width = 4, .isa = FRACAS_ISA_BEST},
+                 record);
     *created = *work = 0;
     *broken = 0;
     for (int l = 0; l < 4; l++) {

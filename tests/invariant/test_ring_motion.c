@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* ctest-labels: ci slow-sanitize */
-/* The motion of the ring and of its fragments: momenta, symmetries, and lanes that do not see each
- * other.
- */
+/* The motion of the ring and of its fragments: momenta and symmetries. */
 #include "tests/support/ring_sample.h"
 #include "tests/support/test.h"
 
@@ -303,112 +301,5 @@ static void strengths_moved_on_or_mirrored_give_the_same_ring(void **unused)
     }
 }
 
-/* ---- lanes ---- */
-
-static fracas_model *lane_model(int kind)
-{
-    fracas_spec spec = ring_reference(300, 1e5, 1.5e-7);
-    spec.geometry.radius = 3e-3 / (2 * RING_PI);
-    spec.geometry.direction = kind % 2 ? &fracas_direction_initial : &fracas_direction_current;
-    spec.loading = (fracas_loading){.type = &fracas_loading_initial_velocity,
-                                    .radial = 1e5 * spec.geometry.radius,
-                                    .circumferential = 10};
-    if (kind / 2 == 1)
-        spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 1e5};
-    if (kind / 2 == 2) {
-        spec.loading = (fracas_loading){
-            .type = &fracas_loading_force, .direction = &fracas_axis_radial, .force = 1e7};
-        spec.time.stop = &fracas_stop_settled;
-        spec.time.quiet = 1e-8;
-        spec.time.quiet_fraction = 0.05;
-    }
-    fracas_model *model;
-    OK(fracas_model_create(&spec, &model));
-    return model;
-}
-
-/* Runs `count` replicas from `first` on; replica r is in slot r - first, and slot `poisoned` (if
- * any) goes NaN. */
-static void run_lanes(const fracas_model *model, uint64_t first, size_t count,
-                      const fracas_batch_options *options, size_t poisoned, fracas_record *record)
-{
-    OWN(fracas_batch) batch;
-    OK(fracas_batch_create(model, count, options, &batch));
-    for (size_t l = 0; l < count; l++) {
-        bar_draw(batch, l, 0.05, first + l);
-        fracas_record_init(&record[l]);
-    }
-    OK(fracas_batch_begin(batch));
-    if (poisoned < count) {
-        size_t stride;
-        double *strength = fracas_batch_strength(batch, poisoned, &stride);
-        strength[17 * stride - (size_t)((RING_STRENGTH - RING_V_LEFT) * batch->step.lanes)] = NAN;
-    }
-    for (size_t running = count; running > 0;) OK(fracas_batch_step(batch, record, &running));
-    if (poisoned < count) assert_int_equal(record[poisoned].outcome, FRACAS_NONFINITE);
-}
-
-static void assert_same(const fracas_record *a, const fracas_record *b)
-{
-    assert_memory_equal(
-        a, b,
-        offsetof(fracas_record,
-                 fragment)); /* every scalar, then every row, byte by byte; pointers apart */
-    assert_memory_equal(a->fragment, b->fragment, a->nfragment * sizeof *a->fragment);
-    assert_memory_equal(a->history, b->history, a->nhistory * sizeof *a->history);
-    assert_memory_equal(a->interface, b->interface, a->ninterface * sizeof *a->interface);
-}
-
-/* Replicas 0 .. width - 1 of one batch against the runs alone, with no slot poisoned, the first, or
- * one in the middle. */
-static void compare_lanes(const fracas_model *model, int width, fracas_isa isa,
-                          const fracas_record *alone)
-{
-    const fracas_batch_options options = {
-        .history = 20, .interfaces = true, .width = width, .isa = isa};
-    fracas_record together[8];
-    fracas_batch *batch;
-    if (fracas_batch_create(model, 1, &options, &batch)) {
-        print_message("[  skipped ] this CPU lacks instruction set %s\n", fracas_isa_name[isa]);
-        return;
-    }
-    fracas_batch_destroy(batch);
-    const size_t count = (size_t)width, poisoned[] = {SIZE_MAX, 0, count / 2 + 1};
-    for (size_t p = 0; p < (width == 1 ? 1 : 3); p++) {
-        run_lanes(model, 0, count, &options, poisoned[p], together);
-        for (size_t l = 0; l < count; l++) {
-            if (l != poisoned[p]) assert_same(&alone[l], &together[l]);
-            fracas_record_clear(&together[l]);
-        }
-    }
-}
-
-/* A lane's record depends on its own strengths alone: not on its slot, its neighbours, the width or
- * the instruction set. */
-static void a_lane_is_its_run_alone(void **unused)
-{
-    const fracas_batch_options single = {
-        .history = 20, .interfaces = true, .width = 1, .isa = FRACAS_ISA_BASELINE};
-    const fracas_batch_options widest = {
-        .history = 20, .interfaces = true, .width = 8, .isa = FRACAS_ISA_BEST};
-    for (int kind = 0; kind < 6; kind++) { /* free, pulled, pushed outward; current, initial */
-        fracas_model *model = lane_model(kind);
-        fracas_record alone[8], elsewhere[5];
-        for (size_t r = 0; r < 8; r++) run_lanes(model, r, 1, &single, SIZE_MAX, &alone[r]);
-        assert_true(alone[0].fragments > 5 &&
-                    alone[0].dissipated != alone[1].dissipated); /* they are different */
-        for (fracas_isa isa = FRACAS_ISA_BASELINE; isa <= FRACAS_ISA_AVX512; isa++)
-            for (int width = 1; width <= 8; width += width == 1 ? 3 : 4)
-                compare_lanes(model, width, isa, alone);
-        run_lanes(model, 3, 5, &widest, SIZE_MAX, elsewhere); /* replica r in slot r - 3 */
-        for (size_t l = 0; l < 5; l++) {
-            assert_same(&alone[l + 3], &elsewhere[l]);
-            fracas_record_clear(&elsewhere[l]);
-        }
-        for (size_t r = 0; r < 8; r++) fracas_record_clear(&alone[r]);
-        fracas_model_destroy(model);
-    }
-}
-
 TESTS(a_free_ring_keeps_its_momenta, fragments_fly_on,
-      strengths_moved_on_or_mirrored_give_the_same_ring, a_lane_is_its_run_alone)
+      strengths_moved_on_or_mirrored_give_the_same_ring)

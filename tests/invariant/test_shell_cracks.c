@@ -4,7 +4,7 @@
  * sphere cracks when it must.
  */
 #include "tests/support/shell_cracks.h"
-#include "tests/support/same_record.h"
+#include "tests/support/lanes.h"
 #include "tests/support/test.h"
 
 typedef struct {
@@ -58,34 +58,8 @@ static double distortion_of(const variant *v)
 
 /* ---- lanes ---- */
 
-/* Replicas first, first + 1, ...; replica r is in place r - first. Every fourth is stronger, and
- * cracks late or not at all. */
-static void run(const fracas_model *model, uint64_t first, size_t count, int width, fracas_isa isa,
-                fracas_record *record)
-{
-    OWN(fracas_batch) batch = batch_with(
-        model, count,
-        (fracas_batch_options){.history = 20, .interfaces = true, .width = width, .isa = isa});
-    for (size_t l = 0; l < count; l++) {
-        bar_draw(batch, l, 0.3, first + l);
-        for (size_t k = 0; (first + l) % 4 == 3 && k < strengths_of(model); k++)
-            bar_set_strength(batch, l, k, 6e8);
-        fracas_record_init(&record[l]);
-    }
-    OK(fracas_batch_run(batch, record));
-}
-
-/* Replicas first to first + count - 1 in every place they can have in such a batch. */
-static void check_batch(const fracas_model *model, const fracas_record alone[8], uint64_t first,
-                        size_t count, int width, fracas_isa isa)
-{
-    fracas_record together[8];
-    run(model, first, count, width, isa, together);
-    for (size_t l = 0; l < count; l++) {
-        assert_same_record(&alone[first + l], &together[l]);
-        fracas_record_clear(&together[l]);
-    }
-}
+/* Every fourth replica is stronger, and cracks late or not at all. */
+static const lane_kind kind = {.scatter = 0.3, .fourth = 6e8};
 
 static void a_lane_is_its_run_alone(void **unused)
 {
@@ -94,8 +68,8 @@ static void a_lane_is_its_run_alone(void **unused)
         OWN(fracas_model) model = distorted_model(spec, distortion_of(&variants[v]), 3);
         fracas_record alone[8];
         int64_t most = 0, cracked = 0, least = INT64_MAX;
+        run_alone(model, &kind, alone);
         for (size_t r = 0; r < 8; r++) {
-            run(model, r, 1, 1, FRACAS_ISA_BASELINE, &alone[r]);
             most = alone[r].fragments > most ? alone[r].fragments : most;
             least = alone[r].cracked < least ? alone[r].cracked : least;
             cracked += alone[r].cracked;
@@ -105,20 +79,7 @@ static void a_lane_is_its_run_alone(void **unused)
                       v, model->elements, (long long)alone[0].steps, (long long)most,
                       (long long)least, (long long)cracked / 8);
         assert_true(most > 2 && cracked > 30);
-        for (fracas_isa isa = FRACAS_ISA_BASELINE; isa <= FRACAS_ISA_AVX512; isa++) {
-            fracas_isa had;
-            if (fracas_isa_choose(isa, &had)) {
-                if (v == 0)
-                    print_message("[  skipped ] this CPU has no %s\n", fracas_isa_name[isa]);
-                continue;
-            }
-            check_batch(model, alone, 6, 1, 1, isa);
-            check_batch(model, alone, 2, 4, 4, isa);
-            check_batch(model, alone, 0, 8, 8, isa);
-        }
-        check_batch(model, alone, 5, 3, 8,
-                    FRACAS_ISA_BEST); /* another place, and lanes that repeat the first */
-        for (size_t r = 0; r < 8; r++) fracas_record_clear(&alone[r]);
+        check_lanes(model, &kind, alone);
     }
 }
 
@@ -210,7 +171,8 @@ static double residual_of(fracas_spec spec, double distortion, double safety, do
     OWN(fracas_model) model = distorted_model(spec, distortion, 3);
     fracas_record record[4];
     double residual = 0;
-    run(model, 4, 3, 4, FRACAS_ISA_BEST, record);
+    run_replicas(model, 4, 3, 0.3, (fracas_batch_options){.width = 4, .isa = FRACAS_ISA_BEST},
+                 record);
     *created = 0;
     *broken = 0;
     for (int l = 0; l < 3; l++) {

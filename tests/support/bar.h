@@ -7,12 +7,9 @@
 #include "engine/cohesive/law.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
-#include "engine/solver/batch.h"
-#include "sampler/api/sampler.h"
-#include "tests/support/test.h"
+#include "tests/support/batch.h"
 
 #define BAR_WAVE_SPEED 1e4                           /* m/s */
-#define BAR_STRENGTH_MEAN 300e6                      /* Pa */
 #define BAR_T0 (275e9 * 100 / (300e6 * 300e6 * 1e4)) /* s: E G_c/(sigma_c^2 c) = 30.556 ns */
 #define BAR_S0 (275e9 * 100 / (300e6 * 300e6))       /* m: 0.30556 mm */
 
@@ -32,33 +29,6 @@ static inline fracas_spec bar_reference(int64_t elements, double rate, double en
         .time = {.stop = &fracas_stop_time, .end = end, .safety = 0.25}};
 }
 
-/* Number of strengths of a realization. */
-static inline size_t strengths_of(const fracas_model *model)
-{
-    return model->interfaces * model->strengths;
-}
-
-/* The strength that holds at Gauss point g of an interface. */
-static inline double strength_at(const fracas_batch *batch, size_t lane, size_t interface, size_t g)
-{
-    const size_t strengths = batch->model->strengths;
-    size_t stride;
-    const double *strength = fracas_batch_strength((fracas_batch *)batch, lane, &stride);
-    return strength[(interface * strengths + (strengths > 1 ? g : 0)) * stride];
-}
-
-/* Strengths uniform in 300 MPa (1 +- scatter) for replica `replica`, in lane `lane`. */
-static inline void bar_draw(fracas_batch *batch, size_t lane, double scatter, uint64_t replica)
-{
-    const fracas_stream stream = {
-        .seed = 1, .purpose = FRACAS_PURPOSE_STRENGTH, .point = {2, 3}, .replica = replica};
-    size_t stride;
-    double *strength = fracas_batch_strength(batch, lane, &stride);
-    for (size_t k = 0; k < strengths_of(batch->model); k++)
-        strength[k * stride] = BAR_STRENGTH_MEAN *
-                               (1 + scatter * (2 * fracas_stream_uniform(&stream, k) - 1));
-}
-
 /* Lengths in geometric progression, the last one `ratio` times the first. */
 static inline void bar_grade(fracas_spec *spec, double ratio)
 {
@@ -76,14 +46,6 @@ static inline void bar_perturb(fracas_spec *spec, double amplitude, uint64_t whi
     spec->mesh.spacing = &fracas_spacing_perturbed;
     spec->mesh.amplitude = amplitude;
     spec->mesh.noise = noise;
-}
-
-/* Strength number k, which is interface k where each has one. */
-static inline void bar_set_strength(fracas_batch *batch, size_t lane, size_t k, double sigma_c)
-{
-    size_t stride;
-    double *strength = fracas_batch_strength(batch, lane, &stride);
-    strength[k * stride] = sigma_c;
 }
 
 #endif

@@ -55,30 +55,4 @@ static inline fracas_model *distorted_model(fracas_spec spec, double distortion,
     return model;
 }
 
-static inline fracas_batch *batch_with(const fracas_model *model, size_t count,
-                                       fracas_batch_options options)
-{
-    fracas_batch *batch = NULL;
-    OK(fracas_batch_create(model, count, &options, &batch));
-    return batch;
-}
-
-/* One lane that keeps its interfaces; strengths of 300 MPa (1 +- scatter). */
-static inline fracas_batch *lane_of(const fracas_model *model, double scatter, uint64_t replica,
-                                    int64_t history)
-{
-    fracas_batch *batch = batch_with(
-        model, 1,
-        (fracas_batch_options){
-            .history = history, .interfaces = true, .width = 1, .isa = FRACAS_ISA_BEST});
-    bar_draw(batch, 0, scatter, replica);
-    return batch;
-}
-
-static inline void run_to_end(fracas_batch *batch, fracas_record *record)
-{
-    size_t running = batch->count;
-    while (running > 0) OK(fracas_batch_step(batch, record, &running));
-}
-
 #endif

@@ -3,7 +3,7 @@
  * as one. What unequal ones do: test_membrane_cracks, test_shell_cracks; that lanes and axes do not
  * matter: tests/invariant. */
 #include "tests/support/distorted_model.h"
-#include "tests/support/same_record.h"
+#include "tests/support/lanes.h"
 
 #include "engine/integrator/integrator.h"
 #include "tests/support/test.h"
