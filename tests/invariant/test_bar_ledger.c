@@ -1,42 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The ledger of the bar: constant before onset, closed after it, momentum zero, forces the gradient
  * of the energy. */
-#include "tests/support/bar.h"
+#include "tests/support/bar_state.h"
 #include "tests/support/test.h"
 
-enum { W_LEFT, W_RIGHT, V_LEFT, V_RIGHT, DAMAGE, FIELDS = 7 };
-
-static fracas_batch *batch_of(const fracas_model *model, size_t count, int width)
-{
-    fracas_batch *batch;
-    const fracas_batch_options options = {.width = width, .isa = FRACAS_ISA_BEST};
-    OK(fracas_batch_create(model, count, &options, &batch));
-    return batch;
-}
-
-static double *field(fracas_batch *batch, size_t element, int which)
-{
-    return batch->step.state + element * FIELDS + (size_t)which; /* one lane */
-}
-
 /* Elements of one length, in progression 1 to 100, or moved at random by up to 0.45 h. */
-enum { MESHES = 3, MOST_ELEMENTS = 200 };
-static const char *const mesh_name[MESHES] = {"uniform", "graded", "perturbed"};
-
-static fracas_model *model_on(int mesh, fracas_spec *spec)
-{
-    double shift[MOST_ELEMENTS + 1];
-    fracas_model *model;
-    if (mesh == 1) bar_grade(spec, 100);
-    if (mesh == 2) bar_perturb(spec, 0.45, 1, shift);
-    OK(fracas_model_create(spec, &model));
-    return model;
-}
-
-static double size_of(const fracas_model *model, size_t e)
-{
-    return model->sizes ? model->sizes[e] : model->element_size;
-}
+static const int meshes[] = {UNIFORM, 0, 2};
 
 /* Random velocities under load, nothing cracks: with leapfrog's kinetic energy the ledger of a
  * linear system is constant up to round-off. Each of 2000 steps adds roundings of some 1e-16 (work,
@@ -44,40 +13,34 @@ static double size_of(const fracas_model *model, size_t e)
  * larger of kinetic and elastic energy, the figure promised. */
 static void linear_ledger_is_constant_to_round_off(void **unused)
 {
-    const fracas_kind *laws[] = {&fracas_law_nitsche.kind, &fracas_law_rigid_link.kind},
-                      *ends[] = {&fracas_ends_periodic, &fracas_ends_held};
-    for (int i = 0; i < 4 * MESHES; i++) {
+    for (int i = 0; i < 4 * 3; i++) {
         fracas_spec spec = bar_reference(200, 100, 1);
         spec.cohesive.law = laws[i % 2];
         spec.geometry.ends = ends[i / 2 % 2];
         if (i / 4 > 0) spec.geometry.length = 0.02; /* the longest elements bear 450 MPa */
-        OWN(fracas_model) model = model_on(i / 4, &spec);
-        OWN(fracas_batch) batch = batch_of(model, 1, 1);
-        for (size_t k = 0; k < model->interfaces; k++) bar_set_strength(batch, 0, k, 450e6);
-        OK(fracas_batch_begin(batch));
+        OWN(fracas_model) model = model_on(&spec, meshes[i / 4]);
+        OWN(fracas_batch) batch = begun_with(model, 450e6);
         uint64_t seed = 7;
         for (size_t e = 0; e < 200;
              e++) { /* equal on both sides of an interface: rigid links move as one */
             double v = 2 * random_noise(&seed);
             size_t left = e > 0 ? e - 1 : 199;
             if (e == 0 && ends[i / 2 % 2] == &fracas_ends_held) continue;
-            *field(batch, e, V_LEFT) = v;
-            *field(batch, left, V_RIGHT) =
+            *field(batch, e, BAR_V_LEFT) = v;
+            *field(batch, left, BAR_V_RIGHT) =
                 v + (laws[i % 2] == &fracas_law_nitsche.kind ? 0.5 * random_noise(&seed) : 0);
         }
-        fracas_record record;
-        fracas_record_init(&record);
-        size_t running;
+        RECORD(record);
         double worst = 0, kinetic_first = 0, kinetic_last = 0;
         for (int s = 0; s < 2000; s++) {
-            OK(fracas_batch_step(batch, &record, &running));
+            step(batch, &record);
             const fracas_ledger *l = &batch->lane[0].ledger;
             worst = fmax(worst, fabs(l->residual) / fmax(l->kinetic, l->elastic));
             if (s == 0) kinetic_first = l->kinetic;
             kinetic_last = l->kinetic;
         }
         print_message("[  figures ] %s %s %s: largest residual %.2e\n", laws[i % 2]->name,
-                      ends[i / 2 % 2]->name, mesh_name[i / 4], worst);
+                      ends[i / 2 % 2]->name, mesh_name[meshes[i / 4]], worst);
         assert_int_equal(batch->step.cracked[0], 0);
         assert_true(kinetic_first > 0 &&
                     fabs(kinetic_last / kinetic_first - 1) > 1e-3); /* energy did move */
@@ -103,13 +66,10 @@ static void residual_stays_small_and_is_second_order(void **unused)
             fracas_spec spec = bar_reference(point[p].elements, point[p].rate, point[p].end);
             spec.time.safety = half ? 0.125 : 0.25;
             if (half && p == 3) continue; /* 4 s for nothing new */
-            OWN(fracas_model) model;
-            OK(fracas_model_create(&spec, &model));
-            OWN(fracas_batch) batch = batch_of(model, 8, 8);
-            for (size_t l = 0; l < 8; l++) bar_draw(batch, l, 1.0 / 300, l);
+            OWN(fracas_model) model = make_model(&spec);
             fracas_record record[8];
-            for (int l = 0; l < 8; l++) fracas_record_init(&record[l]);
-            OK(fracas_batch_run(batch, record));
+            run_replicas(model, 0, 8, 1.0 / 300, (fracas_batch_options){.isa = FRACAS_ISA_BEST},
+                         record);
             double created = 0;
             for (int l = 0; l < 8; l++) {
                 const fracas_record *r = &record[l];
@@ -158,9 +118,8 @@ static void check_forces(int mesh)
     enum { N = 12 };
     fracas_spec spec = bar_reference(N, 1e4, 1);
     spec.geometry.length = N * 2e-5;
-    OWN(fracas_model) model = model_on(mesh, &spec);
-    OWN(fracas_batch) batch = batch_of(model, 1, 1);
-    bar_draw(batch, 0, 0.1, 3);
+    OWN(fracas_model) model = model_on(&spec, mesh);
+    OWN(fracas_batch) batch = lane_of(model, 0.1, 3, 0);
     OK(fracas_batch_begin(batch));
     batch->step.time[0] = 1.05e-7;
     uint64_t seed = 11;
@@ -179,24 +138,24 @@ static void check_forces(int mesh)
             int node = (pass - 1) / 2;
             double eps = 1e-12, sign = pass % 2 ? 1 : -1;
             for (size_t e = 0; e < N; e++) {
-                *field(batch, e, W_LEFT) = w[2 * e];
-                *field(batch, e, W_RIGHT) = w[2 * e + 1];
-                *field(batch, e, V_LEFT) = *field(batch, e, V_RIGHT) = 0;
-                *field(batch, e, DAMAGE) = damage[e];
+                *field(batch, e, BAR_W_LEFT) = w[2 * e];
+                *field(batch, e, BAR_W_RIGHT) = w[2 * e + 1];
+                *field(batch, e, BAR_V_LEFT) = *field(batch, e, BAR_V_RIGHT) = 0;
+                *field(batch, e, BAR_DAMAGE) = damage[e];
             }
             if (pass == 0) {
                 batch->step.drift[0] = 0;
                 batch->step.kick[0] = 1;
                 batch->model->formulation->advance(model, &batch->step);
                 for (size_t e = 0; e < N; e++) {
-                    const double nodal_mass = 0.5 * mass_per_length * size_of(model, e);
-                    force[2 * e] = nodal_mass * *field(batch, e, V_LEFT);
-                    force[2 * e + 1] = nodal_mass * *field(batch, e, V_RIGHT);
+                    const double nodal_mass = 0.5 * mass_per_length * length_of(model, e);
+                    force[2 * e] = nodal_mass * *field(batch, e, BAR_V_LEFT);
+                    force[2 * e + 1] = nodal_mass * *field(batch, e, BAR_V_RIGHT);
                 }
                 for (int i = 0; i < 2 * N; i++) scale = fmax(scale, fabs(force[i]));
                 continue;
             }
-            *field(batch, (size_t)node / 2, node % 2 ? W_RIGHT : W_LEFT) += sign * eps;
+            *field(batch, (size_t)node / 2, node % 2 ? BAR_W_RIGHT : BAR_W_LEFT) += sign * eps;
             static double up;
             double energy = potential_of(batch);
             if (sign > 0) up = energy;
@@ -211,7 +170,7 @@ static void check_forces(int mesh)
 
 static void forces_are_the_gradient_of_the_potential(void **unused)
 {
-    for (int mesh = 0; mesh < MESHES; mesh++) check_forces(mesh);
+    for (int i = 0; i < 3; i++) check_forces(meshes[i]);
 }
 
 /* A break drops the flux energy -A <sigma>^2/(2K): the potential just after less that just before
@@ -222,19 +181,16 @@ static void a_break_creates_what_the_flux_drops(void **unused)
     enum { N = 4 };
     fracas_spec spec = bar_reference(N, 1e4, 1);
     spec.geometry.length = N * 2e-5;
-    OWN(fracas_model) model;
-    OK(fracas_model_create(&spec, &model));
+    OWN(fracas_model) model = make_model(&spec);
     const double delta_c = 2 * 100 / 300e6, spring = 4 * 275e9 / 2e-5;
     double potential[2], created[2], mean = 275e9 * 1e4 * 1e-7;
     for (int after = 0; after < 2; after++) {
-        OWN(fracas_batch) batch = batch_of(model, 1, 1);
-        for (size_t i = 0; i < N; i++) bar_set_strength(batch, 0, i, 300e6);
-        OK(fracas_batch_begin(batch));
+        OWN(fracas_batch) batch = begun_with(model, 300e6);
         batch->step.time[0] = 1e-7; /* background stress 275 MPa */
         for (size_t e = 2; e < N;
              e++) /* jump of interface 1 at which S = K delta_c, then of interface 3 back */
-            *field(batch, e, W_LEFT) = *field(batch, e, W_RIGHT) = (delta_c - mean / spring) *
-                                                                   (after ? 1 + 1e-12 : 1 - 1e-12);
+            *field(batch, e, BAR_W_LEFT) = *field(batch, e, BAR_W_RIGHT) =
+                (delta_c - mean / spring) * (after ? 1 + 1e-12 : 1 - 1e-12);
         potential[after] = potential_of(batch);
         created[after] = batch->step.created[0];
         assert_int_equal(batch->step.broken[0], after);

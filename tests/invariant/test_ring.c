@@ -386,18 +386,10 @@ typedef struct {
 
 static ledger_figures broken_up_ledger(const fracas_spec *spec)
 {
-    OWN(fracas_model) model;
-    OWN(fracas_batch) batch;
+    OWN(fracas_model) model = make_model(spec);
     fracas_record record[8];
     ledger_figures f = {0, 0, 0, 0};
-    OK(fracas_model_create(spec, &model));
-    OK(fracas_batch_create(model, 8, &(fracas_batch_options){.width = 8, .isa = FRACAS_ISA_BEST},
-                           &batch));
-    for (size_t l = 0; l < 8; l++) {
-        bar_draw(batch, l, 1.0 / 300, l);
-        fracas_record_init(&record[l]);
-    }
-    OK(fracas_batch_run(batch, record));
+    run_replicas(model, 0, 8, 1.0 / 300, (fracas_batch_options){.isa = FRACAS_ISA_BEST}, record);
     for (int l = 0; l < 8; l++) {
         assert_int_equal(record[l].outcome, FRACAS_FRAGMENTED);
         f.residual = fmax(f.residual, record[l].residual / record[l].dissipated);

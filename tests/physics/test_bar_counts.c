@@ -12,19 +12,12 @@ typedef struct {
 
 static counts count_fragments(const fracas_spec *spec, double scatter, size_t replicas)
 {
-    OWN(fracas_model) model;
-    OK(fracas_model_create(spec, &model));
+    OWN(fracas_model) model = make_model(spec);
     double sum = 0, squares = 0;
     for (size_t first = 0; first < replicas; first += 8) {
-        const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
-        OWN(fracas_batch) batch;
-        OK(fracas_batch_create(model, 8, &options, &batch));
         fracas_record record[8];
-        for (size_t l = 0; l < 8; l++) {
-            bar_draw(batch, l, scatter, first + l);
-            fracas_record_init(&record[l]);
-        }
-        OK(fracas_batch_run(batch, record));
+        run_replicas(model, first, 8, scatter, (fracas_batch_options){.isa = FRACAS_ISA_BEST},
+                     record);
         for (size_t l = 0; l < 8; l++) {
             assert_int_equal(record[l].outcome, FRACAS_FRAGMENTED);
             assert_int_equal(record[l].fragments, record[l].broken); /* closed bar */

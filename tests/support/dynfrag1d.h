@@ -4,7 +4,7 @@
 #ifndef FRACAS_TESTS_SUPPORT_DYNFRAG1D_H
 #define FRACAS_TESTS_SUPPORT_DYNFRAG1D_H
 
-#include "tests/support/bar.h"
+#include "tests/support/bar_state.h"
 #include "tests/support/test.h"
 
 typedef struct {
@@ -22,16 +22,6 @@ static const dynfrag1d_run dynfrag1d_runs[] = {
 };
 
 enum { DYNFRAG1D_RUNS = 3, DYNFRAG1D_MOST_ROWS = 512 };
-enum {
-    DYNFRAG1D_W_LEFT,
-    DYNFRAG1D_W_RIGHT,
-    DYNFRAG1D_V_LEFT,
-    DYNFRAG1D_V_RIGHT,
-    DYNFRAG1D_DAMAGE,
-    DYNFRAG1D_STRENGTH,
-    DYNFRAG1D_FIELDS = 7
-}; /* of the bar's state */
-
 #define DYNFRAG1D_LENGTH 0.05   /* m */
 #define DYNFRAG1D_NOMINAL 300e6 /* Pa */
 
@@ -133,12 +123,11 @@ static inline void dynfrag1d_begin(dynfrag1d_replay *replay, const dynfrag1d_run
     spec.geometry.area = 1.0;
     spec.cohesive.law = law;
     *replay = (dynfrag1d_replay){.run = run};
-    OK(fracas_model_create(&spec, &replay->model));
+    replay->model = make_model(&spec);
     replay->model->time_step = courant > 0 ? courant * replay->model->element_size / BAR_WAVE_SPEED
                                            : run->time_step;
     assert_true(replay->model->time_step < replay->model->critical_step);
-    const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    OK(fracas_batch_create(replay->model, 1, &options, &replay->batch));
+    replay->batch = lane_of(replay->model, 0, 0, 0);
     for (size_t i = 1, m = (size_t)refine; i < replay->model->elements; i++)
         bar_set_strength(replay->batch, 0, i - 1,
                          i % m ? DYNFRAG1D_UNBREAKABLE : strength[i / m - 1]);
@@ -156,13 +145,13 @@ static inline void dynfrag1d_end(dynfrag1d_replay *replay)
 
 static inline double dynfrag1d_field(const dynfrag1d_replay *replay, size_t element, int which)
 {
-    return replay->batch->step.state[element * DYNFRAG1D_FIELDS + (size_t)which];
+    return *field(replay->batch, element, which);
 }
 
 static inline double dynfrag1d_stress(const dynfrag1d_replay *replay, size_t e)
 {
-    double strain = (dynfrag1d_field(replay, e, DYNFRAG1D_W_RIGHT) -
-                     dynfrag1d_field(replay, e, DYNFRAG1D_W_LEFT)) /
+    double strain = (dynfrag1d_field(replay, e, BAR_W_RIGHT) -
+                     dynfrag1d_field(replay, e, BAR_W_LEFT)) /
                     replay->model->element_size;
     return 275e9 * (replay->run->rate * replay->batch->step.time[0] + strain);
 }
@@ -172,8 +161,8 @@ static inline int dynfrag1d_onsets_between(const dynfrag1d_replay *replay)
 {
     int count = 0;
     for (size_t e = 0; e + 1 < replay->model->elements; e++)
-        count += dynfrag1d_field(replay, e, DYNFRAG1D_STRENGTH) == DYNFRAG1D_UNBREAKABLE &&
-                 dynfrag1d_field(replay, e, DYNFRAG1D_DAMAGE) > 0;
+        count += dynfrag1d_field(replay, e, BAR_STRENGTH) == DYNFRAG1D_UNBREAKABLE &&
+                 dynfrag1d_field(replay, e, BAR_DAMAGE) > 0;
     return count;
 }
 
@@ -192,14 +181,14 @@ static inline dynfrag1d_row dynfrag1d_observe(const dynfrag1d_replay *replay)
     for (size_t e = 0; e < replay->model->elements; e++) {
         for (size_t side = 0; side < 2; side++) {
             double x = h * (double)(e + side) - DYNFRAG1D_LENGTH / 2;
-            double after = dynfrag1d_field(replay, e, DYNFRAG1D_V_LEFT + (int)side);
+            double after = dynfrag1d_field(replay, e, BAR_V_LEFT + (int)side);
             double v = replay->run->rate * x + 0.5 * (replay->before[2 * e + side] + after);
             now.kinetic += 0.5 * nodal * v * v;
         }
         if (e + 1 == replay->model->elements) break;
-        double damage = dynfrag1d_field(replay, e, DYNFRAG1D_DAMAGE);
+        double damage = dynfrag1d_field(replay, e, BAR_DAMAGE);
         now.nominal += 0.5 * DYNFRAG1D_NOMINAL * damage * 2 * 100 /
-                       dynfrag1d_field(replay, e, DYNFRAG1D_STRENGTH);
+                       dynfrag1d_field(replay, e, BAR_STRENGTH);
         now.fragments += damage > 0.99;
     }
     return now;
@@ -211,7 +200,7 @@ static inline void dynfrag1d_step(dynfrag1d_replay *replay, dynfrag1d_row *now)
     size_t running;
     for (size_t e = 0; now && e < replay->model->elements; e++)
         for (size_t side = 0; side < 2; side++)
-            replay->before[2 * e + side] = dynfrag1d_field(replay, e, DYNFRAG1D_V_LEFT + (int)side);
+            replay->before[2 * e + side] = dynfrag1d_field(replay, e, BAR_V_LEFT + (int)side);
     OK(fracas_batch_step(replay->batch, &replay->record, &running));
     assert_int_equal(running, 1);
     double power = 0.5 * replay->run->rate * DYNFRAG1D_LENGTH *

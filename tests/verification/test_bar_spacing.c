@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bar on elements of different lengths: lengths, waves, events, fragments. */
-#include "tests/support/bar_spacing.h"
+#include "tests/support/bar_state.h"
 #include "tests/support/test.h"
 
 /* ---- lengths ---- */
@@ -16,8 +16,7 @@ static void lengths_of_a_graded_mesh_are_a_progression(void **unused)
             const size_t n = counts[c];
             fracas_spec spec = bar_reference((int64_t)n, 1e4, 1e-6);
             bar_grade(&spec, ratios[r]);
-            OWN(fracas_model) model;
-            OK(fracas_model_create(&spec, &model));
+            OWN(fracas_model) model = make_model(&spec);
             long double total = 0, sum = 0;
             for (size_t e = 0; e < n; e++)
                 total += powl((long double)ratios[r], (long double)e / (long double)(n - 1));
@@ -43,8 +42,7 @@ static void nodes_of_a_perturbed_mesh_are_moved_by_their_numbers(void **unused)
         double noise[N + 1];
         fracas_spec spec = bar_reference(N, 1e4, 1e-6);
         bar_perturb(&spec, amplitudes[a], (uint64_t)a, noise);
-        fracas_model *model;
-        OK(fracas_model_create(&spec, &model));
+        fracas_model *model = make_model(&spec);
         long double node = 0;
         double longest = 0;
         for (size_t e = 0; e < N; e++) {
@@ -87,18 +85,12 @@ static void the_longest_element_bounds_the_strength(void **unused)
 
 static fracas_record run_to_fragments(fracas_spec *spec, double time_step)
 {
-    const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    OWN(fracas_model) model;
-    OWN(fracas_batch) batch;
+    OWN(fracas_model) model = make_model(spec);
     fracas_record record;
-    OK(fracas_model_create(spec, &model));
     assert_true(fabs(model->time_step / time_step - 1) <
                 1e-6); /* iterations end at 1e-9 a step, of 12 */
     model->time_step = time_step;
-    OK(fracas_batch_create(model, 1, &options, &batch));
-    bar_draw(batch, 0, 0.1, 5);
-    fracas_record_init(&record);
-    OK(fracas_batch_run(batch, &record));
+    run_replicas(model, 5, 1, 0.1, (fracas_batch_options){.isa = FRACAS_ISA_BEST}, &record);
     return record;
 }
 
@@ -115,8 +107,7 @@ static void nearly_equal_lengths_give_the_uniform_run(void **unused)
         fracas_spec spec = bar_reference(500, 1e5, 2e-7);
         spec.geometry.length = 5e-3;
         spec.cohesive.law = laws[i % 2];
-        OWN(fracas_model) model;
-        OK(fracas_model_create(&spec, &model));
+        OWN(fracas_model) model = make_model(&spec);
         const double time_step = model->time_step;
         FRACAS_CLEARED(fracas_record) uniform = run_to_fragments(&spec, time_step);
         if (i / 2) bar_perturb(&spec, 1e-14, 1, noise);
@@ -153,13 +144,13 @@ static void a_uniform_stretch_moves_nothing(void **unused)
         spec.cohesive.law = laws[i % 2];
         spec.geometry.ends = ends[i / 2 % 2];
         OWN(fracas_model) model = model_on(&spec, i / 4);
-        OWN(fracas_batch) batch = batch_of(model, 300e6);
-        fracas_record record;
-        fracas_record_init(&record);
+        OWN(fracas_batch) batch = begun_with(model, 300e6);
+        RECORD(record);
         model->time_step = fmin(model->time_step, onset / 500);
         while (batch->step.cracked[0] == 0) {
             for (size_t e = 0; e < 400; e++)
-                for (int f = W_LEFT; f <= V_RIGHT; f++) assert_true(*field(batch, e, f) == 0.0);
+                for (int f = BAR_W_LEFT; f <= BAR_V_RIGHT; f++)
+                    assert_true(*field(batch, e, f) == 0.0);
             assert_true(batch->step.kinetic[0] == 0.0);
             step(batch, &record);
         }
@@ -181,12 +172,12 @@ static void a_stretch_of_the_nodes_moves_no_inner_node(void **unused)
         spec.cohesive.law = laws[i % 2];
         spec.geometry.ends = &fracas_ends_held;
         OWN(fracas_model) model = model_on(&spec, i / 2);
-        OWN(fracas_batch) batch = batch_of(model, 300e6);
+        OWN(fracas_batch) batch = begun_with(model, 300e6);
         double x = 0, least = 1;
         for (size_t e = 0; e < 400; e++) {
-            *field(batch, e, W_LEFT) = strain * x;
+            *field(batch, e, BAR_W_LEFT) = strain * x;
             x += model->sizes[e];
-            *field(batch, e, W_RIGHT) = strain * x;
+            *field(batch, e, BAR_W_RIGHT) = strain * x;
             least = fmin(least, model->sizes[e]);
         }
         batch->step.time[0] = batch->step.drift[0] = 0;
@@ -194,7 +185,7 @@ static void a_stretch_of_the_nodes_moves_no_inner_node(void **unused)
         model->formulation->advance(model, &batch->step);
         double largest = 0;
         for (size_t e = 0; e < 400; e++)
-            for (int f = V_LEFT; f <= V_RIGHT; f++)
+            for (int f = BAR_V_LEFT; f <= BAR_V_RIGHT; f++)
                 largest = fmax(largest, fabs(*field(batch, e, f)) * 0.5 * 2750 * model->sizes[e]);
         assert_true(largest < 8 * stress * 0.02 / least * 0x1p-53);
         assert_true(fabs(batch->step.elastic[0] / (0.5 * stress * strain * 0.02 * 1e-6) - 1) <
@@ -204,58 +195,18 @@ static void a_stretch_of_the_nodes_moves_no_inner_node(void **unused)
 
 /* ---- waves ---- */
 
-/* Held bar, no load: v = sin(pi x/L) at the start, so that after a quarter of a period w = L/(pi c)
- * sin(pi x/L). */
-static double wave_error(int law, int mesh, int64_t elements)
-{
-    const double length = 0.05, k = M_PI / length, quarter = 0.5 * length / BAR_WAVE_SPEED;
-    fracas_spec spec = bar_reference(elements, 1e-9, 10 * quarter);
-    spec.geometry.ends = &fracas_ends_held;
-    spec.cohesive.law = laws[law];
-    spec.time.safety = 0.9;
-    OWN(fracas_model) model = model_on(&spec, mesh);
-    const double steps = ceil(quarter / model->time_step);
-    model->time_step = quarter / steps;
-    OWN(fracas_batch) batch = batch_of(model, 5e7);
-    double x = 0, sum = 0, norm = 0;
-    for (size_t e = 0; e < model->elements;
-         e++) { /* w(0) = 0, so v(-dt/2) = v(0) to second order */
-        *field(batch, e, V_LEFT) = e > 0 ? *field(batch, e - 1, V_RIGHT) : 0;
-        x += model->sizes[e];
-        *field(batch, e, V_RIGHT) = e + 1 < model->elements ? sin(k * x) : 0;
-    }
-    fracas_record record;
-    fracas_record_init(&record);
-    for (int s = 0; s <= (int)steps; s++) step(batch, &record);
-    x = 0;
-    for (size_t e = 0; e < model->elements; e++) {
-        for (int g = 0; g < 2; g++) { /* two Gauss points */
-            double h = model->sizes[e], xi = 0.5 + (g ? 0.5 : -0.5) / sqrt(3);
-            double w = (1 - xi) * *field(batch, e, W_LEFT) + xi * *field(batch, e, W_RIGHT);
-            double exact = sin(k * (x + xi * h)) / (k * BAR_WAVE_SPEED);
-            sum += h * (w - exact) * (w - exact);
-            norm += h * exact * exact;
-        }
-        x += model->sizes[e];
-    }
-    assert_int_equal(batch->step.cracked[0], 0);
-    return sqrt(sum / norm);
-}
-
-/* L2 error of linear elements: order 2 in h. A progression of one ratio over more elements is the
- * same map of a finer mesh: the slope is 2 within 0.1. The numbers of a perturbed mesh are others
- * on each, and move its error by some 10 %: 0.3. */
+/* A progression of one ratio over more elements is the same map of a finer mesh: the slope is 2
+ * within 0.1. The numbers of a perturbed mesh are others on each, and move its error by some 10 %:
+ * 0.3. */
 static void waves_converge_with_order_two(void **unused)
 {
     static const double bound[MESHES] = {0.1, 0.1, 0.3};
     for (int i = 0; i < 2 * MESHES; i++) {
-        double coarse = wave_error(i % 2, i / 2, 64), middle = wave_error(i % 2, i / 2, 128),
-               fine = wave_error(i % 2, i / 2, 256);
-        print_message("[  figures ] %s mesh %d: L2 errors %.3e %.3e %.3e, slopes %.3f %.3f\n",
-                      laws[i % 2]->name, i / 2, coarse, middle, fine, log2(coarse / middle),
-                      log2(middle / fine));
-        assert_true(fabs(log2(coarse / middle) - 2) < bound[i / 2]);
-        assert_true(fabs(log2(middle / fine) - 2) < bound[i / 2]);
+        fracas_spec spec = bar_reference(64, 1e-9, 1);
+        spec.geometry.ends = &fracas_ends_held;
+        spec.cohesive.law = laws[i % 2];
+        spec.time.safety = 0.9;
+        check_waves(spec, i / 2, M_PI / 0.05, bound[i / 2]);
     }
 }
 
@@ -271,10 +222,9 @@ static void tied_nodes_stay_together(void **unused)
         spec.cohesive.law = &fracas_law_rigid_link.kind;
         spec.geometry.ends = ends[i % 2];
         OWN(fracas_model) model = model_on(&spec, i / 2);
-        OWN(fracas_batch) batch = batch_of(model, 300e6);
+        OWN(fracas_batch) batch = begun_with(model, 300e6);
         bar_draw(batch, 0, 0.3, 1);
-        fracas_record record;
-        fracas_record_init(&record);
+        RECORD(record);
         int moved = 0, closed = 0, open = 0;
         double momentum = 0, scale = 0;
         for (int s = 0; batch->step.broken[0] < 5; s++) {
@@ -283,18 +233,19 @@ static void tied_nodes_stay_together(void **unused)
             momentum = scale = 0;
             for (size_t e = 0; e < 300; e++) {
                 const size_t next = (e + 1) % 300;
-                const double *w = field(batch, e, W_RIGHT), *v = field(batch, e, V_RIGHT);
-                for (int f = V_LEFT; f <= V_RIGHT; f++) {
+                const double *w = field(batch, e, BAR_W_RIGHT), *v = field(batch, e, BAR_V_RIGHT);
+                for (int f = BAR_V_LEFT; f <= BAR_V_RIGHT; f++) {
                     momentum += model->sizes[e] * *field(batch, e, f);
                     scale += model->sizes[e] * fabs(*field(batch, e, f));
                 }
-                if (e >= model->interfaces || *field(batch, e, LAW) > 0) {
+                if (e >= model->interfaces || *field(batch, e, BAR_LAW) > 0) {
                     open += e < model->interfaces;
                     continue;
                 }
                 closed++;
                 moved += *w != 0;
-                assert_true(*field(batch, next, W_LEFT) == *w && *field(batch, next, V_LEFT) == *v);
+                assert_true(*field(batch, next, BAR_W_LEFT) == *w &&
+                            *field(batch, next, BAR_V_LEFT) == *v);
             }
             /* a held end gives momentum; each step rounds each node's by 2^-53 a few times */
             if (i % 2 == 0) assert_true(fabs(momentum) <= scale * 4 * 0x1p-53 * (s + 300));
@@ -310,14 +261,14 @@ static double crossing_of(fracas_batch *batch, size_t e, bool onset)
     const fracas_model *model = batch->model;
     const size_t next = (e + 1) % model->elements;
     const double left = 275e9 / model->sizes[e], right = 275e9 / model->sizes[next],
-                 sigma_c = *field(batch, e, STRENGTH);
+                 sigma_c = *field(batch, e, BAR_STRENGTH);
     const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche.kind;
-    const double q = *field(batch, next, W_LEFT) - *field(batch, e, W_RIGHT),
+    const double q = *field(batch, next, BAR_W_LEFT) - *field(batch, e, BAR_W_RIGHT),
                  spring = 2 * (left + right);
-    const double mean = 275e9 * model->spec.loading.rate * batch->step.time[0] +
-                        0.5 *
-                            (left * (*field(batch, e, W_RIGHT) - *field(batch, e, W_LEFT)) +
-                             right * (*field(batch, next, W_RIGHT) - *field(batch, next, W_LEFT)));
+    const double mean =
+        275e9 * model->spec.loading.rate * batch->step.time[0] +
+        0.5 * (left * (*field(batch, e, BAR_W_RIGHT) - *field(batch, e, BAR_W_LEFT)) +
+               right * (*field(batch, next, BAR_W_RIGHT) - *field(batch, next, BAR_W_LEFT)));
     if (!nitsche) return onset ? mean - sigma_c : q - 200 / sigma_c;
     return mean + spring * q - (onset ? sigma_c : spring * 200 / sigma_c);
 }
@@ -333,14 +284,9 @@ static void events_are_timed_inside_their_steps(void **unused)
         spec.geometry.length = 6e-3;
         spec.cohesive.law = laws[i % 2];
         OWN(fracas_model) model = model_on(&spec, i / 2);
-        const fracas_batch_options options = {
-            .width = 1, .isa = FRACAS_ISA_BEST, .interfaces = true};
-        fracas_batch *batch;
-        OK(fracas_batch_create(model, 1, &options, &batch));
-        bar_draw(batch, 0, 0.1, 4);
+        OWN(fracas_batch) batch = lane_of(model, 0.1, 4, 0);
         OK(fracas_batch_begin(batch));
-        fracas_record record;
-        fracas_record_init(&record);
+        RECORD(record);
         double before[2][N] = {{0}}, last = 0;
         bool seen[2][N] = {{false}};
         int count[2] = {0, 0};
@@ -362,7 +308,6 @@ static void events_are_timed_inside_their_steps(void **unused)
             last = batch->step.time[0];
         }
         assert_true(count[0] > 20);
-        fracas_batch_destroy(batch);
     }
 }
 
@@ -376,8 +321,10 @@ static void join(piece *p, fracas_batch *batch, size_t e, long double x, long do
 {
     const long double h = batch->model->sizes[e], middle = x + h / 2 - back,
                       rate = batch->model->spec.loading.rate;
-    const long double w = ((long double)*field(batch, e, W_LEFT) + *field(batch, e, W_RIGHT)) / 2;
-    const long double v = ((long double)*field(batch, e, V_LEFT) + *field(batch, e, V_RIGHT)) / 2;
+    const long double w =
+        ((long double)*field(batch, e, BAR_W_LEFT) + *field(batch, e, BAR_W_RIGHT)) / 2;
+    const long double v =
+        ((long double)*field(batch, e, BAR_V_LEFT) + *field(batch, e, BAR_V_RIGHT)) / 2;
     p->elements++;
     p->size += h;
     p->mass += 2750 * 1e-6L * h;
@@ -393,12 +340,12 @@ static size_t walk(fracas_batch *batch, piece *pieces)
     const bool ring = model->interfaces == model->elements;
     const long double length = model->spec.geometry.length;
     size_t last = model->elements, count = 1;
-    while (ring && last > 0 && *field(batch, last - 1, DAMAGE) < 1) last--;
+    while (ring && last > 0 && *field(batch, last - 1, BAR_DAMAGE) < 1) last--;
     long double x = 0;
     pieces[0] = (piece){0};
     for (size_t e = 0; e < model->elements; x += model->sizes[e], e++) {
         const bool wraps = e >= last;
-        if (e > 0 && !wraps && *field(batch, e - 1, DAMAGE) >= 1) pieces[count++] = (piece){0};
+        if (e > 0 && !wraps && *field(batch, e - 1, BAR_DAMAGE) >= 1) pieces[count++] = (piece){0};
         join(&pieces[wraps ? 0 : count - 1], batch, e, x, wraps ? length : 0);
     }
     for (size_t p = 0; p < count; p++) {
@@ -422,10 +369,10 @@ static void fragments_are_sums_over_their_elements(void **unused)
         spec.cohesive.law = laws[i % 2];
         spec.geometry.ends = ends[i / 2 % 2];
         OWN(fracas_model) model = model_on(&spec, i / 4);
-        OWN(fracas_batch) batch = batch_of(model, 300e6);
+        OWN(fracas_batch) batch = begun_with(model, 300e6);
         bar_draw(batch, 0, 0.05, 2);
         RECORD(record);
-        for (size_t running = 1; running > 0;) OK(fracas_batch_step(batch, &record, &running));
+        run_to_end(batch, &record);
         static piece pieces[401];
         assert_int_equal(record.nfragment, walk(batch, pieces));
         assert_true(record.nfragment > 5);
@@ -443,7 +390,7 @@ static void fragments_are_sums_over_their_elements(void **unused)
         }
         for (size_t e = 0; e < 400; e++)
             momentum += 0.5 * 2750e-6 * model->sizes[e] *
-                        (*field(batch, e, V_LEFT) + *field(batch, e, V_RIGHT));
+                        (*field(batch, e, BAR_V_LEFT) + *field(batch, e, BAR_V_RIGHT));
         assert_true(fabs(size / 8e-3 - 1) < 1e-13 && fabs(mass / record.mass - 1) < 1e-13);
         assert_true(fabs(record.mass / (2750e-6 * 8e-3) - 1) < 1e-15);
         assert_true(fabs(record.momentum[0] - momentum) < 1e-13 * fastest * record.mass);

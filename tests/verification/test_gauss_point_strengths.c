@@ -29,11 +29,10 @@ static fracas_spec body_of(const fracas_formulation *formulation, const fracas_k
 
 static void run(const fracas_model *model, int width, fracas_isa isa, fracas_record *record)
 {
-    const fracas_batch_options options = {
-        .history = 20, .interfaces = true, .width = width, .isa = isa};
     const fracas_stream stream = {.seed = 6, .purpose = FRACAS_PURPOSE_STRENGTH};
-    OWN(fracas_batch) batch;
-    OK(fracas_batch_create(model, (size_t)width, &options, &batch));
+    OWN(fracas_batch) batch = batch_with(
+        model, (size_t)width,
+        (fracas_batch_options){.history = 20, .interfaces = true, .width = width, .isa = isa});
     for (size_t l = 0; l < (size_t)width; l++) {
         for (size_t k = 0; k < strengths_of(model); k++)
             bar_set_strength(batch, l, k,
@@ -74,9 +73,7 @@ static void every_one_is_checked(void **unused)
     fracas_spec spec = body_of(&fracas_formulation_membrane, &fracas_shape_plate, 1, 2);
     spec.strength_per_point = true;
     OWN(fracas_model) model = distorted_model(spec, 0, 0);
-    OWN(fracas_batch) batch;
-    OK(fracas_batch_create(model, 1, &(fracas_batch_options){.isa = FRACAS_ISA_BEST}, &batch));
-    for (size_t k = 0; k < strengths_of(model); k++) bar_set_strength(batch, 0, k, 300e6);
+    OWN(fracas_batch) batch = lane_of(model, 0, 0, 0);
     OK(fracas_batch_begin(batch));
     bar_set_strength(batch, 0, strengths_of(model) - 1, 0);
     assert_int_equal(fracas_batch_begin(batch), FRACAS_USAGE);
@@ -88,9 +85,8 @@ static void every_one_is_checked(void **unused)
 static void chains_have_one(void **unused)
 {
     fracas_spec spec = bar_reference(10, 1e4, 1e-6);
-    OWN(fracas_model) model;
     spec.strength_per_point = true;
-    OK(fracas_model_create(&spec, &model));
+    OWN(fracas_model) model = make_model(&spec);
     assert_int_equal(fracas_model_strengths_per_interface(model), 1);
 }
 

@@ -46,8 +46,7 @@ static void compute(const dynfrag1d_run *run, const fracas_kind *law, int refine
     dynfrag1d_follow(&bar, theirs->at, rows, ours->at);
     assert_int_equal(dynfrag1d_onsets_between(&bar), 0);
     for (int i = 0; i + 1 < run->elements; i++)
-        ours->broken[i] = dynfrag1d_field(&bar, (size_t)((i + 1) * refine - 1), DYNFRAG1D_DAMAGE) >
-                          0.99;
+        ours->broken[i] = dynfrag1d_field(&bar, (size_t)((i + 1) * refine - 1), BAR_DAMAGE) > 0.99;
     dynfrag1d_end(&bar);
 }
 
