@@ -53,7 +53,7 @@ surface_book(const surface_context *c, int points, size_t i, const vmask *cracks
 
 /* The law's view of an interface; the strength is each Gauss point's own. */
 LANES_FUNCTION plane_interface surface_interface(const fracas_surface_constants *s,
-                                                 const double *table)
+                                                 const double *table, int friction)
 {
     const vd stiffness = lanes_set(table[SURFACE_STIFFNESS]);
     return (plane_interface){.k_n = lanes_set(s->normal) * stiffness,
@@ -66,19 +66,19 @@ LANES_FUNCTION plane_interface surface_interface(const fracas_surface_constants 
                              .energy = lanes_set(s->energy),
                              .opening = lanes_set(s->opening),
                              .onset_mean = s->onset_mean,
-                             .friction = s->friction};
+                             .friction = friction};
 }
 
 /* An interface at which some lane is cracked, or is about to (shell.14). `at` holds the flux of the
- * other lanes. */
-LANES_FUNCTION void surface_crack(surface_context *c, int order, int law, size_t i, double *fields,
-                                  const double *strength, BODY(point) at[3])
+ * other lanes. `friction`, a constant of each call, keeps its questions out of the layers. */
+LANES_FUNCTION void surface_crack(surface_context *c, int order, int law, int friction, size_t i,
+                                  double *fields, const double *strength, BODY(point) at[3])
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
     const fracas_surface_constants *s = c->constants;
     const int points = SURFACE_EDGE(order);
     const double *table = surface_table(c, order, i);
-    plane_interface interface = surface_interface(s, table);
+    plane_interface interface = surface_interface(s, table, friction);
     vmask cracks[3 * BODY_LAYERS], breaks[3 * BODY_LAYERS];
     vmask whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(one, zero), parts = opens;
     vd created = zero, rubbed = zero, bending = zero;
@@ -143,7 +143,8 @@ LANES_FUNCTION void surface_join(surface_context *c, int order, int law, size_t 
     }
     const vd floor = lanes_set(0.999 * (s->beta_c < 1.0 ? s->beta_c : 1.0)) * weakest;
     if (lanes_any(lanes_or(lanes_lt(lanes_set(0.0), touched), lanes_lt(floor * floor, largest)))) {
-        surface_crack(c, order, law, i, fields, strength, at);
+        if (s->friction) surface_crack(c, order, law, 1, i, fields, strength, at);
+        else surface_crack(c, order, law, 0, i, fields, strength, at);
     } else {
         const double *place = surface_table(c, order, i) + BODY_HEAD;
         UNROLL_FOR (int g = 0; g < points; g++)
@@ -286,7 +287,7 @@ LANES_FUNCTION void surface_look(const fracas_surface_constants *s, int order, s
     surface_context c = {.constants = s, .tables = s->tables};
     surface_sides sides = surface_places(s->tables, order, i);
     const double *table = surface_table(&c, order, i);
-    plane_interface interface = surface_interface(s, table);
+    plane_interface interface = surface_interface(s, table, s->friction);
     double slot[2][BODY_SLOT(2)];
     BODY(point) at[3];
     for (int side = 0; side < 2; side++) {
