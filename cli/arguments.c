@@ -50,7 +50,7 @@ static fracas_err value_of(const fracas_arguments *arguments, const char *option
 static fracas_err unknown_option(const fracas_command *command, const char *given)
 {
     const char *name = given + strspn(given, "-");
-    char found[64], hint[600];
+    char found[64];
     snprintf(found, sizeof found, "--%.*s", (int)strcspn(name, "="), name);
     fracas_words words;
     fracas_words_init(&words, found);
@@ -62,7 +62,7 @@ static fracas_err unknown_option(const fracas_command *command, const char *give
     }
     fracas_words_add(&words, "--help");
     return fracas_fail(FRACAS_USAGE, "%s: unknown option `%s`%s%s", command->name, given,
-                       fracas_words_hint(&words, "it knows", hint),
+                       fracas_words_hint(&words, "it knows"),
                        command->takes_rest ? "; options of another program follow `--`" : "");
 }
 
@@ -214,9 +214,8 @@ fracas_err fracas_arguments_word(const fracas_arguments *arguments, const char *
         }
         fracas_words_add(&known, words[k]);
     }
-    char hint[600];
     return fracas_fail(FRACAS_USAGE, "%s: --%s is `%s`%s", arguments->command->name, option, text,
-                       fracas_words_hint(&known, "it can be", hint));
+                       fracas_words_hint(&known, "it can be"));
 }
 
 /* [days-]hours:minutes:seconds, or hours:minutes:seconds without the days. */

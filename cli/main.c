@@ -66,9 +66,8 @@ static fracas_err find_command(const char *name, const fracas_command **command)
         fracas_words_add(&words, commands[i]->name);
     }
     fracas_words_add(&words, "help");
-    char hint[600];
     return fracas_fail(FRACAS_USAGE, "unknown command `%s`%s", name,
-                       fracas_words_hint(&words, "there are", hint));
+                       fracas_words_hint(&words, "there are"));
 }
 
 static fracas_err run(const fracas_arguments *arguments)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/campaign.h"
 
+#include "base/param.h"
 #include "base/units.h"
 #include "campaigns/file/memory.h"
 #include "campaigns/file/replicas.h"
@@ -57,16 +58,21 @@ static void write_text(const fracas_column *column, const fracas_value *value, c
     else snprintf(text, 64, "%s%s%s", number, pure ? "" : " ", pure ? "" : column->unit);
 }
 
-/* True if all points of `now` are in `before`. */
+/* The point with this hash, searched from point `from` on and around; NULL if there is none. */
+static const fracas_point *find_point(const fracas_campaign *campaign, const fracas_hash *hash,
+                                      size_t from)
+{
+    for (size_t n = 0; n < campaign->npoints; n++) {
+        const fracas_point *point = &campaign->point[(from + n) % campaign->npoints];
+        if (fracas_hash_equal(&point->hash, hash)) return point;
+    }
+    return NULL;
+}
+
 static bool is_part(const fracas_campaign *now, const fracas_campaign *before)
 {
-    for (size_t n = 0; n < now->npoints; n++) {
-        size_t b = 0;
-        while (b < before->npoints &&
-               !fracas_hash_equal(&now->point[n].hash, &before->point[b].hash))
-            b++;
-        if (b == before->npoints) return false;
-    }
+    for (size_t n = 0; n < now->npoints; n++)
+        if (!find_point(before, &now->point[n].hash, n)) return false;
     return true;
 }
 
@@ -107,63 +113,43 @@ static fracas_err point_missing(const fracas_campaign *now, const fracas_campaig
         column->path, was, b, is);
 }
 
-static fracas_err differs(const char *path, const char *was, const char *is)
-{
-    return fracas_fail(FRACAS_DAMAGED,
-                       "%s is %s in the study, but %s in this campaign file; it must stay as it "
-                       "is; else give the campaign a new name or another --study",
-                       path, was, is);
-}
-
 static fracas_err check_settings(const fracas_campaign *now, const fracas_campaign *before)
 {
     static const char *const random[] = {"independent", "common"}, *const boolean[] = {"false",
                                                                                        "true"};
-    char was[32], is[32];
-    snprintf(was, sizeof was, "%" PRIu64, before->seed);
-    snprintf(is, sizeof is, "%" PRIu64, now->seed);
-    if (now->seed != before->seed) return differs("seed", was, is);
-    if (now->common_random_numbers != before->common_random_numbers)
-        return differs("random_numbers", random[before->common_random_numbers],
-                       random[now->common_random_numbers]);
-    snprintf(was, sizeof was, "%" PRId64, before->output.history);
-    snprintf(is, sizeof is, "%" PRId64, now->output.history);
-    if (now->output.history != before->output.history) return differs("output.history", was, is);
-    if (now->output.interfaces != before->output.interfaces)
-        return differs("output.interfaces", boolean[before->output.interfaces],
-                       boolean[now->output.interfaces]);
-    return FRACAS_OK;
-}
-
-typedef struct {
-    const fracas_point *point;
-} point_link;
-
-static int by_hash(const void *a, const void *b)
-{
-    return memcmp(((const point_link *)a)->point->hash.byte,
-                  ((const point_link *)b)->point->hash.byte, sizeof(fracas_hash));
-}
-
-static fracas_err check_points(const fracas_campaign *now, const fracas_campaign *before,
-                               const point_link *sorted)
-{
-    for (size_t b = 0; b < before->npoints; b++) {
-        const fracas_point *was = &before->point[b];
-        const point_link wanted = {was},
-                         *found = bsearch(&wanted, sorted, now->npoints, sizeof *sorted, by_hash);
-        if (!found) return point_missing(now, before, b);
-        TRY(fracas_replicas_extend(found->point, was, b));
+    char seed[2][32], history[2][32];
+    const fracas_campaign *both[] = {before, now};
+    for (int i = 0; i < 2; i++) {
+        snprintf(seed[i], sizeof seed[i], "%" PRIu64, both[i]->seed);
+        snprintf(history[i], sizeof history[i], "%" PRId64, both[i]->output.history);
     }
+    const struct {
+        const char *path, *was, *is;
+    } setting[] = {
+        {"seed", seed[0], seed[1]},
+        {"random_numbers", random[before->common_random_numbers],
+         random[now->common_random_numbers]},
+        {"output.history", history[0], history[1]},
+        {"output.interfaces", boolean[before->output.interfaces], boolean[now->output.interfaces]},
+    };
+    for (size_t i = 0; i < FRACAS_COUNT(setting); i++)
+        if (strcmp(setting[i].was, setting[i].is) != 0)
+            return fracas_fail(FRACAS_DAMAGED,
+                               "%s is %s in the study, but %s in this campaign file; it must stay "
+                               "as it is; else give the campaign a new name or another --study",
+                               setting[i].path, setting[i].was, setting[i].is);
     return FRACAS_OK;
 }
 
 fracas_err fracas_campaign_extends(const fracas_campaign *now, const fracas_campaign *before)
 {
     TRY(check_settings(now, before));
-    OWNED point_link *sorted = malloc(now->npoints * sizeof *sorted);
-    if (!sorted) return fracas_no_memory("the points of the campaign");
-    for (size_t n = 0; n < now->npoints; n++) sorted[n].point = &now->point[n];
-    qsort(sorted, now->npoints, sizeof *sorted, by_hash);
-    return check_points(now, before, sorted);
+    size_t from = 0; /* a campaign is extended in order: the next point is near */
+    for (size_t b = 0; b < before->npoints; b++) {
+        const fracas_point *found = find_point(now, &before->point[b].hash, from);
+        if (!found) return point_missing(now, before, b);
+        TRY(fracas_replicas_extend(found, &before->point[b], b));
+        from = (size_t)(found - now->point) + 1;
+    }
+    return FRACAS_OK;
 }

@@ -82,8 +82,7 @@ static fracas_err add_params(leaf_list *list, const fracas_file_section *section
 static fracas_err add_leaves(leaf_list *list, const fracas_file_section *section)
 {
     const fracas_section *table = section->table;
-    if (table->nkinds > 0)
-        TRY(add_leaf(list, section, table->selector ? table->selector : table->name, NULL));
+    if (table->nkinds > 0) TRY(add_leaf(list, section, fracas_section_selector(table), NULL));
     TRY(add_params(list, section, table->params, table->nparams));
     for (size_t k = 0; k < table->nkinds; k++)
         TRY(add_params(list, section, table->kinds[k]->params, table->kinds[k]->nparams));
@@ -133,16 +132,8 @@ const fracas_leaf *fracas_catalog_key(const fracas_catalog *catalog,
                                       const fracas_file_section *section, const char *key)
 {
     for (size_t i = 0; i < catalog->nleaves; i++)
-        if (catalog->leaf[i].section == section && strcmp(catalog->leaf[i].key, key) == 0)
-            return &catalog->leaf[i];
-    return NULL;
-}
-
-const fracas_leaf *fracas_catalog_selector(const fracas_catalog *catalog,
-                                           const fracas_file_section *section)
-{
-    for (size_t i = 0; i < catalog->nleaves; i++)
-        if (catalog->leaf[i].section == section && !catalog->leaf[i].param)
+        if (catalog->leaf[i].section == section &&
+            (key ? strcmp(catalog->leaf[i].key, key) == 0 : !catalog->leaf[i].param))
             return &catalog->leaf[i];
     return NULL;
 }

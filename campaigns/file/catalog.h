@@ -36,14 +36,17 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_catalog_make(fracas_campaign_memory *memory,
                                                const fracas_catalog **catalog);
 
-/* NULL if the name is unknown. */
+/* NULL if the name is unknown. `key` NULL: the leaf with the name of the section's kind. */
 const fracas_file_section *fracas_catalog_section(const fracas_catalog *catalog, const char *name);
 const fracas_leaf *fracas_catalog_leaf(const fracas_catalog *catalog, const char *path);
 const fracas_leaf *fracas_catalog_key(const fracas_catalog *catalog,
                                       const fracas_file_section *section, const char *key);
-/* The leaf with the name of the section's kind; NULL for a section without kinds. */
-const fracas_leaf *fracas_catalog_selector(const fracas_catalog *catalog,
-                                           const fracas_file_section *section);
+
+/* The key whose value names the kind. */
+static inline const char *fracas_section_selector(const fracas_section *section)
+{
+    return section->selector ? section->selector : section->name;
+}
 
 /* The parameter `key` of a section of this kind (NULL: no kinds) at points of this model (NULL: any
  * model); NULL if there is none. */

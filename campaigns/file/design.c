@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/design.h"
 
-#include "campaigns/file/sweep.h"
 #include "campaigns/file/words.h"
 #include "sampler/design/correlation.h"
 #include "sampler/design/design.h"
@@ -152,7 +151,7 @@ static fracas_err find_parameter(const fracas_file *file, const reading *read,
                                  const fracas_node *node, size_t *j)
 {
     fracas_words words;
-    char found[256], hint[600];
+    char found[256];
     fracas_words_init(&words, node->type == FRACAS_SCALAR ? node->text : "");
     for (*j = 0; *j < read->design.parameters; ++*j) {
         if (strcmp(words.found, read->leaf[*j]->path) == 0) return FRACAS_OK;
@@ -160,7 +159,7 @@ static fracas_err find_parameter(const fracas_file *file, const reading *read,
     }
     return fracas_file_error(file, node, "%s is no parameter of this design%s",
                              fracas_node_found(node, found),
-                             fracas_words_hint(&words, "parameters", hint));
+                             fracas_words_hint(&words, "parameters"));
 }
 
 static fracas_err read_pair(const fracas_file *file, const fracas_node *node, reading *read)
@@ -247,27 +246,34 @@ static fracas_err read_correlation(const fracas_file *file, const fracas_node *l
 
 /* ---- values ---- */
 
-static fracas_err draw(const fracas_file *file, const reading *read, double *value)
+static fracas_err draw(const fracas_file *file, const fracas_node *node, const reading *read,
+                       fracas_axis *axis)
 {
-    const size_t d = read->design.parameters;
-    fracas_probability *p = fracas_memory_take(file->memory, read->design.points * d, sizeof *p);
-    if (!p) return fracas_no_memory("a design");
+    const size_t d = read->design.parameters, n = read->design.points;
+    fracas_probability *p = fracas_memory_take(file->memory, n * d, sizeof *p);
+    axis->choice = fracas_memory_take(file->memory, n, sizeof *axis->choice);
+    if (!p || !axis->choice) return fracas_no_memory("a design");
+    axis->nchoices = n;
     TRY(fracas_design_fill(&read->design, p));
-    for (size_t i = 0; i < read->design.points * d; i++) {
-        const size_t j = i % d;
+    for (size_t i = 0; i < n * d; i++) {
+        const size_t j = i % d, number = i / d + 1;
+        fracas_choice *choice = &axis->choice[i / d];
+        fracas_setting setting = {.leaf = read->leaf[j], .node = read->node[j], .drawn = number};
         const double drawn = fracas_uncertain_quantile(&read->uncertain[j], p[i]);
         if (!isfinite(drawn))
             return fracas_file_error(
-                file, read->node[j],
+                file, setting.node,
                 "`%s`: point %zu of the design is beyond all numbers; narrow its distribution",
-                read->leaf[j]->path, i / d + 1);
-        value[i] = read->leaf[j]->param->type == FRACAS_INTEGER ? floor(drawn + 0.5)
-                                                                : fracas_number_round(drawn);
+                setting.leaf->path, number);
+        setting.value = setting.leaf->param->type == FRACAS_INTEGER ? floor(drawn + 0.5)
+                                                                    : fracas_number_round(drawn);
+        choice->node = node;
+        TRY(fracas_settings_add(file, &setting, &choice->settings));
     }
     return FRACAS_OK;
 }
 
-fracas_err fracas_drawn_read(const fracas_file *file, const fracas_node *node, fracas_drawn *drawn)
+fracas_err fracas_design_read(const fracas_file *file, const fracas_node *node, fracas_axis *axis)
 {
     static const char *const keys[] = {"type", "points", "parameters", "correlation", NULL};
     reading read = {.design = {.seed = file->campaign->seed}};
@@ -286,10 +292,5 @@ fracas_err fracas_drawn_read(const fracas_file *file, const fracas_node *node, f
              &parameters));
     TRY(read_parameters(file, parameters, &read));
     TRY(read_correlation(file, fracas_node_find(node, "correlation"), &read));
-    double *value = fracas_memory_take(file->memory, read.design.points * read.design.parameters,
-                                       sizeof *value);
-    if (!value) return fracas_no_memory("a design");
-    *drawn = (fracas_drawn){read.design.points, read.design.parameters, read.leaf, read.node,
-                            value};
-    return draw(file, &read, value);
+    return draw(file, node, &read, axis);
 }

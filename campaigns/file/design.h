@@ -4,20 +4,12 @@
 #ifndef FRACAS_CAMPAIGNS_FILE_DESIGN_H
 #define FRACAS_CAMPAIGNS_FILE_DESIGN_H
 
-#include "campaigns/file/setting.h"
+#include "campaigns/file/sweep.h"
 
-typedef struct {
-    size_t points, parameters;
-    const fracas_leaf *const *leaf; /* [parameters] */
-    const fracas_node *const *node; /* [parameters], where each is written */
-    const double *value; /* [points][parameters], SI, rounded to 15 digits, or to a whole number if
-                            the leaf is one */
-} fracas_drawn;
-
-/* Reads the map `node` and draws its values into the file's memory. Random numbers depend on the
- * campaign's seed and the paths of the parameters. Does not check ranges, which may depend on the
- * kind. */
-FRACAS_MUST_USE fracas_err fracas_drawn_read(const fracas_file *file, const fracas_node *node,
-                                             fracas_drawn *drawn);
+/* Reads the map `node` and draws its values: a choice of the axis for each point, in SI, rounded to
+ * 15 digits, or to a whole number if the leaf is one. Random numbers depend on the campaign's seed
+ * and the paths of the parameters. Does not check ranges, which may depend on the kind. */
+FRACAS_MUST_USE fracas_err fracas_design_read(const fracas_file *file, const fracas_node *node,
+                                              fracas_axis *axis);
 
 #endif

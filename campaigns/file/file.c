@@ -52,11 +52,9 @@ fracas_err fracas_file_check_keys(const fracas_file *file, const fracas_node *ma
             fracas_words_add(&words, *key);
             known = known || strcmp(*key, entry->key->text) == 0;
         }
-        char hint[600], label[80];
-        snprintf(label, sizeof label, "keys of %s", subject);
         if (!known)
             return fracas_file_error(file, entry->key, "unknown key `%s` in %s%s", entry->key->text,
-                                     subject, fracas_words_hint(&words, label, hint));
+                                     subject, fracas_words_hint(&words, "keys of %s", subject));
     }
     return FRACAS_OK;
 }

@@ -2,6 +2,7 @@
 /* From a file to a campaign. */
 #include "campaigns/file/read.h"
 
+#include "campaigns/file/columns.h"
 #include "campaigns/file/identity.h"
 #include "campaigns/file/resolve.h"
 #include "campaigns/file/sweep.h"
@@ -38,8 +39,6 @@ static fracas_err unknown_section(const fracas_file *file, const fracas_node *ke
     for (size_t k = 0; k < FRACAS_COUNT(own_keys); k++) fracas_words_add(&words, own_keys[k]);
     for (size_t s = 0; s < catalog->nsections; s++)
         fracas_words_add(&words, catalog->section[s].table->name);
-    char hint[600];
-    fracas_words_hint(&words, "known are", hint);
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];
         if (strcmp(leaf->key, key->text) == 0 || strcmp(leaf->path, key->text) == 0)
@@ -49,7 +48,7 @@ static fracas_err unknown_section(const fracas_file *file, const fracas_node *ke
                 key->text, leaf->key, leaf->section->table->name);
     }
     return fracas_file_error(file, key, "unknown key `%s` at the top of the file%s", key->text,
-                             hint);
+                             fracas_words_hint(&words, "known are"));
 }
 
 static fracas_err read_seed(const fracas_file *file, const fracas_node *node, uint64_t *seed)

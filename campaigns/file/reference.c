@@ -60,11 +60,6 @@ static void write_params(const fracas_param *params, size_t count, FILE *out)
     for (size_t p = 0; p < count; p++) write_param(&params[p], out);
 }
 
-static const char *selector_of(const fracas_section *section)
-{
-    return section->selector ? section->selector : section->name;
-}
-
 /* " (default)", with the models for which it is. */
 static void write_default(const fracas_section *model, const fracas_section *section,
                           const fracas_kind *kind, FILE *out)
@@ -92,13 +87,14 @@ static void write_partners(const fracas_catalog *catalog, const fracas_kind *mod
 {
     if (model->ngoes_with == 0) return;
     fprintf(out, "\nWith `%s: %s`, only these kinds go, the first of each being the default:\n\n",
-            selector_of(catalog->section->table), model->name);
+            fracas_section_selector(catalog->section->table), model->name);
     for (size_t s = 0; s < catalog->nsections; s++) {
         const fracas_section *section = catalog->section[s].table;
         const fracas_kind *partner;
         for (size_t i = 0; (partner = fracas_kind_partner(model, section, i)); i++) {
             if (i == 0)
-                fprintf(out, "- `%s.%s`: `%s`", section->name, selector_of(section), partner->name);
+                fprintf(out, "- `%s.%s`: `%s`", section->name, fracas_section_selector(section),
+                        partner->name);
             else fprintf(out, ", `%s`", partner->name);
         }
         if (fracas_kind_partner(model, section, 0)) fprintf(out, "\n");
@@ -108,7 +104,7 @@ static void write_partners(const fracas_catalog *catalog, const fracas_kind *mod
 static void write_section(const fracas_catalog *catalog, const fracas_section *section, FILE *out)
 {
     const fracas_section *model = catalog->section->table;
-    const char *selector = selector_of(section);
+    const char *selector = fracas_section_selector(section);
     fprintf(out, "\n## `%s`\n\n%s.\n", section->name, section->doc);
     if (!section->hashed)
         fprintf(
@@ -155,11 +151,10 @@ void fracas_campaign_reference(FILE *out)
                  "Written by `fracas reference` from the tables that read the file; how a file is "
                  "built: [campaign-file.md](campaign-file.md).\nA bare number is in the SI unit "
                  "given here; any other unit of the same dimension may follow it after a space.\n");
-    fracas_campaign_memory *memory = fracas_memory_create();
+    OWN(fracas_campaign_memory) memory = fracas_memory_create();
     const fracas_catalog *catalog;
     if (memory && fracas_catalog_make(memory, &catalog) == FRACAS_OK)
         for (size_t s = 0; s < catalog->nsections; s++)
             write_section(catalog, catalog->section[s].table, out);
     write_designs(out);
-    fracas_memory_destroy(memory);
 }

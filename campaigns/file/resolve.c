@@ -10,7 +10,7 @@ typedef enum { BASE, POINT } view;
 static const fracas_setting *selected(const fracas_file *file, const fracas_draft *draft, view of,
                                       const fracas_file_section *section)
 {
-    const fracas_leaf *selector = fracas_catalog_selector(file->catalog, section);
+    const fracas_leaf *selector = fracas_catalog_key(file->catalog, section, NULL);
     if (!selector) return NULL;
     const size_t at = (size_t)(selector - file->catalog->leaf);
     return of == POINT && draft->swept[at] ? draft->swept[at] : draft->base[at];
@@ -75,6 +75,61 @@ static fracas_err check_base_partners(const fracas_file *file, const fracas_draf
     return FRACAS_OK;
 }
 
+/* ---- misplaced keys ---- */
+
+/* Names of kinds, "a or b". */
+typedef struct {
+    char text[200];
+    size_t used;
+} homes;
+
+static void add_home(homes *names, const fracas_kind *kind)
+{
+    const size_t room = sizeof names->text - names->used;
+    int added = snprintf(names->text + names->used, room, "%s%s", names->used ? " or " : "",
+                         kind->name);
+    if (added > 0 && (size_t)added < room) names->used += (size_t)added;
+}
+
+/* The point has `kind` instead, named by `selector`. */
+static fracas_err misplaced(const fracas_file *file, const fracas_setting *setting,
+                            const char *selector, const homes *names, const fracas_kind *kind,
+                            const fracas_setting *chosen)
+{
+    const fracas_node *at = setting->node->key ? setting->node->key : setting->node;
+    if (!chosen)
+        return fracas_file_error(
+            file, at, "`%s` belongs to %s %s; this is %s, the default, as no `%s` is given",
+            setting->leaf->key, selector, names->text, kind->name, selector);
+    return fracas_file_error(file, at, "`%s` belongs to %s %s; this is %s (line %d)",
+                             setting->leaf->key, selector, names->text, kind->name,
+                             chosen->node->line);
+}
+
+/* The key of `setting` does not belong to `kind`, named by `chosen` (NULL: default). */
+static fracas_err of_other_kinds(const fracas_file *file, const fracas_setting *setting,
+                                 const fracas_kind *kind, const fracas_setting *chosen)
+{
+    const fracas_section *table = setting->leaf->section->table;
+    homes names = {.used = 0};
+    for (size_t k = 0; k < table->nkinds; k++)
+        if (fracas_section_param(table, table->kinds[k], NULL, setting->leaf->key))
+            add_home(&names, table->kinds[k]);
+    return misplaced(file, setting, fracas_section_selector(table), &names, kind, chosen);
+}
+
+/* The kind has the key, but not at points of this model. */
+static fracas_err of_other_models(const fracas_file *file, const fracas_setting *setting,
+                                  const fracas_param *param, const fracas_kind *model,
+                                  const fracas_setting *chosen)
+{
+    homes names = {.used = 0};
+    for (const fracas_kind *const *only = param->only; *only; only++) add_home(&names, *only);
+    return misplaced(file, setting, file->catalog->section->table->name, &names, model, chosen);
+}
+
+/* ---- the sections of the file ---- */
+
 fracas_err fracas_draft_check_base(const fracas_file *file, const fracas_draft *draft)
 {
     TRY(check_base_partners(file, draft));
@@ -87,7 +142,7 @@ fracas_err fracas_draft_check_base(const fracas_file *file, const fracas_draft *
         const fracas_param *any = fracas_section_param(leaf->section->table, kind, NULL, leaf->key);
         const fracas_param *param =
             model ? fracas_section_param(leaf->section->table, kind, model->kind, leaf->key) : any;
-        if (!any) return fracas_setting_misplaced(file, setting, kind, chosen);
+        if (!any) return of_other_kinds(file, setting, kind, chosen);
         TRY(fracas_setting_check(file, setting, param ? param : any));
     }
     return FRACAS_OK;
@@ -114,10 +169,12 @@ fracas_err fracas_draft_check_models(const fracas_file *file, const fracas_draft
         const fracas_param *param = fracas_section_param(leaf->section->table, kind, NULL,
                                                          leaf->key);
         const fracas_kind *model = model_of(file, draft, POINT, &by);
-        return fracas_setting_of_others(file, draft->base[i], param, model, by);
+        return of_other_models(file, draft->base[i], param, model, by);
     }
     return FRACAS_OK;
 }
+
+/* ---- a point ---- */
 
 /* The swept key of `setting` belongs to another kind or model. */
 static fracas_err refuse_swept(const fracas_file *file, const fracas_draft *draft,
@@ -128,8 +185,8 @@ static fracas_err refuse_swept(const fracas_file *file, const fracas_draft *draf
     const fracas_kind *model = model_of(file, draft, POINT, &by);
     const fracas_param *others = fracas_section_param(setting->leaf->section->table, kind, NULL,
                                                       setting->leaf->key);
-    return others ? fracas_setting_of_others(file, setting, others, model, by)
-                  : fracas_setting_misplaced(file, setting, kind, chosen);
+    return others ? of_other_models(file, setting, others, model, by)
+                  : of_other_kinds(file, setting, kind, chosen);
 }
 
 /* True if a base value holds at points of this model whatever their kind. */
@@ -161,7 +218,7 @@ static fracas_err missing(const fracas_file *file, const fracas_leaf *leaf,
         return fracas_file_error(file, at, "%s needs `%s` (%s): %s%s%s", table->name, leaf->key,
                                  param->doc, form, unit, write_in);
     return fracas_file_error(file, at, "%s with %s %s%s needs `%s` (%s): %s%s%s", table->name,
-                             table->selector ? table->selector : table->name, kind->name,
+                             fracas_section_selector(table), kind->name,
                              chosen ? "" : " (the default)", leaf->key, param->doc, form, unit,
                              write_in);
 }

@@ -21,7 +21,6 @@ static fracas_err want_scalar(const fracas_file *file, const char *key, const fr
 static fracas_err read_name(const fracas_file *file, const char *key, const fracas_node *node,
                             const fracas_kind *const *kinds, size_t count, double *which)
 {
-    char hint[600], label[80];
     fracas_words words;
     TRY(want_scalar(file, key, node, "a name"));
     fracas_words_init(&words, node->text);
@@ -30,9 +29,8 @@ static fracas_err read_name(const fracas_file *file, const char *key, const frac
         if (strcmp(kinds[k]->name, node->text) == 0) return FRACAS_OK;
         fracas_words_add(&words, kinds[k]->name);
     }
-    snprintf(label, sizeof label, "%s can be", key);
     return fracas_file_error(file, node, "unknown %s `%s`%s", key, node->text,
-                             fracas_words_hint(&words, label, hint));
+                             fracas_words_hint(&words, "%s can be", key));
 }
 
 fracas_err fracas_setting_kind(const fracas_file *file, const char *key, const fracas_node *node,
@@ -137,22 +135,15 @@ fracas_err fracas_setting_name(const fracas_file *file, const fracas_node *node,
 
 /* ---- many ---- */
 
-const fracas_setting *fracas_settings_find(const fracas_settings *settings, const fracas_leaf *leaf)
-{
-    for (const fracas_setting *s = settings->first; s; s = s->next)
-        if (s->leaf == leaf) return s;
-    return NULL;
-}
-
 fracas_err fracas_settings_add(const fracas_file *file, const fracas_setting *setting,
                                fracas_settings *settings)
 {
-    const fracas_setting *earlier = fracas_settings_find(settings, setting->leaf);
-    if (earlier)
-        return fracas_file_error(
-            file, setting->node,
-            "`%s` is given twice; it is already at line %d, keep one of the two",
-            setting->leaf->path, earlier->node->line);
+    for (const fracas_setting *earlier = settings->first; earlier; earlier = earlier->next)
+        if (earlier->leaf == setting->leaf)
+            return fracas_file_error(
+                file, setting->node,
+                "`%s` is given twice; it is already at line %d, keep one of the two",
+                setting->leaf->path, earlier->node->line);
     fracas_setting *copy = fracas_memory_take(file->memory, 1, sizeof *copy);
     if (!copy) return fracas_no_memory("the campaign's values");
     *copy = *setting;
@@ -173,28 +164,26 @@ static fracas_err unknown_key(const fracas_file *file, const fracas_file_section
         else if (strcmp(catalog->leaf[i].key, key->text) == 0)
             home = catalog->leaf[i].section->table->name;
     }
-    char hint[600], label[80];
-    snprintf(label, sizeof label, "keys of %s", section->table->name);
     if (home) words.nearest = NULL;
     return fracas_file_error(file, key, "unknown key `%s` in %s%s%s%s", key->text,
                              section->table->name, home ? "; it belongs to the section " : "",
-                             home ? home : "", fracas_words_hint(&words, label, hint));
+                             home ? home : "",
+                             fracas_words_hint(&words, "keys of %s", section->table->name));
 }
 
 fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_file_section *section,
                                        const fracas_node *node, fracas_settings *settings)
 {
     if (node->type != FRACAS_MAP) {
-        char found[256], hint[600];
+        char found[256];
         fracas_words words;
         fracas_words_init(&words, "");
         for (size_t i = 0; i < file->catalog->nleaves; i++)
             if (file->catalog->leaf[i].section == section)
                 fracas_words_add(&words, file->catalog->leaf[i].key);
-        return fracas_file_error(
-            file, node, "`%s` is a section, but found %s%s", section->table->name,
-            fracas_node_found(node, found),
-            fracas_words_hint(&words, "write its keys below it, indented", hint));
+        return fracas_file_error(file, node, "`%s` is a section, but found %s%s",
+                                 section->table->name, fracas_node_found(node, found),
+                                 fracas_words_hint(&words, "write its keys below it, indented"));
     }
     for (const fracas_node *entry = node->first; entry; entry = entry->next) {
         fracas_setting setting;
@@ -206,7 +195,7 @@ fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_fil
     return FRACAS_OK;
 }
 
-/* ---- checks by kind ---- */
+/* ---- ranges ---- */
 
 /* Range of a parameter, "more than 0 Pa, at most 1 Pa". */
 static void write_range(const fracas_param *param, char *text, size_t size)
@@ -247,54 +236,4 @@ fracas_err fracas_setting_check(const fracas_file *file, const fracas_setting *s
     const char *written = setting->node->type == FRACAS_SCALAR ? setting->node->text : number;
     return fracas_file_error(file, setting->node, "`%s`: %s is out of range; allowed is %s",
                              setting->leaf->key, written, range);
-}
-
-/* Names of kinds, "a or b". */
-typedef struct {
-    char text[200];
-    size_t used;
-} homes;
-
-static void add_home(homes *names, const fracas_kind *kind)
-{
-    const size_t room = sizeof names->text - names->used;
-    int added = snprintf(names->text + names->used, room, "%s%s", names->used ? " or " : "",
-                         kind->name);
-    if (added > 0 && (size_t)added < room) names->used += (size_t)added;
-}
-
-/* The point has `kind` instead, named by `selector`. */
-static fracas_err misplaced(const fracas_file *file, const fracas_setting *setting,
-                            const char *selector, const homes *names, const fracas_kind *kind,
-                            const fracas_setting *chosen)
-{
-    const fracas_node *at = setting->node->key ? setting->node->key : setting->node;
-    if (!chosen)
-        return fracas_file_error(
-            file, at, "`%s` belongs to %s %s; this is %s, the default, as no `%s` is given",
-            setting->leaf->key, selector, names->text, kind->name, selector);
-    return fracas_file_error(file, at, "`%s` belongs to %s %s; this is %s (line %d)",
-                             setting->leaf->key, selector, names->text, kind->name,
-                             chosen->node->line);
-}
-
-fracas_err fracas_setting_misplaced(const fracas_file *file, const fracas_setting *setting,
-                                    const fracas_kind *kind, const fracas_setting *chosen)
-{
-    const fracas_section *table = setting->leaf->section->table;
-    homes names = {.used = 0};
-    for (size_t k = 0; k < table->nkinds; k++)
-        if (fracas_section_param(table, table->kinds[k], NULL, setting->leaf->key))
-            add_home(&names, table->kinds[k]);
-    return misplaced(file, setting, table->selector ? table->selector : table->name, &names, kind,
-                     chosen);
-}
-
-fracas_err fracas_setting_of_others(const fracas_file *file, const fracas_setting *setting,
-                                    const fracas_param *param, const fracas_kind *model,
-                                    const fracas_setting *chosen)
-{
-    homes names = {.used = 0};
-    for (const fracas_kind *const *only = param->only; *only; only++) add_home(&names, *only);
-    return misplaced(file, setting, file->catalog->section->table->name, &names, model, chosen);
 }

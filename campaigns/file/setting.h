@@ -51,27 +51,9 @@ FRACAS_MUST_USE fracas_err fracas_settings_add_section(const fracas_file *file,
                                                        const fracas_node *node,
                                                        fracas_settings *settings);
 
-/* NULL if the leaf is not set. */
-const fracas_setting *fracas_settings_find(const fracas_settings *settings,
-                                           const fracas_leaf *leaf);
-
 /* FRACAS_USAGE unless the value lies in the range of `param`. */
 FRACAS_MUST_USE fracas_err fracas_setting_check(const fracas_file *file,
                                                 const fracas_setting *setting,
                                                 const fracas_param *param);
-
-/* FRACAS_USAGE: the key of `setting` does not belong to `kind`, named by `chosen` (NULL: default).
- */
-FRACAS_MUST_USE fracas_err fracas_setting_misplaced(const fracas_file *file,
-                                                    const fracas_setting *setting,
-                                                    const fracas_kind *kind,
-                                                    const fracas_setting *chosen);
-
-/* The same where the kind has the key, but not at points of this model. */
-FRACAS_MUST_USE fracas_err fracas_setting_of_others(const fracas_file *file,
-                                                    const fracas_setting *setting,
-                                                    const fracas_param *param,
-                                                    const fracas_kind *model,
-                                                    const fracas_setting *chosen);
 
 #endif

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/sweep.h"
 
+#include "base/elementary.h"
 #include "campaigns/file/design.h"
-#include "campaigns/file/range.h"
 #include "campaigns/file/words.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -15,6 +16,88 @@ static fracas_err add_target(const fracas_file *file, const fracas_target *set,
     fracas_setting setting;
     TRY(fracas_setting_read(file, set->leaf, value, &setting));
     return fracas_settings_add(file, &setting, settings);
+}
+
+/* ---- ranges ---- */
+
+/* `{from, to, points, spacing}`: values at equal differences or equal ratios. */
+typedef struct {
+    double from, to;
+    size_t points; /* at least 2 */
+    bool logarithmic, whole;
+} range;
+
+static fracas_err need(const fracas_file *file, const fracas_node *node, const char *key,
+                       const fracas_node **found)
+{
+    *found = fracas_node_find(node, key);
+    if (*found) return FRACAS_OK;
+    return fracas_file_error(
+        file, node, "a range without `%s`; expected {from: ..., to: ..., points: ...}", key);
+}
+
+static fracas_err read_end(const fracas_file *file, const fracas_leaf *leaf,
+                           const fracas_node *node, const char *key, double *value)
+{
+    const fracas_node *end;
+    fracas_setting setting;
+    TRY(need(file, node, key, &end));
+    TRY(fracas_setting_read(file, leaf, end, &setting));
+    *value = setting.value;
+    return FRACAS_OK;
+}
+
+static fracas_err read_spacing(const fracas_file *file, const fracas_node *node, range *made)
+{
+    const fracas_node *spacing = fracas_node_find(node, "spacing");
+    if (!spacing) return FRACAS_OK;
+    made->logarithmic = spacing->type == FRACAS_SCALAR && strcmp(spacing->text, "log") == 0;
+    if (!made->logarithmic && (spacing->type != FRACAS_SCALAR || strcmp(spacing->text, "lin") != 0))
+        return fracas_file_expected(file, spacing, "spacing",
+                                    "lin (equal differences) or log (equal ratios)");
+    if (made->logarithmic && (made->from <= 0.0 || made->to <= 0.0))
+        return fracas_file_error(
+            file, spacing, "spacing log needs `from` and `to` greater than 0; use spacing lin");
+    return FRACAS_OK;
+}
+
+/* Reads the map `node` as a range of the leaf, a number. */
+static fracas_err read_range(const fracas_file *file, const fracas_leaf *leaf,
+                             const fracas_node *node, range *made)
+{
+    static const char *const keys[] = {"from", "to", "points", "spacing", NULL};
+    *made = (range){0};
+    if (fracas_leaf_is_text(leaf) || leaf->param->type == FRACAS_BOOLEAN)
+        return fracas_file_error(file, node,
+                                 "`%s` is not a number, so it has no range; expected a list, [...]",
+                                 leaf->path);
+    made->whole = leaf->param->type == FRACAS_INTEGER;
+    TRY(fracas_file_check_keys(file, node, keys, "a range"));
+    TRY(read_end(file, leaf, node, "from", &made->from));
+    TRY(read_end(file, leaf, node, "to", &made->to));
+    if (made->from == made->to)
+        return fracas_file_error(
+            file, node, "a range whose `from` and `to` are equal; write the one value in a list");
+    const fracas_node *points;
+    int64_t count;
+    TRY(need(file, node, "points", &points));
+    TRY(fracas_setting_integer(file, "points", points, 2, FRACAS_MAX_POINTS, &count));
+    made->points = (size_t)count;
+    return read_spacing(file, node, made);
+}
+
+/* Value i of 0 .. n-1 with p = i/(n-1): from (1-p) + to p, or from^(1-p) to^p, rounded to 15
+ * digits, or to the nearest whole number; exactly `from` and `to` at the ends. The same on every
+ * CPU. */
+static double value_of(const range *made, size_t i)
+{
+    if (i == 0) return made->from;
+    if (i == made->points - 1) return made->to;
+    double part = (double)i / (double)(made->points - 1);
+    double value = made->logarithmic
+                       ? fracas_pow(made->from, 1.0 - part) * fracas_pow(made->to, part)
+                       : made->from * (1.0 - part) + made->to * part;
+    return made->whole ? floor(value + 0.5) : fracas_number_round(value);
 }
 
 /* ---- axes ---- */
@@ -52,13 +135,12 @@ static fracas_err add_range(const fracas_file *file, const fracas_target *set,
         return fracas_file_error(file, values,
                                  "`%s` is a section; expected a list of sections, [{...}, {...}]",
                                  values->key->text);
-    fracas_range range;
-    TRY(fracas_range_read(file, set->leaf, values, &range));
-    TRY(match_choices(file, values, range.points, axis));
-    for (size_t i = 0; i < range.points; i++) {
+    range made;
+    TRY(read_range(file, set->leaf, values, &made));
+    TRY(match_choices(file, values, made.points, axis));
+    for (size_t i = 0; i < made.points; i++) {
         fracas_choice *choice = &axis->choice[i];
-        fracas_setting setting = {
-            .leaf = set->leaf, .node = values, .value = fracas_range_value(&range, i)};
+        fracas_setting setting = {.leaf = set->leaf, .node = values, .value = value_of(&made, i)};
         if (!choice->node) choice->node = values;
         TRY(fracas_settings_add(file, &setting, &choice->settings));
     }
@@ -96,23 +178,6 @@ static fracas_err read_zip(const fracas_file *file, const fracas_node *zip, frac
                                     "paths with their values, below it and indented");
     for (const fracas_node *values = zip->first; values; values = values->next)
         TRY(add_path(file, values, axis));
-    return FRACAS_OK;
-}
-
-static fracas_err read_design(const fracas_file *file, const fracas_node *node, fracas_axis *axis)
-{
-    fracas_drawn drawn;
-    TRY(fracas_drawn_read(file, node, &drawn));
-    TRY(make_choices(file, node, drawn.points, axis));
-    for (size_t i = 0; i < drawn.points; i++) {
-        axis->choice[i].node = node;
-        for (size_t j = 0; j < drawn.parameters; j++) {
-            const double value = drawn.value[i * drawn.parameters + j];
-            const fracas_setting setting = {
-                .leaf = drawn.leaf[j], .node = drawn.node[j], .value = value, .drawn = i + 1};
-            TRY(fracas_settings_add(file, &setting, &axis->choice[i].settings));
-        }
-    }
     return FRACAS_OK;
 }
 
@@ -167,7 +232,8 @@ static fracas_err read_axis(const fracas_file *file, const fracas_node *node, fr
             node->first->next->key->text);
     if (strcmp(node->first->key->text, "zip") == 0) return read_zip(file, node->first, axis);
     if (strcmp(node->first->key->text, "cases") == 0) return read_cases(file, node->first, axis);
-    if (strcmp(node->first->key->text, "design") == 0) return read_design(file, node->first, axis);
+    if (strcmp(node->first->key->text, "design") == 0)
+        return fracas_design_read(file, node->first, axis);
     return add_path(file, node->first, axis);
 }
 
@@ -264,11 +330,9 @@ static fracas_err unknown_path(const fracas_file *file, const fracas_node *key,
             if (catalog->section[s].table->hashed)
                 fracas_words_add(&words, catalog->section[s].table->name);
     }
-    char hint[600], label[80];
-    snprintf(label, sizeof label, inside ? "paths in %s" : "known are section.key, and",
-             inside ? inside->table->name : "");
     return fracas_file_error(file, key, "unknown path `%s` in the sweep%s", key->text,
-                             fracas_words_hint(&words, label, hint));
+                             inside ? fracas_words_hint(&words, "paths in %s", inside->table->name)
+                                    : fracas_words_hint(&words, "known are section.key, and"));
 }
 
 fracas_err fracas_target_find(const fracas_file *file, const fracas_node *key,

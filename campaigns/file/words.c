@@ -1,39 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/words.h"
 
+#include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
-void fracas_words_init(fracas_words *words, const char *found)
-{
-    *words = (fracas_words){.found = found};
-}
-
-void fracas_words_add(fracas_words *words, const char *word)
-{
-    size_t distance = fracas_word_distance(words->found, word);
-    if (distance <= 1 + strlen(word) / 4 && distance < strlen(word) &&
-        (!words->nearest || distance < words->distance)) {
-        words->nearest = word;
-        words->distance = distance;
-    }
-    int added = snprintf(words->list + words->used, sizeof words->list - words->used, "%s%s",
-                         words->used ? ", " : "", word);
-    if (added > 0 && words->used + (size_t)added < sizeof words->list) words->used += (size_t)added;
-    else words->list[words->used] = '\0';
-}
-
-const char *fracas_words_hint(const fracas_words *words, const char *label, char text[600])
-{
-    if (words->nearest)
-        snprintf(text, 600, "; did you mean `%s`? %s: %s", words->nearest, label, words->list);
-    else snprintf(text, 600, "; %s: %s", label, words->list);
-    return text;
-}
-
 enum { LONGEST = 64 };
 
-size_t fracas_word_distance(const char *a, const char *b)
+/* Number of inserted, deleted, replaced letters and swapped neighbours between two words. */
+static size_t distance_of(const char *a, const char *b)
 {
     size_t na = strlen(a), nb = strlen(b);
     if (na > LONGEST || nb > LONGEST) return na > nb ? na : nb;
@@ -55,4 +31,36 @@ size_t fracas_word_distance(const char *a, const char *b)
         }
     }
     return row[na % 3][nb];
+}
+
+void fracas_words_init(fracas_words *words, const char *found)
+{
+    *words = (fracas_words){.found = found};
+}
+
+void fracas_words_add(fracas_words *words, const char *word)
+{
+    size_t distance = distance_of(words->found, word);
+    if (distance <= 1 + strlen(word) / 4 && distance < strlen(word) &&
+        (!words->nearest || distance < words->distance)) {
+        words->nearest = word;
+        words->distance = distance;
+    }
+    int added = snprintf(words->list + words->used, sizeof words->list - words->used, "%s%s",
+                         words->used ? ", " : "", word);
+    if (added > 0 && words->used + (size_t)added < sizeof words->list) words->used += (size_t)added;
+    else words->list[words->used] = '\0';
+}
+
+const char *fracas_words_hint(fracas_words *words, const char *label, ...)
+{
+    char named[80];
+    va_list arguments;
+    va_start(arguments, label);
+    vsnprintf(named, sizeof named, label, arguments);
+    va_end(arguments);
+    const bool near = words->nearest != NULL;
+    snprintf(words->hint, sizeof words->hint, "; %s%s%s%s: %s", near ? "did you mean `" : "",
+             near ? words->nearest : "", near ? "`? " : "", named, words->list);
+    return words->hint;
 }

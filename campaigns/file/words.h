@@ -3,7 +3,7 @@
 #ifndef FRACAS_CAMPAIGNS_FILE_WORDS_H
 #define FRACAS_CAMPAIGNS_FILE_WORDS_H
 
-#include <stddef.h>
+#include "base/err.h"
 
 /* A list of words, "a, b, c", as far as there is room. */
 typedef struct {
@@ -12,14 +12,13 @@ typedef struct {
     size_t distance;
     size_t used;
     char list[400];
+    char hint[600];
 } fracas_words;
 
 void fracas_words_init(fracas_words *words, const char *found);
 void fracas_words_add(fracas_words *words, const char *word);
-/* "; did you mean `nearest`? LABEL: a, b, c", without the question if nothing is near. */
-const char *fracas_words_hint(const fracas_words *words, const char *label, char text[600]);
-
-/* Number of inserted, deleted, replaced letters and swapped neighbours between two words. */
-size_t fracas_word_distance(const char *a, const char *b);
+/* "; did you mean `nearest`? LABEL: a, b, c", without the question if nothing is near; the label as
+ * printf writes it. */
+const char *fracas_words_hint(fracas_words *words, const char *label, ...) FRACAS_PRINTF(2, 3);
 
 #endif

@@ -72,7 +72,7 @@ static bool is_base(const fracas_leaf *leaf, const fracas_kind *unnamed,
 static const fracas_leaf *next_leaf(const fracas_catalog *catalog,
                                     const fracas_file_section *section, const fracas_leaf *leaf)
 {
-    const fracas_leaf *selector = fracas_catalog_selector(catalog, section),
+    const fracas_leaf *selector = fracas_catalog_key(catalog, section, NULL),
                       *end = catalog->leaf + catalog->nleaves;
     if (!leaf && selector) return selector;
     for (leaf = leaf && leaf != selector ? leaf + 1 : catalog->leaf; leaf < end; leaf++)
@@ -181,27 +181,18 @@ static void write_file(const fracas_catalog *catalog, const bool *base,
             write_section(catalog, base, &catalog->section[s], campaign, out);
 }
 
-static fracas_err write_with(fracas_campaign_memory *memory, const fracas_campaign *campaign,
-                             FILE *out)
+fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out)
 {
+    OWN(fracas_campaign_memory) memory = fracas_memory_create();
+    if (!memory) return fracas_no_memory("the resolved campaign");
     const fracas_catalog *catalog;
     TRY(fracas_catalog_make(memory, &catalog));
     bool *base = fracas_memory_take(memory, catalog->nleaves, sizeof *base);
     if (!base) return fracas_no_memory("the resolved campaign");
-    for (size_t i = 0; i < catalog->nleaves; i++) {
-        const fracas_kind *unnamed = catalog->section->table->kinds[0];
+    const fracas_kind *unnamed = catalog->section->table->kinds[0];
+    for (size_t i = 0; i < catalog->nleaves; i++)
         base[i] = is_base(&catalog->leaf[i], unnamed, campaign);
-    }
     write_file(catalog, base, campaign, out);
     if (fflush(out) == 0 && !ferror(out)) return FRACAS_OK;
     return fracas_fail_system(errno, "cannot write the resolved campaign %s", campaign->name);
-}
-
-fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out)
-{
-    fracas_campaign_memory *memory = fracas_memory_create();
-    if (!memory) return fracas_no_memory("the resolved campaign");
-    fracas_err err = write_with(memory, campaign, out);
-    fracas_memory_destroy(memory);
-    return err;
 }

@@ -23,17 +23,16 @@ typedef struct {
     yaml_parser_t parser;
 } reading;
 
-#define FAIL_AT(reader, mark, ...) fail_at((reader)->name, (mark), __VA_ARGS__)
-
 static FRACAS_PRINTF(3, 4) fracas_err
-    fail_at(const char *name, yaml_mark_t mark, const char *format, ...)
+    fail_at(const reading *reader, yaml_mark_t mark, const char *format, ...)
 {
     char text[600];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    return fracas_fail(FRACAS_USAGE, "%s:%zu:%zu: %s", name, mark.line + 1, mark.column + 1, text);
+    return fracas_fail(FRACAS_USAGE, "%s:%zu:%zu: %s", reader->name, mark.line + 1, mark.column + 1,
+                       text);
 }
 
 /* ---- from the file to bytes ---- */
@@ -104,19 +103,19 @@ static fracas_err fail_parser(const reading *reader)
     const char *problem = parser->problem ? parser->problem : "not YAML";
     if (parser->error == YAML_MEMORY_ERROR) return fracas_no_memory("the campaign file");
     if (parser->error == YAML_READER_ERROR)
-        return FAIL_AT(reader, mark_of_byte(reader, parser->problem_offset),
+        return fail_at(reader, mark_of_byte(reader, parser->problem_offset),
                        "the file is not plain UTF-8 text (%s); save it as UTF-8", problem);
     const char found = parser->buffer.pointer && parser->unread > 0 ? (char)*parser->buffer.pointer
                                                                     : ' ';
     const bool no_token = strstr(problem, "cannot start any token") != NULL;
     if (strstr(problem, "tab character") || (no_token && found == '\t'))
-        return FAIL_AT(reader, parser->problem_mark,
+        return fail_at(reader, parser->problem_mark,
                        "found a tab; indent with spaces, YAML does not allow tabs there");
     if (no_token)
-        return FAIL_AT(reader, parser->problem_mark,
+        return fail_at(reader, parser->problem_mark,
                        "a value cannot start with `%c`; put it in quotes", found);
-    if (!parser->context) return FAIL_AT(reader, parser->problem_mark, "not YAML: %s", problem);
-    return FAIL_AT(reader, parser->problem_mark,
+    if (!parser->context) return fail_at(reader, parser->problem_mark, "not YAML: %s", problem);
+    return fail_at(reader, parser->problem_mark,
                    "not YAML: %s, in %s that begins at line %zu, column %zu", problem,
                    context_words(parser->context), parser->context_mark.line + 1,
                    parser->context_mark.column + 1);
@@ -136,7 +135,7 @@ static fracas_err make_node(reading *reader, yaml_mark_t mark, fracas_node_type 
                             fracas_node **node)
 {
     if (++reader->nodes > MAX_NODES)
-        return FAIL_AT(reader, mark, "more than %d values; write long lists as ranges", MAX_NODES);
+        return fail_at(reader, mark, "more than %d values; write long lists as ranges", MAX_NODES);
     fracas_node *made = fracas_memory_take(reader->memory, 1, sizeof *made);
     if (!made) return fracas_no_memory("the campaign file");
     made->type = type;
@@ -151,11 +150,11 @@ static fracas_err read_scalar(reading *reader, const yaml_event_t *event, fracas
     const unsigned char *text = event->data.scalar.value;
     size_t length = event->data.scalar.length;
     if (length > MAX_TEXT)
-        return FAIL_AT(reader, event->start_mark, "a text of %zu bytes; at most %d are allowed",
+        return fail_at(reader, event->start_mark, "a text of %zu bytes; at most %d are allowed",
                        length, MAX_TEXT);
     for (size_t i = 0; i < length; i++)
         if (text[i] < 0x20 || text[i] == 0x7f)
-            return FAIL_AT(reader, event->start_mark,
+            return fail_at(reader, event->start_mark,
                            "a text with a line break or control character; write it on one line");
     TRY(make_node(reader, event->start_mark, FRACAS_SCALAR, node));
     (*node)->text = fracas_memory_copy(reader->memory, (const char *)text, length);
@@ -183,10 +182,10 @@ static fracas_err check_plain(const reading *reader, const yaml_event_t *event)
     default: break;
     }
     if (anchor)
-        return FAIL_AT(reader, event->start_mark,
+        return fail_at(reader, event->start_mark,
                        "anchors and aliases (`&`, `*`) are not allowed; write the value out");
     if (tag)
-        return FAIL_AT(reader, event->start_mark,
+        return fail_at(reader, event->start_mark,
                        "tags (`!`) are not allowed; write the value alone");
     return FRACAS_OK;
 }
@@ -199,14 +198,14 @@ static fracas_err read_key(reading *reader, const yaml_event_t *event, const fra
 {
     TRY(check_plain(reader, event));
     if (event->type != YAML_SCALAR_EVENT)
-        return FAIL_AT(reader, event->start_mark,
+        return fail_at(reader, event->start_mark,
                        "a list or map where a key is expected; write `key: value`");
     TRY(read_scalar(reader, event, key));
     if (map->count == MAX_KEYS)
-        return FAIL_AT(reader, event->start_mark, "more than %d keys in one place", MAX_KEYS);
+        return fail_at(reader, event->start_mark, "more than %d keys in one place", MAX_KEYS);
     const fracas_node *earlier = fracas_node_find(map, (*key)->text);
     if (earlier)
-        return FAIL_AT(reader, event->start_mark,
+        return fail_at(reader, event->start_mark,
                        "key `%s` is given twice; it is already at line %d, keep one of the two",
                        (*key)->text, earlier->key->line);
     return FRACAS_OK;
@@ -240,7 +239,7 @@ static fracas_err read_value(reading *reader, const yaml_event_t *event, int dep
     TRY(check_plain(reader, event));
     if (event->type == YAML_SCALAR_EVENT) return read_scalar(reader, event, node);
     if (depth == MAX_DEPTH)
-        return FAIL_AT(reader, event->start_mark,
+        return fail_at(reader, event->start_mark,
                        "nested deeper than %d levels; a campaign file needs four", MAX_DEPTH);
     TRY(make_node(reader, event->start_mark,
                   event->type == YAML_MAPPING_START_EVENT ? FRACAS_MAP : FRACAS_LIST, node));
@@ -254,7 +253,7 @@ static fracas_err skip_event(reading *reader, yaml_event_type_t type, const char
 {
     OWN_EVENT event = {0};
     TRY(next_event(reader, &event));
-    return event.type == type ? FRACAS_OK : FAIL_AT(reader, event.start_mark, "%s", otherwise);
+    return event.type == type ? FRACAS_OK : fail_at(reader, event.start_mark, "%s", otherwise);
 }
 
 static fracas_err read_document(reading *reader, fracas_node **root)
@@ -278,29 +277,22 @@ static fracas_err read_document(reading *reader, fracas_node **root)
     return FRACAS_OK;
 }
 
-static fracas_err parse(reading *reader, fracas_node **root)
-{
-    if (!yaml_parser_initialize(&reader->parser)) return fracas_no_memory("the campaign file");
-    yaml_parser_set_encoding(&reader->parser, YAML_UTF8_ENCODING);
-    /* Editors on Windows write a byte-order mark. libyaml does not skip it in a given encoding. */
-    static const unsigned char mark[] = {0xEF, 0xBB, 0xBF};
-    const size_t skipped = reader->size >= sizeof mark &&
-                                   memcmp(reader->bytes, mark, sizeof mark) == 0
-                               ? sizeof mark
-                               : 0;
-    yaml_parser_set_input_string(&reader->parser, reader->bytes + skipped, reader->size - skipped);
-    fracas_err err = read_document(reader, root);
-    yaml_parser_delete(&reader->parser);
-    return err;
-}
-
 fracas_err fracas_node_read(const char *name, fracas_campaign_memory *memory, fracas_node **root)
 {
+    static const unsigned char mark[] = {0xEF, 0xBB, 0xBF};
     OWNED unsigned char *bytes = NULL;
     size_t size = 0;
     TRY(load(name, &bytes, &size));
     reading reader = {.name = name, .bytes = bytes, .size = size, .memory = memory};
-    return parse(&reader, root);
+    if (!yaml_parser_initialize(&reader.parser)) return fracas_no_memory("the campaign file");
+    yaml_parser_set_encoding(&reader.parser, YAML_UTF8_ENCODING);
+    /* Editors on Windows write a byte-order mark. libyaml does not skip it in a given encoding. */
+    const bool marked = size >= sizeof mark && memcmp(bytes, mark, sizeof mark) == 0;
+    const size_t skipped = marked ? sizeof mark : 0;
+    yaml_parser_set_input_string(&reader.parser, bytes + skipped, size - skipped);
+    fracas_err err = read_document(&reader, root);
+    yaml_parser_delete(&reader.parser);
+    return err;
 }
 
 fracas_node *fracas_node_find(const fracas_node *map, const char *key)
