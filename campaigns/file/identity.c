@@ -51,7 +51,7 @@ static fracas_err hash_of(const fracas_catalog *catalog, const fracas_point *poi
     if (point) write_values(catalog, true, point, out);
     else write_campaign(catalog, campaign, out);
     const bool written = !ferror(out);
-    if (fclose(out) || !written) return fracas_no_memory("the hash of a point");
+    if (fclose(out) || !written || !text) return fracas_no_memory("the hash of a point");
     *hash = fracas_hash_of(text, size);
     return FRACAS_OK;
 }

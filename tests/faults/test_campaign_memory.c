@@ -53,6 +53,7 @@ static void fail_each(fracas_err (*work)(void *context), void *context, long mos
 typedef struct {
     fracas_units *units;
     char path[40];
+    fracas_hash hash; /* of the campaign in the file */
 } source;
 
 static fracas_err read_source(void *context)
@@ -60,6 +61,7 @@ static fracas_err read_source(void *context)
     const source *from = context;
     OWN(fracas_campaign) campaign = NULL;
     fracas_err err = fracas_campaign_read_with(from->units, from->path, &campaign);
+    if (!err) assert_true(fracas_hash_equal(&campaign->hash, &from->hash));
     return err;
 }
 
@@ -69,6 +71,7 @@ static void test_read(void **state)
     make_path(from.path);
     OK(fracas_units_create(&from.units));
     OWN(fracas_campaign) campaign = read_replaced("", sweep);
+    from.hash = campaign->hash;
     FILE *out = fopen(from.path, "w");
     assert_non_null(out);
     OK(fracas_campaign_write(campaign, out)); /* in SI */
@@ -90,6 +93,7 @@ static void test_read_file(void **state)
     snprintf(named, sizeof named, "sweep:\n  - strength: [{distribution: file, file: %s}]\n",
              strengths);
     OWN(fracas_campaign) campaign = read_replaced("", named);
+    from.hash = campaign->hash;
     OWNED char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
@@ -156,8 +160,9 @@ static void test_surface(void **state)
     make_path(from.path);
     write_bytes(from.path, text, strlen(text));
     OK(fracas_units_create(&from.units));
-    fail_each(read_source, &from, LONG_MAX);
     OWN(fracas_campaign) campaign = read_text(text);
+    from.hash = campaign->hash;
+    fail_each(read_source, &from, LONG_MAX);
     fail_each(count_cost, campaign, LONG_MAX);
     fail_each(print_plan, campaign, LONG_MAX);
     unlink(from.path);

@@ -77,6 +77,6 @@ fracas_err fracas_provenance_make(const fracas_provenance *provenance,
     fracas_json_real(&json, "wall_seconds", provenance->wall);
     fracas_json_real(&json, "compute_seconds", provenance->compute);
     fracas_json_end(&json);
-    if (fclose(out)) return fracas_no_memory("the provenance of a segment");
+    if (fclose(out) || !*text) return fracas_no_memory("the provenance of a segment");
     return FRACAS_OK;
 }
