@@ -69,33 +69,23 @@ static fracas_err check_count(const fracas_model *model, const fracas_strength *
 }
 
 /* Samples the strength of each interface and checks it. */
-static fracas_err try_places(const fracas_model *model, const fracas_strength *strength,
-                             const fracas_field *field, double (*position)[3], double *sigma_c)
+static fracas_err check_places(const fracas_model *model, const fracas_strength *strength)
 {
+    const size_t n = fracas_model_interfaces(model);
+    OWN(fracas_field) field = NULL;
+    TRY(fracas_model_field(model, strength, &field));
+    OWNED double(*position)[3] = malloc(n * sizeof *position);
+    OWNED double *sigma_c = malloc(n * sizeof *sigma_c);
+    if (n > 0 && (!position || !sigma_c)) return fracas_no_memory("the strengths of a mesh");
     fracas_model_interface_positions(model, position);
     TRY(fracas_field_sample(field, &(fracas_stream){0}, 1, sigma_c));
-    for (size_t i = 0; i < fracas_model_interfaces(model); i++) {
+    for (size_t i = 0; i < n; i++) {
         fracas_err err = fracas_model_check_strength(model, sigma_c[i]);
         if (err)
             return fracas_fail_within(err, "%s, interface %zu at x = %.9g m, y = %.9g m",
                                       strength->file->path, i, position[i][0], position[i][1]);
     }
     return FRACAS_OK;
-}
-
-static fracas_err check_places(const fracas_model *model, const fracas_strength *strength)
-{
-    const size_t n = fracas_model_interfaces(model);
-    fracas_field *field;
-    TRY(fracas_model_field(model, strength, &field));
-    double(*position)[3] = malloc(n * sizeof *position), *sigma_c = malloc(n * sizeof *sigma_c);
-    fracas_err err = n > 0 && (!position || !sigma_c)
-                         ? fracas_no_memory("the strengths of a mesh")
-                         : try_places(model, strength, field, position, sigma_c);
-    free(position);
-    free(sigma_c);
-    fracas_field_destroy(field);
-    return err;
 }
 
 static fracas_err check_strengths(const fracas_model *model, const fracas_point *point,
@@ -178,7 +168,8 @@ static void describe_ring(const fracas_spec *spec, fracas_forecast *forecast)
 static fracas_err extent_of_body(const fracas_model *model, double *diagonal)
 {
     const size_t n = fracas_model_interfaces(model);
-    double(*position)[3] = malloc((n + 1) * sizeof *position), square = 0;
+    double square = 0;
+    OWNED double(*position)[3] = malloc((n + 1) * sizeof *position);
     if (!position) return fracas_no_memory("the places of interfaces");
     fracas_model_interface_positions(model, position);
     for (int axis = 0; axis < 3; axis++) {
@@ -189,7 +180,6 @@ static fracas_err extent_of_body(const fracas_model *model, double *diagonal)
         }
         if (n > 0) square += (most - least) * (most - least);
     }
-    free(position);
     *diagonal = sqrt(square);
     return FRACAS_OK;
 }
@@ -233,24 +223,20 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     return check_strengths(model, point, extent.least, factor.most);
 }
 
-/* The forecast and its model, NULL after an error. */
+/* The forecast and its model. */
 static fracas_err forecast_with(const fracas_campaign *campaign, size_t point,
                                 fracas_forecast *forecast, fracas_model **model)
 {
-    *model = NULL;
-    fracas_err err = fracas_point_model_create(campaign, point, model);
-    if (!err) err = describe(&campaign->point[point], *model, forecast);
-    if (!err) return FRACAS_OK;
-    fracas_model_destroy(*model);
-    *model = NULL;
-    return fracas_fail_within(err, "point %zu", point);
+    TRY(fracas_point_model_create(campaign, point, model));
+    return describe(&campaign->point[point], *model, forecast);
 }
 
 fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
                                 fracas_forecast *forecast)
 {
     OWN(fracas_model) model = NULL;
-    return forecast_with(campaign, point, forecast, &model);
+    fracas_err err = forecast_with(campaign, point, forecast, &model);
+    return err ? fracas_fail_within(err, "point %zu", point) : FRACAS_OK;
 }
 
 /* ---- size ---- */
@@ -294,107 +280,70 @@ static size_t lanes_of(const fracas_point *point)
     return point->replicas < FRACAS_LANES_MAX ? (size_t)point->replicas : FRACAS_LANES_MAX;
 }
 
-/* Element-steps and seconds of a timed run. */
+/* Element-steps and seconds of timed steps. */
 typedef struct {
     double element_steps, seconds;
 } effort;
 
-/* A batch of `lanes` realizations with equal strengths. */
-static fracas_err make_batch(const fracas_model *model, double strength, size_t lanes,
-                             fracas_record *record, fracas_batch **batch)
+/* Times steps of a batch of realizations with equal strengths, for 0.05 s or to its end, by blocks
+ * long enough for the clock. The first two, with cold caches and onsets, count only if they are the
+ * last. */
+static fracas_err time_batch(const fracas_model *model, double strength, size_t lanes, effort *sum)
 {
+    enum { FIRST = 2 };
     const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
-    TRY(fracas_batch_create(model, lanes, &options, batch));
+    const effort before = *sum;
+    OWN(fracas_batch) batch = NULL;
+    fracas_record record[FRACAS_LANES_MAX];
+    size_t running = lanes;
+    TRY(fracas_batch_create(model, lanes, &options, &batch));
     for (size_t l = 0; l < lanes; l++) {
         size_t stride, strengths = fracas_model_interfaces(model) *
                                    fracas_model_strengths_per_interface(model);
-        double *sigma_c = fracas_batch_strength(*batch, l, &stride);
+        double *sigma_c = fracas_batch_strength(batch, l, &stride);
         for (size_t k = 0; k < strengths; k++) sigma_c[k * stride] = strength;
         fracas_record_init(&record[l]);
     }
-    return FRACAS_OK;
-}
-
-static fracas_err run_batch(const fracas_model *model, double strength, size_t lanes, effort *spent)
-{
-    OWN(fracas_batch) batch = NULL;
-    fracas_record record[FRACAS_LANES_MAX];
-    TRY(make_batch(model, strength, lanes, record, &batch));
-    const double start = seconds();
-    fracas_err err = fracas_batch_run(batch, record);
-    *spent = (effort){.seconds = seconds() - start};
-    for (size_t l = 0; l < lanes; l++) {
-        spent->element_steps += (double)fracas_model_elements(model) * (double)record[l].steps;
-        fracas_record_clear(&record[l]);
+    fracas_err err = fracas_batch_begin(batch);
+    int64_t block = 1;
+    for (int i = 0; !err && running > 0 && (i <= FIRST || sum->seconds < 0.05); i++) {
+        const double start = seconds();
+        if (i == FIRST) *sum = before;
+        for (int64_t step = 0; step < block && !err && running > 0; step++) {
+            err = fracas_batch_step(batch, record, &running);
+            sum->element_steps += (double)fracas_model_elements(model) * (double)lanes;
+        }
+        const double spent = seconds() - start;
+        sum->seconds += spent;
+        if (spent < 1e-4) block *= 2;
     }
+    for (size_t l = 0; l < lanes; l++) fracas_record_clear(&record[l]);
     return err;
 }
 
-static fracas_err time_steps(const fracas_campaign *campaign, size_t index, double end,
-                             effort *spent)
+/* Times batches of the point until the clock has seen enough, at most 50. A surface is weak, and
+ * all its interfaces crack at once: broken ones take twice the time of whole ones. */
+static fracas_err time_point(const fracas_campaign *campaign, size_t index,
+                             const fracas_model *model, fracas_forecast *forecast)
 {
     enum { TIMED = 100000 }; /* elements; above, memory limits the speed */
     const fracas_point *point = &campaign->point[index];
+    const bool surface = fracas_model_surface(model) != NULL;
     fracas_spec spec = point->spec;
-    OWN(fracas_model) model = NULL;
-    if (spec.mesh.elements > TIMED) { /* a shorter bar or smaller ring of equal elements */
+    OWN(fracas_model) shorter = NULL;
+    if (!surface && spec.mesh.elements > TIMED) { /* a bar or ring of equal elements */
         spec.geometry.length *= TIMED / (double)spec.mesh.elements;
         spec.geometry.radius *= TIMED / (double)spec.mesh.elements;
         spec.mesh.elements = TIMED;
+        TRY(fracas_point_model_like(campaign, index, &spec, &shorter));
+        model = shorter;
     }
-    spec.time.end = fmin(spec.time.end, end);
-    spec.cohesive.refinement = 1.0; /* the time of a step does not depend on its length */
-    TRY(fracas_point_model_like(campaign, index, &spec, &model));
-    const double strength = fracas_strength_mean(&point->strength, extents_of(model).mean);
-    return run_batch(model, strength, lanes_of(point), spent);
-}
-
-/* Times steps of a surface on its present model, since making one takes as long as many steps. All
- * interfaces are weak and crack at once: broken ones take twice the time of whole ones. The first
- * two steps, with cold caches and all onsets, count only if they are the last. */
-static fracas_err time_surface(const fracas_model *model, double mean, size_t lanes,
-                               fracas_forecast *forecast)
-{
-    const double strength = 1e-12 * mean;
-    OWN(fracas_batch) batch = NULL;
-    fracas_record record[FRACAS_LANES_MAX];
-    effort spent = {0};
-    size_t running = lanes;
-    TRY(make_batch(model, strength, lanes, record, &batch));
-    fracas_err err = fracas_batch_begin(batch);
-    enum { FIRST = 2 };
-    for (int step = 0; !err && running > 0 && (step <= FIRST || spent.seconds < 0.05); step++) {
-        const double start = seconds();
-        err = fracas_batch_step(batch, record, &running);
-        if (step == FIRST) spent = (effort){0};
-        spent.seconds += seconds() - start;
-        spent.element_steps += (double)fracas_model_elements(model) * (double)lanes;
-    }
-    for (size_t l = 0; l < lanes; l++) fracas_record_clear(&record[l]);
-    forecast->speed = spent.element_steps / fmax(spent.seconds, 1e-9);
-    return err;
-}
-
-/* Times about 2e7 element-steps (0.05 s) minus a batch of one step, since the start of a batch
- * counts little in a full run. A batch too short for the clock is repeated up to 50 times. */
-static fracas_err time_point(const fracas_campaign *campaign, size_t index,
-                             fracas_forecast *forecast)
-{
-    const fracas_point *point = &campaign->point[index];
-    const double step = forecast->time_step;
-    const double steps = fmax(20.0,
-                              ceil(2e7 / ((double)forecast->elements * (double)lanes_of(point))));
-    effort sum = {0}, whole = {0};
-    for (int i = 0; i < 50 && sum.seconds < 0.01; i++) {
-        effort brief, full;
-        TRY(time_steps(campaign, index, 0.5 * step, &brief));
-        TRY(time_steps(campaign, index, (steps - 0.5) * step, &full));
-        sum.element_steps += full.element_steps - brief.element_steps;
-        sum.seconds += full.seconds - brief.seconds;
-        whole.element_steps += full.element_steps;
-        whole.seconds += full.seconds;
-    }
-    if (sum.element_steps <= 0.0 || sum.seconds <= 0.0) sum = whole;
+    const double strength = surface
+                                ? 1e-12 * forecast->mean
+                                : fracas_strength_mean(&point->strength, extents_of(model).mean);
+    effort sum = {0};
+    for (int i = 0; i < 50 && sum.seconds < 0.01; i++)
+        TRY(time_batch(model, strength, lanes_of(point), &sum));
     forecast->speed = sum.element_steps / fmax(sum.seconds, 1e-9);
     return FRACAS_OK;
 }
@@ -429,24 +378,18 @@ static double speed_of_similar(const fracas_campaign *campaign, const fracas_for
 static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p,
                                  fracas_forecast *forecast)
 {
-    const fracas_point *point = &campaign->point[p];
-    fracas_model *model;
-    fracas_err err;
+    OWN(fracas_model) model = NULL;
     TRY(forecast_with(campaign, p, &forecast[p], &model));
     forecast[p].speed = speed_of_similar(campaign, forecast, p);
-    if (forecast[p].speed > 0.0) err = FRACAS_OK;
-    else if (fracas_model_surface(model))
-        err = time_surface(model, forecast[p].mean, lanes_of(point), &forecast[p]);
-    else err = time_point(campaign, p, &forecast[p]);
-    fracas_model_destroy(model);
-    return err ? fracas_fail_within(err, "point %zu", p) : FRACAS_OK;
+    return forecast[p].speed > 0 ? FRACAS_OK : time_point(campaign, p, model, &forecast[p]);
 }
 
 fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, fracas_forecast *forecast)
 {
     for (size_t p = 0; p < campaign->npoints; p++) {
         const fracas_point *point = &campaign->point[p];
-        TRY(forecast_timed(campaign, p, forecast));
+        fracas_err err = forecast_timed(campaign, p, forecast);
+        if (err) return fracas_fail_within(err, "point %zu", p);
         const double work = (double)forecast[p].elements * (double)forecast[p].steps *
                             (double)fracas_point_most(point);
         forecast[p].time = work / (forecast[p].speed * jobs);

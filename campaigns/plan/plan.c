@@ -149,8 +149,8 @@ static void put_range(text_sheet *sheet, size_t row, size_t column, double least
 static bool warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
 {
     int begin = snprintf(text, size, "point %zu: ", p);
-    return fracas_plan_warnings[which](&(fracas_warning){
-        &plan->campaign->point[p], &plan->forecast[p], text + begin, size - (size_t)begin});
+    return fracas_plan_warnings[which](&plan->campaign->point[p], &plan->forecast[p], text + begin,
+                                       size - (size_t)begin);
 }
 
 /* ---- the plan as text ---- */

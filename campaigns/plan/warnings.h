@@ -5,15 +5,9 @@
 
 #include "campaigns/plan/forecast.h"
 
-typedef struct {
-    const fracas_point *point;
-    const fracas_forecast *forecast;
-    char *text; /* written by the warning */
-    size_t size;
-} fracas_warning;
-
 /* Writes a warning; false, with any text, if it does not apply. */
-typedef bool fracas_plan_warning(const fracas_warning *w);
+typedef bool fracas_plan_warning(const fracas_point *point, const fracas_forecast *forecast,
+                                 char *text, size_t size);
 
 enum { FRACAS_PLAN_WARNINGS = 15 };
 extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];

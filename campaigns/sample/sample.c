@@ -8,8 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static fracas_err fill(const fracas_field *field, fracas_sample *sample)
+static fracas_err draw(fracas_sample *sample)
 {
+    OWN(fracas_field) field = NULL;
+    TRY(fracas_point_model_create(sample->campaign, sample->point, &sample->model));
+    TRY(fracas_model_field(sample->model, &sample->campaign->point[sample->point].strength,
+                           &field));
     const size_t interfaces = fracas_model_interfaces(sample->model);
     sample->n = fracas_field_size(field);
     sample->points = interfaces > 0 ? sample->n / interfaces : 1;
@@ -38,13 +42,10 @@ fracas_err fracas_sample_draw(const fracas_campaign *campaign, size_t point, int
                            "there is no point %zu in campaign %s; it has %zu, from 0 on (fracas "
                            "plan FILE lists them)",
                            point, campaign->name, campaign->npoints);
-    fracas_field *field = NULL;
-    fracas_err err = fracas_point_model_create(campaign, point, &sample->model);
-    if (!err) err = fracas_model_field(sample->model, &campaign->point[point].strength, &field);
-    if (!err) err = fill(field, sample);
-    fracas_field_destroy(field);
-    if (err) fracas_sample_clear(sample);
-    return err ? fracas_fail_within(err, "point %zu", point) : FRACAS_OK;
+    fracas_err err = draw(sample);
+    if (!err) return FRACAS_OK;
+    fracas_sample_clear(sample);
+    return fracas_fail_within(err, "point %zu", point);
 }
 
 void fracas_sample_clear(fracas_sample *sample)

@@ -34,7 +34,8 @@ static double quantile_of(const double *sorted, size_t n, double part)
 static fracas_err summarize(const fracas_sample *sample, summary *of)
 {
     const size_t n = sample->n;
-    double *sorted = malloc(n * sizeof *sorted), squares = 0;
+    double squares = 0;
+    OWNED double *sorted = malloc(n * sizeof *sorted);
     *of = (summary){0};
     if (!sorted) return fracas_no_memory("the strengths of a realization");
     memcpy(sorted, sample->strength, n * sizeof *sorted);
@@ -48,7 +49,6 @@ static fracas_err summarize(const fracas_sample *sample, summary *of)
     }
     of->deviation = n > 1 ? sqrt(squares / (double)(n - 1)) : NAN;
     for (int q = 0; q < PARTS; q++) of->quantile[q] = quantile_of(sorted, n, parts[q]);
-    free(sorted);
     return FRACAS_OK;
 }
 
