@@ -42,16 +42,25 @@ typedef struct {
 } fracas_file_seal;
 
 /* One round of a point whose replicas a rule decides (docs/theory/sequential.md): decision, data,
- * rule. */
+ * rule. X(key, type, stored, meaning), from which struct, comparison and `/decision` are made. */
+#define FRACAS_EACH_DECISION(X)                                                                    \
+    X(point, INTEGER, INT32, "row of the point in /point")                                         \
+    X(round, INTEGER, INT32, "round of the point, from 0")                                         \
+    X(replicas, INTEGER, INT64, "replicas that the point had, 0 to this - 1, when it was decided") \
+    X(used, INTEGER, INT64,                                                                        \
+      "of those, realizations in the mean: FRAGMENTED, INTACT and TIME_LIMIT")                     \
+    X(mean, REAL, FLOAT64, "mean of the quantity over them: 1, m or J by the quantity")            \
+    X(half_width, REAL, FLOAT64, "half width of the t interval of the mean, in the same unit")     \
+    X(stop, INTEGER, INT8, "0 goes on to the next round, 1 precise enough, 2 at the maximum")      \
+    X(quantity, INTEGER, INT8, "the rule: 0 mean-count, 1 mean-size, 2 dissipated")                \
+    X(minimum, INTEGER, INT64, "the rule: replicas of the first round")                            \
+    X(maximum, INTEGER, INT64, "the rule: most replicas")                                          \
+    X(relative_half_width, REAL, FLOAT64, "the rule: half width asked for, as part of the mean")   \
+    X(confidence, REAL, FLOAT64, "the rule: confidence of the interval")
+
+#define FRACAS_DECISION_MEMBER(key, type, stored, meaning) fracas_sql_##type key;
 typedef struct {
-    int64_t point;    /* in the table of the file */
-    int64_t round;    /* from 0 */
-    int64_t replicas; /* the point had 0 to replicas - 1 */
-    int64_t used;     /* realizations in the mean */
-    double mean, half_width;
-    int64_t stop;                       /* 0 goes on, 1 precise, 2 at the maximum */
-    int64_t quantity, minimum, maximum; /* the rule */
-    double relative_half_width, confidence;
+    FRACAS_EACH_DECISION(FRACAS_DECISION_MEMBER)
 } fracas_decision;
 
 /* True if round, replicas, used, stop and quantity are in range. */
@@ -92,6 +101,7 @@ FRACAS_MUST_USE fracas_err fracas_writer_finish(fracas_writer *writer, bool comp
                                                 fracas_file_seal *seal);
 /* Gives up: removes the temporary file, frees the writer. NULL is allowed. */
 void fracas_writer_abandon(fracas_writer *writer);
+FRACAS_OWNER(fracas_writer, fracas_writer_abandon)
 
 /* *version: the format version in the file, of this program or another. FRACAS_DAMAGED if there is
  * none, or if a segment's own seal does not fit its bytes, found before HDF5 reads one. A file that

@@ -40,7 +40,4 @@ fracas_summary fracas_summary_of(const fracas_record *record);
 /* True if all values are equal, NaN equal to NaN. */
 bool fracas_summary_same(const fracas_summary *a, const fracas_summary *b);
 
-/* a == b, or both are NaN. */
-bool fracas_same_real(double a, double b);
-
 #endif

@@ -96,7 +96,31 @@ fracas_err fracas_disk_open(const char *path, int *fd)
                            : fracas_disk_fail("open", path);
 }
 
-fracas_err fracas_disk_seal_first(int fd, const char *path, uint64_t most, fracas_file_seal *seal)
+bool fracas_disk_read(int fd, uint64_t at, void *to, size_t size, size_t *got)
+{
+    for (*got = 0; *got < size;) {
+        const ssize_t more = pread(fd, (char *)to + *got, size - *got, (off_t)(at + *got));
+        if (more < 0 && errno == EINTR) continue;
+        if (more < 0) return false;
+        if (more == 0) break;
+        *got += (size_t)more;
+    }
+    return true;
+}
+
+bool fracas_disk_write(int fd, uint64_t at, const void *from, size_t size)
+{
+    for (size_t put = 0; put < size;) {
+        const ssize_t more = pwrite(fd, (const char *)from + put, size - put, (off_t)(at + put));
+        if (more < 0 && errno == EINTR) continue;
+        if (more < 0) return false;
+        put += (size_t)more;
+    }
+    return true;
+}
+
+/* The seal of its first `most` bytes. */
+static fracas_err seal_first(int fd, const char *path, uint64_t most, fracas_file_seal *seal)
 {
     enum { BLOCK = 1 << 20 };
     OWNED char *block = malloc(BLOCK);
@@ -104,14 +128,11 @@ fracas_err fracas_disk_seal_first(int fd, const char *path, uint64_t most, fraca
     *seal = (fracas_file_seal){0};
     if (!block) return fracas_no_memory("a checksum");
     TRY(fracas_checksum_create(&checksum));
-    for (;;) {
+    for (size_t got = BLOCK; got > 0; seal->bytes += got) {
         const uint64_t left = most - seal->bytes;
-        ssize_t got = pread(fd, block, left < BLOCK ? left : BLOCK, (off_t)seal->bytes);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return fracas_disk_fail("read", path);
-        if (got == 0) break;
-        seal->bytes += (uint64_t)got;
-        fracas_checksum_add(checksum, block, (size_t)got);
+        if (!fracas_disk_read(fd, seal->bytes, block, left < BLOCK ? left : BLOCK, &got))
+            return fracas_disk_fail("read", path);
+        fracas_checksum_add(checksum, block, got);
     }
     seal->checksum = fracas_checksum_end(checksum); /* = fracas_checksum_of the whole */
     return FRACAS_OK;
@@ -119,7 +140,7 @@ fracas_err fracas_disk_seal_first(int fd, const char *path, uint64_t most, fraca
 
 fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
 {
-    return fracas_disk_seal_first(fd, path, INT64_MAX, seal);
+    return seal_first(fd, path, INT64_MAX, seal);
 }
 
 fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal)
@@ -214,27 +235,8 @@ fracas_err fracas_disk_append_seal(int fd, const char *path)
     memcpy(own.mark, mark, sizeof mark);
     own.bytes = seal.bytes;
     own.checksum = seal.checksum;
-    const char *from = (const char *)&own;
-    for (size_t put = 0; put < sizeof own;) {
-        const ssize_t more = pwrite(fd, from + put, sizeof own - put, (off_t)(seal.bytes + put));
-        if (more < 0 && errno == EINTR) continue;
-        if (more < 0) return fracas_disk_fail("write", path);
-        put += (size_t)more;
-    }
-    return FRACAS_OK;
-}
-
-/* Up to `size` bytes from `at` on; fewer only at the end of the file. */
-static fracas_err read_at(int fd, const char *path, uint64_t at, size_t size, void *to, size_t *got)
-{
-    for (*got = 0; *got < size;) {
-        const ssize_t more = pread(fd, (char *)to + *got, size - *got, (off_t)(at + *got));
-        if (more < 0 && errno == EINTR) continue;
-        if (more < 0) return fracas_disk_fail("read", path);
-        if (more == 0) break;
-        *got += (size_t)more;
-    }
-    return FRACAS_OK;
+    return fracas_disk_write(fd, seal.bytes, &own, sizeof own) ? FRACAS_OK
+                                                               : fracas_disk_fail("write", path);
 }
 
 static fracas_err damaged(const char *path, const char *why)
@@ -250,7 +252,7 @@ static fracas_err check_end(int fd, const char *path, uint64_t bytes)
     unsigned char start[END + 8];
     uint64_t end;
     size_t got;
-    TRY(read_at(fd, path, 0, sizeof start, start, &got));
+    if (!fracas_disk_read(fd, 0, start, sizeof start, &got)) return fracas_disk_fail("read", path);
     if (got < sizeof start || memcmp(start, signature, sizeof signature) != 0)
         return damaged(path, "it does not begin as HDF5");
     memcpy(&end, start + END, sizeof end);
@@ -268,10 +270,11 @@ static fracas_err check_open(int fd, const char *path)
     if (fstat(fd, &info) < 0) return fracas_disk_fail("look at", path);
     const uint64_t bytes = (uint64_t)info.st_size;
     if (bytes < sizeof own) return damaged(path, "it is too short");
-    TRY(read_at(fd, path, bytes - sizeof own, sizeof own, &own, &got));
+    if (!fracas_disk_read(fd, bytes - sizeof own, &own, sizeof own, &got))
+        return fracas_disk_fail("read", path);
     if (got < sizeof own || memcmp(own.mark, mark, sizeof mark) != 0)
         return check_end(fd, path, bytes);
-    TRY(fracas_disk_seal_first(fd, path, bytes - sizeof own, &found));
+    TRY(seal_first(fd, path, bytes - sizeof own, &found));
     if (own.bytes == found.bytes && own.checksum == found.checksum) return FRACAS_OK;
     return damaged(path, "the seal at its end is not of its bytes");
 }

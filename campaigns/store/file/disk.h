@@ -28,11 +28,13 @@ bool fracas_disk_ends(const char *name, const char *end);
 FRACAS_MUST_USE fracas_err fracas_disk_sync_folder(const char *path);
 /* Opens a file to read; FRACAS_DAMAGED if it is not there. */
 FRACAS_MUST_USE fracas_err fracas_disk_open(const char *path, int *fd);
+/* Reads `size` bytes of an open file from `at` on; *got: fewer only at its end. False, and errno,
+ * if the system fails. */
+FRACAS_MUST_USE bool fracas_disk_read(int fd, uint64_t at, void *to, size_t size, size_t *got);
+/* Writes them. */
+FRACAS_MUST_USE bool fracas_disk_write(int fd, uint64_t at, const void *from, size_t size);
 /* Size and checksum of an open file, read in blocks; `path` is for the message. */
 FRACAS_MUST_USE fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal);
-/* The same of its first `most` bytes alone. */
-FRACAS_MUST_USE fracas_err fracas_disk_seal_first(int fd, const char *path, uint64_t most,
-                                                  fracas_file_seal *seal);
 /* The same of a closed one; FRACAS_DAMAGED if it is not there. */
 FRACAS_MUST_USE fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal);
 

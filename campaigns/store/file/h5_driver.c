@@ -71,22 +71,12 @@ static herr_t driver_read(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_t
 {
     (void)type, (void)transfer;
     fracas_h5 *h5 = ((driver_file *)(void *)base)->h5;
-    char *to = buffer;
-    while (size > 0) {
-        ssize_t got = pread(h5->fd, to, size, (off_t)address);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) {
-            if (!h5->error) h5->error = errno;
-            return -1;
-        }
-        if (got == 0) { /* HDF5 may look beyond the end: zeros are there */
-            memset(to, 0, size);
-            break;
-        }
-        to += got;
-        address += (haddr_t)got;
-        size -= (size_t)got;
+    size_t got;
+    if (!fracas_disk_read(h5->fd, address, buffer, size, &got)) {
+        if (!h5->error) h5->error = errno;
+        return -1;
     }
+    memset((char *)buffer + got, 0, size - got); /* HDF5 may look beyond the end: zeros are there */
     return 0;
 }
 
@@ -95,19 +85,9 @@ static herr_t driver_write(H5FD_t *base, H5FD_mem_t type, hid_t transfer, haddr_
 {
     (void)type, (void)transfer;
     driver_file *file = (driver_file *)(void *)base;
-    const char *from = buffer;
     if (address + size > file->eof) file->eof = address + size;
-    while (size > 0 && !file->h5->error) {
-        ssize_t put = pwrite(file->h5->fd, from, size, (off_t)address);
-        if (put < 0 && errno == EINTR) continue;
-        if (put < 0) {
-            file->h5->error = errno;
-            break;
-        }
-        from += put;
-        address += (haddr_t)put;
-        size -= (size_t)put;
-    }
+    if (!file->h5->error && !fracas_disk_write(file->h5->fd, address, buffer, size))
+        file->h5->error = errno;
     return 0; /* see h5.h */
 }
 

@@ -164,22 +164,21 @@ static fracas_err open_rest(fracas_reader *reader)
 
 static fracas_err open_file(const char *path, unsigned parts, bool all, fracas_reader **reader)
 {
-    *reader = calloc(1, sizeof **reader);
-    if (!*reader) return fracas_no_memory("a file");
-    fracas_reader *r = *reader;
-    r->h5 = FRACAS_H5_CLOSED;
-    fracas_err err = (r->path = strdup(path)) ? fracas_h5_open(&r->h5, r->path)
-                                              : fracas_no_memory("a file");
-    if (!err) err = read_header(r);
-    if (!err)
-        err = all ? fracas_table_read(&r->h5, &r->points)
-                  : fracas_table_read_points(&r->h5, &r->points);
-    if (!err) err = open_records(r, parts);
-    if (!err && all) err = open_rest(r);
-    if (!err) return FRACAS_OK;
-    fracas_reader_close(r);
+    OWN(fracas_reader) new = calloc(1, sizeof *new);
     *reader = NULL;
-    return err;
+    if (!new) return fracas_no_memory("a file");
+    new->h5 = FRACAS_H5_CLOSED;
+    new->path = strdup(path);
+    if (!new->path) return fracas_no_memory("a file");
+    TRY(fracas_h5_open(&new->h5, new->path));
+    TRY(read_header(new));
+    TRY(all ? fracas_table_read(&new->h5, &new->points)
+            : fracas_table_read_points(&new->h5, &new->points));
+    TRY(open_records(new, parts));
+    if (all) TRY(open_rest(new));
+    *reader = new;
+    new = NULL;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_reader_open(const char *path, fracas_reader **reader)
@@ -341,7 +340,6 @@ fracas_err fracas_reader_each(fracas_reader *reader, unsigned parts,
 {
     fracas_result result = {0};
     fracas_err err = FRACAS_OK;
-    fracas_record_init(&result.record);
     for (; !err && result.row < fracas_reader_realizations(reader); result.row++) {
         err = fracas_reader_record(reader, result.row, parts, &result.point, &result.replica,
                                    &result.record);
@@ -404,18 +402,16 @@ fracas_err fracas_reader_mesh(fracas_reader *reader, size_t point, fracas_stored
 
 fracas_err fracas_reader_check_meshes(fracas_reader *reader, const fracas_mesh_source *meshes)
 {
-    fracas_err err = FRACAS_OK;
-    for (size_t p = 0; !err && reader->header.interfaces && p < reader->points.table.npoints; p++) {
-        fracas_stored_mesh wanted = {0}, found = {0};
-        err = meshes->get(meshes->context, p, &wanted);
-        if (!err) err = fracas_reader_mesh(reader, p, &found);
-        if (!err && !fracas_stored_mesh_same(&wanted, &found))
-            err = fracas_fail(FRACAS_DAMAGED,
-                              "%s: the mesh of point %zu is not that of the campaign; remove the "
-                              "file and run again",
-                              reader->path, p);
-        fracas_stored_mesh_clear(&wanted);
-        fracas_stored_mesh_clear(&found);
+    for (size_t p = 0; reader->header.interfaces && p < reader->points.table.npoints; p++) {
+        FRACAS_CLEARED(fracas_stored_mesh) wanted = {0};
+        FRACAS_CLEARED(fracas_stored_mesh) found = {0};
+        TRY(meshes->get(meshes->context, p, &wanted));
+        TRY(fracas_reader_mesh(reader, p, &found));
+        if (!fracas_stored_mesh_same(&wanted, &found))
+            return fracas_fail(FRACAS_DAMAGED,
+                               "%s: the mesh of point %zu is not that of the campaign; remove the "
+                               "file and run again",
+                               reader->path, p);
     }
-    return err;
+    return FRACAS_OK;
 }

@@ -7,18 +7,30 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define OF(member) offsetof(fracas_stored_realization, member)
+/* A column; its values in memory, of 8 bytes each, are a member of the row's struct. */
+#define COLUMN(group, name, type, unit, meaning, row, member)                                 \
+    {                                                                                         \
+        "/" group "/" #name, FRACAS_##type, sizeof(((row *)NULL)->member) / 8, unit, meaning, \
+            offsetof(row, member)                                                             \
+    }
+#define REALIZATION(name, type, unit, meaning) \
+    COLUMN("realization", name, type, unit, meaning, fracas_stored_realization, name)
+#define RECORD(name, type, unit, meaning) \
+    COLUMN("realization", name, type, unit, meaning, fracas_stored_realization, record.name)
+#define FRAGMENT(name, type, unit, meaning) \
+    COLUMN("fragment", name, type, unit, meaning, fracas_fragment, name)
+#define HISTORY(name, type, unit, meaning) \
+    COLUMN("history", name, type, unit, meaning, fracas_history_row, name)
+#define INTERFACE(name, type, unit, meaning) \
+    COLUMN("interface", name, type, unit, meaning, fracas_interface_row, name)
+#define DECISION(name, type, stored, meaning) \
+    COLUMN("decision", name, stored, "1", meaning, fracas_decision, name),
+#define MESH(of, name, type, unit, meaning) \
+    COLUMN("mesh", of##_##name, type, unit, meaning, fracas_stored_##of, name)
 
 /* The columns of an energy, in /realization and in /history. */
-#define AT_END(key, role, unit, meaning) \
-    {"/realization/" #key, FRACAS_FLOAT64, 1, unit, meaning AT_END_##role, OF(record.key)},
-#define SO_FAR(key, role, unit, meaning) \
-    {"/history/" #key,                   \
-     FRACAS_FLOAT64,                     \
-     1,                                  \
-     unit,                               \
-     meaning SO_FAR_##role,              \
-     offsetof(fracas_history_row, key)},
+#define AT_END(key, role, unit, meaning) RECORD(key, FLOAT64, unit, meaning AT_END_##role),
+#define SO_FAR(key, role, unit, meaning) HISTORY(key, FLOAT64, unit, meaning SO_FAR_##role),
 #define AT_END_KINETIC " at end_time"
 #define AT_END_STORED " at end_time"
 #define AT_END_SINK " until end_time"
@@ -33,38 +45,27 @@
 #define SO_FAR_LOAD " so far"
 
 static const fracas_store_column realization[] = {
-    {"/realization/point", FRACAS_INT32, 1, "1", "row of the realization's point in /point",
-     OF(point)},
-    {"/realization/replica", FRACAS_INT64, 1, "1",
-     "number of the strength field at the point, from 0", OF(replica)},
-    {"/realization/outcome", FRACAS_INT8, 1, "1",
-     "how it ended: 0 FRAGMENTED, 1 INTACT (nothing broken), 2 TIME_LIMIT (cap reached with cracks "
-     "still running), 3 NONFINITE, 4 ENERGY_DRIFT, 5 FAILED (no result: values NaN, counts 0)",
-     OF(record.outcome)},
-    {"/realization/fragments", FRACAS_INT64, 1, "1", "fragments, dust included",
-     OF(record.fragments)},
-    {"/realization/fragments_dust", FRACAS_INT64, 1, "1", "of those, dust",
-     OF(record.fragments_dust)},
-    {"/realization/broken", FRACAS_INT64, 1, "1",
-     "interfaces opened to delta_c at every Gauss point", OF(record.broken)},
-    {"/realization/cracked", FRACAS_INT64, 1, "1", "interfaces past onset, broken ones included",
-     OF(record.cracked)},
-    {"/realization/steps", FRACAS_INT64, 1, "1", "time steps taken", OF(record.steps)},
-    {"/realization/onset_time", FRACAS_FLOAT64, 1, "s",
-     "time of the first onset, NaN if there was none", OF(record.onset_time)},
-    {"/realization/end_time", FRACAS_FLOAT64, 1, "s", "time at which it stopped",
-     OF(record.end_time)},
-    {"/realization/time_step", FRACAS_FLOAT64, 1, "s", "time step", OF(record.time_step)},
-    {"/realization/mass", FRACAS_FLOAT64, 1, "kg", "mass of the body", OF(record.mass)},
-    FRACAS_EACH_ENERGY(AT_END){"/realization/residual", FRACAS_FLOAT64, 1, "J",
-                               "largest absolute value over the run of " FRACAS_ENERGY_BALANCE,
-                               OF(record.residual)},
-    {"/realization/residual_end", FRACAS_FLOAT64, 1, "J", "the same sum, signed, at end_time",
-     OF(record.residual_end)},
-    {"/realization/momentum", FRACAS_FLOAT64, 3, "kg m/s",
-     "linear momentum (x, y, z) of the motion beside an imposed rate, half a time step after "
-     "end_time",
-     OF(record.momentum)},
+    REALIZATION(point, INT32, "1", "row of the realization's point in /point"),
+    REALIZATION(replica, INT64, "1", "number of the strength field at the point, from 0"),
+    RECORD(outcome, INT8, "1",
+           "how it ended: 0 FRAGMENTED, 1 INTACT (nothing broken), 2 TIME_LIMIT (cap reached with "
+           "cracks still running), 3 NONFINITE, 4 ENERGY_DRIFT, 5 FAILED (no result: values NaN, "
+           "counts 0)"),
+    RECORD(fragments, INT64, "1", "fragments, dust included"),
+    RECORD(fragments_dust, INT64, "1", "of those, dust"),
+    RECORD(broken, INT64, "1", "interfaces opened to delta_c at every Gauss point"),
+    RECORD(cracked, INT64, "1", "interfaces past onset, broken ones included"),
+    RECORD(steps, INT64, "1", "time steps taken"),
+    RECORD(onset_time, FLOAT64, "s", "time of the first onset, NaN if there was none"),
+    RECORD(end_time, FLOAT64, "s", "time at which it stopped"),
+    RECORD(time_step, FLOAT64, "s", "time step"),
+    RECORD(mass, FLOAT64, "kg", "mass of the body"),
+    FRACAS_EACH_ENERGY(AT_END) RECORD(
+        residual, FLOAT64, "J", "largest absolute value over the run of " FRACAS_ENERGY_BALANCE),
+    RECORD(residual_end, FLOAT64, "J", "the same sum, signed, at end_time"),
+    RECORD(momentum, FLOAT64, "kg m/s",
+           "linear momentum (x, y, z) of the motion beside an imposed rate, half a time step after "
+           "end_time"),
 };
 
 #define OFFSETS(name, path, rows, owners)       \
@@ -72,88 +73,8 @@ static const fracas_store_column realization[] = {
         {path, FRACAS_INT64, 1, "1",            \
          rows " rows offset[i] to offset[i + 1] - 1; one value more than " owners, 0}}
 OFFSETS(fragment_offset, "/fragment/offset", "fragments of realization i are", "realizations");
-
-static const fracas_store_column fragment[] = {
-    {"/fragment/mass", FRACAS_FLOAT64, 1, "kg", "mass", offsetof(fracas_fragment, mass)},
-    {"/fragment/size", FRACAS_FLOAT64, 1, "m", "size: length in 1D, square root of the area in 2D",
-     offsetof(fracas_fragment, size)},
-    {"/fragment/elements", FRACAS_INT64, 1, "1", "elements", offsetof(fracas_fragment, elements)},
-    {"/fragment/dust", FRACAS_INT8, 1, "1",
-     "1 if of so few elements that the mesh decides its size (one in 1D, one or two in 2D), else 0",
-     offsetof(fracas_fragment, dust)},
-    {"/fragment/position", FRACAS_FLOAT64, 3, "m", "centre of mass (x, y, z) at end_time",
-     offsetof(fracas_fragment, position)},
-    {"/fragment/velocity", FRACAS_FLOAT64, 3, "m/s",
-     "velocity (x, y, z) of the centre of mass, background included, half a time step after "
-     "end_time",
-     offsetof(fracas_fragment, velocity)},
-    {"/fragment/angular_momentum", FRACAS_FLOAT64, 3, "kg m2/s",
-     "angular momentum (x, y, z) about the centre of mass at end_time",
-     offsetof(fracas_fragment, angular_momentum)},
-    {"/fragment/spin", FRACAS_FLOAT64, 3, "rad/s",
-     "angular velocity (x, y, z) of the rigid body of the same inertia with that angular momentum; "
-     "0 about an axis without inertia, and in a bar",
-     offsetof(fracas_fragment, spin)},
-};
-
 OFFSETS(history_offset, "/history/offset", "history of realization i is", "realizations");
-
-static const fracas_store_column history[] = {
-    {"/history/time", FRACAS_FLOAT64, 1, "s", "time of the row's step",
-     offsetof(fracas_history_row, time)},
-    FRACAS_EACH_ENERGY(SO_FAR){"/history/residual", FRACAS_FLOAT64, 1, "J", FRACAS_ENERGY_BALANCE,
-                               offsetof(fracas_history_row, residual)},
-    {"/history/fragments", FRACAS_INT64, 1, "1", "fragments, dust included",
-     offsetof(fracas_history_row, fragments)},
-    {"/history/broken", FRACAS_INT64, 1, "1", "broken interfaces",
-     offsetof(fracas_history_row, broken)},
-};
-
 OFFSETS(interface_offset, "/interface/offset", "interfaces of realization i are", "realizations");
-
-static const fracas_store_column interface[] = {
-    {"/interface/strength", FRACAS_FLOAT64, 1, "Pa", "strength sigma_c",
-     offsetof(fracas_interface_row, strength)},
-    {"/interface/damage", FRACAS_FLOAT64, 1, "1", "delta_max/delta_c at end_time, 0 to 1",
-     offsetof(fracas_interface_row, damage)},
-    {"/interface/onset_time", FRACAS_FLOAT64, 1, "s", "time of its onset, NaN if it never cracked",
-     offsetof(fracas_interface_row, onset_time)},
-    {"/interface/break_time", FRACAS_FLOAT64, 1, "s", "time at which it broke, NaN if it never did",
-     offsetof(fracas_interface_row, break_time)},
-};
-
-static const fracas_store_column decision[] = {
-    {"/decision/point", FRACAS_INT32, 1, "1", "row of the point in /point",
-     offsetof(fracas_decision, point)},
-    {"/decision/round", FRACAS_INT32, 1, "1", "round of the point, from 0",
-     offsetof(fracas_decision, round)},
-    {"/decision/replicas", FRACAS_INT64, 1, "1",
-     "replicas that the point had, 0 to this - 1, when it was decided",
-     offsetof(fracas_decision, replicas)},
-    {"/decision/used", FRACAS_INT64, 1, "1",
-     "of those, realizations in the mean: FRAGMENTED, INTACT and TIME_LIMIT",
-     offsetof(fracas_decision, used)},
-    {"/decision/mean", FRACAS_FLOAT64, 1, "1",
-     "mean of the quantity over them: 1, m or J by the quantity", offsetof(fracas_decision, mean)},
-    {"/decision/half_width", FRACAS_FLOAT64, 1, "1",
-     "half width of the t interval of the mean, in the same unit",
-     offsetof(fracas_decision, half_width)},
-    {"/decision/stop", FRACAS_INT8, 1, "1",
-     "0 goes on to the next round, 1 precise enough, 2 at the maximum",
-     offsetof(fracas_decision, stop)},
-    {"/decision/quantity", FRACAS_INT8, 1, "1", "the rule: 0 mean-count, 1 mean-size, 2 dissipated",
-     offsetof(fracas_decision, quantity)},
-    {"/decision/minimum", FRACAS_INT64, 1, "1", "the rule: replicas of the first round",
-     offsetof(fracas_decision, minimum)},
-    {"/decision/maximum", FRACAS_INT64, 1, "1", "the rule: most replicas",
-     offsetof(fracas_decision, maximum)},
-    {"/decision/relative_half_width", FRACAS_FLOAT64, 1, "1",
-     "the rule: half width asked for, as part of the mean",
-     offsetof(fracas_decision, relative_half_width)},
-    {"/decision/confidence", FRACAS_FLOAT64, 1, "1", "the rule: confidence of the interval",
-     offsetof(fracas_decision, confidence)},
-};
-
 OFFSETS(mesh_node_offset, "/mesh/node_offset", "nodes of the mesh of point i are", "points");
 OFFSETS(mesh_element_offset, "/mesh/element_offset", "elements of the mesh of point i are",
         "points");
@@ -161,38 +82,65 @@ OFFSETS(mesh_interface_offset, "/mesh/interface_offset", "interfaces of the mesh
         "points");
 OFFSETS(mesh_border_offset, "/mesh/border_offset", "borders of the mesh of point i are", "points");
 
+static const fracas_store_column fragment[] = {
+    FRAGMENT(mass, FLOAT64, "kg", "mass"),
+    FRAGMENT(size, FLOAT64, "m", "size: length in 1D, square root of the area in 2D"),
+    FRAGMENT(elements, INT64, "1", "elements"),
+    FRAGMENT(dust, INT8, "1",
+             "1 if of so few elements that the mesh decides its size (one in 1D, one or two in "
+             "2D), else 0"),
+    FRAGMENT(position, FLOAT64, "m", "centre of mass (x, y, z) at end_time"),
+    FRAGMENT(velocity, FLOAT64, "m/s",
+             "velocity (x, y, z) of the centre of mass, background included, half a time step "
+             "after end_time"),
+    FRAGMENT(angular_momentum, FLOAT64, "kg m2/s",
+             "angular momentum (x, y, z) about the centre of mass at end_time"),
+    FRAGMENT(spin, FLOAT64, "rad/s",
+             "angular velocity (x, y, z) of the rigid body of the same inertia with that angular "
+             "momentum; 0 about an axis without inertia, and in a bar"),
+};
+
+static const fracas_store_column history[] = {
+    HISTORY(time, FLOAT64, "s", "time of the row's step"),
+    FRACAS_EACH_ENERGY(SO_FAR) HISTORY(residual, FLOAT64, "J", FRACAS_ENERGY_BALANCE),
+    HISTORY(fragments, INT64, "1", "fragments, dust included"),
+    HISTORY(broken, INT64, "1", "broken interfaces"),
+};
+
+static const fracas_store_column interface[] = {
+    INTERFACE(strength, FLOAT64, "Pa", "strength sigma_c"),
+    INTERFACE(damage, FLOAT64, "1", "delta_max/delta_c at end_time, 0 to 1"),
+    INTERFACE(onset_time, FLOAT64, "s", "time of its onset, NaN if it never cracked"),
+    INTERFACE(break_time, FLOAT64, "s", "time at which it broke, NaN if it never did"),
+};
+
+static const fracas_store_column decision[] = {FRACAS_EACH_DECISION(DECISION)};
+
 static const fracas_store_column mesh_node[] = {
-    {"/mesh/node_position", FRACAS_FLOAT64, 3, "m",
-     "position (x, y, z) of a node before any motion", offsetof(fracas_stored_node, position)},
+    MESH(node, position, FLOAT64, "m", "position (x, y, z) of a node before any motion"),
 };
 
 static const fracas_store_column mesh_element[] = {
-    {"/mesh/element_node", FRACAS_INT32, 6, "1",
-     "nodes of a triangle, numbered from 0 in the mesh of its point: three vertices, then the "
-     "middles of the edges from each to the next, -1 where there are none",
-     offsetof(fracas_stored_element, node)},
+    MESH(element, node, INT32, "1",
+         "nodes of a triangle, numbered from 0 in the mesh of its point: three vertices, then the "
+         "middles of the edges from each to the next, -1 where there are none"),
 };
 
 static const fracas_store_column mesh_interface[] = {
-    {"/mesh/interface_element", FRACAS_INT32, 2, "1",
-     "the two elements of an interface; interfaces are in the order of those of a realization in "
-     "/interface",
-     offsetof(fracas_stored_interface, element)},
-    {"/mesh/interface_node", FRACAS_INT32, 3, "1",
-     "its two ends, as the first element goes round, and its middle, -1 where it has none",
-     offsetof(fracas_stored_interface, node)},
+    MESH(interface, element, INT32, "1",
+         "the two elements of an interface; interfaces are in the order of those of a realization "
+         "in /interface"),
+    MESH(interface, node, INT32, "1",
+         "its two ends, as the first element goes round, and its middle, -1 where it has none"),
 };
 
 static const fracas_store_column mesh_border[] = {
-    {"/mesh/border_element", FRACAS_INT32, 1, "1", "element of an edge that no other element has",
-     offsetof(fracas_stored_border, element)},
-    {"/mesh/border_node", FRACAS_INT32, 3, "1",
-     "its two ends, as the element goes round, and its middle, -1 where it has none",
-     offsetof(fracas_stored_border, node)},
-    {"/mesh/border_tag", FRACAS_INT32, 1, "1",
-     "tag of the edge, 0: none; plate: 1 smallest x, 2 largest x, 3 smallest y, 4 largest y; "
-     "annulus: 1 inner, 2 outer circle",
-     offsetof(fracas_stored_border, tag)},
+    MESH(border, element, INT32, "1", "element of an edge that no other element has"),
+    MESH(border, node, INT32, "1",
+         "its two ends, as the element goes round, and its middle, -1 where it has none"),
+    MESH(border, tag, INT32, "1",
+         "tag of the edge, 0: none; plate: 1 smallest x, 2 largest x, 3 smallest y, 4 largest y; "
+         "annulus: 1 inner, 2 outer circle"),
 };
 
 /* Chunks are small enough for a segment of one realization (a chunk is never stored in part) and

@@ -16,12 +16,9 @@ static void *column_memory(const fracas_store_column *column, size_t count)
 static fracas_err write_column(const fracas_h5 *h5, const fracas_store_column *column, size_t count,
                                const void *stored)
 {
-    hid_t dataset;
+    OWN_ID dataset = H5I_INVALID_HID;
     TRY(fracas_h5_create_column(h5, column, FRACAS_POINT_CHUNK, &dataset));
-    fracas_err err = count ? fracas_h5_append_rows(h5, column, dataset, 0, count, stored)
-                           : FRACAS_OK;
-    H5Dclose(dataset);
-    return err;
+    return count ? fracas_h5_append_rows(h5, column, dataset, 0, count, stored) : FRACAS_OK;
 }
 
 static fracas_err write_hashes(const fracas_h5 *h5, const fracas_point_table *table)
@@ -90,26 +87,21 @@ fracas_err fracas_table_write(const fracas_h5 *h5, const fracas_point_table *tab
 
 /* ---- reading ---- */
 
-/* A whole column; `rows`: its number of rows, SIZE_MAX for any. *stored freed by the
- * caller. */
+/* A whole column; `rows`: its number of rows, SIZE_MAX for any. *stored freed by the caller, after
+ * an error too. */
 static fracas_err read_column(const fracas_h5 *h5, const fracas_store_column *column, size_t *rows,
                               void **stored)
 {
-    hid_t dataset;
+    OWN_ID dataset = H5I_INVALID_HID;
     uint64_t found;
-    *stored = NULL;
     TRY(fracas_h5_open_column(h5, column, FRACAS_POINT_CHUNK, &dataset, &found));
-    fracas_err err = FRACAS_OK;
     if (*rows == SIZE_MAX) *rows = found;
-    else if (*rows != found)
-        err = fracas_fail(FRACAS_DAMAGED, "%s: %s: damaged: %llu rows for %zu points", h5->path,
-                          column->path, (unsigned long long)found, *rows);
-    if (!err && !(*stored = column_memory(column, *rows)))
-        err = fracas_no_memory("the point table");
-    if (!err && *rows) err = fracas_h5_read_rows(h5, column, dataset, 0, *rows, *stored);
-    H5Dclose(dataset);
-    if (err) free(*stored), *stored = NULL;
-    return err;
+    if (*rows != found)
+        return fracas_fail(FRACAS_DAMAGED, "%s: %s: damaged: %llu rows for %zu points", h5->path,
+                           column->path, (unsigned long long)found, *rows);
+    *stored = column_memory(column, *rows);
+    if (!*stored) return fracas_no_memory("the point table");
+    return *rows ? fracas_h5_read_rows(h5, column, dataset, 0, *rows, *stored) : FRACAS_OK;
 }
 
 fracas_err fracas_table_read_points(const fracas_h5 *h5, fracas_stored_table *stored)
@@ -163,7 +155,7 @@ static fracas_err read_values(const fracas_h5 *h5, const char *name, fracas_stor
     char path[256], *unit = NULL, *doc = NULL;
     snprintf(path, sizeof path, "/point/%s", name);
     fracas_store_column column = {path, FRACAS_FLOAT64, 1, "", "", offsetof(fracas_value, real)};
-    void *values = NULL;
+    OWNED void *values = NULL;
     size_t width, rows = stored->table.npoints;
     TRY(fracas_h5_text_width(h5, path, &width));
     if (width) column.type = FRACAS_TEXT, column.width = width;
@@ -171,7 +163,6 @@ static fracas_err read_values(const fracas_h5 *h5, const char *name, fracas_stor
     if (!err) err = fracas_h5_get_text(h5, path, "unit", &unit);
     if (!err) err = fracas_h5_get_text(h5, path, "description", &doc);
     if (!err) err = spread_values(stored, c, &column, values);
-    free(values);
     stored->column[c] = (fracas_column){strdup(name), unit, doc, width > 0};
     if (!err && !stored->column[c].path) err = fracas_no_memory("the point table");
     return err;

@@ -143,22 +143,22 @@ static fracas_err create_sets(fracas_writer *writer)
 fracas_err fracas_writer_create(const char *path, const fracas_file_header *header,
                                 const fracas_point_table *table, fracas_writer **writer)
 {
-    *writer = calloc(1, sizeof **writer);
-    if (!*writer) return fracas_no_memory("a file");
-    fracas_writer *w = *writer;
-    w->h5 = FRACAS_H5_CLOSED;
-    w->npoints = table->npoints;
-    w->interfaces = header->interfaces;
-    fracas_err err = (w->path = strdup(path)) ? fracas_disk_temporary(path, &w->temporary)
-                                              : fracas_no_memory("a file");
-    if (!err) err = fracas_h5_create(&w->h5, w->temporary, w->path);
-    if (!err) err = write_header(&w->h5, header);
-    if (!err) err = fracas_table_write(&w->h5, table);
-    if (!err) err = create_sets(w);
-    if (!err) return FRACAS_OK;
-    fracas_writer_abandon(w);
+    OWN(fracas_writer) new = calloc(1, sizeof *new);
     *writer = NULL;
-    return err;
+    if (!new) return fracas_no_memory("a file");
+    new->h5 = FRACAS_H5_CLOSED;
+    new->npoints = table->npoints;
+    new->interfaces = header->interfaces;
+    new->path = strdup(path);
+    if (!new->path) return fracas_no_memory("a file");
+    TRY(fracas_disk_temporary(path, &new->temporary));
+    TRY(fracas_h5_create(&new->h5, new->temporary, new->path));
+    TRY(write_header(&new->h5, header));
+    TRY(fracas_table_write(&new->h5, table));
+    TRY(create_sets(new));
+    *writer = new;
+    new = NULL;
+    return FRACAS_OK;
 }
 
 /* ---- records and the end ---- */

@@ -109,9 +109,6 @@ bool fracas_index_is_json(fracas_index *index, const char *text);
 /* Id of a point, 0 if it is not there. */
 FRACAS_MUST_USE fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point,
                                                    int64_t *id);
-/* The same of a point that must be there, else FRACAS_DAMAGED. */
-FRACAS_MUST_USE fracas_err fracas_index_need_point(fracas_index *index, const fracas_hash *point,
-                                                   int64_t *id);
 
 /* Counts the points. */
 FRACAS_MUST_USE fracas_err fracas_index_points(fracas_index *index, int64_t *points);
@@ -147,8 +144,6 @@ fracas_index_each_by_segment(fracas_index *index,
 /* FRACAS_DAMAGED if the index has no such realization. */
 FRACAS_MUST_USE fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point,
                                               int64_t replica, fracas_place *place);
-/* Value of a column, NaN for NULL. */
-double fracas_index_real(sqlite3_stmt *row, int column);
 
 /* A segment in the index. */
 typedef struct {
@@ -158,24 +153,25 @@ typedef struct {
     int64_t rows; /* realizations in it */
 } fracas_known_segment;
 
-/* All of them by id; freed with fracas_index_segments_free. */
-FRACAS_MUST_USE fracas_err fracas_index_segments(fracas_index *index,
-                                                 fracas_known_segment **segment, size_t *count);
-void fracas_index_segments_free(fracas_known_segment *segment, size_t count);
-/* The same by name. */
+typedef struct {
+    fracas_known_segment *segment;
+    size_t count;
+} fracas_known_segments;
+
+/* All of them, cleared by the caller, after an error too. */
+FRACAS_MUST_USE fracas_err fracas_index_segments_by_id(fracas_index *index,
+                                                       fracas_known_segments *known);
 FRACAS_MUST_USE fracas_err fracas_index_segments_by_name(fracas_index *index,
-                                                         fracas_known_segment **segment,
-                                                         size_t *count);
-/* The one of this name among those, NULL if there is none. */
-const fracas_known_segment *fracas_segment_is_known(const fracas_known_segment *segment,
-                                                    size_t count, const char *name);
+                                                         fracas_known_segments *known);
+void fracas_known_segments_clear(fracas_known_segments *known);
+/* The one of this id or name in a list in that order; NULL if there is none. */
+const fracas_known_segment *fracas_segment_of_id(const fracas_known_segments *known, int64_t id);
+const fracas_known_segment *fracas_segment_of_name(const fracas_known_segments *known,
+                                                   const char *name);
 /* True if its file is there and has its size. */
 FRACAS_MUST_USE fracas_err fracas_segment_is_there(const char *study,
                                                    const fracas_known_segment *segment,
                                                    bool *there);
-/* FRACAS_DAMAGED, naming it, unless its bytes fit the checksum in the index. */
-FRACAS_MUST_USE fracas_err fracas_segment_check(const char *study,
-                                                const fracas_known_segment *segment);
 /* Turns the rows of these segments back to planned and forgets the segments; one transaction. *rows
  * counts them. */
 FRACAS_MUST_USE fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment,

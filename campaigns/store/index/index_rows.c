@@ -24,7 +24,7 @@ static fracas_row_status status_of(sqlite3_stmt *row, int column)
     return FRACAS_PLANNED;
 }
 
-double fracas_index_real(sqlite3_stmt *row, int column)
+static double read_real(sqlite3_stmt *row, int column)
 {
     return sqlite3_column_type(row, column) == SQLITE_NULL ? NAN
                                                            : sqlite3_column_double(row, column);
@@ -37,7 +37,7 @@ fracas_place fracas_place_read(sqlite3_stmt *row, int first)
                           .row = sqlite3_column_int64(row, first + 2)};
     first += 3;
 #define READ_INTEGER sqlite3_column_int64
-#define READ_REAL fracas_index_real
+#define READ_REAL read_real
 #define READ(key, type, value, meaning) place.summary.key = READ_##type(row, first++);
     FRACAS_EACH_SUMMARY(READ)
     return place;
@@ -57,7 +57,8 @@ fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point
                               SQL_VALUES(SQL_HASH(point)), id, NULL);
 }
 
-fracas_err fracas_index_need_point(fracas_index *index, const fracas_hash *point, int64_t *id)
+/* The same of a point that must be there. */
+static fracas_err need_point(fracas_index *index, const fracas_hash *point, int64_t *id)
 {
     TRY(fracas_index_find_point(index, point, id));
     if (*id) return FRACAS_OK;
@@ -75,7 +76,7 @@ fracas_err fracas_index_plan_point(fracas_index *index, const fracas_point_row *
                       "INSERT INTO point(hash, replicas) VALUES (?1, ?2) ON CONFLICT (hash) DO "
                       "UPDATE SET replicas = max(replicas, excluded.replicas)",
                       SQL_VALUES(SQL_HASH(&point->hash), SQL_INTEGER(point->replicas))));
-    TRY(fracas_index_need_point(index, &point->hash, &id));
+    TRY(need_point(index, &point->hash, &id));
     TRY(fracas_sql_numbers(
         index, "SELECT count(*) FROM realization WHERE point = ?1 AND replica < ?2",
         SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(point->replicas)), &there, NULL));
@@ -103,7 +104,7 @@ fracas_err fracas_index_rows_from(fracas_index *index, const fracas_point_row *p
     int64_t id, found = first;
     bool more = true;
     OWN(sqlite3_stmt) s = NULL;
-    TRY(fracas_index_need_point(index, &point->hash, &id));
+    TRY(need_point(index, &point->hash, &id));
     TRY(fracas_sql_start(
         index,
         "SELECT replica, status, attempts FROM realization WHERE point = ?1 AND replica >= ?3 AND "
@@ -150,7 +151,7 @@ fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *
         int64_t id;
         bool more = true;
         OWN(sqlite3_stmt) s = NULL;
-        TRY(fracas_index_need_point(index, &table->point[p].hash, &id));
+        TRY(need_point(index, &table->point[p].hash, &id));
         TRY(fracas_sql_start(index,
                              "SELECT replica, status, attempts, coalesce(reason, '') FROM "
                              "realization WHERE point = ?1 AND status IN ('failed', 'quarantined') "
@@ -173,7 +174,7 @@ fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int
     int64_t id;
     bool found;
     OWN(sqlite3_stmt) s = NULL;
-    TRY(fracas_index_need_point(index, point, &id));
+    TRY(need_point(index, point, &id));
     TRY(fracas_sql_start(
         index, "SELECT " FRACAS_PLACE_COLUMNS " FROM realization WHERE point = ?1 AND replica = ?2",
         SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(replica)), &s));
@@ -231,7 +232,7 @@ fracas_err fracas_index_lease(fracas_index *index, const fracas_hash *point, int
                               int64_t count)
 {
     int64_t id;
-    TRY(fracas_index_need_point(index, point, &id));
+    TRY(need_point(index, point, &id));
     if (index->local) TRY(fracas_sql_script(index, "PRAGMA synchronous = NORMAL"));
     fracas_err err = fracas_sql_do(
         index,
@@ -250,7 +251,7 @@ fracas_err fracas_index_fail(fracas_index *index, const fracas_hash *point, int6
 {
     int64_t id;
     const char *status = status_text[final ? FRACAS_FAILED_ROW : FRACAS_PLANNED];
-    TRY(fracas_index_need_point(index, point, &id));
+    TRY(need_point(index, point, &id));
     TRY(fracas_sql_do(
         index,
         "UPDATE realization SET attempts = attempts + 1, reason = ?3, status = ?4, outcome = ?5 "
@@ -324,23 +325,24 @@ fracas_err fracas_index_commit(fracas_index *index, const char *segment,
     fracas_err err = add_segment(index, segment, seal, count, provenance, &id);
     for (size_t r = 0; !err && r < count; r++) {
         if (r == 0 || !fracas_hash_equal(&row[r].point, &row[r - 1].point))
-            err = fracas_index_need_point(index, &row[r].point, &point);
+            err = need_point(index, &row[r].point, &point);
         if (!err) err = set_done(index, point, id, &row[r]);
     }
     return fracas_index_end(index, err);
 }
 
-static fracas_err load_segments(fracas_index *index, fracas_known_segment **segment, size_t *count)
+static fracas_err load_segments(fracas_index *index, const char *select,
+                                fracas_known_segments *known)
 {
     OWN(sqlite3_stmt) s = NULL;
     size_t room = 0;
-    TRY(fracas_sql_start(index, "SELECT id, name, bytes, checksum, rows FROM segment ORDER BY id",
-                         NULL, 0, &s));
+    TRY(fracas_sql_start(index, select, NULL, 0, &s));
     for (;;) {
         bool more;
         TRY(fracas_sql_next(index, s, &more));
         if (!more) return FRACAS_OK;
-        TRY(fracas_grow(segment, sizeof **segment, *count, &room, "the list of segments"));
+        TRY(fracas_grow(&known->segment, sizeof *known->segment, known->count, &room,
+                        "the list of segments"));
         const char *name = (const char *)sqlite3_column_text(s, 1),
                    *hex = (const char *)sqlite3_column_text(s, 3);
         char *end;
@@ -350,25 +352,58 @@ static fracas_err load_segments(fracas_index *index, fracas_known_segment **segm
         if (!name || strchr(name, '/') || !hex || strlen(hex) != 16 || *end || rows < 0)
             return fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `segment` is damaged; %s",
                                index->path, remedy);
-        (*segment)[*count] = (fracas_known_segment){sqlite3_column_int64(s, 0), strdup(name), seal,
-                                                    rows};
-        if (!(*segment)[(*count)++].name) return fracas_no_memory("the list of segments");
+        fracas_known_segment *new = &known->segment[known->count++];
+        *new = (fracas_known_segment){sqlite3_column_int64(s, 0), strdup(name), seal, rows};
+        if (!new->name) return fracas_no_memory("the list of segments");
     }
 }
 
-fracas_err fracas_index_segments(fracas_index *index, fracas_known_segment **segment, size_t *count)
+#define SELECT_SEGMENTS "SELECT id, name, bytes, checksum, rows FROM segment ORDER BY "
+fracas_err fracas_index_segments_by_id(fracas_index *index, fracas_known_segments *known)
 {
-    *segment = NULL;
-    *count = 0;
-    fracas_err err = load_segments(index, segment, count);
-    if (err) fracas_index_segments_free(*segment, *count), *segment = NULL, *count = 0;
-    return err;
+    return load_segments(index, SELECT_SEGMENTS "id", known);
 }
 
-void fracas_index_segments_free(fracas_known_segment *segment, size_t count)
+fracas_err fracas_index_segments_by_name(fracas_index *index, fracas_known_segments *known)
 {
-    for (size_t s = 0; s < count; s++) free(segment[s].name);
-    free(segment);
+    return load_segments(index, SELECT_SEGMENTS "name", known);
+}
+
+void fracas_known_segments_clear(fracas_known_segments *known)
+{
+    for (size_t s = 0; s < known->count; s++) free(known->segment[s].name);
+    free(known->segment);
+    *known = (fracas_known_segments){0};
+}
+
+static int compare_id(const void *id, const void *segment)
+{
+    const int64_t a = *(const int64_t *)id, b = ((const fracas_known_segment *)segment)->id;
+    return (a > b) - (a < b);
+}
+
+static int compare_name(const void *name, const void *segment)
+{
+    return strcmp(name, ((const fracas_known_segment *)segment)->name);
+}
+
+static const fracas_known_segment *find(const fracas_known_segments *known, const void *key,
+                                        int (*compare)(const void *key, const void *segment))
+{
+    return known->count
+               ? bsearch(key, known->segment, known->count, sizeof *known->segment, compare)
+               : NULL;
+}
+
+const fracas_known_segment *fracas_segment_of_id(const fracas_known_segments *known, int64_t id)
+{
+    return find(known, &id, compare_id);
+}
+
+const fracas_known_segment *fracas_segment_of_name(const fracas_known_segments *known,
+                                                   const char *name)
+{
+    return find(known, name, compare_name);
 }
 
 fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment, size_t count,
@@ -449,7 +484,7 @@ fracas_err fracas_index_count_points(fracas_index *index, const fracas_point_tab
     if (!id) return fracas_no_memory("the counts of the points");
     for (size_t p = 0; p < table->npoints; p++) {
         point[p] = (fracas_index_counts){.points = 1};
-        TRY(fracas_index_need_point(index, &table->point[p].hash, &id[p]));
+        TRY(need_point(index, &table->point[p].hash, &id[p]));
         if (id[p] > most) most = id[p];
     }
     OWNED fracas_index_counts **each = calloc((size_t)most + 1, sizeof *each);
@@ -460,33 +495,13 @@ fracas_err fracas_index_count_points(fracas_index *index, const fracas_point_tab
 
 /* ---- decisions on the number of replicas, and the summaries they rest on ---- */
 
-double fracas_decision_relative(const fracas_decision *decision)
-{
-    return decision->half_width == 0 ? 0 : decision->half_width / fabs(decision->mean);
-}
-
-bool fracas_decision_same(const fracas_decision *a, const fracas_decision *b)
-{
-    return a->point == b->point && a->round == b->round && a->replicas == b->replicas &&
-           a->used == b->used && fracas_same_real(a->mean, b->mean) &&
-           fracas_same_real(a->half_width, b->half_width) && a->stop == b->stop &&
-           a->quantity == b->quantity && a->minimum == b->minimum && a->maximum == b->maximum &&
-           a->relative_half_width == b->relative_half_width && a->confidence == b->confidence;
-}
-
-bool fracas_decision_valid(const fracas_decision *d)
-{
-    return d->round >= 0 && d->replicas > 0 && d->used >= 0 && d->used <= d->replicas &&
-           d->stop >= 0 && d->stop <= 2 && d->quantity >= 0 && d->quantity <= 2;
-}
-
 fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point, size_t count,
                                   fracas_index_summary *row)
 {
     int64_t id;
     size_t found = 0;
     OWN(sqlite3_stmt) s = NULL;
-    TRY(fracas_index_need_point(index, point, &id));
+    TRY(need_point(index, point, &id));
     TRY(fracas_sql_start(index,
                          "SELECT replica, " FRACAS_PLACE_COLUMNS
                          " FROM realization WHERE point = ?1 AND replica < ?2 ORDER BY replica",
@@ -512,28 +527,19 @@ fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point,
     OWNED fracas_decision *found = NULL;
     *decision = NULL;
     *count = 0;
-    TRY(fracas_index_need_point(index, point, &id));
+    TRY(need_point(index, point, &id));
     TRY(fracas_sql_start(
         index,
-        "SELECT round, replicas, failed, mean, half_width, stop, quantity, minimum, maximum, "
-        "relative_half_width, confidence FROM decision WHERE point = ?1 ORDER BY round",
+        "SELECT 0, round, replicas, replicas - failed, mean, half_width, stop, quantity, minimum, "
+        "maximum, relative_half_width, confidence FROM decision WHERE point = ?1 ORDER BY round",
         SQL_VALUES(SQL_INTEGER(id)), &s));
     for (bool more;; ++*count) {
+        int c = 0;
         TRY(fracas_sql_next(index, s, &more));
         if (!more) break;
         TRY(fracas_grow(&found, sizeof *found, *count, &room, "the decisions of a point"));
-        const int64_t replicas = sqlite3_column_int64(s, 1);
-        found[*count] = (fracas_decision){.round = sqlite3_column_int64(s, 0),
-                                          .replicas = replicas,
-                                          .used = replicas - sqlite3_column_int64(s, 2),
-                                          .mean = fracas_index_real(s, 3),
-                                          .half_width = fracas_index_real(s, 4),
-                                          .stop = sqlite3_column_int64(s, 5),
-                                          .quantity = sqlite3_column_int64(s, 6),
-                                          .minimum = sqlite3_column_int64(s, 7),
-                                          .maximum = sqlite3_column_int64(s, 8),
-                                          .relative_half_width = fracas_index_real(s, 9),
-                                          .confidence = fracas_index_real(s, 10)};
+#define READ_NEXT(key, type, stored, meaning) found[*count].key = READ_##type(s, c++);
+        FRACAS_EACH_DECISION(READ_NEXT)
         if (!fracas_decision_valid(&found[*count]))
             return fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `decision` is damaged; %s",
                                index->path, remedy);
@@ -547,7 +553,7 @@ fracas_err fracas_index_decide(fracas_index *index, const fracas_point_row *poin
                                const fracas_decision *d, const char *reason)
 {
     int64_t id;
-    TRY(fracas_index_need_point(index, &point->hash, &id));
+    TRY(need_point(index, &point->hash, &id));
     TRY(fracas_sql_do(index, "DELETE FROM decision WHERE point = ?1 AND round >= ?2",
                       SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(d->round))));
     TRY(fracas_sql_do(

@@ -15,9 +15,8 @@ typedef struct {
     const char *study;
     fracas_index *index;
     const fracas_collect_options *options;
-    fracas_known_segment *segment; /* by name */
-    size_t nsegments;
-    int64_t *needless; /* ids of segments without a row, ascending */
+    fracas_known_segments known; /* by name */
+    bool *needless;              /* each of them: it has no row */
     size_t nneedless;
     uint64_t freed;
 } collection;
@@ -110,25 +109,16 @@ static fate judge_attachment(const collection *c, const char *name, const char *
 
 /* ---- segments ---- */
 
-static int compare_ids(const void *a, const void *b)
-{
-    const int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
-    return (x > y) - (x < y);
-}
-
 static fate judge_segment(const collection *c, const char *name, const char **why)
 {
-    const fracas_known_segment *known = fracas_segment_is_known(c->segment, c->nsegments, name);
+    const fracas_known_segment *known = fracas_segment_of_name(&c->known, name);
     if (fracas_disk_is_temporary(name)) {
         *why = "half written";
         return REMOVE;
     }
     if (known) {
         *why = "another segment has each of its realizations";
-        return c->nneedless &&
-                       bsearch(&known->id, c->needless, c->nneedless, sizeof known->id, compare_ids)
-                   ? REMOVE
-                   : KEEP;
+        return c->needless[known - c->known.segment] ? REMOVE : KEEP;
     }
     if (fracas_disk_ends(name, ".damaged")) {
         *why = "a damaged segment that was set aside";
@@ -144,17 +134,18 @@ static fate judge_segment(const collection *c, const char *name, const char **wh
 static fracas_err list_needless(collection *c)
 {
     OWN(sqlite3_stmt) s = NULL;
-    bool row = true;
-    c->needless = calloc(c->nsegments + 1, sizeof *c->needless);
+    bool row;
+    c->needless = calloc(c->known.count + 1, sizeof *c->needless);
     if (!c->needless) return fracas_no_memory("the list of segments");
-    TRY(fracas_sql_start(c->index, "SELECT id FROM segment WHERE " NEEDLESS " ORDER BY id", NULL, 0,
-                         &s));
-    while (c->nneedless < c->nsegments) {
+    TRY(fracas_sql_start(c->index, "SELECT name FROM segment WHERE " NEEDLESS, NULL, 0, &s));
+    for (;;) {
         TRY(fracas_sql_next(c->index, s, &row));
-        if (!row) break;
-        c->needless[c->nneedless++] = sqlite3_column_int64(s, 0);
+        if (!row) return FRACAS_OK;
+        const char *name = (const char *)sqlite3_column_text(s, 0);
+        const fracas_known_segment *known = name ? fracas_segment_of_name(&c->known, name) : NULL;
+        if (known) c->needless[known - c->known.segment] = true;
+        c->nneedless += known != NULL;
     }
-    return FRACAS_OK;
 }
 
 /* Before their files go: killed in between, they are found and known again; the other way round
@@ -172,7 +163,7 @@ static fracas_err forget_needless(collection *c)
 
 static fracas_err collect_segments(collection *c)
 {
-    TRY(fracas_index_segments_by_name(c->index, &c->segment, &c->nsegments));
+    TRY(fracas_index_segments_by_name(c->index, &c->known));
     TRY(list_needless(c));
     TRY(forget_needless(c));
     return each(c, "segments", judge_segment);
@@ -247,7 +238,7 @@ fracas_err fracas_study_collect(const char *study, fracas_index *index,
 {
     collection c = {.study = study, .index = index, .options = options};
     fracas_err err = collect(&c);
-    fracas_index_segments_free(c.segment, c.nsegments);
+    fracas_known_segments_clear(&c.known);
     free(c.needless);
     *freed = c.freed;
     return err;

@@ -70,7 +70,6 @@ fracas_err fracas_study_compare(const char *into, fracas_index *into_index, cons
     TRY(fracas_segments_create(into, into_index, &identity, &ours));
     TRY(fracas_segments_create(from, from_index, &identity, &theirs));
     c.segments = ours;
-    fracas_record_init(&c.record);
     const fracas_want want = {
         .table = table, .parts = FRACAS_READ_ALL, .visit = compare, .context = &c};
     fracas_err err = fracas_study_each_planned(theirs, from_index, &want);
@@ -84,9 +83,8 @@ fracas_err fracas_study_compare(const char *into, fracas_index *into_index, cons
 typedef struct {
     const char *into, *from;
     fracas_index *index, *theirs;
-    fracas_known_segment *segment; /* `from`'s, by id */
-    size_t nsegments;
-    int64_t id; /* the segment at hand, and its rows */
+    fracas_known_segments known; /* `from`'s, by id */
+    int64_t id;                  /* the segment at hand, and its rows */
     fracas_segment_row *row;
     size_t nrows, room;
     fracas_joined *joined;
@@ -97,11 +95,11 @@ static fracas_err copy_bytes(int from, int to, const char *path)
     enum { BLOCK = 1 << 20 };
     OWNED char *block = malloc(BLOCK);
     if (!block) return fracas_no_memory("a copy");
-    for (ssize_t got; (got = read(from, block, BLOCK)) != 0;) {
-        if (got < 0 && errno != EINTR) return fracas_disk_fail("read for", path);
-        for (ssize_t at = 0, put; at < got; at += put)
-            if ((put = write(to, block + at, (size_t)(got - at))) < 0)
-                return fracas_disk_fail("write", path);
+    size_t got = BLOCK;
+    for (uint64_t at = 0; got == BLOCK; at += got) {
+        if (!fracas_disk_read(from, at, block, BLOCK, &got))
+            return fracas_disk_fail("read for", path);
+        if (!fracas_disk_write(to, at, block, got)) return fracas_disk_fail("write", path);
     }
     return FRACAS_OK;
 }
@@ -208,24 +206,14 @@ static fracas_err count_fresh(joining *j, int64_t *fresh)
     return FRACAS_OK;
 }
 
-static int compare_ids(const void *a, const void *b)
-{
-    const int64_t x = ((const fracas_known_segment *)a)->id,
-                  y = ((const fracas_known_segment *)b)->id;
-    return (x > y) - (x < y);
-}
-
 /* Takes the gathered rows of segment j->id of `from`: its file first, then its rows. */
 static fracas_err take_rows(joining *j)
 {
-    const fracas_known_segment wanted = {.id = j->id};
     int64_t fresh;
     OWNED char *name = NULL;
     OWNED char *provenance = NULL;
     if (!j->nrows) return FRACAS_OK;
-    const fracas_known_segment *segment = j->nsegments ? bsearch(&wanted, j->segment, j->nsegments,
-                                                                 sizeof wanted, compare_ids)
-                                                       : NULL;
+    const fracas_known_segment *segment = fracas_segment_of_id(&j->known, j->id);
     if (!segment)
         return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64, j->theirs->path, j->id);
     TRY(count_fresh(j, &fresh));
@@ -295,11 +283,11 @@ fracas_err fracas_study_join(const char *into, fracas_index *into_index, const c
         .into = into, .from = from, .index = into_index, .theirs = from_index, .joined = joined};
     char text[4400];
     *joined = (fracas_joined){0};
-    fracas_err err = fracas_index_segments(from_index, &j.segment, &j.nsegments);
+    fracas_err err = fracas_index_segments_by_id(from_index, &j.known);
     if (!err) err = fracas_index_each_by_segment(from_index, add_row, &j);
     if (!err) err = take_rows(&j);
     if (!err) err = take_failures(&j, table);
-    fracas_index_segments_free(j.segment, j.nsegments);
+    fracas_known_segments_clear(&j.known);
     free(j.row);
     if (err || (!joined->realizations && !joined->failed)) return err;
     snprintf(text, sizeof text,

@@ -47,14 +47,12 @@ static fracas_err append_decisions(const merging *m, fracas_index *index)
 /* After all records, point by point: the order depends on nothing else. */
 static fracas_err append_meshes(const merging *m, const fracas_mesh_source *meshes)
 {
-    fracas_err err = FRACAS_OK;
-    for (size_t p = 0; !err && p < m->table->npoints; p++) {
-        fracas_stored_mesh mesh = {0};
-        err = meshes->get(meshes->context, p, &mesh);
-        if (!err) err = fracas_writer_mesh(m->writer, &mesh);
-        fracas_stored_mesh_clear(&mesh);
+    for (size_t p = 0; p < m->table->npoints; p++) {
+        FRACAS_CLEARED(fracas_stored_mesh) mesh = {0};
+        TRY(meshes->get(meshes->context, p, &mesh));
+        TRY(fracas_writer_mesh(m->writer, &mesh));
     }
-    return err;
+    return FRACAS_OK;
 }
 
 /* After a merge that found damage: sets damaged segments aside, and FRACAS_INTERRUPTED says so.
@@ -84,24 +82,25 @@ static fracas_err merge(const char *study, fracas_index *index, const fracas_fil
                         const fracas_point_table *table, const fracas_mesh_source *meshes)
 {
     OWNED char *path = NULL;
-    merging m = {.table = table, .complete = true};
     OWN(fracas_segments) segments = NULL;
+    OWN(fracas_writer) writer = NULL;
     fracas_identity identity;
     fracas_file_seal seal;
     fracas_identity_of(header, &identity);
     TRY(fracas_disk_join(study, "study.h5", &path));
-    fracas_err err = fracas_segments_create(study, index, &identity, &segments);
-    if (!err) err = fracas_writer_create(path, header, table, &m.writer);
+    TRY(fracas_segments_create(study, index, &identity, &segments));
+    TRY(fracas_writer_create(path, header, table, &writer));
+    merging m = {.table = table, .writer = writer, .complete = true};
     const fracas_want want = {
         .table = table, .parts = FRACAS_READ_ALL, .visit = append, .context = &m};
-    if (!err) err = fracas_study_each_planned(segments, index, &want);
-    if (!err) err = append_decisions(&m, index);
-    if (!err && meshes && header->interfaces) err = append_meshes(&m, meshes);
+    TRY(fracas_study_each_planned(segments, index, &want));
+    TRY(append_decisions(&m, index));
+    if (meshes && header->interfaces) TRY(append_meshes(&m, meshes));
     /* A death from here on leaves no seal: merged again. */
-    if (!err) err = fracas_index_seal_study(index, NULL);
-    if (err) fracas_writer_abandon(m.writer);
-    else err = fracas_writer_finish(m.writer, m.complete, &seal);
-    return err ? err : fracas_index_seal_study(index, &seal);
+    TRY(fracas_index_seal_study(index, NULL));
+    writer = NULL;
+    TRY(fracas_writer_finish(m.writer, m.complete, &seal));
+    return fracas_index_seal_study(index, &seal);
 }
 
 fracas_err fracas_study_merge(const char *study, fracas_index *index,
@@ -124,14 +123,11 @@ fracas_err fracas_study_file_sealed(const char *study, fracas_index *index, bool
 
 fracas_err fracas_study_sealed(const char *study, fracas_index *index, bool *sealed)
 {
-    fracas_known_segment *segment;
-    size_t count;
-    fracas_err err = FRACAS_OK;
+    FRACAS_CLEARED(fracas_known_segments) known = {0};
     TRY(fracas_study_file_sealed(study, index, sealed));
     if (!*sealed) return FRACAS_OK;
-    TRY(fracas_index_segments(index, &segment, &count));
-    for (size_t s = 0; !err && *sealed && s < count; s++)
-        err = fracas_segment_is_there(study, &segment[s], sealed);
-    fracas_index_segments_free(segment, count);
-    return err;
+    TRY(fracas_index_segments_by_id(index, &known));
+    for (size_t s = 0; *sealed && s < known.count; s++)
+        TRY(fracas_segment_is_there(study, &known.segment[s], sealed));
+    return FRACAS_OK;
 }

@@ -65,7 +65,8 @@ fracas_err fracas_segment_is_there(const char *study, const fracas_known_segment
     return fracas_disk_has_size(path, segment->seal.bytes, there);
 }
 
-fracas_err fracas_segment_check(const char *study, const fracas_known_segment *segment)
+/* FRACAS_DAMAGED, naming it, unless its bytes fit the checksum in the index. */
+static fracas_err check_segment(const char *study, const fracas_known_segment *segment)
 {
     OWNED char *path = NULL;
     TRY(fracas_disk_segment(study, segment->name, &path));
@@ -88,7 +89,7 @@ static fracas_err sweep_segment(const char *study, const fracas_known_segment *s
     OWNED char *path = NULL;
     bool there;
     TRY(fracas_segment_is_there(study, segment, &there));
-    fracas_err err = there && seal ? fracas_segment_check(study, segment) : FRACAS_OK;
+    fracas_err err = there && seal ? check_segment(study, segment) : FRACAS_OK;
     *lost = !there || err == FRACAS_DAMAGED;
     if (!*lost) return err;
     TRY(fracas_disk_segment(study, segment->name, &path));
@@ -104,22 +105,20 @@ static fracas_err sweep_segment(const char *study, const fracas_known_segment *s
 fracas_err fracas_segments_sweep(const char *study, fracas_index *index, bool seals, FILE *report,
                                  int64_t *rows)
 {
-    fracas_known_segment *segment;
-    size_t count, nlost = 0;
+    FRACAS_CLEARED(fracas_known_segments) known = {0};
+    size_t nlost = 0;
     *rows = 0;
-    TRY(fracas_index_segments(index, &segment, &count));
-    int64_t *lost = calloc(count + 1, sizeof *lost);
-    fracas_err err = lost ? FRACAS_OK : fracas_no_memory("the list of segments");
-    for (size_t s = 0; !err && s < count; s++) {
+    TRY(fracas_index_segments_by_id(index, &known));
+    OWNED int64_t *lost = calloc(known.count + 1, sizeof *lost);
+    if (!lost) return fracas_no_memory("the list of segments");
+    for (size_t s = 0; s < known.count; s++) {
         bool is_lost;
-        err = sweep_segment(study, &segment[s], seals, report, &is_lost);
-        if (!err && is_lost) lost[nlost++] = segment[s].id;
+        TRY(sweep_segment(study, &known.segment[s], seals, report, &is_lost));
+        if (is_lost) lost[nlost++] = known.segment[s].id;
     }
-    if (!err) err = fracas_index_forget(index, lost, nlost, rows);
-    if (!err && *rows) fprintf(report, "%" PRId64 " realizations are planned again\n", *rows);
-    free(lost);
-    fracas_index_segments_free(segment, count);
-    return err;
+    TRY(fracas_index_forget(index, lost, nlost, rows));
+    if (*rows) fprintf(report, "%" PRId64 " realizations are planned again\n", *rows);
+    return FRACAS_OK;
 }
 
 /* ---- study.h5 ---- */
@@ -168,19 +167,22 @@ static fracas_err forget_lost(const char *study, fracas_index *index, FILE *repo
     return quick ? unseal_damaged(study, index, report) : FRACAS_OK;
 }
 
+/* FRACAS_DAMAGED names the first file that does not fit its seal. */
+static fracas_err check_files(const char *study, fracas_index *index)
+{
+    FRACAS_CLEARED(fracas_known_segments) known = {0};
+    TRY(check_study_file(study, index));
+    TRY(fracas_index_segments_by_id(index, &known));
+    for (size_t s = 0; s < known.count; s++) TRY(check_segment(study, &known.segment[s]));
+    return FRACAS_OK;
+}
+
 fracas_err fracas_study_sound(const char *study, fracas_index *index, bool *sound)
 {
     bool quick;
-    fracas_known_segment *segment;
-    size_t count;
     *sound = true;
     TRY(is_quick_to_check(index, &quick));
-    if (!quick) return FRACAS_OK;
-    fracas_err err = check_study_file(study, index);
-    if (!err && (err = fracas_index_segments(index, &segment, &count)) == FRACAS_OK) {
-        for (size_t s = 0; !err && s < count; s++) err = fracas_segment_check(study, &segment[s]);
-        fracas_index_segments_free(segment, count);
-    }
+    const fracas_err err = quick ? check_files(study, index) : FRACAS_OK;
     *sound = err != FRACAS_DAMAGED;
     return *sound ? err : FRACAS_OK;
 }
@@ -209,8 +211,7 @@ typedef struct {
     const fracas_point_table *table;
     const fracas_identity *identity; /* the study's */
     FILE *report;
-    const fracas_known_segment *known; /* by name */
-    size_t nknown;
+    fracas_known_segments known; /* by name */
     /* The segment at hand. */
     fracas_reader *reader;
     fracas_segment_row *row;
@@ -289,8 +290,7 @@ static fracas_err adopt(adoption *a, const char *path, const char *name)
 static fracas_err adopt_or_set_aside(void *context, const char *path, const char *name)
 {
     adoption *a = context;
-    if (!fracas_disk_ends(name, ".h5") || fracas_segment_is_known(a->known, a->nknown, name))
-        return FRACAS_OK;
+    if (!fracas_disk_ends(name, ".h5") || fracas_segment_of_name(&a->known, name)) return FRACAS_OK;
     a->sound = false;
     fracas_err err = adopt(a, path, name);
     if (err != FRACAS_DAMAGED || a->sound) return err;
@@ -298,39 +298,13 @@ static fracas_err adopt_or_set_aside(void *context, const char *path, const char
     return set_aside(path, a->report);
 }
 
-static int compare_names(const void *a, const void *b)
-{
-    return strcmp(((const fracas_known_segment *)a)->name, ((const fracas_known_segment *)b)->name);
-}
-
-static int compare_name(const void *name, const void *segment)
-{
-    return strcmp(name, ((const fracas_known_segment *)segment)->name);
-}
-
-fracas_err fracas_index_segments_by_name(fracas_index *index, fracas_known_segment **segment,
-                                         size_t *count)
-{
-    TRY(fracas_index_segments(index, segment, count));
-    if (*count) qsort(*segment, *count, sizeof **segment, compare_names);
-    return FRACAS_OK;
-}
-
-const fracas_known_segment *fracas_segment_is_known(const fracas_known_segment *segment,
-                                                    size_t count, const char *name)
-{
-    return count ? bsearch(name, segment, count, sizeof *segment, compare_name) : NULL;
-}
-
 static fracas_err adopt_orphans(const char *folder, const fracas_point_table *table,
                                 fracas_index *index, const fracas_identity *identity, FILE *report)
 {
-    fracas_known_segment *segment;
     adoption a = {.index = index, .table = table, .identity = identity, .report = report};
-    TRY(fracas_index_segments_by_name(index, &segment, &a.nknown));
-    a.known = segment;
-    fracas_err err = fracas_disk_each(folder, adopt_or_set_aside, &a);
-    fracas_index_segments_free(segment, a.nknown);
+    fracas_err err = fracas_index_segments_by_name(index, &a.known);
+    if (!err) err = fracas_disk_each(folder, adopt_or_set_aside, &a);
+    fracas_known_segments_clear(&a.known);
     return err;
 }
 

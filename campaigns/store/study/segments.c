@@ -13,10 +13,9 @@ struct fracas_segments {
     const char *study;
     char *index_path; /* for messages, when the index is closed */
     fracas_identity identity;
-    uint64_t history;              /* most history rows of a record */
-    fracas_known_segment *segment; /* by id */
-    size_t count;
-    bool *checked, *bad; /* each segment */
+    uint64_t history;            /* most history rows of a record */
+    fracas_known_segments known; /* by id */
+    bool *checked, *bad;         /* each of them */
     bool only_records;
     size_t current;        /* the one that is open, */
     unsigned parts;        /* with these parts */
@@ -26,30 +25,27 @@ struct fracas_segments {
 fracas_err fracas_segments_create(const char *study, fracas_index *index,
                                   const fracas_identity *identity, fracas_segments **segments)
 {
-    fracas_segments *new = *segments = calloc(1, sizeof **segments);
+    OWN(fracas_segments) new = calloc(1, sizeof *new);
+    *segments = NULL;
     if (!new) return fracas_no_memory("the segments");
     new->study = study;
     new->identity = *identity;
     new->history = strtoull(identity->value[2], NULL, 10) + 4;
+    TRY(fracas_index_segments_by_id(index, &new->known));
     new->index_path = strdup(index->path);
-    fracas_err err = new->index_path ? fracas_index_segments(index, &new->segment, &new->count)
-                                     : fracas_no_memory("the segments");
-    if (!err) {
-        new->checked = calloc(new->count + 1, sizeof *new->checked);
-        new->bad = calloc(new->count + 1, sizeof *new->bad);
-        if (!new->checked || !new->bad) err = fracas_no_memory("the segments");
-    }
-    if (!err) return FRACAS_OK;
-    fracas_segments_destroy(new);
-    *segments = NULL;
-    return err;
+    new->checked = calloc(new->known.count + 1, sizeof *new->checked);
+    new->bad = calloc(new->known.count + 1, sizeof *new->bad);
+    if (!new->index_path || !new->checked || !new->bad) return fracas_no_memory("the segments");
+    *segments = new;
+    new = NULL;
+    return FRACAS_OK;
 }
 
 void fracas_segments_destroy(fracas_segments *segments)
 {
     if (!segments) return;
     fracas_reader_close(segments->reader);
-    fracas_index_segments_free(segments->segment, segments->count);
+    fracas_known_segments_clear(&segments->known);
     free(segments->checked);
     free(segments->bad);
     free(segments->index_path);
@@ -58,19 +54,11 @@ void fracas_segments_destroy(fracas_segments *segments)
 
 /* ---- one segment ---- */
 
-static int compare_id(const void *id, const void *segment)
-{
-    int64_t a = *(const int64_t *)id, b = ((const fracas_known_segment *)segment)->id;
-    return (a > b) - (a < b);
-}
-
 /* Its number in the list, SIZE_MAX for an unknown id. */
 static size_t find(const fracas_segments *segments, int64_t id)
 {
-    if (!segments->count) return SIZE_MAX;
-    const fracas_known_segment *found = bsearch(&id, segments->segment, segments->count,
-                                                sizeof *found, compare_id);
-    return found ? (size_t)(found - segments->segment) : SIZE_MAX;
+    const fracas_known_segment *found = fracas_segment_of_id(&segments->known, id);
+    return found ? (size_t)(found - segments->known.segment) : SIZE_MAX;
 }
 
 bool fracas_segments_is_bad(const fracas_segments *segments, int64_t id)
@@ -81,15 +69,14 @@ bool fracas_segments_is_bad(const fracas_segments *segments, int64_t id)
 
 const char *fracas_segments_name(const fracas_segments *segments, int64_t id)
 {
-    const size_t s = find(segments, id);
-    return s == SIZE_MAX ? "" : segments->segment[s].name;
+    const fracas_known_segment *segment = fracas_segment_of_id(&segments->known, id);
+    return segment ? segment->name : "";
 }
 
 uint64_t fracas_segments_size(const fracas_segments *segments, const fracas_place *place,
                               unsigned parts)
 {
-    const size_t s = find(segments, place->segment);
-    const fracas_known_segment *segment = s == SIZE_MAX ? NULL : &segments->segment[s];
+    const fracas_known_segment *segment = fracas_segment_of_id(&segments->known, place->segment);
     uint64_t bytes = 0;
     if (parts & FRACAS_READ_FRAGMENTS)
         bytes += (uint64_t)place->summary.fragments * sizeof(fracas_fragment);
@@ -118,10 +105,10 @@ static fracas_err open_reader(fracas_segments *segments, const char *path)
 static fracas_err open_segment(fracas_segments *segments, size_t s)
 {
     OWNED char *path = NULL;
-    TRY(fracas_disk_segment(segments->study, segments->segment[s].name, &path));
+    TRY(fracas_disk_segment(segments->study, segments->known.segment[s].name, &path));
     fracas_err err = segments->checked[s]
                          ? FRACAS_OK
-                         : fracas_disk_check_seal(path, &segments->segment[s].seal);
+                         : fracas_disk_check_seal(path, &segments->known.segment[s].seal);
     if (!err) err = open_reader(segments, path);
     if (!err) err = check_identity(segments, path);
     if (err) fracas_reader_close(segments->reader), segments->reader = NULL;
@@ -149,7 +136,8 @@ static fracas_err open_with(fracas_segments *segments, int64_t id, unsigned part
         return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64 "; %s",
                            segments->index_path, id, reindex);
     if (segments->bad[s])
-        return fracas_fail(FRACAS_DAMAGED, "segment %s is damaged", segments->segment[s].name);
+        return fracas_fail(FRACAS_DAMAGED, "segment %s is damaged",
+                           segments->known.segment[s].name);
     if (segments->reader && segments->current == s && (segments->parts & parts) == parts)
         return FRACAS_OK;
     fracas_reader_close(segments->reader);
@@ -169,7 +157,7 @@ fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place 
                                   fracas_record *record)
 {
     TRY(open_with(segments, place->segment, parts));
-    const char *name = segments->segment[segments->current].name;
+    const char *name = segments->known.segment[segments->current].name;
     fracas_reader *reader = segments->reader;
     if (place->row < 0 || (uint64_t)place->row >= fracas_reader_realizations(reader))
         return fracas_fail(FRACAS_DAMAGED,

@@ -26,6 +26,9 @@ typedef struct {
     int64_t problems;
 } verification;
 
+#define REINDEX "`fracas reindex` makes it anew from the segments"
+#define REMAKE "remove it, and `fracas merge` writes it again"
+
 /* A problem is damage; anything else stops the verification. */
 static fracas_err problem(verification *v, fracas_err err)
 {
@@ -52,16 +55,14 @@ static fracas_err found(verification *v, const char *format, ...)
 static fracas_err check_database(verification *v, const char *pragma)
 {
     OWN(sqlite3_stmt) s = NULL;
-    fracas_err err = fracas_sql_start(v->index, pragma, NULL, 0, &s);
-    for (bool more; !err;) {
-        err = fracas_sql_next(v->index, s, &more);
-        if (!err && !more) return FRACAS_OK;
-        const char *text = err ? NULL : (const char *)sqlite3_column_text(s, 0);
+    TRY(fracas_sql_start(v->index, pragma, NULL, 0, &s));
+    for (bool more;;) {
+        TRY(fracas_sql_next(v->index, s, &more));
+        if (!more) return FRACAS_OK;
+        const char *text = (const char *)sqlite3_column_text(s, 0);
         if (text && strcmp(text, "ok") != 0)
-            TRY(found(v, "%s: %s: %s; `fracas reindex` makes it anew from the segments",
-                      v->index->path, pragma, text));
+            TRY(found(v, "%s: %s: %s; " REINDEX, v->index->path, pragma, text));
     }
-    return problem(v, err);
 }
 
 /* Rows that no run leaves in the index, each counted by a query. */
@@ -90,11 +91,9 @@ static fracas_err check_consistency(verification *v)
 {
     for (size_t q = 0; q < FRACAS_COUNT(never); q++) {
         int64_t count;
-        fracas_err err = fracas_sql_numbers(v->index, never[q].query, NULL, 0, &count, NULL);
-        if (err) return problem(v, err);
+        TRY(fracas_sql_numbers(v->index, never[q].query, NULL, 0, &count, NULL));
         if (count)
-            TRY(found(v, "%s: %" PRId64 " %s; `fracas reindex` makes it anew from the segments",
-                      v->index->path, count, never[q].what));
+            TRY(found(v, "%s: %" PRId64 " %s; " REINDEX, v->index->path, count, never[q].what));
     }
     return FRACAS_OK;
 }
@@ -135,8 +134,7 @@ static void note_lock(const verification *v)
 typedef struct {
     const verification *v;
     bool inner; /* the folder of segments */
-    fracas_known_segment *segment;
-    size_t count;
+    fracas_known_segments known;
 } leftovers;
 
 static fracas_err note_file(void *context, const char *path, const char *name)
@@ -146,8 +144,7 @@ static fracas_err note_file(void *context, const char *path, const char *name)
         note(l->v, "%s: half written; the next run removes it", path);
     else if (fracas_disk_ends(name, ".damaged"))
         note(l->v, "%s: set aside because it was damaged; nothing needs it", path);
-    else if (l->inner && fracas_disk_ends(name, ".h5") &&
-             !fracas_segment_is_known(l->segment, l->count, name))
+    else if (l->inner && fracas_disk_ends(name, ".h5") && !fracas_segment_of_name(&l->known, name))
         note(l->v, "%s: not in the index; the next run adopts it", path);
     return FRACAS_OK;
 }
@@ -157,12 +154,12 @@ static fracas_err note_leftovers(verification *v)
     OWNED char *folder = NULL;
     leftovers l = {.v = v};
     note_lock(v);
-    TRY(problem(v, fracas_index_segments_by_name(v->index, &l.segment, &l.count)));
+    TRY(problem(v, fracas_index_segments_by_name(v->index, &l.known)));
     fracas_err err = fracas_disk_join(v->study, "segments", &folder);
     if (!err) err = fracas_disk_each(v->study, note_file, &l);
     l.inner = true;
     if (!err) err = fracas_disk_each(folder, note_file, &l);
-    fracas_index_segments_free(l.segment, l.count);
+    fracas_known_segments_clear(&l.known);
     return err;
 }
 
@@ -181,21 +178,20 @@ static fracas_err pass_damaged(void *context, const fracas_result *result)
     return FRACAS_OK;
 }
 
+static fracas_err check_segment(verification *v, int64_t id)
+{
+    TRY(fracas_segments_open(v->segments, id));
+    if (!v->options->full) return FRACAS_OK;
+    /* also rows that the index has from another segment */
+    return fracas_reader_each(fracas_segments_reader(v->segments), FRACAS_READ_ALL, read_on, NULL);
+}
+
 static fracas_err check_segments(verification *v)
 {
-    fracas_known_segment *segment;
-    size_t count;
-    fracas_err err = fracas_index_segments(v->index, &segment, &count);
-    if (err) return problem(v, err);
-    for (size_t s = 0; !err && s < count; s++) {
-        err = fracas_segments_open(v->segments, segment[s].id);
-        if (!err && v->options->full) /* also rows that the index has from another segment */
-            err = fracas_reader_each(fracas_segments_reader(v->segments), FRACAS_READ_ALL, read_on,
-                                     NULL);
-        err = problem(v, err);
-    }
-    fracas_index_segments_free(segment, count);
-    return err;
+    FRACAS_CLEARED(fracas_known_segments) known = {0};
+    TRY(fracas_index_segments_by_id(v->index, &known));
+    for (size_t s = 0; s < known.count; s++) TRY(problem(v, check_segment(v, known.segment[s].id)));
+    return FRACAS_OK;
 }
 
 /* One row of the index against its record. */
@@ -218,21 +214,19 @@ static fracas_err check_mesh_fits(verification *v, size_t row, size_t point)
     TRY(fracas_reader_mesh_interfaces(v->merged, point, &interfaces));
     if (!interfaces || !v->record.ninterface || interfaces == v->record.ninterface)
         return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED,
-                       "%s/study.h5: row %zu has %zu interfaces, the mesh of its point %zu; remove "
-                       "it, and `fracas merge` writes it again",
-                       v->study, row, v->record.ninterface, interfaces);
+    return fracas_fail(
+        FRACAS_DAMAGED,
+        "%s/study.h5: row %zu has %zu interfaces, the mesh of its point %zu; " REMAKE, v->study,
+        row, v->record.ninterface, interfaces);
 }
 
 static fracas_err check_meshes(verification *v)
 {
-    fracas_err err = FRACAS_OK;
-    for (size_t p = 0; !err && p < fracas_reader_points(v->merged)->npoints; p++) {
-        fracas_stored_mesh mesh;
-        err = problem(v, fracas_reader_mesh(v->merged, p, &mesh));
-        fracas_stored_mesh_clear(&mesh);
+    for (size_t p = 0; p < fracas_reader_points(v->merged)->npoints; p++) {
+        FRACAS_CLEARED(fracas_stored_mesh) mesh = {0};
+        TRY(problem(v, fracas_reader_mesh(v->merged, p, &mesh)));
     }
-    return err;
+    return FRACAS_OK;
 }
 
 /* The next row of study.h5 against the row that merge would write there. */
@@ -245,10 +239,7 @@ static fracas_err check_merged_row(void *context, fracas_visit *visit)
                                           &v->record);
     if (err) return problem(v, err);
     if (point != visit->result.point || replica != visit->result.replica)
-        return found(v,
-                     "%s/study.h5: row %zu is not in plan order; remove it, and `fracas merge` "
-                     "writes it again",
-                     v->study, row);
+        return found(v, "%s/study.h5: row %zu is not in plan order; " REMAKE, v->study, row);
     TRY(problem(v, check_mesh_fits(v, row, point)));
     if (visit->damaged) return FRACAS_OK; /* said already */
     const bool computed = visit->place.status != FRACAS_PLANNED &&
@@ -260,10 +251,7 @@ static fracas_err check_merged_row(void *context, fracas_visit *visit)
             v, "%s/study.h5: row %zu is in no segment any more; `fracas run` computes it again",
             v->study, row);
     if (fracas_record_same(&v->record, &visit->result.record)) return FRACAS_OK;
-    return found(v,
-                 "%s/study.h5: row %zu differs from its segment; remove it, and `fracas merge` "
-                 "writes it again",
-                 v->study, row);
+    return found(v, "%s/study.h5: row %zu differs from its segment; " REMAKE, v->study, row);
 }
 
 static fracas_err check_merged_rows(verification *v)
@@ -272,16 +260,15 @@ static fracas_err check_merged_rows(verification *v)
     uint64_t planned = 0;
     for (size_t p = 0; p < table->npoints; p++) planned += (uint64_t)table->point[p].replicas;
     if (planned != fracas_reader_realizations(v->merged))
-        return found(v,
-                     "%s/study.h5 has %zu realizations, but %" PRIu64
-                     " in its /point/replicas; remove it, and `fracas merge` writes it again",
-                     v->study, fracas_reader_realizations(v->merged), planned);
+        return found(
+            v, "%s/study.h5 has %zu realizations, but %" PRIu64 " in its /point/replicas; " REMAKE,
+            v->study, fracas_reader_realizations(v->merged), planned);
     const fracas_want want = {.table = table,
                               .parts = FRACAS_READ_ALL,
                               .damaged = pass_damaged,
                               .visit = check_merged_row,
                               .context = v};
-    return problem(v, fracas_study_each_planned(v->segments, v->index, &want));
+    return fracas_study_each_planned(v->segments, v->index, &want);
 }
 
 static bool same_rule(const fracas_decision *a, const fracas_decision *b)
@@ -312,7 +299,7 @@ static fracas_err check_decisions_of(verification *v, size_t p, const fracas_dec
         return FRACAS_OK;
     return found(v,
                  "%s/study.h5: the decisions on the replicas of point %zu are not those that the "
-                 "index recorded; remove it, and `fracas merge` writes it again",
+                 "index recorded; " REMAKE,
                  v->study, p);
 }
 
@@ -320,23 +307,18 @@ static fracas_err check_decisions(verification *v)
 {
     OWNED fracas_decision *merged = NULL;
     size_t count, next = 0;
-    fracas_err err = fracas_reader_decisions(v->merged, &merged, &count);
-    if (err) return problem(v, err);
+    TRY(fracas_reader_decisions(v->merged, &merged, &count));
     for (size_t p = 0; p < fracas_reader_points(v->merged)->npoints; p++)
         TRY(problem(v, check_decisions_of(v, p, merged, count, &next)));
     if (next == count) return FRACAS_OK;
-    return found(v,
-                 "%s/study.h5: its decisions are not in plan order; remove it, and `fracas merge` "
-                 "writes it again",
-                 v->study);
+    return found(v, "%s/study.h5: its decisions are not in plan order; " REMAKE, v->study);
 }
 
 /* When everything is computed, study.h5 must be there with all of it. */
 static fracas_err check_merged_whole(verification *v)
 {
     fracas_index_counts counts;
-    fracas_err err = fracas_index_count(v->index, &counts);
-    if (err) return problem(v, err);
+    TRY(fracas_index_count(v->index, &counts));
     if (counts.planned || counts.leased || !counts.realizations) return FRACAS_OK;
     if (!v->merged || (int64_t)fracas_reader_realizations(v->merged) != counts.realizations)
         return found(v,
@@ -345,10 +327,7 @@ static fracas_err check_merged_whole(verification *v)
                      v->study);
     bool complete = fracas_reader_header(v->merged)->complete;
     if (complete == (counts.failed == 0)) return FRACAS_OK;
-    return found(v,
-                 "%s/study.h5: its attribute `complete` is wrong; remove it, and `fracas merge` "
-                 "writes it again",
-                 v->study);
+    return found(v, "%s/study.h5: its attribute `complete` is wrong; " REMAKE, v->study);
 }
 
 /* ---- all of it ---- */
@@ -372,15 +351,11 @@ static fracas_err check_merged_seal(verification *v, const char *path)
 
 static fracas_err check_merged_header(verification *v)
 {
-    fracas_identity found;
+    fracas_identity has;
     char text[FRACAS_DIFFERENCE_TEXT];
-    fracas_identity_of(fracas_reader_header(v->merged), &found);
-    if (!fracas_identity_differs(&found, &v->identity, text)) return FRACAS_OK;
-    return problem(
-        v, fracas_fail(
-               FRACAS_DAMAGED,
-               "%s/study.h5: not of this study: %s; remove it, and `fracas merge` writes it again",
-               v->study, text));
+    fracas_identity_of(fracas_reader_header(v->merged), &has);
+    if (!fracas_identity_differs(&has, &v->identity, text)) return FRACAS_OK;
+    return found(v, "%s/study.h5: not of this study: %s; " REMAKE, v->study, text);
 }
 
 static fracas_err open_merged(verification *v)
@@ -389,35 +364,27 @@ static fracas_err open_merged(verification *v)
     TRY(fracas_disk_join(v->study, "study.h5", &path));
     v->there = access(path, F_OK) == 0;
     if (!v->there) return errno == ENOENT ? FRACAS_OK : fracas_disk_fail("open", path);
-    fracas_err err = check_merged_seal(v, path);
-    if (!err) err = fracas_reader_open(path, &v->merged);
-    return problem(v, err);
-}
-
-static fracas_err verify_index(verification *v)
-{
-    TRY(check_database(v, v->options->full ? "PRAGMA integrity_check" : "PRAGMA quick_check"));
-    TRY(check_database(v, "PRAGMA foreign_key_check"));
-    return check_consistency(v);
+    TRY(check_merged_seal(v, path));
+    return fracas_reader_open(path, &v->merged);
 }
 
 static fracas_err verify(verification *v)
 {
-    fracas_err err = fracas_index_open(v->study, false, &v->index);
-    if (err) return problem(v, err);
-    TRY(verify_index(v));
+    const bool full = v->options->full;
+    TRY(fracas_index_open(v->study, false, &v->index));
+    TRY(problem(v, check_database(v, full ? "PRAGMA integrity_check" : "PRAGMA quick_check")));
+    TRY(problem(v, check_database(v, "PRAGMA foreign_key_check")));
+    TRY(problem(v, check_consistency(v)));
     TRY(note_leftovers(v));
-    err = fracas_index_identity(v->index, &v->identity);
-    if (err) return problem(v, err);
-    TRY(open_merged(v));
+    TRY(fracas_index_identity(v->index, &v->identity));
+    TRY(problem(v, open_merged(v)));
     if (v->merged) TRY(check_merged_header(v));
-    err = fracas_segments_create(v->study, v->index, &v->identity, &v->segments);
-    if (err) return problem(v, err);
-    TRY(check_segments(v));
-    if (v->options->full) TRY(problem(v, fracas_index_each_by_segment(v->index, check_row, v)));
-    if (v->options->full && v->merged) TRY(check_merged_rows(v));
-    if (v->merged) TRY(check_decisions(v));
-    if (v->options->full && v->merged) TRY(check_meshes(v));
+    TRY(fracas_segments_create(v->study, v->index, &v->identity, &v->segments));
+    TRY(problem(v, check_segments(v)));
+    if (full) TRY(problem(v, fracas_index_each_by_segment(v->index, check_row, v)));
+    if (full && v->merged) TRY(problem(v, check_merged_rows(v)));
+    if (v->merged) TRY(problem(v, check_decisions(v)));
+    if (full && v->merged) TRY(check_meshes(v));
     return v->there && !v->merged ? FRACAS_OK : check_merged_whole(v); /* said already */
 }
 
@@ -425,8 +392,7 @@ fracas_err fracas_study_verify(const char *study, const fracas_verify_options *o
                                int64_t *problems)
 {
     verification v = {.study = study, .options = options};
-    fracas_record_init(&v.record);
-    fracas_err err = verify(&v);
+    fracas_err err = problem(&v, verify(&v));
     fracas_record_clear(&v.record);
     fracas_segments_destroy(v.segments);
     fracas_reader_close(v.merged);
