@@ -138,8 +138,9 @@ LANES_FUNCTION vd membrane_flux_energy(const membrane_point *p)
 
 LANES_FUNCTION vd membrane_square(const fracas_surface_constants *s, const membrane_point *p)
 {
-    const vd *judged = s->onset_mean ? p->mean : p->traction;
-    return judged[0] * judged[0] + judged[1] * judged[1];
+    const vd x = s->onset_mean ? p->mean[0] : p->traction[0],
+             y = s->onset_mean ? p->mean[1] : p->traction[1];
+    return x * x + y * y;
 }
 
 LANES_FUNCTION void membrane_press(membrane_point *p)
