@@ -107,9 +107,11 @@ bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, 
 /* The name of a value on an axis with names; NULL on any other. */
 const char *fracas_axis_name(const fracas_axis *axis, double value);
 
-extern const char fracas_chart_style[]; /* for every drawing, on a page or in a file of its own:
-                                           light. Colours of Okabe and Ito (2008) */
-extern const char fracas_page_style[];  /* for the page; drawings in the dark, too */
+extern const char fracas_chart_style[];   /* for every drawing, on a page or in a file of its own:
+                                             light. Colours of Okabe and Ito (2008) */
+extern const char fracas_surface_style[]; /* for pictures of surfaces, beside it: tints light enough
+                                             for broken interfaces to stand out on them */
+extern const char fracas_page_style[];    /* for the page; drawings in the dark, too */
 extern const char fracas_page_script[];
 
 #endif

@@ -42,7 +42,7 @@ static void normal_of(const double a[3], const double b[3], const double c[3], d
 typedef struct {
     const fracas_stored_mesh *mesh;
     const fracas_surface_state *state;
-    const fracas_facets_form *form;
+    const fracas_surface_picture *picture;
     fracas_facets *to;
     fracas_room room;
     bool apart;            /* fragments are drawn apart */
@@ -102,7 +102,7 @@ static fracas_err find_shifts(shaping *s)
         for (int i = 0; i < 3 && area[g] > 0; i++) s->shift[g][i] /= area[g];
     for (size_t g = 0; g < all; g++)
         for (int i = 0; i < 3; i++)
-            s->shift[g][i] = s->form->explode * (s->shift[g][i] - s->shift[all][i]);
+            s->shift[g][i] = s->picture->explode * (s->shift[g][i] - s->shift[all][i]);
     return FRACAS_OK;
 }
 
@@ -111,12 +111,12 @@ static fracas_err find_shifts(shaping *s)
 static void find_room(const shaping *s)
 {
     fracas_facets *to = s->to;
-    const double *centre = s->shift[s->ngroups], half = s->form->thickness / 2;
+    const double *centre = s->shift[s->ngroups], half = s->picture->thickness / 2;
     for (int i = 0; i < 2; i++) {
         to->least[i] = INFINITY;
         to->largest[i] = -INFINITY;
         for (size_t n = 0; n < s->mesh->nnodes; n++) {
-            const double at = centre[i] + (1 + s->form->explode) * (s->turned[n][i] - centre[i]);
+            const double at = centre[i] + (1 + s->picture->explode) * (s->turned[n][i] - centre[i]);
             to->least[i] = fmin(to->least[i], at - half);
             to->largest[i] = fmax(to->largest[i], at + half);
         }
@@ -139,7 +139,7 @@ static fracas_err sort_elements(shaping *s, size_t **first, size_t **of)
 static void put_node(const shaping *s, size_t node, size_t group)
 {
     for (int skin = 0; skin < 2; skin++) {
-        const double out = (skin ? -0.5 : 0.5) * s->form->thickness;
+        const double out = (skin ? -0.5 : 0.5) * s->picture->thickness;
         double *at = s->to->node[s->to->nnodes++];
         for (int i = 0; i < 3; i++)
             at[i] = s->turned[node][i] + s->shift[group][i] + out * s->normal[node][i];
@@ -315,7 +315,7 @@ static void put_cut(const shaping *s, size_t e, int k)
 
 static bool is_cut(const shaping *s, size_t e, int k)
 {
-    return s->form->thickness > 0 && !is_dust(s, e) &&
+    return s->picture->thickness > 0 && !is_dust(s, e) &&
            (s->across[e][k] < 0 || is_parted(s, s->across[e][k]));
 }
 
@@ -346,7 +346,7 @@ static fracas_err shape(shaping *s)
     FRACAS_TAKE(&s->room, s->across, mesh->nelements);
     TRY(fracas_room_check(&s->room, "a picture"));
     for (size_t n = 0; n < mesh->nnodes; n++)
-        fracas_view_turn(&s->form->view, mesh->node[n].position, s->turned[n]);
+        fracas_view_turn(s->picture->view, mesh->node[n].position, s->turned[n]);
     find_normals(s);
     find_across(s);
     TRY(find_shifts(s));
@@ -356,12 +356,12 @@ static fracas_err shape(shaping *s)
 }
 
 fracas_err fracas_facets_create(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
-                                const fracas_facets_form *form, fracas_facets *facets)
+                                const fracas_surface_picture *picture, fracas_facets *facets)
 {
-    const bool apart = form->explode > 0;
+    const bool apart = picture->explode > 0;
     shaping s = {.mesh = mesh,
                  .state = state,
-                 .form = form,
+                 .picture = picture,
                  .to = facets,
                  .apart = apart,
                  .ngroups = apart ? state->nfragments : 1};

@@ -1,23 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A surface in space for a drawing: its facets (triangles facing the reader, in the frame of the
+/* A surface for a drawing: its facets (triangles facing the reader, in the frame of the
  * view), which of them hide others, and tints of its fragments. The shell is a solid with the
  * surface in its middle: an element shows its outer skin or, turned away, its inner one; at an
  * edge, the cut through the thickness may show, too. */
 #ifndef FRACAS_ANALYSIS_DRAW_FACETS_H
 #define FRACAS_ANALYSIS_DRAW_FACETS_H
 
-#include "analysis/analysis.h"
-#include "analysis/data/surface.h"
+#include "analysis/draw/surface_picture.h"
+#include "analysis/draw/trail.h"
 
 #include <stddef.h>
 #include <stdint.h>
-
-typedef struct {
-    fracas_view view;
-    double
-        explode; /* fragments are moved by this times (their centroid - centroid of the surface) */
-    double thickness; /* m; 0: the cut does not show */
-} fracas_facets_form;
 
 typedef enum { FRACAS_FACET_OUTER, FRACAS_FACET_INNER, FRACAS_FACET_CUT } fracas_facet_kind;
 
@@ -53,10 +46,11 @@ typedef struct {
     double least[2], largest[2]; /* m, right and up: room for it at any time of its run */
 } fracas_facets;
 
-/* Without layers: those are all 0. Cleared by the caller, after an error too. */
+/* By the view, the distances and the thickness of the picture, whose view is not NULL. Without
+ * layers: those are all 0. Cleared by the caller, after an error too. */
 FRACAS_MUST_USE fracas_err fracas_facets_create(const fracas_stored_mesh *mesh,
                                                 const fracas_surface_state *state,
-                                                const fracas_facets_form *form,
+                                                const fracas_surface_picture *picture,
                                                 fracas_facets *facets);
 void fracas_facets_clear(fracas_facets *facets);
 
@@ -68,6 +62,13 @@ void fracas_view_turn(const fracas_view *view, const double vector[3], double tu
  * except in circles. A facet counts as hidden if 45 points spread over it are, or if it is seen
  * edge on. */
 FRACAS_MUST_USE fracas_err fracas_facets_hide(fracas_facets *facets);
+
+/* In whole units of the frame: layer by layer from the back, in each the areas (tint: of each
+ * fragment; NULL: all of one body), if `shaded` over them shades, each a step darker than those it
+ * lies on, and the lines. */
+FRACAS_MUST_USE fracas_err fracas_facets_draw(const fracas_facets *facets,
+                                              const fracas_frame *frame, const uint8_t *tint,
+                                              bool shaded, fracas_surface_show show, FILE *out);
 
 enum { FRACAS_TINTS = 7, FRACAS_TINT_DUST = FRACAS_TINTS };
 

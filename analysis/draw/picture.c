@@ -3,6 +3,7 @@
 
 #include "analysis/data/format.h"
 #include "analysis/draw/chart.h"
+#include "analysis/draw/scale.h"
 #include "analysis/data/field.h"
 #include "base/own.h"
 
@@ -40,8 +41,7 @@ double fracas_picture_exaggeration(const fracas_ring_pattern *pattern)
     double factor = fmin(0.4 * pattern->radius * size / moved, 0.8 * pattern->radius / largest);
     const double none = 1e9; /* displacements are rounding then */
     if (!(factor > 1 && factor < none)) return 1;
-    double power = pow(10, floor(log10(factor) + 1e-9)), mantissa = factor / power * (1 + 1e-9);
-    return power * (mantissa >= 5 ? 5 : mantissa >= 2 ? 2 : 1);
+    return fracas_scale_nice(factor, false);
 }
 
 /* Greatest speed of fragments beside the uniform expansion. Dust is left out: it may be much

@@ -6,9 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Among 1, 2, 5 times a power of ten the smallest at or above `value` > 0 (up), or the greatest at
- * or below it (down); a hair's breadth beyond counts as on it. */
-static double nice(double value, bool up)
+double fracas_scale_nice(double value, bool up)
 {
     static const double series[] = {1, 2, 5, 10};
     double power = pow(10, floor(log10(value)));
@@ -24,15 +22,15 @@ static double nice(double value, bool up)
 
 static double linear_step(double low, double high)
 {
-    return nice((high - low) / 5 * 0.7, true); /* four to seven ticks */
+    return fracas_scale_nice((high - low) / 5 * 0.7, true); /* four to seven ticks */
 }
 
 void fracas_scale_fit(fracas_scale *scale, bool log, double least, double greatest)
 {
     scale->log = log;
     if (log) {
-        scale->low = nice(least, false);
-        scale->high = nice(greatest, true);
+        scale->low = fracas_scale_nice(least, false);
+        scale->high = fracas_scale_nice(greatest, true);
         if (scale->low >= scale->high) {
             scale->low /= 10;
             scale->high *= 10;

@@ -19,6 +19,10 @@ typedef struct {
     char label[32]; /* "": a minor tick */
 } fracas_tick;
 
+/* Among 1, 2, 5 times a power of ten the smallest at or above `value` > 0 (up), or the greatest at
+ * or below it (down); a hair's breadth beyond counts as on it. */
+double fracas_scale_nice(double value, bool up);
+
 /* Ends around [least, greatest] but for a fiftieth of a step: multiples of a step of about a fifth
  * of the range, 1, 2 or 5 times a power of ten, or, for a log axis, members of the 1-2-5 series.
  * Equal ends are put apart. */

@@ -37,9 +37,6 @@ FRACAS_MUST_USE fracas_err fracas_surface_picture_write(const fracas_stored_mesh
                                                         const fracas_surface_picture *picture,
                                                         FILE *out);
 
-/* Style sheet of these pictures on a page, beside fracas_chart_style. */
-void fracas_surface_style(FILE *out);
-
 /* "26.5 us": a time with its unit, as pictures and messages have it; "µs" with `unicode`. "never"
  * for NaN. */
 fracas_number_text fracas_surface_time(double time, bool unicode);

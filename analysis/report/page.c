@@ -32,7 +32,7 @@ static fracas_err write_section(fracas_page *page, const fracas_page_entry *sect
     return err;
 }
 
-static void put_head(const fracas_page *page, const char *title, const char *lead, FILE *out)
+static void put_head(const char *title, const char *lead, FILE *out)
 {
     fracas_markup(out,
                   "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
@@ -40,18 +40,18 @@ static void put_head(const fracas_page *page, const char *title, const char *lea
                   "<link rel=\"icon\" href=\"data:,\"/>\n<title>"
                   "%s",
                   title);
-    fprintf(out, " \u00b7 fracas</title>\n<style>\n%s%s", fracas_chart_style, fracas_page_style);
-    if (page->surfaces) fracas_surface_style(out);
+    fprintf(out, " \u00b7 fracas</title>\n<style>\n%s%s%s", fracas_chart_style,
+            fracas_surface_style, fracas_page_style);
     fracas_markup(
         out,
         "</style>\n</head>\n<body>\n<header>\n<h1>%s</h1>\n<p class=\"lead\">%s</p>\n</header>\n",
         title, lead);
 }
 
-static void put_page(const fracas_page *page, const char *title, const char *lead,
-                     const fracas_page_entry *section, size_t count, const contents *of, FILE *out)
+static void put_page(const char *title, const char *lead, const fracas_page_entry *section,
+                     size_t count, const contents *of, FILE *out)
 {
-    put_head(page, title, lead, out);
+    put_head(title, lead, out);
     fputs("<nav aria-label=\"Contents\"><ul>\n", out);
     for (size_t i = 0; i < count; i++)
         if (of->size[i] > 0)
@@ -77,7 +77,7 @@ fracas_err fracas_page_write(fracas_page *page, const char *title, const char *l
     fracas_output_file output;
     if (!err) err = fracas_output_open(page->folder, "index.html", &output);
     if (!err) {
-        put_page(page, title, lead, section, count, &of, output.file);
+        put_page(title, lead, section, count, &of, output.file);
         err = fracas_output_close(&output, FRACAS_OK);
     }
     for (size_t i = 0; i < count; i++) free(of.text[i]);
@@ -144,7 +144,6 @@ static fracas_err write_page(const fracas_analysis *analysis, const char *folder
 {
     fracas_page page = {.analysis = analysis, .folder = folder, .fits = fits, .stale = stale};
     char lead[512];
-    TRY(fracas_surfaces_any(analysis, &page.surfaces));
     say_what(analysis, lead, sizeof lead);
     return fracas_page_write(&page, analysis->name, lead, sections, FRACAS_COUNT(sections));
 }

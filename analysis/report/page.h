@@ -24,7 +24,6 @@ typedef struct {
     const fracas_fits *fits; /* NULL: there are none */
     size_t
         stale; /* points whose fits were not of the results as these are now, and are not shown */
-    bool surfaces;  /* pictures of surfaces are on it */
     const void *of; /* subject of the sections of a page other than a study's */
     const char
         *source; /* source of its figures and tables; NULL: the study, by its name and campaign */
@@ -117,9 +116,6 @@ FRACAS_MUST_USE fracas_err fracas_broken_surface_save(const fracas_broken_surfac
                                                       double time,
                                                       const fracas_surface_picture *picture,
                                                       const char *folder, const char *name);
-
-/* True if some point of the study has a mesh. */
-FRACAS_MUST_USE fracas_err fracas_surfaces_any(const fracas_analysis *analysis, bool *any);
 
 /* The section of the page, nothing without surfaces. A partial study has no meshes: the section
  * says that they come. Else one realization of every point, the first FRAGMENTED or the typical

@@ -62,13 +62,6 @@ static fracas_err has_mesh(const fracas_analysis *analysis, size_t point, bool *
     return FRACAS_OK;
 }
 
-fracas_err fracas_surfaces_any(const fracas_analysis *analysis, bool *any)
-{
-    *any = false;
-    for (size_t p = 0; p < analysis->table->npoints && !*any; p++) TRY(has_mesh(analysis, p, any));
-    return FRACAS_OK;
-}
-
 typedef struct {
     fracas_page *page;
     size_t drawn; /* elements so far; a gap takes twice the room of an element */
@@ -204,9 +197,10 @@ static void say_later(const fracas_page *page)
 
 fracas_err fracas_section_surfaces(fracas_page *page)
 {
-    bool any;
+    const size_t npoints = page->analysis->table->npoints;
+    bool any = false;
     gallery to = {page, 0};
-    TRY(fracas_surfaces_any(page->analysis, &any));
+    for (size_t p = 0; p < npoints && !any; p++) TRY(has_mesh(page->analysis, p, &any));
     if (!any) {
         say_later(page);
         return FRACAS_OK;
@@ -216,6 +210,6 @@ fracas_err fracas_section_surfaces(fracas_page *page)
           "have tints by which neighbours differ; orange: dust, of one or two elements. Others: "
           "<code>fracas picture STUDY</code>.</p>\n",
           page->out);
-    for (size_t p = 0; p < page->analysis->table->npoints; p++) TRY(put_point(&to, p));
+    for (size_t p = 0; p < npoints; p++) TRY(put_point(&to, p));
     return FRACAS_OK;
 }

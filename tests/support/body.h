@@ -122,7 +122,8 @@ static inline void clear_body(body *b)
 static inline fracas_facets look(const body *b, double azimuth, double elevation, double explode,
                                  double thickness)
 {
-    const fracas_facets_form form = {{azimuth, elevation}, explode, thickness};
+    const fracas_view view = {azimuth, elevation};
+    const fracas_surface_picture form = {.view = &view, .explode = explode, .thickness = thickness};
     fracas_facets facets;
     OK(fracas_facets_create(&b->mesh, &b->now, &form, &facets));
     OK(fracas_facets_hide(&facets));

@@ -1,48 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/draw/body_picture.h"
-
 #include "analysis/draw/facets.h"
 
 #include "analysis/data/room.h"
 #include "analysis/data/text.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 static const double step = 0.02; /* part of the light below that a shade takes away */
 static const double ambient = 0.45,
                     inside = 0.6;      /* ambient light; on the inner skin / on the outer */
 static const char night[] = "#0b1220"; /* facets to shade */
 
-fracas_err fracas_body_picture_create(const fracas_stored_mesh *mesh,
-                                      const fracas_surface_state *state,
-                                      const fracas_surface_picture *picture,
-                                      const fracas_view *view, fracas_body_picture *body)
-{
-    const fracas_facets_form form = {*view, picture->explode, picture->thickness};
-    *body = (fracas_body_picture){0};
-    TRY(fracas_facets_create(mesh, state, &form, &body->facets));
-    TRY(fracas_facets_hide(&body->facets));
-    fracas_frame_fit(body->facets.least, body->facets.largest, picture->width, &body->frame);
-    body->spot = malloc((body->facets.nnodes + 1) * sizeof *body->spot);
-    if (!body->spot) return fracas_no_memory("a picture");
-    for (size_t n = 0; n < body->facets.nnodes; n++)
-        body->spot[n] = fracas_frame_place(&body->frame, body->facets.node[n]);
-    return FRACAS_OK;
-}
-
-void fracas_body_picture_clear(fracas_body_picture *body)
-{
-    fracas_facets_clear(&body->facets);
-    free(body->spot);
-    *body = (fracas_body_picture){0};
-}
-
 typedef struct {
-    const fracas_body_picture *body;
+    const fracas_facets *facets;
     FILE *out;
     fracas_room room;
-    uint8_t *tint; /* for each facet */
+    fracas_spot *spot; /* for each node of the facets */
+    uint8_t *tint;     /* for each facet */
     uint8_t *shade,
         *base; /* number of shades on it, and of those on its whole connected piece in this layer */
     uint8_t *least; /* fewest shades of each fragment in this layer, outer skin and inner one */
@@ -63,11 +37,12 @@ static uint8_t shade_of(const fracas_facet *facet)
                            log(1 - step));
 }
 
-static fracas_err prepare(drawing *d, const uint8_t *tint)
+static fracas_err prepare(drawing *d, const fracas_frame *frame, const uint8_t *tint, bool shaded)
 {
-    const fracas_facets *facets = &d->body->facets;
+    const fracas_facets *facets = d->facets;
     const size_t n = facets->nfacets + 1;
     fracas_room *room = &d->room;
+    FRACAS_TAKE(room, d->spot, facets->nnodes);
     FRACAS_TAKE(room, d->tint, n);
     FRACAS_TAKE(room, d->shade, n);
     FRACAS_TAKE(room, d->base, n);
@@ -77,10 +52,12 @@ static fracas_err prepare(drawing *d, const uint8_t *tint)
     FRACAS_TAKE(room, d->in, n);
     FRACAS_TAKE(room, d->first, facets->nlayers + 2);
     TRY(fracas_room_check(room, "a picture"));
+    for (size_t k = 0; k < facets->nnodes; k++)
+        d->spot[k] = fracas_frame_place(frame, facets->node[k]);
     for (size_t f = 0; f < facets->nfacets; f++) {
         const fracas_facet *facet = &facets->facet[f];
         d->tint[f] = tint ? tint[facet->fragment] : 0;
-        d->shade[f] = shade_of(facet);
+        d->shade[f] = shaded ? shade_of(facet) : 0;
         if (d->shade[f] > d->darkest) d->darkest = d->shade[f];
         d->in[f] = -1;
         if (facet->layer >= 0) d->first[facet->layer + 2]++;
@@ -106,7 +83,7 @@ static uint8_t *least_of(const drawing *d, const fracas_facet *facet)
 /* All shades of a cut, which is too narrow for shades with shapes of their own. */
 static void find_bases(drawing *d)
 {
-    const fracas_facet *facet = d->body->facets.facet;
+    const fracas_facet *facet = d->facets->facet;
     for (size_t m = 0; m < d->count; m++) *least_of(d, &facet[d->member[m]]) = UINT8_MAX;
     for (size_t m = 0; m < d->count; m++) {
         const size_t f = d->member[m];
@@ -126,12 +103,12 @@ static void begin_layer(drawing *d, int32_t layer)
     d->layer = layer;
     d->count = 0;
     for (size_t k = d->first[layer]; k < d->first[layer + 1]; k++) {
-        const fracas_facet *facet = &d->body->facets.facet[d->sorted[k]];
+        const fracas_facet *facet = &d->facets->facet[d->sorted[k]];
         join(d, d->sorted[k]);
         for (int side = 0; side < 3; side++) {
             const int32_t other = facet->neighbour[side];
-            if (other >= 0 && d->body->facets.facet[other].layer >= 0 &&
-                d->body->facets.facet[other].layer < layer)
+            if (other >= 0 && d->facets->facet[other].layer >= 0 &&
+                d->facets->facet[other].layer < layer)
                 join(d, (size_t)other);
         }
     }
@@ -152,7 +129,7 @@ static fracas_err draw(const drawing *d, const fracas_trail *trail, bool closed,
 {
     if (trail->count == 0) return FRACAS_OK;
     fprintf(d->out, "<g%s>\n", attributes);
-    TRY(fracas_trail_write(trail, d->body->spot, closed, class, d->out));
+    TRY(fracas_trail_write(trail, d->spot, closed, class, d->out));
     fputs("</g>\n", d->out);
     return FRACAS_OK;
 }
@@ -179,7 +156,7 @@ static fracas_err fill(const drawing *d, choice *chosen, int k, const char *attr
 {
     FRACAS_CLEARED(fracas_trail) trail = {0};
     for (size_t m = 0; m < d->count; m++) {
-        const fracas_facet *facet = &d->body->facets.facet[d->member[m]];
+        const fracas_facet *facet = &d->facets->facet[d->member[m]];
         for (int side = 0; side < 3 && chosen(d, d->member[m], k); side++) {
             const int32_t other = facet->neighbour[side];
             if (other >= 0 && d->in[other] == d->layer && chosen(d, (size_t)other, k)) continue;
@@ -221,9 +198,9 @@ static fracas_err draw_shades(const drawing *d)
  * first. */
 static bool draws(const drawing *d, size_t f, int side)
 {
-    const int32_t other = d->body->facets.facet[f].neighbour[side];
+    const int32_t other = d->facets->facet[f].neighbour[side];
     if (other < 0) return true;
-    const int32_t layer = d->body->facets.facet[other].layer;
+    const int32_t layer = d->facets->facet[other].layer;
     return layer < 0 || layer > d->layer || (layer == d->layer && f < (size_t)other);
 }
 
@@ -231,7 +208,7 @@ static fracas_err draw_sides(const drawing *d, fracas_side what, const char *cla
 {
     FRACAS_CLEARED(fracas_trail) trail = {0};
     for (size_t k = d->first[d->layer]; k < d->first[d->layer + 1]; k++) {
-        const fracas_facet *facet = &d->body->facets.facet[d->sorted[k]];
+        const fracas_facet *facet = &d->facets->facet[d->sorted[k]];
         for (int side = 0; side < 3; side++)
             if (facet->side[side] == what && draws(d, d->sorted[k], side))
                 TRY(add_side(&trail, facet, side));
@@ -253,25 +230,25 @@ static fracas_err draw_layer(const drawing *d, bool tinted, bool mesh)
 }
 
 /* A fifth of a mean edge, to show small elements and not only lines; between 0.4 and 1.2 pixels. */
-static double line_width(const fracas_body_picture *body)
+static double line_width(const fracas_facets *facets, const fracas_frame *frame)
 {
     double sum = 0;
-    for (size_t e = 0; e < body->facets.nskin; e++)
+    for (size_t e = 0; e < facets->nskin; e++)
         for (int k = 0; k < 3; k++) {
-            const double *a = body->facets.node[body->facets.facet[e].node[k]];
-            const double *b = body->facets.node[body->facets.facet[e].node[(k + 1) % 3]];
+            const double *a = facets->node[facets->facet[e].node[k]];
+            const double *b = facets->node[facets->facet[e].node[(k + 1) % 3]];
             sum += hypot(hypot(b[0] - a[0], b[1] - a[1]), b[2] - a[2]);
         }
-    const double mean = sum / (3 * (double)body->facets.nskin) * body->frame.scale;
+    const double mean = sum / (3 * (double)facets->nskin) * frame->scale;
     return FRACAS_FRAME_UNITS * fmin(fmax(0.2 * mean, 0.4), 1.2);
 }
 
-fracas_err fracas_body_picture_draw(const fracas_body_picture *body, const uint8_t *tint,
-                                    fracas_surface_show show, FILE *out)
+fracas_err fracas_facets_draw(const fracas_facets *facets, const fracas_frame *frame,
+                              const uint8_t *tint, bool shaded, fracas_surface_show show, FILE *out)
 {
-    drawing d = {.body = body, .out = out, .line = line_width(body)};
-    fracas_err err = prepare(&d, tint);
-    for (int32_t layer = (int32_t)body->facets.nlayers - 1; !err && layer >= 0; layer--) {
+    drawing d = {.facets = facets, .out = out, .line = line_width(facets, frame)};
+    fracas_err err = prepare(&d, frame, tint, shaded);
+    for (int32_t layer = (int32_t)facets->nlayers - 1; !err && layer >= 0; layer--) {
         begin_layer(&d, layer);
         err = draw_layer(&d, tint != NULL, show == FRACAS_SHOW_MESH);
     }
