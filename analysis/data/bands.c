@@ -25,47 +25,11 @@ static const fracas_field energy_fields[] = {FRACAS_EACH_ENERGY(BAND_FIELD)};
 const fracas_fields fracas_energy_fields = FRACAS_FIELDS(energy_fields);
 
 static const double tail = 0.05;
-enum { ROOM = 1 << 24 }; /* bytes of the tails */
+enum { ROOM = 1 << 26 }; /* bytes of the values */
 
-/* Quantile p of n values is between numbers floor(p (n - 1)) and the next, from 0; only the first
- * of few. */
-static size_t kept(size_t n)
+static double *values_of(const fracas_bands_collector *of, size_t time, int energy)
 {
-    return n < FRACAS_BAND_LEAST ? 1 : (size_t)(tail * (double)(n - 1)) + 2;
-}
-
-/* As many realizations as have room, all if they do. */
-static size_t taken(size_t realizations, size_t times)
-{
-    const size_t most = ROOM / (times * FRACAS_NBANDS * 2 * sizeof(double));
-    if (kept(realizations) <= most) return realizations;
-    const size_t n = most > 2 ? (size_t)((double)(most - 2) / tail) : 0;
-    return n < FRACAS_BAND_LEAST ? FRACAS_BAND_LEAST - 1 : n;
-}
-
-static void sift_down(double *heap, size_t count)
-{
-    for (size_t at = 0, child = 1; child < count; at = child, child = 2 * at + 1) {
-        if (child + 1 < count && heap[child + 1] > heap[child]) child++;
-        if (heap[at] >= heap[child]) return;
-        const double value = heap[at];
-        heap[at] = heap[child];
-        heap[child] = value;
-    }
-}
-
-/* The heap has min(count, most) values. */
-static void keep(double *heap, size_t most, size_t count, double value)
-{
-    if (count >= most) {
-        if (!(value < heap[0])) return;
-        heap[0] = value;
-        sift_down(heap, most);
-        return;
-    }
-    size_t at = count;
-    for (; at > 0 && heap[(at - 1) / 2] < value; at = (at - 1) / 2) heap[at] = heap[(at - 1) / 2];
-    heap[at] = value;
+    return of->value + (time * FRACAS_NBANDS + (size_t)energy) * of->selected;
 }
 
 /* One realization: of each time the first row at or after it, which is its own, and the last row
@@ -82,24 +46,21 @@ static void take_in(const fracas_record *record, fracas_bands_collector *of)
         const double energy[] = {FRACAS_EACH_ENERGY(BAND_VALUE)};
         if (now->time >= bands->time[j]) bands->running[j]++;
         for (int e = 0; e < FRACAS_NBANDS; e++) {
-            const size_t heap = (j * FRACAS_NBANDS + (size_t)e) * of->most;
             bands->energy[j][e].mean += energy[e];
-            keep(of->least + heap, of->most, of->count, energy[e]);
-            keep(of->negative + heap, of->most, of->count, -energy[e]);
+            values_of(of, j, e)[of->count] = energy[e];
         }
     }
     of->count++;
 }
 
-/* (estimators.24) of the `most` least of n values. */
-static double low_of(double *least, size_t most, size_t n)
+/* (estimators.24) of n sorted values, from the first on, or, with step -1, from the last on. */
+static double end_of(const double *end, ptrdiff_t step, size_t n)
 {
-    const size_t there = most < n ? most : n;
-    gsl_sort(least, 1, there);
-    if (n < FRACAS_BAND_LEAST) return least[0];
+    if (n < FRACAS_BAND_LEAST) return *end;
     const double at = tail * (double)(n - 1);
     const size_t below = (size_t)at;
-    return least[below] + (at - (double)below) * (least[below + 1] - least[below]);
+    end += step * (ptrdiff_t)below;
+    return *end + (at - (double)below) * (end[step] - *end);
 }
 
 static void finish(fracas_bands_collector *of)
@@ -110,11 +71,12 @@ static void finish(fracas_bands_collector *of)
     bands->extremes = n < FRACAS_BAND_LEAST;
     for (size_t j = 0; j < of->times && n > 0 && bands->running[j] > 0; j++) {
         for (int e = 0; e < FRACAS_NBANDS; e++) {
-            const size_t heap = (j * FRACAS_NBANDS + (size_t)e) * of->most;
             fracas_band *band = &bands->energy[j][e];
+            double *value = values_of(of, j, e);
+            gsl_sort(value, 1, n);
             band->mean /= (double)n;
-            band->low = low_of(of->least + heap, of->most, n);
-            band->high = -low_of(of->negative + heap, of->most, n);
+            band->low = end_of(value, 1, n);
+            band->high = end_of(value + n - 1, -1, n);
         }
         bands->count = j + 1;
     }
@@ -127,14 +89,13 @@ fracas_err fracas_bands_begin(int64_t intervals, double end, size_t realizations
     *of = (fracas_bands_collector){.bands = bands, .all = realizations};
     if (intervals <= 0 || !(end > 0) || realizations == 0) return FRACAS_OK;
     const size_t times = (size_t)intervals + 1, values = times * FRACAS_NBANDS;
-    of->selected = taken(realizations, times);
-    of->most = kept(of->selected);
+    const size_t most = ROOM / (values * sizeof *of->value) + 1;
+    of->selected = realizations < most ? realizations : most;
     bands->time = malloc(times * sizeof *bands->time);
     bands->running = calloc(times, sizeof *bands->running);
     bands->energy = calloc(times, sizeof *bands->energy);
-    of->least = malloc(values * of->most * sizeof *of->least);
-    of->negative = malloc(values * of->most * sizeof *of->negative);
-    if (!bands->time || !bands->running || !bands->energy || !of->least || !of->negative)
+    of->value = malloc(values * of->selected * sizeof *of->value);
+    if (!bands->time || !bands->running || !bands->energy || !of->value)
         return fracas_no_memory("the energies over time of a point");
     of->times = times;
     for (size_t j = 0; j < times; j++)
@@ -153,8 +114,7 @@ void fracas_bands_add(fracas_bands_collector *of, const fracas_record *record)
 void fracas_bands_end(fracas_bands_collector *of)
 {
     finish(of);
-    free(of->least);
-    free(of->negative);
+    free(of->value);
     *of = (fracas_bands_collector){.bands = of->bands};
 }
 

@@ -44,24 +44,22 @@ typedef struct {
                          at the end */
     fracas_band (*energy)[FRACAS_NBANDS];
     int64_t realizations; /* taken: all usable ones, or as many, evenly spread over them, as fit in
-                             16 MiB */
+                             64 MiB */
     bool extremes; /* low and high are the least and the greatest, of fewer than FRACAS_BAND_LEAST;
                       else the quantiles 0.05 and 0.95 */
 } fracas_bands;
 
 enum { FRACAS_BAND_LEAST = 20 };
 
-/* Takes in one realization after the other, at most 16 MiB beside the bands, whatever their number.
+/* Takes in one realization after the other, at most 64 MiB beside the bands, whatever their number.
  */
 typedef struct {
     fracas_bands *bands;
     size_t times; /* 0: there are no histories */
     size_t all,
         selected; /* usable realizations of the point, and how many of them are taken, evenly */
-    size_t met, count;        /* met and taken so far */
-    size_t most;              /* values in a heap */
-    double *least, *negative; /* [time][energy][most]: heaps of the least values and of the least
-                                 negatives, the first is the greatest kept */
+    size_t met, count; /* met and taken so far */
+    double *value;     /* [time][energy][selected] */
 } fracas_bands_collector;
 
 /* Begins the bands of `realizations` usable ones, whose histories have `intervals` (>= 0) equal

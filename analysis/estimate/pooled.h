@@ -10,7 +10,6 @@
 #include "base/err.h"
 
 enum { FRACAS_NQUANTILES = 5 };
-extern const double fracas_quantile_share[FRACAS_NQUANTILES]; /* 0.05, 0.25, 0.5, 0.75, 0.95 */
 
 /* Sizes s of some fragments, of masses m. All are ratios of sums over realizations, or quantiles of
  * those: NaN without a fragment. */
@@ -18,7 +17,7 @@ typedef struct {
     fracas_interval mean;                        /* m, sum s/number */
     fracas_interval mass_mean;                   /* m, sum m s/sum m */
     fracas_interval variation;                   /* standard deviation (divisor: number)/mean */
-    fracas_interval quantile[FRACAS_NQUANTILES]; /* m, by number */
+    fracas_interval quantile[FRACAS_NQUANTILES]; /* m, by number: 0.05, 0.25, 0.5, 0.75, 0.95 */
     fracas_interval mass_quantile[FRACAS_NQUANTILES]; /* m, by mass */
 } fracas_sizes;
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const double fracas_quantile_share[FRACAS_NQUANTILES] = {0.05, 0.25, 0.5, 0.75, 0.95};
+static const double share[FRACAS_NQUANTILES] = {0.05, 0.25, 0.5, 0.75, 0.95};
 
 enum { CELLS = 256 };
 
@@ -104,7 +104,7 @@ typedef struct {
 
 static double wanted_by(const row *of)
 {
-    return of->floor + fracas_quantile_share[of->next] * (of->total - of->floor);
+    return of->floor + share[of->next] * (of->total - of->floor);
 }
 
 /* A sum equal to the wanted one to rounding reaches it: equal elements make such ties, and there

@@ -88,10 +88,9 @@ void fracas_table_fill(const fracas_result_table *table, size_t at,
             for (like = column; like->prefixed != of->prefixed;) like++;
             prefix = prefix_of(like, rows);
         }
-        const char *unit = unicode && of->unicode ? of->unicode : of->unit;
         snprintf(fracas_result_table_cell(table, 0, at + c), FRACAS_CELL, "%s", of->name);
         snprintf(fracas_result_table_cell(table, 1, at + c), FRACAS_CELL,
-                 of->prefixed ? "[%s%s]" : "%s%s", unicode ? prefix.sign : prefix.symbol, unit);
+                 of->prefixed ? "[%s%s]" : "%s%s", unicode ? prefix.sign : prefix.symbol, of->unit);
         for (size_t i = 0, line = FRACAS_RESULT_TABLE_HEAD; i < rows->count; i++)
             if (kept(rows, i))
                 format_cell(of, rows, i, prefix.factor, unicode ? "\u00b1" : "+-",

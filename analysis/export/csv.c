@@ -26,15 +26,6 @@ void fracas_csv_fields(const fracas_csv_table *table, const fracas_analysis *ana
         fracas_fields_walk(table->columns[i], ".", visit, context);
 }
 
-fracas_err fracas_csv_write(const fracas_csv_table *table, const fracas_analysis *analysis,
-                            FILE *out)
-{
-    head of = {out, true};
-    fracas_csv_fields(table, analysis, put_name, &of);
-    putc('\n', out);
-    return table->rows(table, analysis, out);
-}
-
 fracas_err fracas_csv_file(const fracas_csv_table *table, const fracas_analysis *analysis,
                            const char *folder)
 {
@@ -42,5 +33,8 @@ fracas_err fracas_csv_file(const fracas_csv_table *table, const fracas_analysis 
     fracas_output_file output;
     FRACAS_PRINT(name, "%s.csv", table->name);
     TRY(fracas_output_open(folder, name, &output));
-    return fracas_output_close(&output, fracas_csv_write(table, analysis, output.file));
+    head of = {output.file, true};
+    fracas_csv_fields(table, analysis, put_name, &of);
+    putc('\n', output.file);
+    return fracas_output_close(&output, table->rows(table, analysis, output.file));
 }

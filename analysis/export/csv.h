@@ -44,12 +44,8 @@ extern const fracas_csv_table fracas_csv_table_energies, fracas_csv_table_conver
 void fracas_csv_fields(const fracas_csv_table *table, const fracas_analysis *analysis,
                        fracas_field_visit *visit, void *context);
 
-/* The head and the lines of a table; equal bytes for equal study.h5. The error is of reading the
- * study: the caller looks at `out`. */
-FRACAS_MUST_USE fracas_err fracas_csv_write(const fracas_csv_table *table,
-                                            const fracas_analysis *analysis, FILE *out);
-
-/* The same as folder/NAME.csv, whole or not there. */
+/* The head and the lines of a table as folder/NAME.csv, whole or not there; equal bytes for equal
+ * study.h5. */
 FRACAS_MUST_USE fracas_err fracas_csv_file(const fracas_csv_table *table,
                                            const fracas_analysis *analysis, const char *folder);
 

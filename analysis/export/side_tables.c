@@ -57,15 +57,15 @@ static const fracas_table_column slope_column[] = {
 };
 #undef AT
 
-static const char edot0[] = "/edot0", edot0_unicode[] = "/\u03b5\u0307\u2080";
+static const char edot0[] = "/\u03b5\u0307\u2080";
 
 #define AT(member) offsetof(fracas_size_window, member)
 static const fracas_table_column window_column[] = {
     {"slope", "", FRACAS_CELL_PLUS_MINUS, AT(window.slope), 0, AT(window.half_width)},
     {"from", "[1/s]", FRACAS_CELL_NUMBER, AT(rate[0])},
     {"to", "[1/s]", FRACAS_CELL_NUMBER, AT(rate[1])},
-    {"from", edot0, FRACAS_CELL_NUMBER, AT(normalised[0]), 3, .unicode = edot0_unicode},
-    {"to", edot0, FRACAS_CELL_NUMBER, AT(normalised[1]), 3, .unicode = edot0_unicode},
+    {"from", edot0, FRACAS_CELL_NUMBER, AT(normalised[0]), 3},
+    {"to", edot0, FRACAS_CELL_NUMBER, AT(normalised[1]), 3},
     {"series", "", FRACAS_CELL_TEXT, AT(name)},
 };
 #undef AT
@@ -86,9 +86,9 @@ static void series_text(const fracas_analysis *analysis, size_t index, const voi
 #define AT(member) offsetof(fracas_size_crossover, member)
 static const fracas_table_column crossover_column[] = {
     {"crossover", "[1/s]", FRACAS_CELL_INTERVAL, AT(rate)},
-    {"crossover", edot0, FRACAS_CELL_INTERVAL, AT(rate_normalised), .unicode = edot0_unicode},
+    {"crossover", edot0, FRACAS_CELL_INTERVAL, AT(rate_normalised)},
     {"s_q", "m", FRACAS_CELL_INTERVAL, AT(size), .prefixed = 1},
-    {"s_q", "/s0", FRACAS_CELL_INTERVAL, AT(size_normalised), .unicode = "/s\u2080"},
+    {"s_q", "/s\u2080", FRACAS_CELL_INTERVAL, AT(size_normalised)},
     {"exponent", "", FRACAS_CELL_INTERVAL, AT(exponent)},
     {"points", "", FRACAS_CELL_INTEGER, AT(n)},
     {"chi2/dof", "", FRACAS_CELL_NUMBER, AT(chi2), 2, AT(freedom)},
@@ -138,7 +138,7 @@ const fracas_side_table fracas_side_tables[FRACAS_SIDE_TABLES] = {
 };
 
 fracas_err fracas_side_table_create(const fracas_analysis *analysis, fracas_side_table_name name,
-                                    bool unicode, fracas_result_table *table)
+                                    fracas_result_table *table)
 {
     const fracas_side_table *of = &fracas_side_tables[name];
     OWNED void *list = NULL;
@@ -148,7 +148,7 @@ fracas_err fracas_side_table_create(const fracas_analysis *analysis, fracas_side
         TRY(of->list(analysis, &list, &rows.count));
         rows.first = list;
     }
-    return fracas_table_make(of->column, of->columns, &rows, unicode, table);
+    return fracas_table_make(of->column, of->columns, &rows, true, table);
 }
 
 const char *const fracas_fit_table_legend[] = {

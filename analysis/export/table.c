@@ -9,7 +9,14 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const legend_of_chains[] = {
+enum { OF_SURFACES = 3 }; /* lines of the legend that only a study of surfaces needs */
+
+static const char *const legend[] = {
+    "Of a surface: no dust: count without pieces of one or two elements; size: of the square root "
+    "of a fragment's area. bending: its part",
+    "of dissipated. rotation: mean kinetic energy of the spins of fragments, as part of that of "
+    "their centres of mass. Of an octant",
+    "(geometry.part) all this is the octant's own, an eighth of the sphere.",
     "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half "
     "width of its 95 %",
     "interval over replicas (Student's t), - where one replica has none. count: fragments, dust "
@@ -22,27 +29,10 @@ static const char *const legend_of_chains[] = {
     "of the dissipated.",
     NULL,
 };
-static const char *const legend_with_surfaces[] = {
-    "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half "
-    "width of its 95 %",
-    "interval over replicas (Student's t), - where one replica has none. count: fragments, dust "
-    "included; no dust: without it",
-    "(of a surface pieces of one or two elements). size: mean over replicas of the mean size, of a "
-    "surface of the square root of a fragment's area, dust",
-    "included; of a bar or a ring length/count, beside scaling laws (ZMR, Grady, Glenn-Chudnovsky, "
-    "Mott), which are of one dimension.",
-    "bending, where there is any: its part of dissipated. resid., created: largest over replicas "
-    "of |ledger residual| and of",
-    "created energy, as parts of the dissipated. rotation: mean kinetic energy of the spins of a "
-    "surface's fragments, as part of",
-    "that of their centres of mass. Of an octant (geometry.part) all this is the octant's own, an "
-    "eighth of the sphere.",
-    NULL,
-};
 
 const char *const *fracas_result_table_legend(const fracas_analysis *analysis)
 {
-    return fracas_analysis_any_surface(analysis) ? legend_with_surfaces : legend_of_chains;
+    return fracas_analysis_any_surface(analysis) ? legend : legend + OF_SURFACES;
 }
 
 bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, size_t size)
@@ -216,8 +206,8 @@ void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out)
     fracas_table_print(&table, "", 1U << (table.columns - 1), true, out);
     fracas_result_table_clear(&table);
     putc('\n', out);
-    const char *const *legend = fracas_result_table_legend(analysis);
-    for (size_t i = 0; legend[i]; i++) fprintf(out, "%s\n", legend[i]);
+    for (const char *const *line = fracas_result_table_legend(analysis); *line; line++)
+        fprintf(out, "%s\n", *line);
     char beside[768];
     if (fracas_result_table_beside(analysis, beside, sizeof beside)) fprintf(out, "%s\n", beside);
     print_decisions(analysis, out);

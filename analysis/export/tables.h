@@ -43,7 +43,6 @@ typedef struct fracas_table_column {
     size_t other; /* place of a divisor of the number, or of a half width; 0: none */
     int prefixed; /* columns of one group > 0 share a prefix, from the values of the first of them
                    */
-    const char *unicode; /* for the unit; NULL: as in ASCII */
     void (*format)(const fracas_analysis *analysis, size_t index, const void *row, char *text);
 } fracas_table_column;
 
@@ -110,8 +109,9 @@ typedef struct {
 } fracas_side_table;
 
 extern const fracas_side_table fracas_side_tables[FRACAS_SIDE_TABLES];
+/* For a page. */
 FRACAS_MUST_USE fracas_err fracas_side_table_create(const fracas_analysis *analysis,
-                                                    fracas_side_table_name name, bool unicode,
+                                                    fracas_side_table_name name,
                                                     fracas_result_table *table);
 
 /* A row a fitted family of a point, by rank: distances, their p-values, parameters. */

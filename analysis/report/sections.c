@@ -169,7 +169,7 @@ static fracas_err put_side_table(fracas_page *page, fracas_side_table_name name)
 {
     const fracas_side_table *of = &fracas_side_tables[name];
     fracas_result_table table = {0};
-    const fracas_err built = fracas_side_table_create(page->analysis, name, true, &table);
+    const fracas_err built = fracas_side_table_create(page->analysis, name, &table);
     return fracas_page_table(page, of->id, of->title, true, &table, of->legend, built);
 }
 
