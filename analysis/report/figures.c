@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { LAW_VALUES = 80, TALL = 300, LOW = FRACAS_FIGURE_LOW, STRIP = 80 };
@@ -16,11 +17,29 @@ enum { LAW_VALUES = 80, TALL = 300, LOW = FRACAS_FIGURE_LOW, STRIP = 80 };
 static const size_t ALL_SERIES = SIZE_MAX;
 
 typedef struct {
+    size_t point, series; /* series: from 0, in the order of their first points */
+} rate_mark;
+
+typedef struct {
     const fracas_analysis *analysis;
-    const fracas_columns *others; /* columns that make series */
     bool normalised;
     double size_factor;
+    fracas_columns others; /* columns that make series */
+    size_t n, nseries;
+    rate_mark *mark;
+    double rate[2]; /* least and greatest, in the unit of the axis */
 } rate_plot;
+
+static void rate_plot_clear(rate_plot *plot)
+{
+    fracas_columns_clear(&plot->others);
+    free(plot->mark);
+}
+
+static const fracas_point_statistics *statistics_of(const rate_plot *plot, size_t mark)
+{
+    return &plot->analysis->point[plot->mark[mark].point];
+}
 
 static bool has_mean(const fracas_point_statistics *statistics)
 {
@@ -34,86 +53,88 @@ static bool has_scales(const fracas_point_statistics *statistics)
            isfinite(statistics->scales.rate);
 }
 
-static bool drawn(const rate_plot *plot, const fracas_point_statistics *statistics)
+/* Rate and size that are 1 on the axes. */
+static fracas_scales units_of(const rate_plot *plot, const fracas_scales *scales)
 {
-    return plot->normalised ? has_scales(statistics) : has_mean(statistics);
+    return plot->normalised ? *scales : (fracas_scales){.rate = 1, .size = 1 / plot->size_factor};
 }
 
-static size_t series_of(const rate_plot *plot, size_t p)
+static fracas_err find_marks(rate_plot *plot)
 {
-    for (size_t q = 0; q < p; q++)
-        if (drawn(plot, &plot->analysis->point[q]) &&
-            fracas_columns_same(plot->analysis->table, plot->others, p, q))
-            return q;
-    return p;
-}
-
-static fracas_err add_means(const rate_plot *plot, size_t first, unsigned look, fracas_panel *panel)
-{
-    const fracas_analysis *analysis = plot->analysis;
-    fracas_series *series;
-    TRY(fracas_panel_add(panel, FRACAS_MARKS, look, analysis->table->npoints, &series));
-    if (plot->others->count > 0)
-        fracas_columns_label(analysis->table, plot->others, first, series->name,
-                             sizeof series->name);
-    else FRACAS_PRINT(series->name, "mean, 95 %% interval");
-    series->n = 0;
-    for (size_t p = first; p < analysis->table->npoints; p++) {
-        const fracas_point_statistics *statistics = &analysis->point[p];
-        if (!drawn(plot, statistics) || series_of(plot, p) != first) continue;
-        double x_unit = plot->normalised ? statistics->scales.rate : 1;
-        double y_unit = plot->normalised ? statistics->scales.size : 1 / plot->size_factor;
-        size_t i = series->n++;
-        series->x[i] = statistics->rate / x_unit;
-        series->y[i] = statistics->size.mean / y_unit;
-        series->low[i] = (statistics->size.mean - statistics->size.half_width) / y_unit;
-        series->high[i] = (statistics->size.mean + statistics->size.half_width) / y_unit;
-    }
-    return FRACAS_OK;
-}
-
-/* One law over the rates of all points and a factor of two beyond. */
-static fracas_err add_law(const rate_plot *plot, fracas_scaling_law_id law,
-                          const fracas_scales *scales, const double rate[2], unsigned look,
-                          fracas_panel *panel)
-{
-    fracas_series *series;
-    TRY(fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, &series));
-    FRACAS_PRINT(series->name, "%s", fracas_scaling_laws[law].name);
-    for (size_t i = 0; i < LAW_VALUES; i++) {
-        double at = rate[0] / 2 * pow(4 * rate[1] / rate[0], (double)i / (LAW_VALUES - 1));
-        series->x[i] = at;
-        series->y[i] = plot->normalised
-                           ? fracas_scaling_laws[law].normalised(at, scales->modulus)
-                           : fracas_scaling_law_at(law, scales, at) * plot->size_factor;
-    }
-    return FRACAS_OK;
-}
-
-static bool rate_range(const rate_plot *plot, double rate[2])
-{
-    rate[0] = INFINITY;
-    rate[1] = 0;
-    for (size_t p = 0; p < plot->analysis->table->npoints; p++) {
+    const fracas_point_table *table = plot->analysis->table;
+    TRY(fracas_columns_without_rate(table, &plot->analysis->shown, &plot->others));
+    plot->mark = calloc(table->npoints + 1, sizeof *plot->mark);
+    if (!plot->mark) return fracas_no_memory("a figure");
+    for (size_t p = 0; p < table->npoints; p++) {
         const fracas_point_statistics *statistics = &plot->analysis->point[p];
-        if (!drawn(plot, statistics)) continue;
-        double at = statistics->rate / (plot->normalised ? statistics->scales.rate : 1);
-        rate[0] = fmin(rate[0], at);
-        rate[1] = fmax(rate[1], at);
+        if (plot->normalised ? !has_scales(statistics) : !has_mean(statistics)) continue;
+        const double rate = statistics->rate / units_of(plot, &statistics->scales).rate;
+        size_t like = 0;
+        while (like < plot->n &&
+               !fracas_columns_same(table, &plot->others, p, plot->mark[like].point))
+            like++;
+        const size_t series = like < plot->n ? plot->mark[like].series : plot->nseries++;
+        plot->rate[0] = plot->n ? fmin(plot->rate[0], rate) : rate;
+        plot->rate[1] = fmax(plot->rate[1], rate);
+        plot->mark[plot->n++] = (rate_mark){p, series};
     }
-    return rate[1] > 0;
+    return FRACAS_OK;
 }
 
-/* True if one curve of a scaling law serves all points of the series that begins with `series`;
- * ALL_SERIES: of all series. */
+static fracas_err add_means(const rate_plot *plot, size_t number, fracas_panel *panel)
+{
+    fracas_series *series;
+    TRY(fracas_panel_add(panel, FRACAS_MARKS, (unsigned)number, plot->n, &series));
+    FRACAS_PRINT(series->name, "mean, 95 %% interval");
+    series->n = 0;
+    for (size_t m = 0; m < plot->n; m++) {
+        if (plot->mark[m].series != number) continue;
+        const fracas_point_statistics *statistics = statistics_of(plot, m);
+        const fracas_estimate *size = &statistics->size;
+        const fracas_scales unit = units_of(plot, &statistics->scales);
+        const size_t i = series->n++;
+        if (i == 0 && plot->others.count > 0)
+            fracas_columns_label(plot->analysis->table, &plot->others, plot->mark[m].point,
+                                 series->name, sizeof series->name);
+        series->x[i] = statistics->rate / unit.rate;
+        series->y[i] = size->mean / unit.size;
+        series->low[i] = (size->mean - size->half_width) / unit.size;
+        series->high[i] = (size->mean + size->half_width) / unit.size;
+    }
+    return FRACAS_OK;
+}
+
+/* A curve over the rates of all marks and a factor of two beyond, without its y. */
+static fracas_err add_curve(const rate_plot *plot, unsigned look, fracas_panel *panel,
+                            fracas_series **series)
+{
+    TRY(fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, series));
+    for (size_t i = 0; i < LAW_VALUES; i++)
+        (*series)->x[i] = plot->rate[0] / 2 *
+                          pow(4 * plot->rate[1] / plot->rate[0], (double)i / (LAW_VALUES - 1));
+    return FRACAS_OK;
+}
+
+static fracas_err add_law(const rate_plot *plot, fracas_scaling_law_id law,
+                          const fracas_scales *scales, unsigned look, fracas_panel *panel)
+{
+    fracas_series *series;
+    TRY(add_curve(plot, look, panel, &series));
+    FRACAS_PRINT(series->name, "%s", fracas_scaling_laws[law].name);
+    for (size_t i = 0; i < LAW_VALUES; i++)
+        series->y[i] = plot->normalised
+                           ? fracas_scaling_laws[law].normalised(series->x[i], scales->modulus)
+                           : fracas_scaling_law_at(law, scales, series->x[i]) * plot->size_factor;
+    return FRACAS_OK;
+}
+
+/* True if one curve of a scaling law serves all marks of a series, or of ALL_SERIES. */
 static bool same_scales(const rate_plot *plot, size_t series)
 {
     const fracas_scales *first = NULL;
-    for (size_t p = 0; p < plot->analysis->table->npoints; p++) {
-        const fracas_point_statistics *statistics = &plot->analysis->point[p];
-        if (!has_scales(statistics)) continue;
-        if (series != ALL_SERIES &&
-            !fracas_columns_same(plot->analysis->table, plot->others, p, series))
+    for (size_t m = 0; m < plot->n; m++) {
+        const fracas_point_statistics *statistics = statistics_of(plot, m);
+        if (!has_scales(statistics) || (series != ALL_SERIES && plot->mark[m].series != series))
             continue;
         if (first &&
             (first->size != statistics->scales.size || first->rate != statistics->scales.rate))
@@ -123,145 +144,104 @@ static bool same_scales(const rate_plot *plot, size_t series)
     return true;
 }
 
-/* True if the law is a number, and one curve of it serves all points: Mott's only where all
+/* True if the law is a number, and one curve of it serves all marks: Mott's only where all
  * strengths have one modulus. */
 static bool law_serves(const rate_plot *plot, fracas_scaling_law_id law,
                        const fracas_scales *scales)
 {
     if (!isfinite(fracas_scaling_laws[law].normalised(1, scales->modulus))) return false;
-    for (size_t p = 0; law == FRACAS_LAW_MOTT && p < plot->analysis->table->npoints; p++)
-        if (has_scales(&plot->analysis->point[p]) &&
-            plot->analysis->point[p].scales.modulus != scales->modulus)
+    for (size_t m = 0; law == FRACAS_LAW_MOTT && m < plot->n; m++)
+        if (has_scales(statistics_of(plot, m)) &&
+            statistics_of(plot, m)->scales.modulus != scales->modulus)
             return false;
     return true;
 }
 
-/* True if an earlier series than that of point `first` has drawn the laws for all. */
-static bool laws_are_drawn(const rate_plot *plot, size_t first)
-{
-    for (size_t p = 0; p < first; p++)
-        if (has_scales(&plot->analysis->point[p])) return true;
-    return false;
-}
-
-/* All laws where one curve each serves all points; else ZMR in the colour of each series it serves.
+/* All laws where one curve each serves all marks; else ZMR in the colour of each series it serves.
  * None for surfaces. */
-static fracas_err add_laws(const rate_plot *plot, const double rate[2], size_t first,
-                           unsigned looks, unsigned look, fracas_panel *panel)
+static fracas_err add_laws(const rate_plot *plot, size_t number, bool *drawn, fracas_panel *panel)
 {
-    const fracas_scales *scales = &plot->analysis->point[first].scales;
-    if (!isfinite(scales->rate) || plot->analysis->point[first].surface) return FRACAS_OK;
+    size_t first = 0;
+    while (plot->mark[first].series != number) first++;
+    const fracas_scales *scales = &statistics_of(plot, first)->scales;
+    if (!has_scales(statistics_of(plot, first)) || *drawn) return FRACAS_OK;
     if (plot->normalised || same_scales(plot, ALL_SERIES)) {
-        if (laws_are_drawn(plot, first)) return FRACAS_OK;
+        *drawn = true;
         for (unsigned law = 0; law < FRACAS_SCALING_LAWS; law++)
             if (law_serves(plot, (fracas_scaling_law_id)law, scales))
-                TRY(add_law(plot, (fracas_scaling_law_id)law, scales, rate, looks + law, panel));
-        return FRACAS_OK;
+                TRY(add_law(plot, (fracas_scaling_law_id)law, scales, (unsigned)plot->nseries + law,
+                            panel));
+    } else if (same_scales(plot, number)) {
+        TRY(add_law(plot, FRACAS_LAW_ZMR, scales, (unsigned)number, panel));
+        panel->series[panel->nseries - 1].name[0] = '\0'; /* named by its marks */
     }
-    if (!same_scales(plot, first)) return FRACAS_OK;
-    TRY(add_law(plot, FRACAS_LAW_ZMR, scales, rate, look, panel));
-    panel->series[panel->nseries - 1].name[0] = '\0'; /* named by its marks */
     return FRACAS_OK;
 }
 
 /* The fitted crossover of each series, in the colour of its marks. */
-static fracas_err add_crossovers(const rate_plot *plot, const double rate[2], fracas_panel *panel)
+static fracas_err add_crossovers(const rate_plot *plot, fracas_panel *panel)
 {
     OWNED fracas_size_crossover *list = NULL;
     size_t count;
     TRY(fracas_size_crossovers(plot->analysis, false, &list, &count));
     for (size_t i = 0; i < count; i++) {
-        const fracas_scales *scales = &list[i].scales;
-        const double x_unit = plot->normalised ? scales->rate : 1,
-                     y_unit = plot->normalised ? scales->size : 1 / plot->size_factor;
-        if (*list[i].reason || !isfinite(x_unit) || !isfinite(y_unit)) continue;
+        const fracas_scales unit = units_of(plot, &list[i].scales);
+        if (*list[i].reason || !isfinite(unit.rate) || !isfinite(unit.size)) continue;
         fracas_series *series;
         size_t marks = 0;
         while (marks < panel->nseries && strcmp(panel->series[marks].name, list[i].name)) marks++;
         const unsigned look = marks < panel->nseries
                                   ? panel->series[marks].look + FRACAS_CHART_COLOURS
                                   : 0; /* ZMR has the other dashes */
-        TRY(fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, &series));
-        for (size_t v = 0; v < LAW_VALUES; v++) {
-            series->x[v] = rate[0] / 2 * pow(4 * rate[1] / rate[0], (double)v / (LAW_VALUES - 1));
-            series->y[v] = fracas_crossover_at(&list[i], series->x[v] * x_unit) / y_unit;
-        }
+        TRY(add_curve(plot, look, panel, &series));
+        for (size_t v = 0; v < LAW_VALUES; v++)
+            series->y[v] = fracas_crossover_at(&list[i], series->x[v] * unit.rate) / unit.size;
         if (count == 1) FRACAS_PRINT(series->name, "fitted crossover");
     }
     return FRACAS_OK;
 }
 
-static fracas_err draw_against_rate(const rate_plot *plot, fracas_chart *chart)
+/* "16 to 64", or "64" */
+static fracas_number_text range_text(size_t least, size_t most)
 {
-    double rate[2];
-    if (!rate_range(plot, rate)) return FRACAS_OK;
-    fracas_panel *panel = fracas_chart_add(chart, TALL);
-    panel->x.log = panel->y.log = true;
-    chart->offers = FRACAS_AXES_LINEAR;
-    size_t npoints = plot->analysis->table->npoints;
-    unsigned looks = 0;
-    for (size_t p = 0; p < npoints; p++)
-        if (drawn(plot, &plot->analysis->point[p]) && series_of(plot, p) == p) looks++;
-    unsigned look = 0;
-    for (size_t p = 0; p < npoints; p++) {
-        if (!drawn(plot, &plot->analysis->point[p]) || series_of(plot, p) != p) continue;
-        TRY(add_laws(plot, rate, p, looks, look, panel));
-        TRY(add_means(plot, p, look, panel));
-        look++;
+    fracas_number_text text;
+    if (least < most) FRACAS_PRINT(text.text, "%zu to %zu", least, most);
+    else FRACAS_PRINT(text.text, "%zu", most);
+    return text;
+}
+
+static void caption_of_rate(const rate_plot *plot, fracas_chart *chart)
+{
+    size_t least = SIZE_MAX, most = 0; /* replicas a mark */
+    for (size_t p = 0; p < plot->analysis->table->npoints; p++) {
+        const size_t n = (size_t)plot->analysis->point[p].size.n;
+        if (!has_mean(&plot->analysis->point[p])) continue;
+        least = n < least ? n : least;
+        most = n > most ? n : most;
     }
-    return add_crossovers(plot, rate, panel);
-}
-
-static bool any_law(const rate_plot *plot)
-{
-    for (size_t p = 0; p < plot->analysis->table->npoints; p++)
-        if (has_scales(&plot->analysis->point[p]) && same_scales(plot, series_of(plot, p)))
-            return true;
-    return false;
-}
-
-/* "n = 64", "n = 16 to 64": replicas a mark. */
-static void replicas_text(const fracas_analysis *analysis, char *text, size_t size)
-{
-    int64_t least = INT64_MAX, most = 0;
-    for (size_t p = 0; p < analysis->table->npoints; p++) {
-        const int64_t n = analysis->point[p].size.n;
-        if (!has_mean(&analysis->point[p])) continue;
-        if (n < least) least = n;
-        if (n > most) most = n;
-    }
-    if (least < most) snprintf(text, size, "n = %lld to %lld", (long long)least, (long long)most);
-    else snprintf(text, size, "n = %lld", (long long)most);
-}
-
-static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bool one_law,
-                            bool some_law, fracas_chart *chart)
-{
-    char n[64];
-    replicas_text(analysis, n, sizeof n);
-    if (fracas_analysis_all_surfaces(analysis)) {
+    const fracas_number_text n = range_text(least, most);
+    if (fracas_analysis_all_surfaces(plot->analysis)) {
         FRACAS_PRINT(
             chart->caption,
-            "Mean over replicas (%s) of the mean square root of a fragment\u2019s area, dust "
+            "Mean over replicas (n = %s) of the mean square root of a fragment\u2019s area, dust "
             "included; bars: 95 %% interval of the mean (Student\u2019s t over replicas).",
-            n);
+            n.text);
         return;
     }
     FRACAS_PRINT(
         chart->caption,
-        "%sMean over replicas (%s) of body length / fragments%s; bars: 95 %% interval of the "
+        "%sMean over replicas (n = %s) of body length / fragments%s; bars: 95 %% interval of the "
         "mean (Student\u2019s t over replicas).%s A crossover fitted to the marks, where "
         "there is one, is a line in their colour, too.",
-        normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over \u03b5\u0307\u2080 = c "
-                     "\u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. "
-                   : "",
-        n,
-        !normalised && fracas_analysis_any_surface(analysis)
+        plot->normalised
+            ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over \u03b5\u0307\u2080 "
+              "= c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. "
+            : "",
+        n.text,
+        !plot->normalised && fracas_analysis_any_surface(plot->analysis)
             ? ", of surfaces of the mean square root of their areas"
             : "",
-        !one_law && !some_law
-            ? " No scaling law serves all marks of one colour: their materials differ."
-        : normalised || one_law
+        plot->normalised || same_scales(plot, ALL_SERIES)
             ? " Lines: scaling laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
               "and Chudnovsky (GC); Mott\u2019s where all strengths have one Weibull modulus."
             : " Lines: ZMR law with the material of the marks of the same colour, where these "
@@ -270,32 +250,30 @@ static void caption_of_rate(const fracas_analysis *analysis, bool normalised, bo
 
 fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised, fracas_chart *chart)
 {
-    double extreme[2] = {INFINITY, 0};
-    for (size_t p = 0; p < analysis->table->npoints; p++) {
-        if (!has_mean(&analysis->point[p])) continue;
-        extreme[0] = fmin(extreme[0], analysis->point[p].size.mean);
-        extreme[1] = fmax(extreme[1], analysis->point[p].size.mean);
-    }
-    fracas_prefix prefix = fracas_prefix_for(extreme, 2);
-    FRACAS_CLEARED(fracas_columns) others = {0};
-    TRY(fracas_columns_without_rate(analysis->table, &analysis->shown, &others));
-    rate_plot plot = {.analysis = analysis,
-                      .others = &others,
-                      .normalised = normalised,
-                      .size_factor = prefix.factor};
-    TRY(draw_against_rate(&plot, chart));
-    bool one_law = same_scales(&plot, ALL_SERIES), some_law = any_law(&plot);
+    const fracas_prefix prefix = fracas_prefix_over(
+        &analysis->point->size.mean, sizeof *analysis->point, analysis->table->npoints);
+    FRACAS_CLEARED(rate_plot)
+    plot = {.analysis = analysis, .normalised = normalised, .size_factor = prefix.factor};
+    TRY(find_marks(&plot));
     FRACAS_PRINT(chart->file, "size-against-rate%s", normalised ? "-normalised" : "");
     FRACAS_PRINT(chart->title, "%s",
                  normalised ? "Normalised mean fragment size against strain rate"
                             : "Mean fragment size against strain rate");
-    caption_of_rate(analysis, normalised, one_law, some_law, chart);
-    if (chart->npanels == 0) return FRACAS_OK;
-    FRACAS_PRINT(chart->panel[0].x.label, "%s",
-                 normalised ? "strain rate \u03b5\u0307/\u03b5\u0307\u2080" : "strain rate [1/s]");
-    if (normalised) FRACAS_PRINT(chart->panel[0].y.label, "mean fragment size s/s\u2080");
-    else FRACAS_PRINT(chart->panel[0].y.label, "mean fragment size [%sm]", prefix.sign);
-    return FRACAS_OK;
+    caption_of_rate(&plot, chart);
+    if (plot.n == 0) return FRACAS_OK;
+    fracas_panel *panel = fracas_chart_add(chart, TALL);
+    bool drawn = false; /* laws for all series */
+    panel->x.log = panel->y.log = true;
+    chart->offers = FRACAS_AXES_LINEAR;
+    FRACAS_PRINT(panel->x.label, "strain rate %s",
+                 normalised ? "\u03b5\u0307/\u03b5\u0307\u2080" : "[1/s]");
+    if (normalised) FRACAS_PRINT(panel->y.label, "mean fragment size s/s\u2080");
+    else FRACAS_PRINT(panel->y.label, "mean fragment size [%sm]", prefix.sign);
+    for (size_t s = 0; s < plot.nseries; s++) {
+        TRY(add_laws(&plot, s, &drawn, panel));
+        TRY(add_means(&plot, s, panel));
+    }
+    return add_crossovers(&plot, panel);
 }
 
 /* ---- sizes ---- */
@@ -331,8 +309,10 @@ static void name_cumulative_axes(fracas_panel *panel)
     FRACAS_PRINT(panel->y.label, "share of fragments \u2265 s");
 }
 
-fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_chart *chart)
+fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, size_t point,
+                                        fracas_chart *chart)
 {
+    (void)point;
     FRACAS_PRINT(chart->file, "sizes");
     FRACAS_PRINT(chart->title, "Fragment sizes of all points");
     size_t least = SIZE_MAX, most = 0;
@@ -341,15 +321,12 @@ fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis, fracas_
         if (n > 0 && n < least) least = n;
         if (n > most) most = n;
     }
-    char n[64];
-    if (least < most) FRACAS_PRINT(n, "%zu to %zu", least, most);
-    else FRACAS_PRINT(n, "%zu", most);
     FRACAS_PRINT(
         chart->caption,
         "Share of the fragments that are at least of size s, over s / mean size of the "
         "point\u2019s fragments; n = %s fragments a point, of all usable replicas together, "
         "dust included.%s",
-        n,
+        range_text(least, most).text,
         fracas_analysis_any_surface(analysis)
             ? " The size of a piece of a surface is the square root of its area."
             : "");
@@ -534,16 +511,10 @@ static fracas_err draw_normalised(const fracas_analysis *analysis, size_t point,
     return fracas_figure_rate(analysis, true, chart);
 }
 
-static fracas_err draw_sizes(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
-{
-    (void)point;
-    return fracas_figure_sizes_together(analysis, chart);
-}
-
 const fracas_figure fracas_figures[] = {
     {"mean-size", "wide", false, draw_rate},
     {"mean-size", "wide", false, draw_normalised},
-    {"fragment-sizes", "wide", false, draw_sizes},
+    {"fragment-sizes", "wide", false, fracas_figure_sizes_together},
     {"fragment-sizes", "small", true, fracas_figure_sizes},
     {"energies-over-time", "wide", true, fracas_figure_energies},
     {"energies-over-time", "wide", true, fracas_figure_bands},

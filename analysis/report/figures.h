@@ -13,25 +13,22 @@
 FRACAS_MUST_USE fracas_err fracas_figure_rate(const fracas_analysis *analysis, bool normalised,
                                               fracas_chart *chart);
 
-/* Complementary cumulative share of the fragments of all points, sizes over the point's mean. */
-FRACAS_MUST_USE fracas_err fracas_figure_sizes_together(const fracas_analysis *analysis,
-                                                        fracas_chart *chart);
-/* The same of one point, sizes in metres. */
-FRACAS_MUST_USE fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point,
-                                               fracas_chart *chart);
+/* A figure of the study, without a look at the point, or of one point. */
+typedef fracas_err fracas_figure_draw(const fracas_analysis *analysis, size_t point,
+                                      fracas_chart *chart);
 
+/* Complementary cumulative share of the fragments of all points, sizes over the point's mean. */
+fracas_figure_draw fracas_figure_sizes_together;
+/* The same of one point, sizes in metres. */
+fracas_figure_draw fracas_figure_sizes;
 /* Energies of the point's typical replica over time, and below them the residual of their balance.
  */
-FRACAS_MUST_USE fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
-                                                  fracas_chart *chart);
-
+fracas_figure_draw fracas_figure_energies;
 /* Energies of all usable realizations over time: mean and band of each. */
-FRACAS_MUST_USE fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point,
-                                               fracas_chart *chart);
+fracas_figure_draw fracas_figure_bands;
 /* The headline numbers of the point from its first 4, 8, 16, ... replicas, over their values from
  * all. */
-FRACAS_MUST_USE fracas_err fracas_figure_convergence(const fracas_analysis *analysis, size_t point,
-                                                     fracas_chart *chart);
+fracas_figure_draw fracas_figure_convergence;
 /* Sizes above the cut and the best families. */
 FRACAS_MUST_USE fracas_err fracas_figure_fits(const fracas_analysis *analysis,
                                               const fracas_fits *fits, size_t point,
@@ -42,7 +39,7 @@ typedef struct {
     const char *section; /* id in page.c */
     const char *grid;    /* "wide", "small": figures side by side */
     bool each;
-    fracas_err (*draw)(const fracas_analysis *analysis, size_t point, fracas_chart *chart);
+    fracas_figure_draw *draw;
 } fracas_figure;
 
 /* All figures but those of fits, in the order of the page; ends with section NULL. A new figure is

@@ -396,7 +396,7 @@ static void figure_of_sizes(void **state)
         assert_true(series->y[i] == y[i]);
     }
     fracas_chart_clear(&chart);
-    OK(fracas_figure_sizes_together(&analysis, &chart));
+    OK(fracas_figure_sizes_together(&analysis, 0, &chart));
     assert_true(fabs(chart.panel[0].series->x[2] - 2) < 1e-14); /* over the mean, 2 mm */
     fracas_chart_clear(&chart);
 }
