@@ -2,7 +2,7 @@
 #include "cli/cli.h"
 
 #include "analysis/analysis.h"
-#include "analysis/fit/fits.h"
+#include "analysis/export/tables.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/compare/methods.h"
-#include "analysis/data/random.h"
+#include "analysis/estimate/bootstrap.h"
 #include "analysis/data/room.h"
 
 #include <gsl/gsl_combination.h>

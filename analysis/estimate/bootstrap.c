@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/estimate/bootstrap.h"
 
-#include "analysis/data/random.h"
 #include "analysis/data/room.h"
 
 #include <gsl/gsl_cdf.h>
@@ -34,10 +33,17 @@ typedef struct {
     size_t most, groups;
 } resampling;
 
-static void draw(resampling *r, gsl_rng *random)
+gsl_rng *fracas_random(uint64_t seed)
 {
-    memset(r->weight, 0, r->n * sizeof *r->weight);
-    for (size_t i = 0; i < r->n; i++) r->weight[gsl_rng_uniform_int(random, r->n)]++;
+    gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
+    if (random) gsl_rng_set(random, (unsigned long)(seed ^ seed >> 32)); /* it takes 32 bits */
+    return random;
+}
+
+void fracas_resample(gsl_rng *random, size_t n, uint32_t *weight)
+{
+    memset(weight, 0, n * sizeof *weight);
+    for (size_t i = 0; i < n; i++) weight[gsl_rng_uniform_int(random, n)]++;
 }
 
 static void put(const resampling *r, const double *value, double *table, size_t columns,
@@ -169,7 +175,7 @@ static fracas_err resample(resampling *r, const fracas_bootstrap_options *option
     OWN(gsl_rng) random = fracas_random(options->seed);
     if (!random) return fracas_no_memory("a bootstrap");
     for (size_t b = 0; b < r->most; b++) {
-        draw(r, random);
+        fracas_resample(random, r->n, r->weight);
         r->statistic(r->context, r->weight, value);
         put(r, value, r->found, r->most, b);
     }

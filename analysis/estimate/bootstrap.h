@@ -6,10 +6,20 @@
 
 #include "analysis/data/field.h"
 #include "base/err.h"
+#include "base/own.h"
 
+#include <gsl/gsl_rng.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+
+/* `OWN(gsl_rng) random = fracas_random(seed);` Mersenne Twister (MT19937): equal seeds give equal
+ * numbers. Freed by gsl_rng_free; NULL without memory. */
+gsl_rng *fracas_random(uint64_t seed);
+FRACAS_OWNER(gsl_rng, gsl_rng_free)
+
+/* weight[n]: how often each of n realizations was drawn in n drawings. */
+void fracas_resample(gsl_rng *random, size_t n, uint32_t *weight);
 
 /* Values of a resample in which realization i was drawn weight[i] times (sum of weights n):
  * `nvalues` of them into *value; NaN where the resample gives none. */

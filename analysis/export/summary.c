@@ -33,8 +33,7 @@ static const fracas_fits_row *find(const fracas_fits *of, const char *family, co
 static void put_value(fracas_json *json, const fracas_fits *of, const char *family,
                       const char *quantity)
 {
-    const fracas_fits_row *row = find(of, family, quantity);
-    fracas_json_real(json, quantity, row ? row->value : NAN);
+    fracas_json_real(json, quantity, fracas_fits_value(of, of->row->point, family, quantity));
 }
 
 static void put_interval(fracas_json *json, const fracas_fits_row *row)

@@ -114,12 +114,21 @@ FRACAS_MUST_USE fracas_err fracas_side_table_create(const fracas_analysis *analy
                                                     fracas_side_table_name name,
                                                     fracas_result_table *table);
 
-/* A row a fitted family of a point, by rank: distances, their p-values, parameters. */
+/* A row a fitted family of a point, by rank: distances, their p-values, parameters. For
+ * a page. */
 FRACAS_MUST_USE fracas_err fracas_fit_table_create(const fracas_analysis *analysis,
-                                                   const fracas_fits *fits, bool unicode,
+                                                   const fracas_fits *fits,
                                                    fracas_result_table *table);
 
 /* Meaning of the columns, a line each; ends with NULL. */
 extern const char *const fracas_fit_table_legend[];
+
+/* "x is a special case of y and suffices (p = 0.3)": the best two families; false, and no text, if
+ * they were not compared. */
+bool fracas_fits_format_comparison(const fracas_fits *fits, int64_t point, char *text, size_t size);
+
+/* For a terminal: of each point its families by rank, then the failed ones, and why. */
+void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis, FILE *out);
+void fracas_fits_write_json(const fracas_fits *fits, FILE *out);
 
 #endif

@@ -54,12 +54,14 @@ static fracas_err likelihood_ratio(const fracas_fit_sample *sample,
     comparison->statistic = 2 * (fit[1]->log_likelihood - fit[0]->log_likelihood);
     if (n < LEAST) return FRACAS_OK;
     FRACAS_CLEARED(fracas_fit_sample) carried = {.ncells = 0};
-    FRACAS_CLEARED(fracas_fit_draw) draw = {.n = 0};
+    OWN(gsl_rng) random = fracas_random(seed);
+    OWNED uint32_t *weight = malloc(n * sizeof *weight);
     int64_t as_large = 0;
     TRY(fracas_fit_carry(sample, probability, seed, &carried));
-    TRY(fracas_fit_draw_create(n, seed, &draw));
+    if (!random || !weight) return fracas_no_memory("a resample");
     for (int64_t b = 0; b < resamples; b++) {
-        const double gain = gain_of(&carried, fracas_fit_draw_next(&draw), family, fit);
+        fracas_resample(random, n, weight);
+        const double gain = gain_of(&carried, weight, family, fit);
         comparison->resamples += isfinite(gain);
         as_large += widen * gain >= comparison->statistic;
     }

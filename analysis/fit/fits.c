@@ -282,6 +282,13 @@ const fracas_fits_row *fracas_fits_find(const fracas_fits *fits, int64_t point, 
     return NULL;
 }
 
+double fracas_fits_value(const fracas_fits *fits, int64_t point, const char *family,
+                         const char *quantity)
+{
+    const fracas_fits_row *row = fracas_fits_find(fits, point, family, quantity);
+    return row ? row->value : NAN;
+}
+
 const char *fracas_fits_ranked(const fracas_fits *fits, int64_t point, int rank)
 {
     for (const fracas_fits_row *row = fits->row; row < fits->row + fits->n; row++)

@@ -63,23 +63,10 @@ FRACAS_MUST_USE fracas_err fracas_fits_complete(fracas_fits *fits, const fracas_
 /* NULL if there is no such row. */
 const fracas_fits_row *fracas_fits_find(const fracas_fits *fits, int64_t point, const char *family,
                                         const char *quantity);
+/* The number of this row; NaN if there is none. */
+double fracas_fits_value(const fracas_fits *fits, int64_t point, const char *family,
+                         const char *quantity);
 /* The family of this rank by AICc, from 1, at the point; NULL for none. */
 const char *fracas_fits_ranked(const fracas_fits *fits, int64_t point, int rank);
-
-/* "0.401 [0.393, 0.409]", times `factor`: digits as the interval supports. */
-void fracas_fits_format_interval(const fracas_fits_row *row, double factor, char *text,
-                                 size_t size);
-/* A p-value, none less than its resamples can show; "-" for NULL and NaN. */
-void fracas_fits_format_p(const fracas_fits_row *row, char *text, size_t size);
-/* "x is a special case of y and suffices (p = 0.3)": the best two families; false, and no text, if
- * they were not compared. */
-bool fracas_fits_format_comparison(const fracas_fits *fits, int64_t point, char *text, size_t size);
-/* Every parameter with its interval; lengths over the mean size. */
-void fracas_fits_format_parameters(const fracas_fits *fits, int64_t point,
-                                   const fracas_family *family, char *text, size_t size);
-
-/* For a terminal: of each point its families by rank, then the failed ones, and why. */
-void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis, FILE *out);
-void fracas_fits_write_json(const fracas_fits *fits, FILE *out);
 
 #endif

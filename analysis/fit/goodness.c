@@ -2,7 +2,6 @@
 #include "analysis/fit/point.h"
 
 #include "analysis/fit/sample.h"
-#include "analysis/data/random.h"
 #include "analysis/data/room.h"
 
 #include <gsl/gsl_randist.h>
@@ -146,12 +145,16 @@ fracas_err fracas_fit_goodness_of(const fracas_family *family, const fracas_fit_
     goodness->distance = fracas_fit_distance_of(sample->ncells, sample->count, probability);
     if (sample->nrealizations < FRACAS_FIT_GOODNESS_LEAST) return FRACAS_OK;
     FRACAS_CLEARED(fracas_fit_sample) carried = {.ncells = 0};
-    FRACAS_CLEARED(fracas_fit_draw) draw = {.n = 0};
+    const size_t n = sample->nrealizations;
+    OWN(gsl_rng) random = fracas_random(seed);
+    OWNED uint32_t *weight = malloc(n * sizeof *weight);
     tally sum = {0};
     TRY(fracas_fit_carry(sample, probability, seed, &carried));
-    TRY(fracas_fit_draw_create(sample->nrealizations, seed, &draw));
-    for (int64_t b = 0; b < resamples; b++)
-        resample(family, &carried, fit, fracas_fit_draw_next(&draw), &goodness->distance, &sum);
+    if (!random || !weight) return fracas_no_memory("a resample");
+    for (int64_t b = 0; b < resamples; b++) {
+        fracas_resample(random, n, weight);
+        resample(family, &carried, fit, weight, &goodness->distance, &sum);
+    }
     goodness->resamples = sum.found;
     if (sum.found > 0) {
         goodness->ks_p = (double)(1 + sum.ks) / (double)(1 + sum.found);

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/fit/sample.h"
 
-#include "analysis/data/random.h"
-
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -171,25 +169,4 @@ void fracas_fit_sample_moments(const fracas_fit_sample *sample, const uint32_t *
     const double rest = sum / total;
     *mean = sample->mean + rest;
     *cv = sqrt(fmax(squares / total - rest * rest, 0)) / *mean;
-}
-
-fracas_err fracas_fit_draw_create(size_t n, uint64_t seed, fracas_fit_draw *draw)
-{
-    *draw = (fracas_fit_draw){
-        .n = n, .weight = malloc((n + 1) * sizeof *draw->weight), .random = fracas_random(seed)};
-    return draw->weight && draw->random ? FRACAS_OK : fracas_no_memory("a resample");
-}
-
-void fracas_fit_draw_clear(fracas_fit_draw *draw)
-{
-    free(draw->weight);
-    gsl_rng_free(draw->random);
-    *draw = (fracas_fit_draw){0};
-}
-
-const uint32_t *fracas_fit_draw_next(fracas_fit_draw *draw)
-{
-    memset(draw->weight, 0, draw->n * sizeof *draw->weight);
-    for (size_t i = 0; i < draw->n; i++) draw->weight[gsl_rng_uniform_int(draw->random, draw->n)]++;
-    return draw->weight;
 }

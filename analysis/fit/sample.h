@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sizes of a point's fragments in cells, by realization: the data of a fit; and random weights
- * of its realizations, a resample (docs/theory/fits.md). */
+/* The sizes of a point's fragments in cells, by realization: the data of a fit
+ * (docs/theory/fits.md). */
 #ifndef FRACAS_ANALYSIS_FIT_SAMPLE_H
 #define FRACAS_ANALYSIS_FIT_SAMPLE_H
 
@@ -9,7 +9,6 @@
 #include "analysis/data/room.h"
 #include "base/err.h"
 
-#include <gsl/gsl_rng.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -47,17 +46,5 @@ void fracas_fit_sample_count(const fracas_fit_sample *sample, const uint32_t *we
                              double *count);
 void fracas_fit_sample_moments(const fracas_fit_sample *sample, const uint32_t *weight,
                                double *mean, double *cv);
-
-typedef struct {
-    size_t n;
-    uint32_t *weight;
-    gsl_rng *random;
-} fracas_fit_draw;
-
-/* Cleared by the caller, whatever this returns. */
-FRACAS_MUST_USE fracas_err fracas_fit_draw_create(size_t n, uint64_t seed, fracas_fit_draw *draw);
-void fracas_fit_draw_clear(fracas_fit_draw *draw);
-/* How often each of n realizations was drawn in n drawings; its own until the next call. */
-const uint32_t *fracas_fit_draw_next(fracas_fit_draw *draw);
 
 #endif

@@ -133,10 +133,9 @@ static bool read_parameters(const fracas_fits *fits, size_t point, const fracas_
                             double parameter[FRACAS_FAMILY_PARAMETERS])
 {
     for (size_t i = 0; i < family->nparameters; i++) {
-        const fracas_fits_row *row = fracas_fits_find(fits, (int64_t)point, family->name,
-                                                      family->parameter[i].name);
-        if (!row) return false;
-        parameter[i] = row->value;
+        parameter[i] = fracas_fits_value(fits, (int64_t)point, family->name,
+                                         family->parameter[i].name);
+        if (isnan(parameter[i])) return false;
     }
     return true;
 }

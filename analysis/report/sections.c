@@ -124,7 +124,7 @@ fracas_err fracas_section_fits(fracas_page *page)
                               fracas_figure_fits(page->analysis, page->fits, p, &chart)));
     if (!any) return FRACAS_OK;
     fracas_page_grid_end(page);
-    const fracas_err built = fracas_fit_table_create(page->analysis, page->fits, true, &table);
+    const fracas_err built = fracas_fit_table_create(page->analysis, page->fits, &table);
     TRY(fracas_page_table(page, "fits-table", "Families of distributions, by AICc", true, &table,
                           fracas_fit_table_legend, built));
     put_comparisons(page);

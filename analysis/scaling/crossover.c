@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/scaling/scaling.h"
-#include "analysis/data/random.h"
 #include "analysis/data/room.h"
 #include "base/own.h"
 

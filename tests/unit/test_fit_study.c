@@ -3,7 +3,7 @@
  * and points that cannot be fitted. */
 #include "tests/support/report.h"
 
-#include "analysis/fit/fits.h"
+#include "analysis/export/tables.h"
 #include "analysis/summary/study.h"
 #include "tests/support/fit_sample.h"
 #include "tests/support/test.h"
