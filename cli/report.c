@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The commands report and export, and studies opened for an analysis. */
 #include "cli/cli.h"
 
 #include "analysis/analysis.h"
@@ -11,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static const fracas_option options[] = {{"json", NULL, "print the statistics as JSON"}, {0}};
+static const fracas_option report_options[] = {{"json", NULL, "print the statistics as JSON"}, {0}};
 
 fracas_err fracas_cli_check_study(const char *study)
 {
@@ -85,6 +86,40 @@ const fracas_command fracas_command_report = {
     .more = "\nThe report is index.html with its figures, and the numbers as CSV files. Of a study "
             "that is being computed, or was interrupted,\n"
             "it is of what is done by now, and says so.\n",
-    .options = options,
+    .options = report_options,
     .run = report,
+};
+
+/* ---- export ---- */
+
+static const fracas_option export_options[] = {
+    {"to", "DIR", "where to (STUDY/export)"},
+    {"histories", NULL, "energies over time of every realization, too: histories.csv"},
+    {0}};
+
+static fracas_err export(const fracas_arguments *arguments)
+{
+    OWN(fracas_campaign) campaign = NULL;
+    OWN(fracas_analysis) analysis = NULL;
+    OWNED char *folder = NULL;
+    const char *to = fracas_given(arguments, "to");
+    TRY(to ? fracas_path(&folder, "%s", to)
+           : fracas_path(&folder, "%s/export", arguments->operand));
+    TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
+    TRY(fracas_export_write(analysis, folder, fracas_given(arguments, "histories") != NULL));
+    printf("export: %s/datapackage.json\n", folder);
+    return FRACAS_OK;
+}
+
+const fracas_command fracas_command_export = {
+    .name = "export",
+    .operand = "STUDY",
+    .doc = "Writes the tables of STUDY as a Frictionless Data Package",
+    .more = "\npoints.csv (parameters and statistics), realizations.csv, fragments.csv, "
+            "statistics.csv (a line a number, with its unit),\n"
+            "energies.csv and convergence.csv (over time, and with the replicas), and "
+            "datapackage.json, which says of every column what it is: type, unit, meaning. For "
+            "pandas, R, or a data repository.\n",
+    .options = export_options,
+    .run = export,
 };

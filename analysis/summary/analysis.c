@@ -90,9 +90,8 @@ static fracas_err read_histories(fracas_analysis *analysis)
 /* Keeps the last decision of each point: the file has them by point and round. */
 static fracas_err read_decisions(fracas_analysis *analysis)
 {
-    OWNED fracas_decision *all = NULL;
     size_t count;
-    TRY(fracas_results_decisions(analysis->results, &all, &count));
+    const fracas_decision *all = fracas_results_decisions(analysis->results, &count);
     if (count == 0) return FRACAS_OK;
     analysis->decision = calloc(analysis->table->npoints, sizeof *analysis->decision);
     if (!analysis->decision) return fracas_no_memory("the decisions of the study");

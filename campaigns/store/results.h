@@ -15,15 +15,16 @@ typedef struct fracas_results fracas_results;
  *   realization left to compute;
  * - the segments in the index, with the realizations done so far, read from it at once;
  * - study.h5 of this campaign beside a lost or damaged index: fracas_results_note says so.
- * FRACAS_INTERRUPTED if no realization is done
- * yet. FRACAS_IN_USE if the index cannot be read while a run has it (network filesystems).
- * FRACAS_DAMAGED, saying how to go on, if there is neither a study.h5 of this campaign nor an
- * index. Both NULL: study.h5 as it is, whatever the index says; FRACAS_DAMAGED if it is not there.
+ * FRACAS_INTERRUPTED if no realization is done yet. FRACAS_IN_USE if the index cannot be read while
+ * a run has it (network filesystems). FRACAS_DAMAGED, saying how to go on, if there is neither a
+ * study.h5 of this campaign nor an index. Both NULL: study.h5 as it is, whatever the index says;
+ * FRACAS_DAMAGED if it is not there.
  */
 FRACAS_MUST_USE fracas_err fracas_results_open(const char *study, const fracas_hash *campaign,
                                                const fracas_point_table *table,
                                                fracas_results **results);
 void fracas_results_close(fracas_results *results); /* NULL is allowed */
+FRACAS_OWNER(fracas_results, fracas_results_close)
 
 /* True if they are from segments: realizations may be missing, and there are no meshes. NULL stands
  * for no results: this and the functions below that count flaws then count none. */
@@ -62,9 +63,8 @@ bool fracas_results_decided(const fracas_results *results, size_t point);
 size_t fracas_results_notes(const fracas_results *results);
 const char *fracas_results_note(const fracas_results *results, size_t note);
 
-/* As fracas_reader_decisions; those on points of the table. */
-FRACAS_MUST_USE fracas_err fracas_results_decisions(fracas_results *results,
-                                                    fracas_decision **decision, size_t *count);
+/* Every decision, by point and round; they belong to the results. */
+const fracas_decision *fracas_results_decisions(const fracas_results *results, size_t *count);
 /* As fracas_reader_mesh_interfaces and fracas_reader_mesh; partial ones have none. */
 FRACAS_MUST_USE fracas_err fracas_results_mesh_interfaces(fracas_results *results, size_t point,
                                                           size_t *interfaces);

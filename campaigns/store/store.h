@@ -82,8 +82,9 @@ FRACAS_MUST_USE fracas_err fracas_writer_create(const char *path, const fracas_f
 /* Appends one realization; records are buffered by column, so memory stays bounded. */
 FRACAS_MUST_USE fracas_err fracas_writer_append(fracas_writer *writer, size_t point,
                                                 int64_t replica, const fracas_record *record);
-/* Keeps one JSON object of less than 4 KB as an attribute: where, when and by which program the
- * records were computed. Segments have it, in case the index is lost; study.h5 never does. */
+/* The file is a segment: it keeps one JSON object of less than 4 KB as an attribute (where, when
+ * and by which program the records were computed, in case the index is lost), and ends with a seal
+ * of its own, which fracas_file_version checks. */
 FRACAS_MUST_USE fracas_err fracas_writer_provenance(fracas_writer *writer, const char *provenance);
 /* The next decisions, in the order of points and rounds. The file has a group /decision if there
  * are any. */
@@ -93,8 +94,6 @@ FRACAS_MUST_USE fracas_err fracas_writer_decisions(fracas_writer *writer,
  * for none of them. The file has a group /mesh if any of them has elements. */
 FRACAS_MUST_USE fracas_err fracas_writer_mesh(fracas_writer *writer,
                                               const fracas_stored_mesh *mesh);
-/* The file is a segment: it ends with a seal of its own, which fracas_file_version checks. */
-void fracas_writer_own_seal(fracas_writer *writer);
 /* Closes, syncs, renames to the final name, syncs the folder; frees the writer whatever happens.
  * Equal sequences of calls give equal bytes. */
 FRACAS_MUST_USE fracas_err fracas_writer_finish(fracas_writer *writer, bool complete,
@@ -343,9 +342,6 @@ typedef enum {
 /* Looks at the lock without taking it; *text as above, "" if it is free. Not for the holder, who
  * would lose it. */
 fracas_lock_state fracas_study_lock_state(const char *study, char text[FRACAS_HOLDER_TEXT]);
-
-/* True while another process has the lock: the study is being computed. */
-bool fracas_study_held(const char *study);
 
 /* Removes the temporary files of a study; nobody may be writing one. *report: a line for each, ""
  * if none (freed by caller). */

@@ -15,7 +15,6 @@ typedef struct {
     void *context;
 } fracas_said;
 
-void fracas_say_line(const fracas_said *said, const char *format, ...) FRACAS_PRINTF(2, 3);
 /* Each line of `text`. */
 void fracas_say_lines(const fracas_said *said, const char *text);
 

@@ -274,7 +274,6 @@ static inline void sample_segment(const char *study, const char *name,
     char path[512];
     snprintf(path, sizeof path, "%s/segments/%s", study, name);
     OK(fracas_writer_create(path, &header, table, &writer));
-    fracas_writer_own_seal(writer);
     OK(fracas_writer_provenance(writer, SAMPLE_PROVENANCE));
     for (size_t i = 0; i < count; i++) {
         FRACAS_CLEARED(fracas_record) record;

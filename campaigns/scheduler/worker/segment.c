@@ -69,7 +69,6 @@ static fracas_err write_file(const fracas_segment *segment, const char *path,
     fracas_file_header header = fracas_campaign_header(campaign);
     fracas_writer *writer;
     TRY(fracas_writer_create(path, &header, &campaign->table, &writer));
-    fracas_writer_own_seal(writer); /* no index knows it yet */
     fracas_err err = fracas_writer_provenance(writer, provenance);
     for (size_t i = 0; !err && i < segment->count; i++)
         err = append(segment, i, campaign, writer, &row[i]);

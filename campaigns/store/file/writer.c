@@ -190,6 +190,7 @@ fracas_err fracas_writer_append(fracas_writer *writer, size_t point, int64_t rep
 
 fracas_err fracas_writer_provenance(fracas_writer *writer, const char *provenance)
 {
+    writer->own_seal = true;
     return fracas_h5_put_text(&writer->h5, "/", FRACAS_PROVENANCE, provenance);
 }
 
@@ -256,11 +257,6 @@ static fracas_err finish(fracas_writer *writer, bool complete, fracas_file_seal 
     if (rename(writer->temporary, writer->path) < 0)
         return fracas_disk_fail("rename to", writer->path);
     return fracas_disk_sync_folder(writer->path);
-}
-
-void fracas_writer_own_seal(fracas_writer *writer)
-{
-    writer->own_seal = true;
 }
 
 fracas_err fracas_writer_finish(fracas_writer *writer, bool complete, fracas_file_seal *seal)

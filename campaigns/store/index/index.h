@@ -4,9 +4,30 @@
 #ifndef FRACAS_CAMPAIGNS_STORE_INDEX_INDEX_H
 #define FRACAS_CAMPAIGNS_STORE_INDEX_INDEX_H
 
-#include "campaigns/store/file/identity.h"
+#include "campaigns/store/store.h"
 
 #include <sqlite3.h>
+
+/* ---- identity of a study: values on which records depend beside their point and replica ----
+ *
+ * The hash of a point does not hold it, so files and the index are compared by it. */
+
+enum { FRACAS_IDENTITY_VALUES = 4, FRACAS_IDENTITY_TEXT = 32, FRACAS_DIFFERENCE_TEXT = 128 };
+
+/* Names of the values, as attributes of the root group and as keys of `meta`. */
+extern const char *const fracas_identity_name[FRACAS_IDENTITY_VALUES];
+
+/* The values as text; "" where one is not known. */
+typedef struct {
+    char value[FRACAS_IDENTITY_VALUES][FRACAS_IDENTITY_TEXT];
+} fracas_identity;
+
+void fracas_identity_of(const fracas_file_header *header, fracas_identity *identity);
+/* True if a value that both know differs; then *text is the first, "NAME FOUND, not WANTED". */
+bool fracas_identity_differs(const fracas_identity *found, const fracas_identity *wanted,
+                             char text[FRACAS_DIFFERENCE_TEXT]);
+
+/* ---- the database ---- */
 
 typedef struct {
     const char *text;
@@ -39,22 +60,10 @@ typedef struct {
     const char *text;
     const fracas_hash *hash;
 } fracas_sql_value;
-#define SQL_INTEGER(value)                         \
-    {                                              \
-        .type = SQLITE_INTEGER, .integer = (value) \
-    }
-#define SQL_REAL(value)                       \
-    {                                         \
-        .type = SQLITE_FLOAT, .real = (value) \
-    }
-#define SQL_TEXT(value)                      \
-    {                                        \
-        .type = SQLITE_TEXT, .text = (value) \
-    }
-#define SQL_HASH(value)                      \
-    {                                        \
-        .type = SQLITE_BLOB, .hash = (value) \
-    }
+#define SQL_INTEGER(value) ((fracas_sql_value){.type = SQLITE_INTEGER, .integer = (value)})
+#define SQL_REAL(value) ((fracas_sql_value){.type = SQLITE_FLOAT, .real = (value)})
+#define SQL_TEXT(value) ((fracas_sql_value){.type = SQLITE_TEXT, .text = (value)})
+#define SQL_HASH(value) ((fracas_sql_value){.type = SQLITE_BLOB, .hash = (value)})
 #define SQL_VALUES(...)                      \
     (const fracas_sql_value[]){__VA_ARGS__}, \
         sizeof((const fracas_sql_value[]){__VA_ARGS__}) / sizeof(fracas_sql_value)

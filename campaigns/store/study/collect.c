@@ -185,19 +185,15 @@ static fracas_err index_bytes(const collection *c, uint64_t *bytes)
     return FRACAS_OK;
 }
 
-static fracas_err number(const collection *c, const char *pragma, int64_t *value)
-{
-    return fracas_sql_numbers(c->index, pragma, NULL, 0, value, NULL);
-}
-
+/* By which `before` exceeds the bytes of pages in use. */
 static fracas_err free_pages(const collection *c, uint64_t before, uint64_t *bytes)
 {
-    int64_t pages, size, all;
-    TRY(number(c, "PRAGMA freelist_count", &pages));
-    TRY(number(c, "PRAGMA page_count", &all));
-    TRY(number(c, "PRAGMA page_size", &size));
-    const uint64_t after = (uint64_t)((all - pages) * size);
-    *bytes = before > after ? before - after : 0;
+    int64_t used;
+    TRY(fracas_sql_numbers(c->index,
+                           "SELECT (page_count - freelist_count) * page_size FROM "
+                           "pragma_page_count, pragma_freelist_count, pragma_page_size",
+                           NULL, 0, &used, NULL));
+    *bytes = before > (uint64_t)used ? before - (uint64_t)used : 0;
     return FRACAS_OK;
 }
 

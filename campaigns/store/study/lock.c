@@ -18,10 +18,10 @@
 
 /* A holder as the file names it; "" or 0 where it does not. */
 typedef struct {
-    char host[257];
-    char since[32]; /* UTC */
-    char boot[64];  /* the kernel's */
-    char job[64];   /* SLURM_JOB_ID */
+    char host[FRACAS_HOST_TEXT];
+    char since[32];              /* UTC */
+    char boot[FRACAS_BOOT_TEXT]; /* the kernel's */
+    char job[64];                /* SLURM_JOB_ID */
     long pid;
     unsigned long long start; /* the process's, as in /proc/PID/stat */
     int restart;              /* SLURM_RESTART_COUNT: times that the job was requeued */
@@ -47,21 +47,19 @@ static unsigned long long start_of(long pid)
     return state == 'Z' || state == 'X' ? 0 : start;
 }
 
-static void put_word(char *to, size_t size, const char *word) /* no spaces within */
+static void cut_word(char *text) /* no spaces within */
 {
-    snprintf(to, size, "%s", word ? word : "");
-    to[strcspn(to, " \t\n")] = '\0';
+    text[strcspn(text, " \t\n")] = '\0';
 }
 
 static holder this_process(void)
 {
     holder self = {.pid = getpid(), .start = start_of(getpid())};
-    const char *restart = getenv("SLURM_RESTART_COUNT");
-    char host[FRACAS_HOST_TEXT], boot[FRACAS_BOOT_TEXT];
-    fracas_disk_host(host, boot);
-    put_word(self.host, sizeof self.host, host);
-    put_word(self.boot, sizeof self.boot, boot);
-    put_word(self.job, sizeof self.job, getenv("SLURM_JOB_ID"));
+    const char *restart = getenv("SLURM_RESTART_COUNT"), *job = getenv("SLURM_JOB_ID");
+    fracas_disk_host(self.host, self.boot);
+    snprintf(self.job, sizeof self.job, "%s", job ? job : "");
+    cut_word(self.host);
+    cut_word(self.job);
     self.restart = restart ? atoi(restart) : 0;
     time_t now = time(NULL);
     struct tm utc;
@@ -285,10 +283,4 @@ fracas_lock_state fracas_study_lock_state(const char *study, char text[FRACAS_HO
     if (held || (named && lives(&h, &self))) state = FRACAS_LOCK_HELD;
     else if (named) state = same_kernel(&h, &self) ? FRACAS_LOCK_LEFT : FRACAS_LOCK_ELSEWHERE;
     return state;
-}
-
-bool fracas_study_held(const char *study)
-{
-    char text[FRACAS_HOLDER_TEXT];
-    return fracas_study_lock_state(study, text) == FRACAS_LOCK_HELD;
 }

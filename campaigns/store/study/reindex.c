@@ -24,12 +24,12 @@ typedef struct {
     const fracas_point_table *table;
     fracas_identity identity;
     const fracas_said *said;
-    char *nursery, *fresh, *old; /* STUDY/.reindex, its index.sqlite, STUDY/index.sqlite */
-    fracas_index *index;         /* the new one */
-    bool readable;               /* the old one is there, sound and of this study */
+    const char *nursery, *fresh, *old; /* STUDY/.reindex, its index.sqlite, STUDY/index.sqlite */
+    fracas_index *index;               /* the new one */
+    bool readable;                     /* the old one is there, sound and of this study */
 } reindexing;
 
-void fracas_say_line(const fracas_said *said, const char *format, ...)
+FRACAS_PRINTF(2, 3) static void say_line(const fracas_said *said, const char *format, ...)
 {
     char text[1200];
     va_list arguments;
@@ -43,7 +43,7 @@ void fracas_say_lines(const fracas_said *said, const char *text)
 {
     for (size_t length; *text; text += length + (text[length] == '\n')) {
         length = strcspn(text, "\n");
-        fracas_say_line(said, "%.*s", (int)length, text);
+        say_line(said, "%.*s", (int)length, text);
     }
 }
 
@@ -102,19 +102,16 @@ static fracas_err check_old(reindexing *r, fracas_index *old)
 
 static fracas_err look_at_old(reindexing *r)
 {
-    fracas_index *old;
+    OWN(fracas_index) old = NULL;
     if (access(r->old, F_OK) < 0 && errno == ENOENT) return FRACAS_OK;
     fracas_err err = fracas_index_open(r->study, false, &old);
-    if (!err) {
-        err = check_old(r, old);
-        fracas_index_close(old);
-    }
+    if (!err) err = check_old(r, old);
     r->readable = !err;
     if (err != FRACAS_DAMAGED && err != FRACAS_BUG)
         return err; /* a bug: tables that are not as ours */
-    fracas_say_line(r->said, "the index before cannot be used: %s", fracas_message());
-    fracas_say_line(
-        r->said, "realizations that FAILED are computed again, for that index alone knew of them");
+    say_line(r->said, "the index before cannot be used: %s", fracas_message());
+    say_line(r->said,
+             "realizations that FAILED are computed again, for that index alone knew of them");
     return FRACAS_OK;
 }
 
@@ -193,9 +190,9 @@ static void tell(const reindexing *r, char *report)
     int64_t adopted = 0;
     for (char *line = strtok(report, "\n"); line; line = strtok(NULL, "\n")) {
         if (strncmp(line, "adopted ", 8) == 0) adopted++;
-        else fracas_say_line(r->said, "%s", line);
+        else say_line(r->said, "%s", line);
     }
-    fracas_say_line(r->said, "%" PRId64 " segments read", adopted);
+    say_line(r->said, "%" PRId64 " segments read", adopted);
 }
 
 static fracas_err fill(reindexing *r, const fracas_file_header *header)
@@ -246,7 +243,7 @@ static fracas_err move_old(const reindexing *r)
         TRY(fracas_path(&from, "%s%s", r->old, tail[t]));
         TRY(fracas_path(&to, "%s%s%s", r->old, stamp, tail[t]));
         if (rename(from, to) < 0 && errno != ENOENT) return fracas_disk_fail("move away", from);
-        if (t == 0 && access(to, F_OK) == 0) fracas_say_line(r->said, "the index before is %s", to);
+        if (t == 0 && access(to, F_OK) == 0) say_line(r->said, "the index before is %s", to);
     }
     return FRACAS_OK;
 }
@@ -280,14 +277,18 @@ static fracas_err reindex(reindexing *r, const fracas_file_header *header)
 fracas_err fracas_study_reindex(const char *study, const fracas_file_header *header,
                                 const fracas_point_table *table, const fracas_said *said)
 {
-    reindexing r = {.study = study, .table = table, .said = said};
+    OWNED char *nursery = NULL;
+    OWNED char *fresh = NULL;
+    OWNED char *old = NULL;
+    TRY(fracas_disk_join(study, FRACAS_REINDEX_FOLDER, &nursery));
+    TRY(fracas_disk_join(nursery, "index.sqlite", &fresh));
+    TRY(fracas_disk_join(study, "index.sqlite", &old));
+    reindexing r = {.study = study,
+                    .table = table,
+                    .said = said,
+                    .nursery = nursery,
+                    .fresh = fresh,
+                    .old = old};
     fracas_identity_of(header, &r.identity);
-    fracas_err err = fracas_disk_join(study, FRACAS_REINDEX_FOLDER, &r.nursery);
-    if (!err) err = fracas_disk_join(r.nursery, "index.sqlite", &r.fresh);
-    if (!err) err = fracas_disk_join(study, "index.sqlite", &r.old);
-    if (!err) err = reindex(&r, header);
-    free(r.nursery);
-    free(r.fresh);
-    free(r.old);
-    return err;
+    return reindex(&r, header);
 }

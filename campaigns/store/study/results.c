@@ -20,17 +20,17 @@ typedef struct {
 } entry;
 
 struct fracas_results {
-    fracas_reader *reader; /* study.h5; NULL of partial ones, to which the rest belongs */
+    fracas_reader *reader; /* study.h5; NULL of partial ones */
     fracas_file_header header;
     fracas_point_table table;
-    fracas_point_row *point; /* the table's, with the replicas so far */
-    int64_t *missing;        /* at each point */
-    entry *row;
-    size_t nrows, room;
-    fracas_segments *segments;
     fracas_decision *decision;
     size_t ndecisions, decision_room;
-    char **note; /* study.h5 has them, too */
+    size_t nrows, room;
+    entry *row;              /* from here to `segments` for partial ones */
+    fracas_point_row *point; /* the table's, with the replicas so far */
+    int64_t *missing;        /* at each point */
+    fracas_segments *segments;
+    char **note;
     size_t nnotes, note_room;
     int64_t *named; /* segments that a note names */
     size_t nnamed, named_room;
@@ -68,16 +68,17 @@ static fracas_err take_file(const char *study, fracas_index *index, const fracas
 {
     bool sealed;
     fracas_index_counts counts;
+    OWN(fracas_reader) reader = NULL;
     TRY(fracas_study_file_sealed(study, index, &sealed));
     if (!sealed) return FRACAS_OK;
     TRY(fracas_index_count(index, &counts));
     if (counts.planned || counts.leased) return FRACAS_OK;
-    TRY(open_file(study, &results->reader));
-    if (fracas_hash_equal(&fracas_reader_header(results->reader)->campaign, campaign) &&
-        (int64_t)fracas_reader_realizations(results->reader) == counts.realizations)
+    TRY(open_file(study, &reader));
+    if (!fracas_hash_equal(&fracas_reader_header(reader)->campaign, campaign) ||
+        (int64_t)fracas_reader_realizations(reader) != counts.realizations)
         return FRACAS_OK;
-    fracas_reader_close(results->reader);
-    results->reader = NULL;
+    results->reader = reader;
+    reader = NULL;
     return FRACAS_OK;
 }
 
@@ -187,6 +188,15 @@ static fracas_err read_index(const char *study, fracas_index *index, const fraca
 
 /* ---- opening ---- */
 
+/* Facts that study.h5 and partial results have in one place. */
+static fracas_err read_facts(fracas_results *results)
+{
+    results->header = *fracas_reader_header(results->reader);
+    results->table = *fracas_reader_points(results->reader);
+    results->nrows = fracas_reader_realizations(results->reader);
+    return fracas_reader_decisions(results->reader, &results->decision, &results->ndecisions);
+}
+
 static fracas_err copy_table(const fracas_point_table *table, fracas_results *results)
 {
     results->table = *table;
@@ -228,19 +238,19 @@ static fracas_err open_by_index(const char *study, const fracas_hash *campaign,
 fracas_err fracas_results_open(const char *study, const fracas_hash *campaign,
                                const fracas_point_table *table, fracas_results **results)
 {
-    fracas_results *new = *results = calloc(1, sizeof **results);
-    if (!new) return fracas_no_memory("the results of a study");
-    fracas_err err;
-    if (campaign && table) {
-        err = copy_table(table, new);
-        if (!err) err = open_by_index(study, campaign, new);
-    } else {
-        err = open_file(study, &new->reader);
-    }
-    if (!err) return FRACAS_OK;
-    fracas_results_close(new);
+    OWN(fracas_results) new = calloc(1, sizeof *new);
     *results = NULL;
-    return err;
+    if (!new) return fracas_no_memory("the results of a study");
+    if (campaign && table) {
+        TRY(copy_table(table, new));
+        TRY(open_by_index(study, campaign, new));
+    } else {
+        TRY(open_file(study, &new->reader));
+    }
+    if (new->reader) TRY(read_facts(new));
+    *results = new;
+    new = NULL;
+    return FRACAS_OK;
 }
 
 void fracas_results_close(fracas_results *results)
@@ -357,17 +367,17 @@ bool fracas_results_partial(const fracas_results *results)
 
 const fracas_file_header *fracas_results_header(const fracas_results *results)
 {
-    return results->reader ? fracas_reader_header(results->reader) : &results->header;
+    return &results->header;
 }
 
 const fracas_point_table *fracas_results_points(const fracas_results *results)
 {
-    return results->reader ? fracas_reader_points(results->reader) : &results->table;
+    return &results->table;
 }
 
 size_t fracas_results_realizations(const fracas_results *results)
 {
-    return results->reader ? fracas_reader_realizations(results->reader) : results->nrows;
+    return results->nrows;
 }
 
 int64_t fracas_results_missing(const fracas_results *results, size_t point)
@@ -392,15 +402,10 @@ const char *fracas_results_note(const fracas_results *results, size_t note)
     return results->note[note];
 }
 
-fracas_err fracas_results_decisions(fracas_results *results, fracas_decision **decision,
-                                    size_t *count)
+const fracas_decision *fracas_results_decisions(const fracas_results *results, size_t *count)
 {
-    if (results->reader) return fracas_reader_decisions(results->reader, decision, count);
     *count = results->ndecisions;
-    *decision = malloc((*count + 1) * sizeof **decision);
-    if (!*decision) return fracas_no_memory("the decisions of a study");
-    if (*count) memcpy(*decision, results->decision, *count * sizeof **decision);
-    return FRACAS_OK;
+    return results->decision;
 }
 
 fracas_err fracas_results_mesh_interfaces(fracas_results *results, size_t point, size_t *interfaces)
