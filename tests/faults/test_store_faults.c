@@ -1,20 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Damage and death: flipped bytes, truncated files, a full disk, kill -9. */
-#include "tests/support/store_sample.h"
-
-#include "campaigns/store/file/disk.h"
-#include "campaigns/store/file/h5.h"
-#include "campaigns/store/index/index.h"
-#include "tests/support/test.h"
+#define STUDY_REPLICAS 4 /* few, as they are read a thousand times */
+#define STUDY_ROWS 12
+#include "tests/support/upkeep.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
-#include <sys/wait.h>
 
-enum { REPLICAS = 4, ALL = SAMPLE_POINTS * REPLICAS, MOST = 12 };
+enum { KILLS = 12 };
 
 /* HDF5 1.10 forgets an object header whose checksum is wrong; it is no leak of ours. */
 const char *__lsan_default_suppressions(void);
@@ -28,15 +23,29 @@ const char *__lsan_default_suppressions(void)
 static char calls[64];      /* f: fsync of a file, d: of a folder, r: rename */
 static int fail_at = -1;    /* number of the call that fails ... */
 static int fail_with = EIO; /* ... with this */
+static int dies_at = -1;    /* number of the call, of these and of all that write, that kills */
 static bool renamed_open;   /* a file was renamed while it was open here */
+
+static void may_die(void)
+{
+    if (dies_at >= 0 && dies_at-- == 0) kill(getpid(), SIGKILL);
+}
 
 static bool call_fails(char name)
 {
     size_t number = strlen(calls);
+    may_die();
     if (number + 1 < sizeof calls) calls[number] = name;
     if (fail_at < 0 || (size_t)fail_at != number) return false;
     errno = fail_with;
     return true;
+}
+
+/* From here on the first call fails, or a later one; -1: none. */
+static void fail_call(int number)
+{
+    memset(calls, 0, sizeof calls);
+    fail_at = number;
 }
 
 int fsync(int fd)
@@ -64,29 +73,33 @@ int rename(const char *from, const char *to)
     return call_fails('r') ? -1 : (int)syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to);
 }
 
-static char *study;
-static fracas_point_row point_row[SAMPLE_POINTS];
-static fracas_point_table table;
-
-static int set_up(void **state)
+int fdatasync(int fd)
 {
-    study = sample_folder();
-    table = sample_table(point_row, REPLICAS);
-    return mkdir(sample_path(study, "segments"), 0777);
+    may_die();
+    return (int)syscall(SYS_fdatasync, fd);
 }
 
-static int tear_down(void **state)
+ssize_t pwrite(int fd, const void *bytes, size_t size, off_t at)
 {
-    sample_remove(study);
-    return 0;
+    may_die();
+    return syscall(SYS_pwrite64, fd, bytes, size, at);
 }
 
-static void write_segment(fracas_file_seal *seal, fracas_segment_row row[ALL])
+ssize_t pwrite64(int fd, const void *bytes, size_t size, off64_t at)
 {
-    sample_realization what[ALL];
-    for (size_t i = 0; i < ALL; i++)
-        what[i] = (sample_realization){i / REPLICAS, (int64_t)(i % REPLICAS)};
-    sample_segment(study, "a.h5", &table, what, ALL, MOST, seal, row);
+    return pwrite(fd, bytes, size, at);
+}
+
+/* The segment of everything that is computed. */
+static const char *commit_all(void)
+{
+    commit_everything(0);
+    return sample_path(study, "segments/s0.h5");
+}
+
+static void nothing_is_open(void)
+{
+    assert_int_equal(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
 }
 
 /* ---- damaged segments ---- */
@@ -111,10 +124,10 @@ static bool same_points(const fracas_point_table *found)
 
 static bool same_header(const fracas_file_header *found)
 {
-    fracas_file_header wanted = sample_header();
-    return fracas_hash_equal(&found->campaign, &wanted.campaign) && found->seed == wanted.seed &&
-           found->history == wanted.history && found->interfaces == wanted.interfaces &&
-           !strcmp(found->version, wanted.version) && found->complete == wanted.complete;
+    const fracas_file_header header = sample_header();
+    return fracas_hash_equal(&found->campaign, &header.campaign) && found->seed == header.seed &&
+           found->history == header.history && found->interfaces == header.interfaces &&
+           !strcmp(found->version, header.version) && found->complete == header.complete;
 }
 
 /* By its own seal, as a segment is looked at that no index knows. */
@@ -162,12 +175,9 @@ static reading read_all(const char *path)
 
 static void flipped_bytes_are_found(void **state)
 {
-    fracas_file_seal seal;
-    fracas_segment_row row[ALL];
-    write_segment(&seal, row);
-    const char *path = sample_path(study, "segments/a.h5");
+    const char *path = commit_all();
     size_t size;
-    unsigned char *bytes = sample_slurp(path, &size);
+    OWNED unsigned char *bytes = sample_slurp(path, &size);
     assert_int_equal(read_all(path), SAME);
     assert_int_equal(read_seal(path), SAME);
     uint64_t random = 2;
@@ -188,19 +198,15 @@ static void flipped_bytes_are_found(void **state)
     }
     /* What is not reported is space that HDF5 keeps free; most of a file is not that. */
     assert_true(reported > FLIPS / 2);
-    assert_int_equal(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
+    nothing_is_open();
     close(fd);
-    free(bytes);
 }
 
 static void truncated_files_are_found(void **state)
 {
-    fracas_file_seal seal;
-    fracas_segment_row row[ALL];
-    write_segment(&seal, row);
-    const char *path = sample_path(study, "segments/a.h5");
+    const char *path = commit_all();
     size_t size;
-    unsigned char *bytes = sample_slurp(path, &size);
+    OWNED unsigned char *bytes = sample_slurp(path, &size);
     uint64_t random = 3;
     for (int i = 0; i < 100; i++) {
         sample_spill(path, bytes,
@@ -215,25 +221,21 @@ static void truncated_files_are_found(void **state)
     /* Cut off as a whole the seal is missed no more than in a segment of before there were any. */
     sample_spill(path, bytes, size - FRACAS_OWN_SEAL);
     assert_int_equal(read_seal(path), SAME);
-    assert_int_equal(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
+    nothing_is_open();
     for (int fd = 3; fd < 40; fd++) { /* nothing of them stays open */
         char link[64], target[512] = "";
         snprintf(link, sizeof link, "/proc/self/fd/%d", fd);
         assert_true(readlink(link, target, sizeof target - 1) < 0 || strcmp(target, path) != 0);
     }
-    free(bytes);
 }
 
 /* HDF5 1.10 can go on without the links in a damaged part of a group's header: no column may be
  * missed. */
 static void lost_columns_are_found(void **state)
 {
-    fracas_file_seal seal;
-    fracas_segment_row row[ALL];
-    write_segment(&seal, row);
-    const char *path = sample_path(study, "segments/a.h5");
+    const char *path = commit_all();
     size_t size;
-    unsigned char *bytes = sample_slurp(path, &size);
+    OWNED unsigned char *bytes = sample_slurp(path, &size);
     for (int c = 0; c < 3; c++) {
         const char *name = sample_column[c].path;
         unsigned char *link = memmem(bytes, size, name, strlen(name));
@@ -243,18 +245,14 @@ static void lost_columns_are_found(void **state)
         assert_int_equal(read_all(path), REPORTED);
         link[strlen(name)] ^= 0x40;
     }
-    free(bytes);
 }
 
 /* Rubbish over whole stretches: errors, never a crash. */
 static void overwritten_stretches_are_found(void **state)
 {
-    fracas_file_seal seal;
-    fracas_segment_row row[ALL];
-    write_segment(&seal, row);
-    const char *path = sample_path(study, "segments/a.h5");
+    const char *path = commit_all();
     size_t size;
-    unsigned char *bytes = sample_slurp(path, &size), *damaged = malloc(size);
+    OWNED unsigned char *bytes = sample_slurp(path, &size), *damaged = taken(size);
     uint64_t random = 4;
     for (int i = 0; i < 60; i++) {
         memcpy(damaged, bytes, size);
@@ -265,9 +263,7 @@ static void overwritten_stretches_are_found(void **state)
         sample_spill(path, damaged, size);
         assert_int_not_equal(read_all(path), WRONG);
     }
-    assert_int_equal(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
-    free(damaged);
-    free(bytes);
+    nothing_is_open();
 }
 
 /* A table `segment` that is damaged where SQLite does not see it. */
@@ -275,27 +271,20 @@ static void damaged_rows_of_the_index_are_found(void **state)
 {
     static const char *const damage[] = {"checksum = '00000000000zzzzz'", "checksum = ''",
                                          "name = 'a/b'", "rows = -1"};
-    fracas_file_seal seal;
-    fracas_segment_row row[ALL];
-    fracas_index *index;
-    write_segment(&seal, row);
-    OK(fracas_index_open(study, true, &index));
-    OK(fracas_index_plan(index, &table));
-    OK(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"));
-    OK(fracas_index_commit(index, "b.h5", &seal, row, 0, "{}"));
-    for (size_t d = 0; d < sizeof damage / sizeof *damage; d++) {
+    fracas_segment_row none;
+    commit_all();
+    OK(fracas_index_commit(index_, "b.h5", &(fracas_file_seal){1, 2}, &none, 0, "{}"));
+    for (size_t d = 0; d < FRACAS_COUNT(damage); d++) {
         char text[200];
-        fracas_known_segments known = {0};
-        snprintf(text, sizeof text, "UPDATE segment SET %s WHERE id = 2", damage[d]);
-        assert_int_equal(sqlite3_exec(index->db, text, NULL, NULL, NULL), SQLITE_OK);
-        sample_fails(fracas_index_segments_by_id(index, &known), FRACAS_DAMAGED, "segment");
-        fracas_known_segments_clear(&known);
-        snprintf(text, sizeof text,
-                 "UPDATE segment SET name = 'b.h5', rows = 0, checksum = '%016llx' WHERE id = 2",
-                 (unsigned long long)seal.checksum);
-        assert_int_equal(sqlite3_exec(index->db, text, NULL, NULL, NULL), SQLITE_OK);
+        FRACAS_CLEARED(fracas_known_segments) known = {0};
+        snprintf(text, sizeof text, "BEGIN; UPDATE segment SET %s WHERE id = 2", damage[d]);
+        sql(text);
+        sample_fails(fracas_index_segments_by_id(index_, &known), FRACAS_DAMAGED, "segment");
+        sql("ROLLBACK");
     }
-    fracas_index_close(index);
+    FRACAS_CLEARED(fracas_known_segments) known = {0};
+    OK(fracas_index_segments_by_id(index_, &known));
+    assert_int_equal(known.count, 2);
 }
 
 /* ---- a full disk ---- */
@@ -312,9 +301,9 @@ static void limit_files(rlim_t bytes)
 /* 40 realizations of up to `most` rows a part into one file. */
 static fracas_err write_some(const char *path, size_t most)
 {
-    fracas_file_header header = sample_header();
+    const fracas_file_header header = sample_header();
     fracas_writer *writer;
-    fracas_file_seal seal;
+    fracas_file_seal own;
     TRY(fracas_writer_create(path, &header, &table, &writer));
     for (int64_t r = 0; r < 40; r++) {
         fracas_record record;
@@ -326,7 +315,7 @@ static fracas_err write_some(const char *path, size_t most)
             return err;
         }
     }
-    return fracas_writer_finish(writer, true, &seal);
+    return fracas_writer_finish(writer, true, &own);
 }
 
 static void full_disk_is_said_and_leaves_nothing(void **state)
@@ -354,23 +343,23 @@ static void full_disk_is_said_and_leaves_nothing(void **state)
     sample_fails(write_some(sample_path(study, "segments/taken.h5"), 1), FRACAS_ENVIRONMENT,
                  "taken.h5");
     assert_int_equal(sample_files(folder, "tmp"), 0);
-    assert_int_equal(H5Fget_obj_count(H5F_OBJ_ALL, H5F_OBJ_ALL), 0);
+    nothing_is_open();
 }
 
 static void bytes_are_durable_before_their_name(void **state)
 {
     char *folder = sample_path(study, "segments"), *path = sample_path(study, "segments/a.h5");
-    memset(calls, 0, sizeof calls);
+    fail_call(-1);
     OK(write_some(path, 10));
     assert_string_equal(calls, "frd");
     unlink(path);
-    for (fail_at = 0; fail_at < 3; fail_at++) {
-        memset(calls, 0, sizeof calls);
+    for (int call = 0; call < 3; call++) {
+        fail_call(call);
         sample_fails(write_some(path, 10), FRACAS_ENVIRONMENT, strerror(EIO));
         assert_int_equal(sample_files(folder, "tmp"), 0);
         /* When only the folder could not be synced the whole segment may be there, for recover to
          * adopt. */
-        assert_int_equal(access(path, F_OK), fail_at < 2 ? -1 : 0);
+        assert_int_equal(access(path, F_OK), call < 2 ? -1 : 0);
     }
     fail_at = -1;
 }
@@ -388,9 +377,9 @@ static void limits_are_said_with_their_remedy(void **state)
                  {EFBIG, "ulimit -f"}};
     char *folder = sample_path(study, "segments"), *path = sample_path(study, "segments/a.h5");
     for (size_t l = 0; l < sizeof limit / sizeof *limit; l++) {
-        for (fail_at = 0; fail_at < 2; fail_at++) {
+        for (int call = 0; call < 2; call++) {
             fail_with = limit[l].reason;
-            memset(calls, 0, sizeof calls);
+            fail_call(call);
             sample_fails(write_some(path, 10), FRACAS_ENVIRONMENT, strerror(limit[l].reason));
             assert_non_null(strstr(fracas_message(), limit[l].remedy));
             assert_int_equal(sample_files(folder, "a.h5"), 0);
@@ -402,238 +391,189 @@ static void limits_are_said_with_their_remedy(void **state)
 
 static void too_many_open_files_are_said(void **state)
 {
-    fracas_index *index;
     struct rlimit before, none;
+    fracas_index_close(index_);
+    index_ = NULL;
     int next = dup(STDERR_FILENO), lock; /* files with smaller numbers than this are open */
     assert_int_equal(getrlimit(RLIMIT_NOFILE, &before), 0);
     close(next);
     none = (struct rlimit){(rlim_t)next, before.rlim_max};
-    OK(fracas_index_open(study, true, &index));
-    fracas_index_close(index);
     assert_int_equal(setrlimit(RLIMIT_NOFILE, &none), 0);
     sample_fails(write_some(sample_path(study, "segments/a.h5"), 10), FRACAS_ENVIRONMENT,
                  "ulimit -n");
     sample_fails(fracas_study_lock(study, false, &lock), FRACAS_ENVIRONMENT, "ulimit -n");
-    sample_fails(fracas_index_open(study, false, &index), FRACAS_ENVIRONMENT, "ulimit -n");
+    sample_fails(fracas_index_open(study, false, &index_), FRACAS_ENVIRONMENT, "ulimit -n");
     assert_int_equal(setrlimit(RLIMIT_NOFILE, &before), 0);
     OK(write_some(sample_path(study, "segments/a.h5"), 10));
-    OK(fracas_index_open(study, false, &index));
-    fracas_index_close(index);
+    OK(fracas_index_open(study, false, &index_));
 }
 
 /* Damage is found while the disk fails: nothing is lost by that, the next sweep goes on. */
 static void setting_aside_can_fail_anywhere(void **state)
 {
-    fracas_index *index;
-    fracas_file_seal seal;
-    fracas_segment_row row[ALL];
-    fracas_file_header header = sample_header();
-    char *report = NULL, *path = sample_path(study, "segments/a.h5"),
-         *aside = sample_path(study, "segments/a.damaged");
-    write_segment(&seal, row);
-    OK(fracas_index_open(study, true, &index));
-    OK(fracas_index_plan(index, &table));
-    OK(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"));
-    int fd = open(path, O_WRONLY);
-    assert_int_equal(pwrite(fd, "x", 1, (off_t)seal.bytes / 2), 1);
-    close(fd);
+    const fracas_file_header header = sample_header();
+    const char *path = commit_all(), *aside = sample_path(study, "segments/s0.damaged");
+    char *report = NULL;
+    flip_byte(path, 30000);
     for (const char *call = "rd"; *call; call++) {
-        fail_at = (int)(call - "rd");
-        memset(calls, 0, sizeof calls);
-        sample_fails(fracas_study_recover(study, index, &header, &table, &report),
+        fail_call((int)(call - "rd"));
+        sample_fails(fracas_study_recover(study, index_, &header, &table, &report),
                      FRACAS_ENVIRONMENT, strerror(EIO));
         assert_int_equal(calls[fail_at], *call);
         assert_int_equal(access(path, F_OK), *call == 'r' ? 0 : -1);
         assert_int_equal(access(aside, F_OK), *call == 'r' ? -1 : 0);
     }
     fail_at = -1;
-    OK(fracas_study_recover(study, index, &header, &table, &report));
-    assert_non_null(strstr(report, "a.h5 is missing"));
-    free(report);
-    fracas_index_counts counts;
-    OK(fracas_index_count(index, &counts));
-    assert_int_equal(counts.planned, ALL);
+    recover_says("s0.h5 is missing");
+    assert_int_equal(count_all().planned, ALL);
     assert_int_equal(access(aside, F_OK), 0);
-    fracas_index_close(index);
 }
 
 /* A merge that ends between the new study.h5 and its seal leaves none, so that it is merged again.
  */
 static void an_interrupted_merge_leaves_no_seal(void **state)
 {
-    fracas_index *index;
-    fracas_file_seal seal;
-    fracas_segment_row row[ALL];
-    fracas_file_header header = sample_header();
-    bool sealed;
-    write_segment(&seal, row);
-    OK(fracas_index_open(study, true, &index));
-    OK(fracas_index_plan(index, &table));
-    OK(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"));
+    const fracas_file_header header = sample_header();
+    commit_all();
     for (const char *call = "rd"; *call; call++) {
-        OK(fracas_study_merge(study, index, &header, &table, NULL));
-        memset(calls, 0, sizeof calls);
-        OK(fracas_study_merge(study, index, &header, &table,
-                              NULL)); /* its calls are those of the next one */
-        OK(fracas_study_sealed(study, index, &sealed));
-        assert_true(sealed);
+        merge();
+        fail_call(-1);
+        merge(); /* its calls are those of the next one */
+        assert_true(is_sealed());
         assert_non_null(strchr(calls, *call));
-        fail_at = (int)(strchr(calls, *call) - calls);
-        memset(calls, 0, sizeof calls);
-        sample_fails(fracas_study_merge(study, index, &header, &table, NULL), FRACAS_ENVIRONMENT,
+        fail_call((int)(strchr(calls, *call) - calls));
+        sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_ENVIRONMENT,
                      strerror(EIO));
         fail_at = -1;
-        OK(fracas_study_sealed(study, index, &sealed));
-        assert_false(sealed);
+        assert_false(is_sealed());
     }
-    fracas_index_close(index);
 }
 
 /* A segment is damaged after its records were read. */
 static fracas_err damage_it(const void *context, size_t point, fracas_stored_mesh *mesh)
 {
-    const int fd = open(context, O_WRONLY);
-    assert_int_equal(pwrite(fd, "x", 1, 30000), 1);
-    close(fd);
+    flip_byte(context, 30000);
     return fracas_fail(FRACAS_DAMAGED, "%s: damaged", (const char *)context);
 }
 
 static void a_merge_sets_no_open_segment_aside(void **state)
 {
-    fracas_index *index;
-    fracas_file_seal seal;
-    fracas_segment_row row[ALL];
-    fracas_file_header header = sample_header();
+    const fracas_file_header header = sample_header();
     OWNED char *folder = realpath(study, NULL);
     const fracas_mesh_source meshes = {.get = damage_it,
-                                       .context = sample_path(folder, "segments/a.h5")};
-    write_segment(&seal, row);
-    OK(fracas_index_open(folder, true, &index));
-    OK(fracas_index_plan(index, &table));
-    OK(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"));
+                                       .context = sample_path(folder, "segments/s0.h5")};
+    commit_all();
     renamed_open = false;
-    sample_fails(fracas_study_merge(folder, index, &header, &table, &meshes), FRACAS_INTERRUPTED,
-                 "a.damaged");
+    sample_fails(fracas_study_merge(folder, index_, &header, &table, &meshes), FRACAS_INTERRUPTED,
+                 "s0.damaged");
     assert_false(renamed_open);
-    fracas_index_close(index);
+}
+
+/* A commit of one realization of the first point. */
+static fracas_err commit_one(int64_t replica)
+{
+    const fracas_segment_row row = {
+        point_row[0].hash, replica, 0, {FRACAS_INTACT, 1, 0, 10, 0.0, 0.0}};
+    char name[32];
+    snprintf(name, sizeof name, "s%lld.h5", (long long)replica);
+    return fracas_index_commit(index_, name, &(fracas_file_seal){1, 2}, &row, 1, "{}");
 }
 
 static void full_disk_leaves_the_index_as_it_was(void **state)
 {
-    fracas_index *index;
-    fracas_file_seal seal;
-    fracas_segment_row row[ALL];
-    fracas_index_counts before, after;
     signal(SIGXFSZ, SIG_IGN);
-    write_segment(&seal, row);
-    OK(fracas_index_open(study, true, &index));
-    OK(fracas_index_plan(index, &table));
-    OK(fracas_index_count(index, &before));
+    const fracas_index_counts before = count_all();
     limit_files(8192); /* less than the write-ahead log has already */
-    sample_fails(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"), FRACAS_ENVIRONMENT,
-                 "index.sqlite");
+    sample_fails(commit_one(0), FRACAS_ENVIRONMENT, "index.sqlite");
     assert_non_null(strstr(fracas_message(), "ulimit -f"));
     limit_files(RLIM_INFINITY);
-    OK(fracas_index_count(index, &after));
+    const fracas_index_counts after = count_all();
     assert_memory_equal(&after, &before, sizeof after);
-    OK(fracas_index_commit(index, "a.h5", &seal, row, ALL, "{}"));
-    OK(fracas_index_count(index, &after));
-    assert_int_equal(after.planned, 0);
-    fracas_index_close(index);
+    OK(commit_one(0));
+    assert_int_equal(count_all().planned, ALL - 1);
 }
 
 /* ---- kill -9 ---- */
 
-/* Commits segments of one realization until it is killed; says each commit into the pipe after it
- * is done. */
+/* Commits until it is killed; says each commit into the pipe after it is done. */
 static void commit_until_killed(int out)
 {
-    fracas_index *index;
-    if (fracas_index_open(study, false, &index)) _exit(1);
+    OK(fracas_index_open(study, false, &index_));
     for (int64_t r = 0;; r++) {
-        char name[32];
-        fracas_segment_row row = {point_row[0].hash, r, 0, {FRACAS_INTACT, 1, 0, 10, 0.0, 0.0}};
-        snprintf(name, sizeof name, "s%lld.h5", (long long)r);
-        if (fracas_index_commit(index, name, &(fracas_file_seal){1, 2}, &row, 1, "{}")) _exit(1);
-        if (write(out, &r, sizeof r) != sizeof r) _exit(1);
+        OK(commit_one(r));
+        assert_int_equal(write(out, &r, sizeof r), sizeof r);
     }
+}
+
+/* Works in a process that is killed as it makes its call number `at`. The last that it said, or -1.
+ */
+static int64_t killed(void (*work)(int out), int at)
+{
+    int ends[2], status;
+    int64_t r, last = -1;
+    assert_int_equal(pipe(ends), 0);
+    const pid_t child = fork();
+    if (child == 0) {
+        dies_at = at;
+        work(ends[1]);
+    }
+    close(ends[1]);
+    while (read(ends[0], &r, sizeof r) == sizeof r) last = r;
+    close(ends[0]);
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_true(WIFSIGNALED(status));
+    return last;
 }
 
 static void commits_survive_the_death_of_the_process(void **state)
 {
-    fracas_index *index;
-    OK(fracas_index_open(study, true, &index));
     point_row[0].replicas = 20000;
-    OK(fracas_index_plan(index, &table));
+    OK(fracas_index_plan(index_, &table));
     int64_t committed = 0;
-    for (int kills = 0; kills < 5; kills++) {
-        int ends[2];
-        fracas_index_close(index);
-        assert_int_equal(pipe(ends), 0);
-        pid_t child = fork();
-        if (child == 0) commit_until_killed(ends[1]);
-        close(ends[1]);
-        int64_t r, said = -1;
-        for (int commits = 0; commits <= 3 * kills; commits++)
-            if (read(ends[0], &r, sizeof r) == sizeof r) said = r;
-        usleep(700 * (unsigned)kills); /* somewhere in a later commit */
-        kill(child, SIGKILL);
-        waitpid(child, NULL, 0);
-        while (read(ends[0], &r, sizeof r) == sizeof r) said = r;
-        close(ends[0]);
-        OK(fracas_index_open(study, false, &index));
-        fracas_index_counts counts;
-        OK(fracas_index_count(index, &counts));
-        assert_true(counts.done >= said + 1); /* what was said is there */
+    for (int kills = 0; kills < KILLS; kills++) {
+        fracas_index_close(index_);
+        index_ = NULL;
+        const int64_t told = killed(commit_until_killed, 7 * kills);
+        open_again();
+        const fracas_index_counts counts = count_all();
+        assert_true(counts.done >= told + 1); /* what was said is there */
         assert_true(counts.done >= committed);
         assert_int_equal(counts.done, counts.segments); /* and each whole */
         committed = counts.done;
-        sqlite3_stmt *check;
-        assert_int_equal(sqlite3_prepare_v2(index->db, "PRAGMA integrity_check", -1, &check, NULL),
-                         SQLITE_OK);
-        assert_int_equal(sqlite3_step(check), SQLITE_ROW);
-        assert_string_equal((const char *)sqlite3_column_text(check, 0), "ok");
-        sqlite3_finalize(check);
+        assert_int_equal(number("SELECT count(*) FROM pragma_integrity_check "
+                                "WHERE integrity_check = 'ok'"),
+                         1);
     }
-    assert_true(committed > 0);
-    fracas_index_close(index);
+    assert_true(committed > KILLS);
 }
 
-/* A writer killed at any moment leaves no segment under its final name but whole ones. */
+static void write_until_killed(int unused)
+{
+    for (int n = 0;; n++) {
+        char name[60];
+        snprintf(name, sizeof name, "segments/k%d-%d.h5", (int)getpid(), n);
+        OK(write_some(sample_path(study, name), 30));
+    }
+}
+
+/* A writer killed at any call leaves no segment under its final name but whole ones. */
 static void segments_are_whole_or_not_there(void **state)
 {
-    char folder[256], byte;
-    snprintf(folder, sizeof folder, "%s/segments", study);
+    OWNED char *folder = strdup(sample_path(study, "segments"));
     int whole = 0;
-    for (int kills = 0; kills < 12; kills++) {
-        int ends[2];
-        assert_int_equal(pipe(ends), 0);
-        const pid_t child = fork();
-        if (child == 0)
-            for (int n = 0;; n++) {
-                char path[512];
-                snprintf(path, sizeof path, "%s/k%d-%d.h5", folder, kills, n);
-                if (write_some(path, 30) || write(ends[1], "", 1) != 1) _exit(1);
-            }
-        close(ends[1]);
-        for (int n = 0; n <= kills % 4; n++) assert_int_equal(read(ends[0], &byte, 1), 1);
-        usleep(900 * (unsigned)kills); /* somewhere in a later segment */
-        kill(child, SIGKILL);
-        waitpid(child, NULL, 0);
-        close(ends[0]);
-    }
+    for (int kills = 0; kills < KILLS; kills++) killed(write_until_killed, 61 * kills);
     DIR *list = opendir(folder);
     for (struct dirent *entry; (entry = readdir(list));) {
         fracas_reader *reader;
         if (entry->d_name[0] == '.') continue;
         OK(fracas_reader_open(sample_path(folder, entry->d_name), &reader));
         assert_int_equal(fracas_reader_realizations(reader), 40);
-        for (size_t row = 0; row < 40; row++) {
+        for (size_t r = 0; r < 40; r++) {
             FRACAS_CLEARED(fracas_record) record;
             size_t point;
             int64_t replica;
             fracas_record_init(&record);
-            OK(fracas_reader_record(reader, row, FRACAS_READ_ALL, &point, &replica, &record));
+            OK(fracas_reader_record(reader, r, FRACAS_READ_ALL, &point, &replica, &record));
         }
         fracas_reader_close(reader);
         whole++;

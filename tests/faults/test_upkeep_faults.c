@@ -3,15 +3,10 @@
 /* ctest-timeout: 1800 */
 /* The commands for studies, with every call that changes the disk failing, and killed at every one
  * of them: the study is sound after each, and the same command completes. */
-#include "tests/support/study_fixture.h"
-
-#include "base/param.h"
-#include "campaigns/store/upkeep.h"
-#include "tests/support/test.h"
+#include "tests/support/upkeep.h"
 
 #include <errno.h>
 #include <fcntl.h>
-#include <signal.h>
 #include <sys/syscall.h>
 
 /* HDF5 1.10 forgets an object header whose checksum is wrong; it is no leak of ours. */
@@ -101,25 +96,11 @@ int link(const char *from, const char *to)
 
 /* ---- the commands, on a study `study` and another one within it ---- */
 
-static void ignore_line(void *context, const char *text)
-{
-    (void)context, (void)text;
-}
-
-static fracas_err reindex(void)
+static fracas_err index_anew(void)
 {
     const fracas_file_header header = sample_header();
-    return fracas_study_reindex(study, &header, &table, &(fracas_said){ignore_line, NULL});
-}
-
-/* Those that open the index, as the caller does. */
-static fracas_err with_index(fracas_err (*work)(fracas_index *index))
-{
-    fracas_index *index;
-    TRY(fracas_index_open(study, true, &index));
-    fracas_err err = work(index);
-    fracas_index_close(index);
-    return err;
+    said_text[0] = '\0';
+    return fracas_study_reindex(study, &header, &table, &said);
 }
 
 static void ignore_item(void *context, const fracas_collected *item)
@@ -127,60 +108,46 @@ static void ignore_item(void *context, const fracas_collected *item)
     (void)context, (void)item;
 }
 
-static fracas_err collect_index(fracas_index *index)
+static fracas_err collect(void)
 {
     uint64_t freed;
+    OWN(fracas_index) index = NULL;
+    TRY(fracas_index_open(study, true, &index));
     return fracas_study_collect(study, index, &(fracas_collect_options){.found = ignore_item},
                                 &freed);
 }
 
-static fracas_err collect(void)
-{
-    return with_index(collect_index);
-}
-
-static fracas_err retry_index(fracas_index *index)
+static fracas_err retry(void)
 {
     int64_t rows;
+    OWN(fracas_index) index = NULL;
+    TRY(fracas_index_open(study, true, &index));
     return fracas_index_retry(index, NULL, &rows);
 }
 
-static fracas_err retry(void)
-{
-    return with_index(retry_index);
-}
-
 /* As a command does it: after the sweep, and compared. */
-static fracas_err join_index(fracas_index *index)
-{
-    fracas_joined joined;
-    fracas_index *theirs;
-    int64_t both;
-    char *report, *from = sample_path(study, "other");
-    const fracas_file_header header = sample_header();
-    TRY(fracas_study_recover(study, index, &header, &table, &report));
-    free(report);
-    TRY(fracas_index_open(from, false, &theirs));
-    fracas_err err = fracas_study_compare(study, index, from, theirs, &header, &table, &both);
-    if (!err) err = fracas_study_join(study, index, from, theirs, &table, &joined);
-    fracas_index_close(theirs);
-    return err;
-}
-
 static fracas_err join(void)
 {
-    return with_index(join_index);
-}
-
-static fracas_err merge_index(fracas_index *index)
-{
+    fracas_joined joined;
+    int64_t both;
+    const char *from = sample_path(study, "other");
     const fracas_file_header header = sample_header();
-    return fracas_study_merge(study, index, &header, &table, NULL);
+    OWN(fracas_index) index = NULL;
+    OWN(fracas_index) theirs = NULL;
+    OWNED char *report = NULL;
+    TRY(fracas_index_open(study, true, &index));
+    TRY(fracas_study_recover(study, index, &header, &table, &report));
+    TRY(fracas_index_open(from, false, &theirs));
+    TRY(fracas_study_compare(study, index, from, theirs, &header, &table, &both));
+    return fracas_study_join(study, index, from, theirs, &table, &joined);
 }
 
 static fracas_err merge_all(void)
 {
-    return with_index(merge_index);
+    const fracas_file_header header = sample_header();
+    OWN(fracas_index) index = NULL;
+    TRY(fracas_index_open(study, true, &index));
+    return fracas_study_merge(study, index, &header, &table, NULL);
 }
 
 /* ---- the studies that they are tried on ---- */
@@ -212,13 +179,9 @@ static void make_damaged(void)
 static void make_garbage(void)
 {
     make_incomplete();
-    assert_int_equal(
-        sqlite3_exec(index_->db,
-                     "UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, "
-                     "row = NULL, fragments = NULL, fragments_dust = NULL, steps = NULL, "
-                     "dissipated = NULL, residual = NULL, size = NULL WHERE segment = 2",
-                     NULL, NULL, NULL),
-        SQLITE_OK);
+    sql("UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, row = NULL, "
+        "fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL, "
+        "residual = NULL, size = NULL WHERE segment = 2");
     sample_spill(sample_path(study, "segments/.x.h5.tmp-12"), "abc", 3);
     sample_spill(sample_path(study, "index.sqlite.before-1"), "abc", 3);
     assert_int_equal(mkdir(sample_path(study, ".reindex"), 0777) |
@@ -258,12 +221,23 @@ typedef struct {
     const char *name;
     void (*make)(void);
     fracas_err (*run)(void);
-    bool copies;  /* links do not work */
+    int64_t computed[SAMPLE_POINTS]; /* replicas 0 to this number - 1 are, at the end */
+    int64_t lost;                    /* failures without a record */
+    bool again;                      /* what failed is planned at the end */
+    bool copies;                     /* links do not work */
     bool damaged; /* the study is not sound before, so it may not be after a failure */
     bool pending; /* study.h5 may be missing or without its seal after one */
     long each;    /* of more calls than these only some are tried; 0: all */
-    int64_t done, failed, planned; /* of the study at the end */
 } trial;
+
+static trial trials[] = {
+    {"reindex", make_incomplete, index_anew, {4, 4}, .lost = 2},
+    {"reindex of a damaged one", make_damaged, index_anew, {4, 4}, .damaged = true},
+    {"gc", make_garbage, collect, {4}, .lost = 2},
+    {"retry", make_incomplete, retry, {4, 4}, .again = true},
+    {"merge-studies by links", make_two, join, {8, 4}, .lost = 1},
+    {"merge-studies by copies", make_two, join, {8, 4}, .lost = 1, .copies = true},
+    {"merge", make_whole, merge_all, {40, 40, 40}, .pending = true, .each = 16}};
 
 static char template_folder[300];
 
@@ -306,6 +280,22 @@ static void is_sound(const trial *t, long k)
         fail_msg("%s, %s at call %ld: %s", t->name, how == DIE ? "killed" : "failing", k, text);
 }
 
+/* Some records of what is computed have the outcome FAILED. */
+static fracas_index_counts counts_of(const trial *t)
+{
+    int64_t done = 0, failed = t->lost;
+    for (size_t p = 0; p < SAMPLE_POINTS; p++)
+        for (int64_t r = 0; r < t->computed[p]; r++) {
+            FRACAS_CLEARED(fracas_record) record;
+            sample_record(p, r, MOST, &record);
+            if (record.outcome == FRACAS_FAILED) failed++;
+            else done++;
+        }
+    return (fracas_index_counts){.done = done,
+                                 .failed = t->again ? 0 : failed,
+                                 .planned = ALL - done - (t->again ? 0 : failed)};
+}
+
 static void completes(const trial *t, long k)
 {
     fracas_err err = t->run();
@@ -313,12 +303,13 @@ static void completes(const trial *t, long k)
         fail_msg("%s after %s at call %ld: %d %s", t->name, how == DIE ? "a death" : "a failure", k,
                  err, fracas_message());
     OK(fracas_index_open(study, true, &index_));
-    const fracas_index_counts counts = count_all();
+    const fracas_index_counts counts = count_all(), wanted = counts_of(t);
     char text[8192];
     if (verify(text)) fail_msg("%s, repeated after call %ld: %s", t->name, k, text);
     fracas_index_close(index_);
     index_ = NULL;
-    if (counts.done != t->done || counts.failed != t->failed || counts.planned != t->planned)
+    if (counts.done != wanted.done || counts.failed != wanted.failed ||
+        counts.planned != wanted.planned)
         fail_msg("%s, %s at call %ld: %d done, %d failed, %d planned", t->name,
                  how == DIE ? "killed" : "failing", k, (int)counts.done, (int)counts.failed,
                  (int)counts.planned);
@@ -352,8 +343,9 @@ static bool runs_into(const trial *t, long k)
     return WIFSIGNALED(status);
 }
 
-static void try_every_call(const trial *t)
+static void try_every_call(void **state)
 {
+    const trial *t = *state;
     t->make();
     fracas_index_close(index_);
     index_ = NULL;
@@ -374,98 +366,13 @@ static void try_every_call(const trial *t)
     shell("rm -rf %s", template_folder);
 }
 
-/* Of the twelve records of replicas 0 to 3, and of those that `done` takes in, some have the
- * outcome FAILED. */
-static void count_outcomes(size_t point, int64_t first, int64_t end, trial *t)
-{
-    for (int64_t r = first; r < end; r++) {
-        FRACAS_CLEARED(fracas_record) record;
-        sample_record(point, r, MOST, &record);
-        if (record.outcome == FRACAS_FAILED) t->failed++;
-        else t->done++;
-    }
-    t->planned = ALL - t->done - t->failed;
-}
-
-static void the_index_anew(void **state)
-{
-    trial t = {.name = "reindex", .make = make_incomplete, .run = reindex, .failed = 2};
-    count_outcomes(0, 0, 4, &t);
-    count_outcomes(1, 0, 4, &t);
-    try_every_call(&t);
-}
-
-static void the_index_anew_from_a_damaged_one(void **state)
-{
-    trial t = {
-        .name = "reindex of a damaged one", .make = make_damaged, .run = reindex, .damaged = true};
-    count_outcomes(0, 0, 4, &t);
-    count_outcomes(1, 0, 4, &t);
-    try_every_call(&t);
-}
-
-static void garbage_goes(void **state)
-{
-    trial t = {.name = "gc", .make = make_garbage, .run = collect, .failed = 0};
-    count_outcomes(0, 0, 4, &t);
-    t.failed += 2; /* without a record */
-    t.planned -= 2;
-    try_every_call(&t);
-}
-
-static void failures_again(void **state)
-{
-    trial t = {.name = "retry", .make = make_incomplete, .run = retry};
-    count_outcomes(0, 0, 4, &t);
-    count_outcomes(1, 0, 4, &t);
-    t.planned += t.failed;
-    t.failed = 0;
-    try_every_call(&t);
-}
-
-static void one_of_two(bool copies)
-{
-    trial t = {.name = copies ? "merge-studies by copies" : "merge-studies by links",
-               .make = make_two,
-               .run = join,
-               .copies = copies,
-               .failed = 1};
-    count_outcomes(0, 0, 8, &t);
-    count_outcomes(1, 0, 4, &t);
-    try_every_call(&t);
-}
-
-static void one_of_two_by_links(void **state)
-{
-    one_of_two(false);
-}
-
-static void one_of_two_by_copies(void **state)
-{
-    one_of_two(true);
-}
-
-static void study_h5(void **state)
-{
-    trial t = {.name = "merge", .make = make_whole, .run = merge_all, .pending = true, .each = 16};
-    for (size_t p = 0; p < SAMPLE_POINTS; p++) count_outcomes(p, 0, REPLICAS, &t);
-    try_every_call(&t);
-}
-
-#define TEST(name) cmocka_unit_test_setup_teardown(name, set_up, tear_down)
-
 int fracas_test(void)
 {
     if (access("/dev/shm", W_OK) == 0)
         setenv("TMPDIR", "/dev/shm", 0); /* syncing to a disk would take minutes */
-    const struct CMUnitTest tests[] = {
-        TEST(the_index_anew),
-        TEST(the_index_anew_from_a_damaged_one),
-        TEST(garbage_goes),
-        TEST(failures_again),
-        TEST(one_of_two_by_links),
-        TEST(one_of_two_by_copies),
-        TEST(study_h5),
-    };
+    struct CMUnitTest tests[FRACAS_COUNT(trials)];
+    for (size_t t = 0; t < FRACAS_COUNT(trials); t++)
+        tests[t] = (struct CMUnitTest){trials[t].name, try_every_call, set_up, tear_down,
+                                       &trials[t]};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -10,7 +10,12 @@
 
 #include <sys/wait.h>
 
-enum { REPLICAS = 40, ALL = SAMPLE_POINTS * REPLICAS, MOST = 30 };
+/* Replicas of a point, and rows of a part of a record. */
+#ifndef STUDY_REPLICAS
+#define STUDY_REPLICAS 40
+#define STUDY_ROWS 30
+#endif
+enum { REPLICAS = STUDY_REPLICAS, ALL = SAMPLE_POINTS * REPLICAS, MOST = STUDY_ROWS };
 
 static char *study;
 static fracas_point_row point_row[SAMPLE_POINTS];

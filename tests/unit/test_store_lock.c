@@ -6,7 +6,9 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
+#include <time.h>
 
 static char *study;
 
@@ -25,29 +27,38 @@ static int tear_down(void **state)
     return 0;
 }
 
+static int told_of_rest = -1; /* a pipe that hears of each */
+
+/* Stands before that of the C library. */
+int nanosleep(const struct timespec *time, struct timespec *rest)
+{
+    if (told_of_rest >= 0) assert_int_equal(write(told_of_rest, "", 1), 1);
+    return (int)syscall(SYS_nanosleep, time, rest);
+}
+
 /* One who only looks does not sign: a run waits until that is over, and does not end with "in use".
  */
 static void one_who_looks_is_waited_for(void **state)
 {
-    int ready[2], lock;
-    assert_int_equal(pipe(ready), 0);
+    int ready[2], rests[2], lock;
+    char byte;
+    assert_int_equal(pipe(ready) | pipe(rests), 0);
     pid_t child = fork();
     if (child == 0) {
         prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (fracas_study_lock_to_look(study, false, &lock)) _exit(1);
-        if (write(ready[1], "", 1) != 1) _exit(1);
-        usleep(300000);
+        if (write(ready[1], "", 1) != 1 || read(rests[0], &byte, 1) != 1) _exit(1);
         _exit(write(ready[1], "", 1) != 1);
     }
-    char byte;
     assert_int_equal(read(ready[0], &byte, 1), 1);
+    told_of_rest = rests[1];
     OK(fracas_study_lock(study, false, &lock));
+    told_of_rest = -1;
     fcntl(ready[0], F_SETFL, O_NONBLOCK);
     assert_int_equal(read(ready[0], &byte, 1), 1); /* it was done before */
     assert_int_equal(waitpid(child, NULL, 0), child);
     fracas_study_unlock(lock);
-    close(ready[0]);
-    close(ready[1]);
+    for (int end = 0; end < 2; end++) close(ready[end]), close(rests[end]);
 }
 
 /* What the file says. */
