@@ -101,8 +101,8 @@ static void momenta_are_kept_to_round_off(void **unused)
         for (size_t e = 0; e < model->elements; e++)
             for (size_t k = 0; k < model->surface->corners; k++) {
                 const double *x = node_at(model, e, k);
-                *membrane_state(batch, e, k, SURFACE_V, 0) += drift[0] - spin * x[1];
-                *membrane_state(batch, e, k, SURFACE_V, 1) += drift[1] + spin * x[0];
+                *value_at(batch, e, SURFACE_V, 2 * k) += drift[0] - spin * x[1];
+                *value_at(batch, e, SURFACE_V, 2 * k + 1) += drift[1] + spin * x[0];
             }
         const membrane_sums before = sums_of(batch);
         double worst = 0, turn = 0;
@@ -154,12 +154,13 @@ static void a_body_that_turns_has_that_spin(void **unused)
                 double x[2];
                 for (int i = 0; i < 2; i++) {
                     state = state * 6364136223846793005u + 1442695040888963407u;
-                    *membrane_state(batch, e, k, SURFACE_U,
-                                    i) = 3e-4 * ((double)(state >> 11) * 0x1p-53 - 0.5);
-                    x[i] = node_at(model, e, k)[i] + *membrane_state(batch, e, k, SURFACE_U, i);
+                    *value_at(batch, e, SURFACE_U,
+                              2 * k + (size_t)i) = 3e-4 * ((double)(state >> 11) * 0x1p-53 - 0.5);
+                    x[i] = node_at(model, e, k)[i] +
+                           *value_at(batch, e, SURFACE_U, 2 * k + (size_t)i);
                 }
-                *membrane_state(batch, e, k, SURFACE_V, 0) = drift[0] - spin * x[1];
-                *membrane_state(batch, e, k, SURFACE_V, 1) = drift[1] + spin * x[0];
+                *value_at(batch, e, SURFACE_V, 2 * k) = drift[0] - spin * x[1];
+                *value_at(batch, e, SURFACE_V, 2 * k + 1) = drift[1] + spin * x[0];
             }
         OK(model->formulation->harvest(model, &batch->step, 0, &record));
         assert_int_equal(record.nfragment, 1);

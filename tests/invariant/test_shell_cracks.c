@@ -95,9 +95,10 @@ static shell_sums sums_of(const fracas_batch *batch)
     shell_sums s = {.size = 0};
     for (size_t e = 0; e < batch->model->elements; e++)
         for (size_t k = 0; k < SHELL_NODES; k++) {
-            const double *x = node_at(batch->model, e, k), m = node_mass(batch->model, e, k);
+            const double *x = node_at(batch->model, e, k),
+                         m = mass_of(batch->model, SHELL_UNKNOWNS * e + 3 * k);
             double p[3], moment[3];
-            for (size_t i = 0; i < 3; i++) p[i] = m * *shell_state(batch, e, SURFACE_V, 3 * k + i);
+            for (size_t i = 0; i < 3; i++) p[i] = m * *value_at(batch, e, SURFACE_V, 3 * k + i);
             cross3(x, p, moment);
             for (int i = 0; i < 3; i++) {
                 s.momentum[i] += p[i];
@@ -135,7 +136,7 @@ static void momenta_are_kept_to_round_off(void **unused)
                 double turned[3];
                 cross3(spin, node_at(model, e, k), turned);
                 for (size_t i = 0; i < 3; i++)
-                    *shell_state(batch, e, SURFACE_V, 3 * k + i) += drift[i] + turned[i];
+                    *value_at(batch, e, SURFACE_V, 3 * k + i) += drift[i] + turned[i];
             }
         const shell_sums before = sums_of(batch);
         double worst = 0, turn = 0;

@@ -14,6 +14,20 @@ static inline double *vector_of(size_t n)
     return v;
 }
 
+static inline double dot_of(const double *a, const double *b, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+static inline double largest_of(const double *v, size_t n)
+{
+    double largest = 0;
+    for (size_t i = 0; i < n; i++) largest = fmax(largest, fabs(v[i]));
+    return largest;
+}
+
 /* Eigenvalues of a symmetric matrix, ascending. */
 static inline double *eigenvalues_of(const double *matrix, size_t n)
 {

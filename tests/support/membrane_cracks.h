@@ -26,22 +26,6 @@ static inline void hold_edges(fracas_spec *spec, const fracas_kind *kind)
     for (int i = 0; i < FRACAS_EDGES; i++) spec->geometry.edge[i] = kind;
 }
 
-/* Displacement or velocity component of node k of element e, lane 0. */
-static inline double *membrane_state(const fracas_batch *batch, size_t e, size_t k, int field,
-                                     int i)
-{
-    return fracas_surface_value(batch->model, &batch->step, e, field, 2 * (int)k + i, 0);
-}
-
-/* M_kl of an element: its lumped masses on the diagonal, or the consistent matrix. */
-static inline double mass_of(const fracas_model *model, size_t e, size_t k, size_t l)
-{
-    const fracas_surface_tables *t = tables_of(model);
-    const size_t nodes = model->surface->corners;
-    if (t->consistent) return t->consistent[((3 * e + 2) * nodes + k) * nodes + l];
-    return k == l ? t->lumped[(2 * e + 1) * nodes + k] : 0;
-}
-
 /* Sums of some elements over nodes k, l, without the harvest: mass, M_kl x_l, M_kl v_l, x_k x M_kl
  * v_l, with x at the start (at) or displaced (moved); sum of |M_kl v_l|. */
 typedef struct {
@@ -55,18 +39,19 @@ static inline void add_sums(const fracas_batch *batch, size_t e, membrane_sums *
     for (size_t k = 0; k < model->surface->corners; k++) {
         const double *x = node_at(model, e, k);
         double p[2] = {0}, moved[2];
-        for (int i = 0; i < 2; i++) {
-            moved[i] = x[i] + *membrane_state(batch, e, k, SURFACE_U, i);
+        for (size_t i = 0; i < 2; i++) {
+            moved[i] = x[i] + *value_at(batch, e, SURFACE_U, 2 * k + i);
             for (size_t l = 0; l < model->surface->corners; l++) {
-                p[i] += mass_of(model, e, k, l) * *membrane_state(batch, e, l, SURFACE_V, i);
-                sums->centre[i] += mass_of(model, e, k, l) *
+                p[i] += mass_between(model, e, k, l) * *value_at(batch, e, SURFACE_V, 2 * l + i);
+                sums->centre[i] += mass_between(model, e, k, l) *
                                    (node_at(model, e, l)[i] +
-                                    *membrane_state(batch, e, l, SURFACE_U, i));
+                                    *value_at(batch, e, SURFACE_U, 2 * l + i));
             }
             sums->momentum[i] += p[i];
             sums->scale += fabs(p[i]);
         }
-        for (size_t l = 0; l < model->surface->corners; l++) sums->mass += mass_of(model, e, k, l);
+        for (size_t l = 0; l < model->surface->corners; l++)
+            sums->mass += mass_between(model, e, k, l);
         sums->moment_at += x[0] * p[1] - x[1] * p[0];
         sums->moment_moved += moved[0] * p[1] - moved[1] * p[0];
     }

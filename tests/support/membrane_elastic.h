@@ -1,22 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Uncracked membranes: their meshes, fields on them, and K as a matrix (docs/theory/membrane.md).
- */
+/* Uncracked membranes: their meshes and fields on them (docs/theory/membrane.md). */
 #ifndef FRACAS_TESTS_SUPPORT_MEMBRANE_ELASTIC_H
 #define FRACAS_TESTS_SUPPORT_MEMBRANE_ELASTIC_H
 
-#include "engine/cohesive/law.h"
 #include "engine/formulation/surface/membrane.h"
 #include "engine/integrator/integrator.h"
-#include "engine/loading/loading.h"
-#include "engine/mesh/body.h"
-#include "engine/mesh/make.h"
-#include "engine/solver/batch.h"
-#include "sampler/api/sampler.h"
-#include "tests/support/dense.h"
-#include "tests/support/distorted_model.h"
-#include "tests/support/test.h"
-
-#define PI 3.14159265358979323846
+#include "tests/support/surface_state.h"
 
 /* A free plate or annulus of order `order`, `divisions` of its shorter side or between its circles;
  * lumped masses, beta 4. */
@@ -40,99 +29,12 @@ static inline fracas_spec membrane_spec(const fracas_kind *shape, int64_t order,
     return spec;
 }
 
-#define DISTORTION 0.2
-
 /* Plates, annuli of both orders. */
 enum { BODIES = 4 };
 static inline fracas_spec body_of(int which, int64_t divisions)
 {
     return membrane_spec(which < 2 ? &fracas_shape_plate : &fracas_shape_annulus, which % 2 + 1,
                          divisions);
-}
-
-static inline const fracas_surface_tables *tables_of(const fracas_model *model)
-{
-    return model->plan;
-}
-
-static inline size_t unknowns_of(const fracas_model *model)
-{
-    return 2 * model->surface->corners * model->elements;
-}
-
-static inline const double *node_at(const fracas_model *model, size_t element, size_t k)
-{
-    return model->surface->node[model->surface->element[element * model->surface->corners + k]];
-}
-
-static inline bool is_held(const fracas_model *model, size_t unknown)
-{
-    const size_t size = 2 * model->surface->corners;
-    const fracas_surface_tables *t = tables_of(model);
-    return t->held && (t->held[unknown / size] >> (unknown % size) & 1);
-}
-
-/* Displacements at a place. */
-typedef void membrane_field(const void *how, const double x[2], double u[2]);
-
-static inline void interpolate(const fracas_model *model, membrane_field *field, const void *how,
-                               double *u)
-{
-    for (size_t e = 0; e < model->elements; e++)
-        for (size_t k = 0; k < model->surface->corners; k++)
-            field(how, node_at(model, e, k), u + 2 * (model->surface->corners * e + k));
-}
-
-static inline fracas_surface_operator *open_operator(const fracas_model *model)
-{
-    fracas_surface_operator *op = NULL;
-    OK(fracas_surface_operator_open(model, 0, &op));
-    return op;
-}
-
-/* result = M a */
-static inline void multiply_mass(const fracas_model *model, const double *a, double *result)
-{
-    const fracas_surface_tables *t = tables_of(model);
-    const size_t nodes = model->surface->corners;
-    for (size_t e = 0; e < model->elements; e++)
-        for (size_t k = 0; k < nodes; k++)
-            for (size_t i = 0; i < 2; i++) {
-                double sum = t->consistent
-                                 ? 0
-                                 : t->lumped[(2 * e + 1) * nodes + k] * a[2 * (nodes * e + k) + i];
-                for (size_t l = 0; t->consistent && l < nodes; l++)
-                    sum += t->consistent[((3 * e + 2) * nodes + k) * nodes + l] *
-                           a[2 * (nodes * e + l) + i];
-                result[2 * (nodes * e + k) + i] = sum;
-            }
-}
-
-/* f = K u [N], 0 where nodes are held. */
-static inline void apply_stiffness(const fracas_model *model, fracas_surface_operator *op,
-                                   const double *u, double *f)
-{
-    const size_t n = unknowns_of(model);
-    OWNED double *a = vector_of(n);
-    fracas_surface_operator_apply(op, u, a);
-    multiply_mass(model, a, f);
-    for (size_t i = 0; i < n; i++) f[i] = is_held(model, i) ? 0 : -f[i];
-}
-
-/* K as a matrix, [n][n]: column j is the force of a unit displacement j. */
-static inline double *stiffness_matrix(const fracas_model *model, size_t n)
-{
-    fracas_surface_operator *op = open_operator(model);
-    OWNED double *unit = vector_of(n), *column = vector_of(n);
-    double *matrix = vector_of(n * n);
-    for (size_t j = 0; j < n; j++) {
-        unit[j] = 1;
-        apply_stiffness(model, op, unit, column);
-        unit[j] = 0;
-        for (size_t i = 0; i < n; i++) matrix[i * n + j] = column[i];
-    }
-    fracas_surface_operator_close(op);
-    return matrix;
 }
 
 /* Shape functions and their derivatives by xi, eta, from the Lagrange polynomials in the
@@ -178,13 +80,6 @@ static inline membrane_place place_at(const fracas_model *model, size_t e, doubl
     return p;
 }
 
-/* xi, eta at s along an edge, from its first vertex. */
-static inline void on_edge(size_t edge, double s, double at[2])
-{
-    const double corner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
-    for (int i = 0; i < 2; i++) at[i] = (1 - s) * corner[edge][i] + s * corner[(edge + 1) % 3][i];
-}
-
 /* Outward normal by |dx/ds| at s along an edge, by differences: exact for the quadratic. */
 static inline void edge_normal(const fracas_model *model, size_t e, size_t edge, double s,
                                double normal[2])
@@ -215,13 +110,6 @@ static inline void stress_at(const fracas_model *model, const membrane_place *p,
         for (int i = 0; i < 2; i++)
             for (int j = 0; j < 2; j++) by[i][j] += p->by[k][j] * u[2 * k + (size_t)i];
     hooke(&model->spec.material, by, stress);
-}
-
-static inline double largest_of(const double *v, size_t n)
-{
-    double largest = 0;
-    for (size_t i = 0; i < n; i++) largest = fmax(largest, fabs(v[i]));
-    return largest;
 }
 
 #endif

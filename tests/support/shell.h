@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Uncracked shells: their models, on meshes that a map bends or from the engine's makers, and K as
- * an operator (docs/theory/shell.md). */
+/* Uncracked shells: their models, on meshes that a map bends or from the engine's makers
+ * (docs/theory/shell.md). */
 #ifndef FRACAS_TESTS_SUPPORT_SHELL_H
 #define FRACAS_TESTS_SUPPORT_SHELL_H
 
@@ -8,13 +8,8 @@
 #include "engine/formulation/shell/geometry.h"
 #include "engine/integrator/integrator.h"
 #include "engine/mesh/make.h"
-#include "tests/support/dense.h"
-#include "tests/support/distorted_model.h"
 #include "tests/support/gmsh.h"
-#include "tests/support/test.h"
-
-#define PI 3.14159265358979323846
-#define DISTORTION 0.2
+#include "tests/support/surface_state.h"
 
 /* Steel-like in units of its own, thickness 0.1; beta 5, beta_shear 1; never cracks. */
 static inline fracas_spec shell_spec(const fracas_kind *shape)
@@ -166,78 +161,6 @@ static inline void roof_map(const void *how, double s, double t, double x[3])
     x[0] = size[0] * sin(angle);
     x[1] = (t - 0.5) * size[1];
     x[2] = size[0] * cos(angle);
-}
-
-/* ---- unknowns ---- */
-
-static inline const fracas_surface_tables *tables_of(const fracas_model *model)
-{
-    return model->plan;
-}
-static inline size_t unknowns_of(const fracas_model *model)
-{
-    return SHELL_UNKNOWNS * model->elements;
-}
-
-static inline const double *node_at(const fracas_model *model, size_t element, size_t k)
-{
-    return model->surface->node[model->surface->element[element * SHELL_NODES + k]];
-}
-
-/* x of the node that an unknown is of. */
-static inline const double *place_of(const fracas_model *model, size_t unknown)
-{
-    return node_at(model, unknown / SHELL_UNKNOWNS, unknown % SHELL_UNKNOWNS / 3);
-}
-
-static inline bool is_held(const fracas_model *model, size_t unknown)
-{
-    return tables_of(model)->held[unknown / SHELL_UNKNOWNS] >> (unknown % SHELL_UNKNOWNS) & 1;
-}
-
-static inline double mass_of(const fracas_model *model, size_t unknown)
-{
-    return tables_of(model)->lumped[unknown / SHELL_UNKNOWNS * 2 * SHELL_NODES + SHELL_NODES +
-                                    unknown % SHELL_UNKNOWNS / 3];
-}
-
-/* Displacements at a place. */
-typedef void shell_field(const void *how, const double x[3], double u[3]);
-
-static inline void interpolate(const fracas_model *model, shell_field *field, const void *how,
-                               double *u)
-{
-    for (size_t i = 0; i < unknowns_of(model); i += 3) field(how, place_of(model, i), u + i);
-}
-
-static inline fracas_surface_operator *open_operator(const fracas_model *model)
-{
-    fracas_surface_operator *op = NULL;
-    OK(fracas_surface_operator_open(model, 0, &op));
-    return op;
-}
-
-/* f = K u [N], 0 where nodes are held. */
-static inline void apply_stiffness(const fracas_model *model, fracas_surface_operator *op,
-                                   const double *u, double *f)
-{
-    fracas_surface_operator_apply(op, u, f);
-    for (size_t i = 0; i < unknowns_of(model); i++)
-        f[i] = is_held(model, i) ? 0 : -mass_of(model, i) * f[i];
-}
-
-static inline double dot_of(const double *a, const double *b, size_t n)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
-
-static inline double largest_of(const double *v, size_t n)
-{
-    double largest = 0;
-    for (size_t i = 0; i < n; i++) largest = fmax(largest, fabs(v[i]));
-    return largest;
 }
 
 #endif

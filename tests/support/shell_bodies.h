@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Bodies on which the shell's operator is looked at: a distorted plate, a panel of a cylinder, a
- * saddle with a twist, a whole sphere; and K as a matrix. */
+ * saddle with a twist, a whole sphere. */
 #ifndef FRACAS_TESTS_SUPPORT_SHELL_BODIES_H
 #define FRACAS_TESTS_SUPPORT_SHELL_BODIES_H
 
@@ -44,22 +44,6 @@ static inline fracas_model *body_of(int which, fracas_spec spec, size_t n, uint6
                                            .how = how[which],
                                            .distortion = DISTORTION,
                                            .seed = seed});
-}
-
-/* K as a matrix, [n][n]: column j is the force of a unit displacement j. */
-static inline double *stiffness_matrix(const fracas_model *model, size_t n)
-{
-    fracas_surface_operator *op = open_operator(model);
-    OWNED double *unit = vector_of(n), *column = vector_of(n);
-    double *matrix = vector_of(n * n);
-    for (size_t j = 0; j < n; j++) {
-        unit[j] = 1;
-        apply_stiffness(model, op, unit, column);
-        unit[j] = 0;
-        for (size_t i = 0; i < n; i++) matrix[i * n + j] = column[i];
-    }
-    fracas_surface_operator_close(op);
-    return matrix;
 }
 
 #endif

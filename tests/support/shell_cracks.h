@@ -4,16 +4,8 @@
 #ifndef FRACAS_TESTS_SUPPORT_SHELL_CRACKS_H
 #define FRACAS_TESTS_SUPPORT_SHELL_CRACKS_H
 
-#include "engine/cohesive/law.h"
 #include "engine/formulation/shell/shell.h"
-#include "engine/integrator/integrator.h"
-#include "engine/loading/loading.h"
-#include "engine/mesh/body.h"
-#include "engine/mesh/make.h"
-#include "engine/solver/batch.h"
-#include "sampler/api/sampler.h"
-#include "tests/support/distorted_model.h"
-#include "tests/support/test.h"
+#include "tests/support/surface_state.h"
 
 /* E 320 GPa, nu 0.3, rho 3300, G_c 200 J/m2, 0.3 mm thick; law nitsche, beta 5; half the critical
  * step. A plate has 1 mm x 1 mm, an annulus 1 to 3 mm, a sphere 1.5 mm. */
@@ -26,30 +18,6 @@ static inline fracas_spec brittle_shell(const fracas_kind *shape, int64_t divisi
     else if (shape == &fracas_shape_annulus) spec.geometry.inner = 1e-3, spec.geometry.outer = 3e-3;
     else spec.geometry.radius = 1.5e-3;
     return spec;
-}
-
-static inline fracas_surface_tables *shell_tables(const fracas_model *model)
-{
-    return model->plan;
-}
-static inline size_t unknowns_of(const fracas_model *model)
-{
-    return SHELL_UNKNOWNS * model->elements;
-}
-
-static inline const double *node_at(const fracas_model *model, size_t element, size_t k)
-{
-    return model->surface->node[model->surface->element[element * SHELL_NODES + k]];
-}
-
-static inline double node_mass(const fracas_model *model, size_t e, size_t k)
-{
-    return shell_tables(model)->lumped[e * 2 * SHELL_NODES + SHELL_NODES + k];
-}
-
-static inline double *shell_state(const fracas_batch *batch, size_t e, int field, size_t i)
-{
-    return fracas_surface_value(batch->model, &batch->step, e, field, (int)i, 0);
 }
 
 /* ---- a body in any state ---- */
@@ -68,8 +36,8 @@ static inline void evaluate(fracas_batch *batch, const double *u, shell_answer *
     const fracas_model *model = batch->model;
     fracas_step *step = &batch->step;
     for (size_t i = 0; i < unknowns_of(model); i++) {
-        *shell_state(batch, i / SHELL_UNKNOWNS, SURFACE_U, i % SHELL_UNKNOWNS) = u[i];
-        *shell_state(batch, i / SHELL_UNKNOWNS, SURFACE_V, i % SHELL_UNKNOWNS) = 0;
+        *value_of(batch, i, SURFACE_U) = u[i];
+        *value_of(batch, i, SURFACE_V) = 0;
     }
     step->drift[0] = 0;
     step->kick[0] = 1;
@@ -77,8 +45,7 @@ static inline void evaluate(fracas_batch *batch, const double *u, shell_answer *
                  rubbed = step->friction[0];
     model->formulation->advance(model, step);
     for (size_t i = 0; i < unknowns_of(model); i++)
-        answer->force[i] = node_mass(model, i / SHELL_UNKNOWNS, i % SHELL_UNKNOWNS / 3) *
-                           *shell_state(batch, i / SHELL_UNKNOWNS, SURFACE_V, i % SHELL_UNKNOWNS);
+        answer->force[i] = mass_of(model, i) * *value_of(batch, i, SURFACE_V);
     answer->elastic = step->elastic[0];
     answer->cohesive = step->cohesive[0];
     answer->dissipated = step->dissipated[0];
@@ -250,12 +217,6 @@ typedef struct {
     double n[2], m[2], jump[2], turn[2], lift, length;
 } shell_sight;
 
-static inline void edge_place(size_t edge, double s, double at[2])
-{
-    const double corner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
-    for (int i = 0; i < 2; i++) at[i] = (1 - s) * corner[edge][i] + s * corner[(edge + 1) % 3][i];
-}
-
 static inline shell_sight sight_at(const fracas_model *model, size_t interface, int g,
                                    const double *const u[2])
 {
@@ -268,11 +229,11 @@ static inline shell_sight sight_at(const fracas_model *model, size_t interface, 
     for (int side = 0; side < 2; side++) {
         double at[2], from[2], to[2];
         const double s = side ? 1 - point[g] : point[g];
-        edge_place(joint->edge[side], s, at);
+        on_edge(joint->edge[side], s, at);
         p[side] = place_at(model, joint->element[side], at[0], at[1]);
         if (side == 0) {
-            edge_place(joint->edge[0], 0, from);
-            edge_place(joint->edge[0], 1, to);
+            on_edge(joint->edge[0], 0, from);
+            on_edge(joint->edge[0], 1, to);
             for (int i = 0; i < 3; i++)
                 tangent[i] = (to[0] - from[0]) * p[0].base[0][i] +
                              (to[1] - from[1]) * p[0].base[1][i];
@@ -286,7 +247,7 @@ static inline shell_sight sight_at(const fracas_model *model, size_t interface, 
         const double sign = side ? 1 : -1;
         double own[3], by[3], r[6] = {0}, at[2];
         cross3(tangent, p[side].t, own);
-        edge_place(joint->edge[side], side ? 1 - point[g] : point[g], at);
+        on_edge(joint->edge[side], side ? 1 - point[g] : point[g], at);
         const double l[3] = {1 - at[0] - at[1], at[0], at[1]};
         for (int b = 0; b < 3; b++) {
             double there[6];

@@ -35,13 +35,6 @@ static void body_force(const fracas_material *m, const double x[2], double f[2])
 
 /* ---- solving K u = f ---- */
 
-static double dot(const double *a, const double *b, size_t n)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
-
 /* Conjugate gradients on what is not held, preconditioned by the masses' diagonal; u holds the
  * start. */
 static void solve(const fracas_model *model, const double *f, double *u)
@@ -56,13 +49,13 @@ static void solve(const fracas_model *model, const double *f, double *u)
     for (int step = 0; step < 20000; step++) {
         for (size_t i = 0; i < n; i++)
             z[i] = r[i] * t->lumped[i / (2 * nodes) * 2 * nodes + i / 2 % nodes];
-        const double now = dot(r, z, n);
+        const double now = dot_of(r, z, n);
         if (step == 0) first = now;
         if (now <= 1e-24 * first) break; /* the error's norm has fallen by 1e-12 */
         for (size_t i = 0; i < n; i++) p[i] = z[i] + (step ? now / before : 0) * p[i];
         before = now;
         apply_stiffness(model, op, p, kp);
-        const double length = now / dot(p, kp, n);
+        const double length = now / dot_of(p, kp, n);
         for (size_t i = 0; i < n; i++) {
             u[i] += length * p[i];
             r[i] -= length * kp[i];
@@ -212,7 +205,7 @@ static double frequency_error(int64_t order, int64_t divisions, const fracas_kin
         for (size_t i = 0; i < n; i++) f[i] = is_held(model, i) ? 0 : f[i] * square;
         solve(model, f, u);
         multiply_mass(model, u, momentum);
-        quotient = dot(u, f, n) / (square * dot(u, momentum, n)); /* u.K u/(u.M u), K u = f */
+        quotient = dot_of(u, f, n) / (square * dot_of(u, momentum, n)); /* u.K u/(u.M u), K u = f */
     }
     *size = 1 / sqrt((double)model->elements);
     return quotient - 1;

@@ -248,8 +248,8 @@ static void check_fate(fracas_model *model, double velocity[2][6], const double 
     OK(fracas_batch_begin(batch));
     for (size_t side = 0; side < 2; side++)
         for (size_t i = 0; i < 6; i++)
-            *membrane_state(batch, model->surface->interface[0].element[side], i / 2, SURFACE_V,
-                            (int)i % 2) = 100 + velocity[side][i];
+            *value_at(batch, model->surface->interface[0].element[side], SURFACE_V,
+                      i) = 100 + velocity[side][i];
     run_points(batch, f, &record);
     const fracas_cohesive *law = &model->spec.cohesive;
     const double area = sqrt(2) * 1e-3 * model->spec.geometry.thickness;
@@ -285,8 +285,7 @@ static void two_triangles_crack_and_break_in_time(void **unused)
         fracas_model *model = distorted_model(spec, 0, 0);
         assert_true(model->elements == 2 && model->interfaces == 1);
         for (size_t e = 0; e < 2; e++)
-            ((fracas_surface_tables *)model->plan)->held[e] =
-                0x3f; /* every node: edges alone may not */
+            tables_of(model)->held[e] = 0x3f; /* every node: edges alone may not */
         const fracas_stream stream = {.seed = 4, .purpose = FRACAS_PURPOSE_MESH};
         double worst[3] = {0};
         int tried = 0, used = 0;
@@ -329,7 +328,7 @@ static void move_halves(fracas_batch *batch, int mode, double speed)
             node_at(model, e, 0)[1] + node_at(model, e, 1)[1] + node_at(model, e, 2)[1] > 0 ? 1
                                                                                             : -1;
         for (size_t k = 0; k < model->surface->corners; k++)
-            *membrane_state(batch, e, k, SURFACE_V, mode == OPENS) = sign * speed;
+            *value_at(batch, e, SURFACE_V, 2 * k + (mode == OPENS)) = sign * speed;
     }
 }
 

@@ -130,20 +130,13 @@ static fracas_model *disk_model(int64_t order, double size, const fracas_kind *m
 static membrane_errors turn_by(int64_t order, double size, const fracas_kind *mass,
                                const fracas_kind *integrator)
 {
-    const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    OWN(fracas_model) model = disk_model(order, size, mass, integrator);
-    fracas_batch *batch;
-    fracas_record record;
-    size_t running = 1, stride;
+    surface_run run = begin_run(disk_model(order, size, mass, integrator), 1, 1e12);
+    const fracas_model *model = run.model;
+    const fracas_batch *batch = run.batch;
     membrane_errors errors = {.residual = 0};
-    OK(fracas_batch_create(model, 1, &options, &batch));
-    fracas_record_init(&record);
-    double *strength = fracas_batch_strength(batch, 0, &stride);
-    for (size_t i = 0; i < model->interfaces; i++) strength[i * stride] = 1e12;
-    OK(fracas_batch_begin(batch));
     for (int seen = 0; seen < TIMES;) {
-        OK(fracas_batch_step(batch, &record, &running));
-        assert_int_equal(running, 1);
+        step_run(&run);
+        assert_int_equal(run.running, 1);
         if (batch->step.time[0] < times[seen]) continue;
         double stress, moved;
         look_at_hole(model, &batch->step, &stress, &moved);
@@ -161,8 +154,7 @@ static membrane_errors turn_by(int64_t order, double size, const fracas_kind *ma
                   "within %.1e, displacement %.1e, residual %.1e\n",
                   integrator->name, (int)order, mass->name, size * 1e3, model->elements,
                   (long long)batch->steps, errors.stress, errors.moved, errors.residual);
-    fracas_record_clear(&record);
-    fracas_batch_destroy(batch);
+    clear_run(&run);
     return errors;
 }
 

@@ -523,7 +523,7 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
                                                     ? 2.5
                                                     : 1;
     for (size_t e = 0; e < model->elements; e++)
-        shell_tables(model)->held[e] = shell_tables(model)->fixed[e] = 0x3ffff;
+        tables_of(model)->held[e] = tables_of(model)->fixed[e] = 0x3ffff;
     OWNED double *velocity = zeroed(n, sizeof *velocity);
     const fracas_stream stream = {.seed = 12, .purpose = FRACAS_PURPOSE_MESH};
     for (uint64_t trial = 0; trial < 160 / model->interfaces; trial++) {
@@ -551,8 +551,7 @@ static void check_times(const fracas_spec *spec, double distortion, double worst
         fracas_record record;
         fracas_record_init(&record);
         OK(fracas_batch_begin(batch));
-        for (size_t i = 0; i < n; i++)
-            *shell_state(batch, i / 18, SURFACE_V, i % 18) = 100 + velocity[i];
+        for (size_t i = 0; i < n; i++) *value_of(batch, i, SURFACE_V) = 100 + velocity[i];
         run_to_end(batch, &record);
         assert_int_equal(record.outcome == FRACAS_ENERGY_DRIFT, 0);
         double first = INFINITY;

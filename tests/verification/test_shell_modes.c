@@ -4,15 +4,6 @@
 #include "tests/support/shell_bodies.h"
 #include "tests/support/test.h"
 
-/* Of M^-1/2 K M^-1/2, ascending: omega^2; the matrix becomes that. */
-static double *squares_of_frequencies(const fracas_model *model, double *matrix, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        for (size_t j = 0; j < n; j++)
-            matrix[i * n + j] /= sqrt(mass_of(model, i) * mass_of(model, j));
-    return eigenvalues_of(matrix, n);
-}
-
 /* None negative, and 0 for the 6 rigid motions alone, for every beta that the model takes.
  * Round-off is some n^0.5 1.1e-16 of the largest, 2e-15; the lowest elastic mode is that of
  * bending, about (h/size)^2 (h_s/size)^2 ... 1e-7 of the largest. The step is that of the largest,

@@ -4,7 +4,6 @@
  * octant and the whole.
  */
 #include "tests/support/shell.h"
-#include "tests/support/shell_run.h"
 #include "tests/support/test.h"
 
 /* The alumina sphere of docs/theory/shell.md: mid radius 9.95 mm, 0.1 mm thick; it grows at 1e4 /s
@@ -75,7 +74,7 @@ static void breathing_frequency(void **unused)
 
 /* Mean stress of stretching of an element, E/(1 - nu) times half the trace of the strain at the
  * points where resultants are. */
-static double stress_of(const shell_run *run, size_t e)
+static double stress_of(const surface_run *run, size_t e)
 {
     static const double place[3][2] = {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}};
     const fracas_material *m = &run->model->spec.material;
@@ -87,14 +86,13 @@ static double stress_of(const shell_run *run, size_t e)
         for (size_t k = 0; k < SHELL_NODES; k++)
             for (int i = 0; i < 3; i++)
                 sum += at.area * (at.slope[k][0] * at.dual[0][i] + at.slope[k][1] * at.dual[1][i]) *
-                       *fracas_surface_value(run->model, &run->batch->step, e, SURFACE_U,
-                                             3 * (int)k + i, 0);
+                       *value_at(run->batch, e, SURFACE_U, 3 * k + (size_t)i);
     }
     return m->young / (1 - m->poisson) * 0.5 * sum / area;
 }
 
 /* Mean over the area, and the furthest element from it. */
-static double mean_stress(const shell_run *run, double *spread)
+static double mean_stress(const surface_run *run, double *spread)
 {
     double sum = 0, area = 0, least = INFINITY, most = -INFINITY;
     for (size_t e = 0; e < run->model->elements; e++) {
@@ -120,14 +118,14 @@ static void a_growing_sphere(void **unused)
     for (int whole = 0; whole < 2; whole++) {
         const fracas_spec spec = alumina(whole ? &fracas_part_whole : &fracas_part_octant,
                                          whole ? 16 : 32);
-        shell_run run = shell_begin(distorted_model(spec, 0.1, 5), 1, 1e10);
+        surface_run run = begin_run(distorted_model(spec, 0.1, 5), 1, 1e10);
         const double omega = breathing(&spec),
                      amplitude = spec.material.young * 1e4 / (1 - spec.material.poisson) / omega;
         const double end = whole ? 200e-9 : 2 * PI / omega;
         double worst = 0, drift = 0, spread = 0, furthest = 0, early = 0, start = 0;
         assert_true(fabs(amplitude * sin(omega * 55.725e-9) - 264e6) < 0.01e6);
         while (run.batch->step.time[0] < end) {
-            shell_step(&run);
+            step_run(&run);
             const fracas_ledger *ledger = &run.batch->lane[0].ledger;
             const double time = run.batch->step.time[0], sigma = mean_stress(&run, &spread),
                          expected = amplitude * sin(omega * time);
@@ -145,7 +143,7 @@ static void a_growing_sphere(void **unused)
         assert_true(fabs(start - 0.3002) < 5e-5);
         assert_true(worst < 1e-3 && early < 1e-3);
         assert_true(drift < 1e-12);
-        shell_clear(&run);
+        clear_run(&run);
     }
 }
 
@@ -263,13 +261,11 @@ static void symmetry_is_a_mirror(void **unused)
     fracas_surface_operator_close(op_all);
 }
 
-static void start_ellipsoid(shell_run *run)
+static void start_ellipsoid(surface_run *run)
 {
     const double rate[3] = {1e4, -4e3, -5e3};
     for (size_t i = 0; i < unknowns_of(run->model); i++)
-        *fracas_surface_value(run->model, &run->batch->step, i / SHELL_UNKNOWNS, SURFACE_V,
-                              (int)(i % SHELL_UNKNOWNS),
-                              0) = rate[i % 3] * place_of(run->model, i)[i % 3];
+        *value_of(run->batch, i, SURFACE_V) = rate[i % 3] * place_of(run->model, i)[i % 3];
 }
 
 /* Largest difference of the elastic energies over a breathing period, by the whole energy, both
@@ -281,20 +277,20 @@ static double ellipsoids_differ(int64_t divisions)
     octant->time_step *= 0.9; /* below both critical steps */
     fracas_model *whole = mirrored(octant);
     whole->time_step = octant->time_step;
-    shell_run one = shell_begin(octant, 1, 1e10), all = shell_begin(whole, 1, 1e10);
+    surface_run one = begin_run(octant, 1, 1e10), all = begin_run(whole, 1, 1e10);
     start_ellipsoid(&one);
     start_ellipsoid(&all);
     double worst = 0;
     while (one.batch->step.time[0] < 2 * PI / breathing(&spec)) {
-        shell_step(&one);
-        shell_step(&all);
+        step_run(&one);
+        step_run(&all);
         const fracas_ledger *a = &one.batch->lane[0].ledger, *b = &all.batch->lane[0].ledger;
         worst = fmax(worst, fabs(b->elastic / 8 - a->elastic) / a->initial);
         assert_true(fabs(b->kinetic + b->elastic - b->initial) < 1e-12 * b->initial);
         assert_true(fabs(a->kinetic + a->elastic - a->initial) < 1e-12 * a->initial);
     }
-    shell_clear(&one);
-    shell_clear(&all);
+    clear_run(&one);
+    clear_run(&all);
     return worst;
 }
 

@@ -2,18 +2,8 @@
 /* A step of the shell in a batch: what its kick and energies are by the operator, and what edges
  * hold. */
 #include "tests/support/shell_bodies.h"
-#include "tests/support/shell_run.h"
 #include "tests/support/test.h"
 
-static double *value_of(const shell_run *run, size_t unknown, int field)
-{
-    return fracas_surface_value(run->model, &run->batch->step, unknown / SHELL_UNKNOWNS, field,
-                                (int)(unknown % SHELL_UNKNOWNS), 0);
-}
-
-/* One step from displacements and velocities at random: the kick is that of the operator, the
- * elastic energy u.K u/2, the kinetic one v.M v'/2 with the velocities before and after. Sums of n
- * terms: 1e-12 by the largest. */
 static void a_step_is_the_operator(void **unused)
 {
     const int widths[] = {1, 4, 8};
@@ -22,39 +12,7 @@ static void a_step_is_the_operator(void **unused)
             fracas_spec spec = shell_spec(&fracas_shape_sphere);
             if (which != SPHERE)
                 spec.geometry.edge[1] = spec.geometry.edge[3] = &fracas_edge_clamped;
-            shell_run run = shell_begin(body_of(which, spec, 3, 5), widths[w], 1e3);
-            const size_t n = unknowns_of(run.model);
-            OWNED double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n);
-            double worst = 0, kinetic = 0, largest = 0;
-            uint64_t noise = 3;
-            for (size_t i = 0; i < n; i++) {
-                *value_of(&run, i, SURFACE_U) = u[i] = is_held(run.model, i)
-                                                           ? 0
-                                                           : 1e-9 * (next_share(&noise) - 0.5);
-                *value_of(&run, i, SURFACE_V) = v[i] = is_held(run.model, i)
-                                                           ? 0
-                                                           : 1e-6 * (next_share(&noise) - 0.5);
-            }
-            fracas_surface_operator *op = open_operator(run.model);
-            apply_stiffness(run.model, op, u, f);
-            shell_step(&run);
-            const double kick = run.batch->step.kick[0], elastic = 0.5 * dot_of(u, f, n);
-            assert_true(kick > 0 && elastic > 0);
-            for (size_t i = 0; i < n; i++) {
-                const double a = -f[i] / mass_of(run.model, i);
-                worst = fmax(worst, fabs(*value_of(&run, i, SURFACE_V) - v[i] - kick * a));
-                largest = fmax(largest, kick * fabs(a) + fabs(v[i]));
-                kinetic += 0.5 * mass_of(run.model, i) * v[i] * (v[i] + kick * a);
-            }
-            print_message("%s, width %d: velocities within %.1e, elastic %+.1e, kinetic %+.1e\n",
-                          body_name[which], widths[w], worst / largest,
-                          run.batch->step.elastic[0] / elastic - 1,
-                          run.batch->step.kinetic[0] / kinetic - 1);
-            assert_true(worst <= 1e-12 * largest);
-            assert_true(fabs(run.batch->step.elastic[0] / elastic - 1) < 1e-12);
-            assert_true(fabs(run.batch->step.kinetic[0] - kinetic) < 1e-12 * fabs(kinetic));
-            fracas_surface_operator_close(op);
-            shell_clear(&run);
+            check_first_step(body_of(which, spec, 3, 5), widths[w], 1e3, 1e-6);
         }
 }
 
@@ -86,7 +44,7 @@ static void edges_hold_what_they_should(void **unused)
             spec.geometry.edge[tag] = kinds[k];
             spec.loading.rate = rate;
             spec.loading.ratio = 0.5;
-            shell_run run = shell_begin(grid_model(&spec, &(shell_grid){.nx = 3,
+            surface_run run = begin_run(grid_model(&spec, &(shell_grid){.nx = 3,
                                                                         .ny = 3,
                                                                         .map = flat_map,
                                                                         .how = unit,
@@ -95,7 +53,7 @@ static void edges_hold_what_they_should(void **unused)
                                         1, 1e3);
             const fracas_surface *s = run.model->surface;
             const double speed[3] = {rate, 0.5 * rate, rate};
-            for (int n = 0; n < 20; n++) shell_step(&run);
+            for (int n = 0; n < 20; n++) step_run(&run);
             for (size_t i = 0; i < unknowns_of(run.model); i++) {
                 const size_t e = i / SHELL_UNKNOWNS, node = i % SHELL_UNKNOWNS / 3;
                 char expected = 'f';
@@ -107,7 +65,8 @@ static void edges_hold_what_they_should(void **unused)
                         expected = held_of(kinds[k], tag < 3 ? 0 : 1, (int)i % 3);
                 }
                 assert_true((expected != 'f') == is_held(run.model, i));
-                const double v = *value_of(&run, i, SURFACE_V), u = *value_of(&run, i, SURFACE_U);
+                const double v = *value_of(run.batch, i, SURFACE_V),
+                             u = *value_of(run.batch, i, SURFACE_U);
                 const double by_loading = speed[i % 3] * place_of(run.model, i)[i % 3];
                 if (expected == '0') assert_true(v == 0 && u == 0);
                 if (expected == 'v')
@@ -117,7 +76,7 @@ static void edges_hold_what_they_should(void **unused)
             const fracas_ledger *ledger = &run.batch->lane[0].ledger;
             assert_true(fabs(ledger->residual) <
                         0.02 * fmax(fabs(ledger->work), 1e-10 * ledger->initial));
-            shell_clear(&run);
+            clear_run(&run);
         }
 }
 

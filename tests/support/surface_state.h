@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Membranes and shells alike: their unknowns, masses and states, K as an operator and as a matrix,
+ * and runs of one lane. */
+#ifndef FRACAS_TESTS_SUPPORT_SURFACE_STATE_H
+#define FRACAS_TESTS_SUPPORT_SURFACE_STATE_H
+
+#include "engine/formulation/surface/surface.h"
+#include "tests/support/dense.h"
+#include "tests/support/distorted_model.h"
+#include "tests/support/surface.h"
+
+#define PI 3.14159265358979323846
+#define DISTORTION 0.2
+
+static inline fracas_surface_tables *tables_of(const fracas_model *model)
+{
+    return model->plan;
+}
+
+/* Unknowns of an element, and of the body. */
+static inline size_t element_unknowns(const fracas_model *model)
+{
+    return fracas_surface_unknowns(tables_of(model));
+}
+
+static inline size_t unknowns_of(const fracas_model *model)
+{
+    return element_unknowns(model) * model->elements;
+}
+
+static inline const double *node_at(const fracas_model *model, size_t element, size_t k)
+{
+    return model->surface->node[model->surface->element[element * model->surface->corners + k]];
+}
+
+/* x of the node that an unknown is of. */
+static inline const double *place_of(const fracas_model *model, size_t unknown)
+{
+    const size_t size = element_unknowns(model);
+    return node_at(model, unknown / size,
+                   unknown % size / (size_t)tables_of(model)->body->dimension);
+}
+
+static inline bool is_held(const fracas_model *model, size_t unknown)
+{
+    const size_t size = element_unknowns(model);
+    const fracas_surface_tables *t = tables_of(model);
+    return t->held && (t->held[unknown / size] >> (unknown % size) & 1);
+}
+
+/* The lumped mass of an unknown's node. */
+static inline double mass_of(const fracas_model *model, size_t unknown)
+{
+    const size_t size = element_unknowns(model), nodes = model->surface->corners;
+    return tables_of(model)->lumped[(2 * (unknown / size) + 1) * nodes +
+                                    unknown % size / (size_t)tables_of(model)->body->dimension];
+}
+
+/* M_kl of an element's nodes: its lumped masses on the diagonal, or the consistent matrix. */
+static inline double mass_between(const fracas_model *model, size_t e, size_t k, size_t l)
+{
+    const fracas_surface_tables *t = tables_of(model);
+    const size_t nodes = model->surface->corners;
+    if (t->consistent) return t->consistent[((3 * e + 2) * nodes + k) * nodes + l];
+    return k == l ? t->lumped[(2 * e + 1) * nodes + k] : 0;
+}
+
+/* Where lane 0 has component i (dimension node + component) of an element's SURFACE_U, ... */
+static inline double *value_at(const fracas_batch *batch, size_t e, int field, size_t i)
+{
+    return fracas_surface_value(batch->model, &batch->step, e, field, (int)i, 0);
+}
+
+static inline double *value_of(const fracas_batch *batch, size_t unknown, int field)
+{
+    const size_t size = element_unknowns(batch->model);
+    return value_at(batch, unknown / size, field, unknown % size);
+}
+
+/* Displacements at a place. */
+typedef void displacement_field(const void *how, const double *x, double *u);
+
+static inline void interpolate(const fracas_model *model, displacement_field *field,
+                               const void *how, double *u)
+{
+    for (size_t i = 0; i < unknowns_of(model); i += (size_t)tables_of(model)->body->dimension)
+        field(how, place_of(model, i), u + i);
+}
+
+/* xi, eta at s along an edge, from its first vertex. */
+static inline void on_edge(size_t edge, double s, double at[2])
+{
+    const double corner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+    for (int i = 0; i < 2; i++) at[i] = (1 - s) * corner[edge][i] + s * corner[(edge + 1) % 3][i];
+}
+
+/* ---- K ---- */
+
+static inline fracas_surface_operator *open_operator(const fracas_model *model)
+{
+    fracas_surface_operator *op = NULL;
+    OK(fracas_surface_operator_open(model, 0, &op));
+    return op;
+}
+
+/* result = M a */
+static inline void multiply_mass(const fracas_model *model, const double *a, double *result)
+{
+    const size_t nodes = model->surface->corners, size = element_unknowns(model),
+                 dimension = size / nodes;
+    for (size_t i = 0; i < unknowns_of(model); i++) {
+        const size_t e = i / size, k = i % size / dimension;
+        result[i] = 0;
+        for (size_t l = 0; l < nodes; l++)
+            result[i] += mass_between(model, e, k, l) * a[e * size + l * dimension + i % dimension];
+    }
+}
+
+/* f = K u [N], 0 where nodes are held. */
+static inline void apply_stiffness(const fracas_model *model, fracas_surface_operator *op,
+                                   const double *u, double *f)
+{
+    const size_t n = unknowns_of(model);
+    OWNED double *a = vector_of(n);
+    fracas_surface_operator_apply(op, u, a);
+    multiply_mass(model, a, f);
+    for (size_t i = 0; i < n; i++) f[i] = is_held(model, i) ? 0 : -f[i];
+}
+
+/* K as a matrix, [n][n]: column j is the force of a unit displacement j. */
+static inline double *stiffness_matrix(const fracas_model *model, size_t n)
+{
+    fracas_surface_operator *op = open_operator(model);
+    OWNED double *unit = vector_of(n), *column = vector_of(n);
+    double *matrix = vector_of(n * n);
+    for (size_t j = 0; j < n; j++) {
+        unit[j] = 1;
+        apply_stiffness(model, op, unit, column);
+        unit[j] = 0;
+        for (size_t i = 0; i < n; i++) matrix[i * n + j] = column[i];
+    }
+    fracas_surface_operator_close(op);
+    return matrix;
+}
+
+/* By how much K misses `expected`, and how far it is from symmetric, where nothing is held; by its
+ * largest entry. */
+static inline void compare_matrix(const fracas_model *model, const double *expected, double *miss,
+                                  double *skew)
+{
+    const size_t n = unknowns_of(model);
+    OWNED double *got = stiffness_matrix(model, n);
+    const double largest = largest_of(got, n * n);
+    *miss = *skew = 0;
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) {
+            if (is_held(model, i) || is_held(model, j)) continue;
+            *miss = fmax(*miss, fabs(got[i * n + j] - expected[i * n + j]) / largest);
+            *skew = fmax(*skew, fabs(got[i * n + j] - got[j * n + i]) / largest);
+        }
+}
+
+/* Of M^-1/2 K M^-1/2, ascending: omega^2; the matrix becomes that. */
+static inline double *squares_of_frequencies(const fracas_model *model, double *matrix, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++)
+            matrix[i * n + j] /= sqrt(mass_of(model, i) * mass_of(model, j));
+    return eigenvalues_of(matrix, n);
+}
+
+/* ---- runs ---- */
+
+typedef struct {
+    fracas_model *model;
+    fracas_batch *batch;
+    fracas_record record;
+    size_t running;
+} surface_run;
+
+/* Before its first step, in a batch of this width, all strengths as given [Pa]; the model goes with
+ * the run. */
+static inline surface_run begin_run(fracas_model *model, int width, double strength)
+{
+    surface_run run = {.model = model, .running = 1};
+    run.batch = batch_with(model, 1,
+                           (fracas_batch_options){.width = width, .isa = FRACAS_ISA_BEST});
+    for (size_t k = 0; k < strengths_of(model); k++) bar_set_strength(run.batch, 0, k, strength);
+    OK(fracas_batch_begin(run.batch));
+    fracas_record_init(&run.record);
+    return run;
+}
+
+static inline void step_run(surface_run *run)
+{
+    OK(fracas_batch_step(run->batch, &run->record, &run->running));
+}
+
+static inline void clear_run(surface_run *run)
+{
+    fracas_record_clear(&run->record);
+    fracas_batch_destroy(run->batch);
+    fracas_model_destroy(run->model);
+}
+
+/* One step from displacements up to 0.5e-9 and velocities up to `speed`/2 at random: the kick is
+ * that of the operator, the elastic energy u.K u/2, the kinetic one v.M v'/2 with the velocities
+ * before and after. Sums of n terms: 1e-12 by the largest. */
+static inline void check_first_step(fracas_model *model, int width, double strength, double speed)
+{
+    surface_run run = begin_run(model, width, strength);
+    const size_t n = unknowns_of(model);
+    OWNED double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n), *a = vector_of(n),
+                 *momentum = vector_of(n);
+    uint64_t noise = 3;
+    for (size_t i = 0; i < n; i++) {
+        u[i] = is_held(model, i) ? 0 : 1e-9 * (next_share(&noise) - 0.5);
+        v[i] = is_held(model, i) ? 0 : speed * (next_share(&noise) - 0.5);
+        *value_of(run.batch, i, SURFACE_U) = u[i];
+        *value_of(run.batch, i, SURFACE_V) = v[i];
+    }
+    fracas_surface_operator *op = open_operator(model);
+    fracas_surface_operator_apply(op, u, a);
+    apply_stiffness(model, op, u, f);
+    multiply_mass(model, v, momentum);
+    step_run(&run);
+    const fracas_step *step = &run.batch->step;
+    const double kick = step->kick[0], elastic = 0.5 * dot_of(u, f, n);
+    double worst = 0, kinetic = 0;
+    for (size_t i = 0; i < n; i++) {
+        worst = fmax(worst, fabs(*value_of(run.batch, i, SURFACE_V) - v[i] - kick * a[i]));
+        kinetic += 0.5 * momentum[i] * (v[i] + kick * a[i]);
+    }
+    assert_true(kick > 0 && elastic > 0);
+    assert_true(worst <= 1e-12 * (kick * largest_of(a, n) + largest_of(v, n)));
+    assert_true(fabs(step->elastic[0] / elastic - 1) < 1e-12);
+    assert_true(fabs(step->kinetic[0] - kinetic) < 1e-12 * fabs(kinetic));
+    fracas_surface_operator_close(op);
+    clear_run(&run);
+}
+
+#endif
