@@ -37,39 +37,22 @@ static inline fracas_spec body_of(int which, int64_t divisions)
                          divisions);
 }
 
-/* Shape functions and their derivatives by xi, eta, from the Lagrange polynomials in the
- * barycentric coordinates. */
-static inline void lagrange(size_t nodes, double xi, double eta, double *value, double (*slope)[2])
-{
-    const double l[3] = {1 - xi - eta, xi, eta}, grad[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
-    for (size_t k = 0; k < nodes; k++)
-        for (int i = -1; i < 2; i++) {
-            const size_t a = k < 3 ? k : k - 3, b = k < 3 ? k : (k - 2) % 3;
-            double by[3] = {0}; /* dN/dl */
-            double of = nodes == 3 ? l[a] : k < 3 ? 2 * l[a] * (l[a] - 0.5) : 4 * l[a] * l[b];
-            if (nodes == 3) by[a] = 1;
-            else if (k < 3) by[a] = 4 * l[a] - 1;
-            else by[a] = 4 * l[b], by[b] = 4 * l[a];
-            if (i < 0) value[k] = of;
-            else slope[k][i] = by[0] * grad[0][i] + by[1] * grad[1][i] + by[2] * grad[2][i];
-        }
-}
-
-/* A place in an element: its coordinates, shape functions, their derivatives by x, y, the
+/* A place in an element: its coordinates, shape functions with their derivatives by x, y, and the
  * Jacobian's determinant. */
 typedef struct {
-    double x[2], shape[6], by[6][2], det;
+    double x[2], by[6][2], det;
+    surface_shape shape;
 } membrane_place;
 
 static inline membrane_place place_at(const fracas_model *model, size_t e, double xi, double eta)
 {
     const size_t nodes = model->surface->corners;
-    membrane_place p = {.x = {0, 0}};
-    double slope[6][2], j[2][2] = {{0}};
-    lagrange(nodes, xi, eta, p.shape, slope);
+    membrane_place p = {.x = {0, 0}, .shape = shape_at(nodes, xi, eta)};
+    const double(*slope)[2] = (const double(*)[2])p.shape.first;
+    double j[2][2] = {{0}};
     for (size_t k = 0; k < nodes; k++)
         for (int i = 0; i < 2; i++) {
-            p.x[i] += p.shape[k] * node_at(model, e, k)[i];
+            p.x[i] += p.shape.value[k] * node_at(model, e, k)[i];
             for (int a = 0; a < 2; a++) j[i][a] += slope[k][a] * node_at(model, e, k)[i];
         }
     p.det = j[0][0] * j[1][1] - j[0][1] * j[1][0];

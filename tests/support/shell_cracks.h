@@ -87,40 +87,16 @@ static inline double unit3(double a[3])
     return length;
 }
 
-/* N_k, their first and second derivatives by xi, eta (xi xi, eta eta, xi eta), from products of
- * barycentric coordinates. */
-typedef struct {
-    double value[6], first[6][2], second[6][3];
-} shell_shape;
-
-static inline shell_shape shape_at(double xi, double eta)
-{
-    const double l[3] = {1 - xi - eta, xi, eta}, d[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
-    shell_shape s;
-    for (int k = 0; k < 6; k++) { /* c l_a l_b + e l_a */
-        const int a = k % 3, b = k < 3 ? k : (k + 1) % 3;
-        const double c = k < 3 ? 2 : 4, e = k < 3 ? -1 : 0;
-        s.value[k] = c * l[a] * l[b] + e * l[a];
-        for (int i = 0; i < 2; i++)
-            s.first[k][i] = c * (d[a][i] * l[b] + l[a] * d[b][i]) + e * d[a][i];
-        for (int i = 0; i < 3; i++) {
-            const int p = i == 1, q = i != 0;
-            s.second[k][i] = c * (d[a][p] * d[b][q] + d[a][q] * d[b][p]);
-        }
-    }
-    return s;
-}
-
 /* A point of the mid-surface: base phi_a, dual phi^a, phi_ab, unit normal t, and the frame x (edge
  * 0 in the surface), y. */
 typedef struct {
-    shell_shape shape;
+    surface_shape shape;
     double base[2][3], dual[2][3], second[3][3], t[3], x[3], y[3], area;
 } shell_place;
 
 static inline shell_place place_at(const fracas_model *model, size_t e, double xi, double eta)
 {
-    shell_place p = {.shape = shape_at(xi, eta)};
+    shell_place p = {.shape = shape_at(SHELL_NODES, xi, eta)};
     for (int k = 0; k < 6; k++)
         for (int i = 0; i < 3; i++) {
             const double x = node_at(model, e, (size_t)k)[i];

@@ -87,6 +87,30 @@ static inline void interpolate(const fracas_model *model, displacement_field *fi
         field(how, place_of(model, i), u + i);
 }
 
+/* N_k, their first and second derivatives by xi, eta (xi xi, eta eta, xi eta), from products of
+ * barycentric coordinates. */
+typedef struct {
+    double value[6], first[6][2], second[6][3];
+} surface_shape;
+
+static inline surface_shape shape_at(size_t nodes, double xi, double eta)
+{
+    const double l[3] = {1 - xi - eta, xi, eta}, d[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
+    surface_shape s;
+    for (size_t k = 0; k < nodes; k++) { /* c l_a l_b + e l_a */
+        const size_t a = k % 3, b = k < 3 ? k : (k + 1) % 3;
+        const double c = nodes == 3 ? 0 : k < 3 ? 2 : 4, e = nodes == 3 ? 1 : k < 3 ? -1 : 0;
+        s.value[k] = c * l[a] * l[b] + e * l[a];
+        for (int i = 0; i < 2; i++)
+            s.first[k][i] = c * (d[a][i] * l[b] + l[a] * d[b][i]) + e * d[a][i];
+        for (int i = 0; i < 3; i++) {
+            const int p = i == 1, q = i != 0;
+            s.second[k][i] = c * (d[a][p] * d[b][q] + d[a][q] * d[b][p]);
+        }
+    }
+    return s;
+}
+
 /* xi, eta at s along an edge, from its first vertex. */
 static inline void on_edge(size_t edge, double s, double at[2])
 {
@@ -108,10 +132,11 @@ static inline void multiply_mass(const fracas_model *model, const double *a, dou
 {
     const size_t nodes = model->surface->corners, size = element_unknowns(model),
                  dimension = size / nodes;
+    const bool consistent = tables_of(model)->consistent;
     for (size_t i = 0; i < unknowns_of(model); i++) {
         const size_t e = i / size, k = i % size / dimension;
-        result[i] = 0;
-        for (size_t l = 0; l < nodes; l++)
+        result[i] = consistent ? 0 : mass_of(model, i) * a[i];
+        for (size_t l = 0; consistent && l < nodes; l++)
             result[i] += mass_between(model, e, k, l) * a[e * size + l * dimension + i % dimension];
     }
 }

@@ -78,7 +78,7 @@ static void load(const fracas_model *model, double *f)
             for (size_t k = 0; k < nodes; k++)
                 for (size_t i = 0; i < 2; i++)
                     f[2 * (nodes * e + k) + i] += rule[2] * p.det * model->spec.geometry.thickness *
-                                                  p.shape[k] * b[i];
+                                                  p.shape.value[k] * b[i];
         }
 }
 
@@ -94,7 +94,8 @@ static double miss(const fracas_model *model, const double *u)
             exact(NULL, p.x, want);
             for (size_t i = 0; i < 2; i++) {
                 double have = 0;
-                for (size_t k = 0; k < nodes; k++) have += p.shape[k] * u[2 * (nodes * e + k) + i];
+                for (size_t k = 0; k < nodes; k++)
+                    have += p.shape.value[k] * u[2 * (nodes * e + k) + i];
                 sum += rule[2] * p.det * (have - want[i]) * (have - want[i]);
                 scale += rule[2] * p.det * want[i] * want[i];
             }

@@ -156,7 +156,7 @@ static rates rates_of(const fracas_model *model, double velocity[2][6])
             const membrane_place p = place_at(model, joint->element[side], at[0], at[1]);
             for (int k = 0; k < 3; k++)
                 for (int i = 0; i < 2; i++)
-                    jump[i] += (side ? 1 : -1) * p.shape[k] * velocity[side][2 * k + i];
+                    jump[i] += (side ? 1 : -1) * p.shape.value[k] * velocity[side][2 * k + i];
         }
         resolve(normal, mean, r.mean[g]);
         resolve(normal, jump, r.jump[g]);

@@ -69,9 +69,9 @@ static void tractions(const fracas_model *model, const double stress[3], double 
             const membrane_place p = place_at(model, border->element, at[0], at[1]);
             weight *= model->spec.geometry.thickness;
             for (size_t k = 0; k < nodes; k++) {
-                f[2 * (nodes * border->element + k)] += weight * p.shape[k] *
+                f[2 * (nodes * border->element + k)] += weight * p.shape.value[k] *
                                                         (stress[0] * n[0] + stress[2] * n[1]);
-                f[2 * (nodes * border->element + k) + 1] += weight * p.shape[k] *
+                f[2 * (nodes * border->element + k) + 1] += weight * p.shape.value[k] *
                                                             (stress[2] * n[0] + stress[1] * n[1]);
             }
         }
@@ -228,7 +228,7 @@ static void fill_point(const fracas_model *model, const fracas_surface_interface
             double stress[3], *jump = p->jump[side * size + d], *mean = p->mean[side * size + d];
             stress_of(model, it->element[side], d, at, stress);
             jump[0] = jump[1] = 0;
-            jump[d % 2] = (side ? 1 : -1) * place.shape[d / 2];
+            jump[d % 2] = (side ? 1 : -1) * place.shape.value[d / 2];
             mean[0] = 0.5 * (stress[0] * normal[0] + stress[2] * normal[1]);
             mean[1] = 0.5 * (stress[2] * normal[0] + stress[1] * normal[1]);
             p->at[side * size + d] = it->element[side] * size + d;

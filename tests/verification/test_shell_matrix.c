@@ -2,74 +2,17 @@
 /* The shell's operator against its bilinear form, written down anew: strains of bending as changes
  * of curvature by differences. */
 #include "tests/support/shell_bodies.h"
+#include "tests/support/shell_cracks.h"
 #include "tests/support/test.h"
 
 #include <gsl/gsl_integration.h>
 
-static double dot3(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross3(const double a[3], const double b[3], double c[3])
-{
-    c[0] = a[1] * b[2] - a[2] * b[1];
-    c[1] = a[2] * b[0] - a[0] * b[2];
-    c[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-static double unit3(double a[3])
-{
-    const double length = sqrt(dot3(a, a));
-    for (int i = 0; i < 3; i++) a[i] /= length;
-    return length;
-}
-
-/* The shape functions of 6 nodes and their derivatives, from barycentric coordinates. */
-static void shape6(double xi, double eta, double value[6], double slope[6][2])
-{
-    const double l[3] = {1 - xi - eta, xi, eta}, by[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
-    for (int k = 0; k < 3; k++) {
-        const int j = (k + 1) % 3;
-        value[k] = l[k] * (2 * l[k] - 1);
-        value[3 + k] = 4 * l[k] * l[j];
-        for (int a = 0; a < 2; a++) {
-            slope[k][a] = (4 * l[k] - 1) * by[k][a];
-            slope[3 + k][a] = 4 * (l[k] * by[j][a] + l[j] * by[k][a]);
-        }
-    }
-}
-
-/* At a place of an element: basis a_1, a_2 and its reciprocal by the metric, normal, and of each
- * unknown u_{,1}, u_{,2} (the unknown's component alone). */
-typedef struct {
-    double shape[6], slope[6][2], a[2][3], up[2][3], t[3], area;
-} place;
-
-static place place_at(const fracas_model *model, size_t e, double xi, double eta)
-{
-    place p = {.area = 0};
-    shape6(xi, eta, p.shape, p.slope);
-    for (size_t k = 0; k < 6; k++)
-        for (int a = 0; a < 2; a++)
-            for (int i = 0; i < 3; i++) p.a[a][i] += p.slope[k][a] * node_at(model, e, k)[i];
-    const double g11 = dot3(p.a[0], p.a[0]), g12 = dot3(p.a[0], p.a[1]), g22 = dot3(p.a[1], p.a[1]),
-                 det = g11 * g22 - g12 * g12;
-    for (int i = 0; i < 3; i++) {
-        p.up[0][i] = (g22 * p.a[0][i] - g12 * p.a[1][i]) / det;
-        p.up[1][i] = (g11 * p.a[1][i] - g12 * p.a[0][i]) / det;
-    }
-    cross3(p.a[0], p.a[1], p.t);
-    p.area = unit3(p.t);
-    return p;
-}
-
 /* Change of the director by unknown d:  -(t.u_{,a}) a^a */
-static void director(const place *p, size_t d, double of[3])
+static void director(const shell_place *p, size_t d, double of[3])
 {
     for (int i = 0; i < 3; i++)
-        of[i] = -p->t[d % 3] *
-                (p->slope[d / 3][0] * p->up[0][i] + p->slope[d / 3][1] * p->up[1][i]);
+        of[i] = -p->t[d % 3] * (p->shape.first[d / 3][0] * p->dual[0][i] +
+                                p->shape.first[d / 3][1] * p->dual[1][i]);
 }
 
 /* Derivatives of t and of the change of the director by xi or eta: differences of sixth order.
@@ -85,7 +28,8 @@ static void by_coordinate(const fracas_model *model, size_t e, double xi, double
     for (int far = 1; far < 4; far++)
         for (int sign = -1; sign < 2; sign += 2) {
             const double move = sign * far * step, w = sign * weight[far - 1] / step;
-            const place p = place_at(model, e, along ? xi : xi + move, along ? eta + move : eta);
+            const shell_place p = place_at(model, e, along ? xi : xi + move,
+                                           along ? eta + move : eta);
             for (int i = 0; i < 3; i++) of_t[i] += w * p.t[i];
             for (size_t d = 0; d < 18; d++) {
                 double turn[3];
@@ -95,36 +39,26 @@ static void by_coordinate(const fracas_model *model, size_t e, double xi, double
         }
 }
 
-/* The frame at a place: edge 0 of the element projected, and t x that. */
-static void frame_at(const fracas_model *model, size_t e, const place *p, double x[3], double y[3])
-{
-    for (int i = 0; i < 3; i++) x[i] = node_at(model, e, 1)[i] - node_at(model, e, 0)[i];
-    const double off = dot3(x, p->t);
-    for (int i = 0; i < 3; i++) x[i] -= off * p->t[i];
-    unit3(x);
-    cross3(p->t, x, y);
-}
-
 /* Of each unknown: strains xx, yy, 2 xy of stretching, and of bending as the change of a_a .
  * t_{,b}: a_a . dt_{,b} + u_{,a} . t_{,b}. */
 static void strains_at(const fracas_model *model, size_t e, double xi, double eta,
                        double eps[18][3], double rho[18][3])
 {
-    const place p = place_at(model, e, xi, eta);
-    double frame[2][3], of_t[2][3], of_turn[2][18][3];
-    frame_at(model, e, &p, frame[0], frame[1]);
+    const shell_place p = place_at(model, e, xi, eta);
+    const double *frame[2] = {p.x, p.y};
+    double of_t[2][3], of_turn[2][18][3];
     for (int a = 0; a < 2; a++) by_coordinate(model, e, xi, eta, a, of_t[a], of_turn[a]);
     for (size_t d = 0; d < 18; d++) {
         double stretch[2][2] = {{0}}, bend[2][2] = {{0}};
         for (int i = 0; i < 2; i++)
             for (int j = 0; j < 2; j++)
                 for (int a = 0; a < 2; a++) {
-                    const double ia = dot3(frame[i], p.up[a]);
-                    stretch[i][j] += ia * p.slope[d / 3][a] * frame[j][d % 3];
+                    const double ia = dot3(frame[i], p.dual[a]);
+                    stretch[i][j] += ia * p.shape.first[d / 3][a] * frame[j][d % 3];
                     for (int b = 0; b < 2; b++)
-                        bend[i][j] += ia * dot3(frame[j], p.up[b]) *
-                                      (dot3(p.a[a], of_turn[b][d]) +
-                                       p.slope[d / 3][a] * of_t[b][d % 3]);
+                        bend[i][j] += ia * dot3(frame[j], p.dual[b]) *
+                                      (dot3(p.base[a], of_turn[b][d]) +
+                                       p.shape.first[d / 3][a] * of_t[b][d % 3]);
                 }
         for (int i = 0; i < 2; i++) {
             eps[d][i] = stretch[i][i];
@@ -182,7 +116,7 @@ static void add_bulk(const fracas_model *model, const element_state *state, size
 /* One side of an edge at s from the edge's first vertex: the place, n_nn, n_ns, m_nn, m_ns of each
  * unknown, the normal's turn of each, and the curvatures nn, ns, ss by differences of t. */
 typedef struct {
-    place p;
+    shell_place p;
     double tangent[3], normal[3], speed, of[18][4], turn[18], l[3];
 } edge_side;
 
@@ -190,25 +124,18 @@ typedef struct {
 static edge_side side_at(const fracas_model *model, const element_state *state, size_t e,
                          size_t edge, double s, const double *tangent)
 {
-    const double l[3] = {edge == 0   ? 1 - s
-                         : edge == 2 ? s
-                                     : 0,
-                         edge == 0   ? s
-                         : edge == 1 ? 1 - s
-                                     : 0,
-                         edge == 1   ? s
-                         : edge == 2 ? 1 - s
-                                     : 0};
+    double place[2];
+    on_edge(edge, s, place);
+    const double l[3] = {1 - place[0] - place[1], place[0], place[1]};
     const double along[3][2] = {{1, 0}, {-1, 1}, {0, -1}};
     edge_side of = {.p = place_at(model, e, l[1], l[2])};
-    double x[3], y[3], of_t[2][3], unused[18][3];
+    double of_t[2][3], unused[18][3];
     for (int i = 0; i < 3; i++)
-        of.tangent[i] = along[edge][0] * of.p.a[0][i] + along[edge][1] * of.p.a[1][i];
+        of.tangent[i] = along[edge][0] * of.p.base[0][i] + along[edge][1] * of.p.base[1][i];
     of.speed = unit3(of.tangent);
     if (tangent) memcpy(of.tangent, tangent, sizeof of.tangent);
     cross3(of.tangent, of.p.t, of.normal);
-    frame_at(model, e, &of.p, x, y);
-    const double n[2] = {dot3(of.normal, x), dot3(of.normal, y)}, t[2] = {-n[1], n[0]};
+    const double n[2] = {dot3(of.normal, of.p.x), dot3(of.normal, of.p.y)}, t[2] = {-n[1], n[0]};
     for (int d = 0; d < 18; d++) {
         double r[2][3] = {{0}}, turn[3];
         for (int g = 0; g < 3; g++)
@@ -229,8 +156,8 @@ static edge_side side_at(const fracas_model *model, const element_state *state, 
     double by[2][3] = {{0}}; /* of t along the normal, along the edge */
     for (int a = 0; a < 2; a++)
         for (int i = 0; i < 3; i++) {
-            by[0][i] += dot3(of.normal, of.p.up[a]) * of_t[a][i];
-            by[1][i] += dot3(of.tangent, of.p.up[a]) * of_t[a][i];
+            by[0][i] += dot3(of.normal, of.p.dual[a]) * of_t[a][i];
+            by[1][i] += dot3(of.tangent, of.p.dual[a]) * of_t[a][i];
         }
     of.l[0] = dot3(by[0], of.normal);
     of.l[1] = dot3(by[0], of.tangent);
@@ -277,18 +204,19 @@ static void add_interfaces(const fracas_model *model, const element_state *state
                 const edge_side *of = d < 18 ? &a : &b;
                 const int side = d >= 18, k = d % 18 / 3, x = d % 3;
                 const double sign = side ? 1 : -1, *way = along[side][it->edge[side]];
-                const double ds = (way[0] * of->p.slope[k][0] + way[1] * of->p.slope[k][1]) /
+                const double ds = (way[0] * of->p.shape.first[k][0] +
+                                   way[1] * of->p.shape.first[k][1]) /
                                   a.speed,
                              *r = of->of[d % 18];
                 for (int q = 0; q < 2; q++) {
-                    jump[d][q] = sign * of->p.shape[k] * axis[q][x];
+                    jump[d][q] = sign * of->p.shape.value[k] * axis[q][x];
                     mean[d][q] = 0.5 * (r[q] + 0.5 * (a.l[q] + b.l[q]) * r[2] +
                                         0.5 * (a.l[q + 1] + b.l[q + 1]) * r[3]);
                     mean[d][2 + q] = 0.5 * r[2 + q];
                 }
                 jump[d][2] = sign * of->turn[d % 18];
                 jump[d][3] = -sign * ds * t[x];
-                jump[d][4] = sign * of->p.shape[k] * t[x];
+                jump[d][4] = sign * of->p.shape.value[k] * t[x];
             }
             for (size_t p = 0; p < 36; p++)
                 for (size_t q = 0; q < 36; q++)
