@@ -45,19 +45,6 @@ static void law_tails(weibull law, double x, double *below, double *above)
     *above = exp(-z);
 }
 
-static double law_log_density(weibull law, double x)
-{
-    if (x < law.shift) return -INFINITY;
-    const double y = (x - law.shift) / law.scale;
-    return log(law.shape / law.scale) + (law.shape == 1 ? 0 : (law.shape - 1) * log(y)) -
-           pow(y, law.shape);
-}
-
-static double law_quantile(weibull law, double above)
-{
-    return law.shift + law.scale * pow(-log(above), 1 / law.shape);
-}
-
 /* The shape of a coefficient of variation, to some percent, and the scale of a mean. */
 static weibull weibull_of(double mean, double cv)
 {
@@ -73,31 +60,20 @@ static double start_shift(const fracas_family_moments *moments, int which)
     return share[which] * fmin(moments->smallest, 0.9);
 }
 
-/* The functions of a family by shift, scale, shape. */
-#define MEMBER(member, ...)                                                           \
+/* The tails of a family by shift, scale, shape. */
+#define TAILS(member, ...)                                                            \
     static void member##_tails(const double *p, double from, double x, double *below, \
                                double *above)                                         \
     {                                                                                 \
         (void)from;                                                                   \
         law_tails((weibull){__VA_ARGS__}, x, below, above);                           \
-    }                                                                                 \
-    static double member##_log_density(const double *p, double from, double x)        \
-    {                                                                                 \
-        (void)from;                                                                   \
-        return law_log_density((weibull){__VA_ARGS__}, x);                            \
-    }                                                                                 \
-    static double member##_quantile(const double *p, double from, double above)       \
-    {                                                                                 \
-        (void)from;                                                                   \
-        return law_quantile((weibull){__VA_ARGS__}, above);                           \
     }
-
-MEMBER(exponential, 0, p[0], 1)
-MEMBER(mott, 0, p[0], 0.5)
-MEMBER(rayleigh, 0, M_SQRT2 *p[0], 2)
-MEMBER(shifted_rayleigh, p[0], M_SQRT2 *p[1], 2)
-MEMBER(weibull, 0, p[0], p[1])
-MEMBER(weibull3, p[0], p[1], p[2])
+TAILS(exponential, 0, p[0], 1)
+TAILS(mott, 0, p[0], 0.5)
+TAILS(rayleigh, 0, M_SQRT2 *p[0], 2)
+TAILS(shifted_rayleigh, p[0], M_SQRT2 *p[1], 2)
+TAILS(weibull, 0, p[0], p[1])
+TAILS(weibull3, p[0], p[1], p[2])
 
 static void exponential_start(const fracas_family_moments *moments, int which, double *p)
 {
@@ -141,26 +117,12 @@ static void weibull3_start(const fracas_family_moments *moments, int which, doub
 
 /* ---- gamma ---- */
 
+/* (fits.2) */
 static void gamma_tails(const double *p, double from, double x, double *below, double *above)
 {
     (void)from;
     *below = gsl_cdf_gamma_P(x, p[1], p[0]);
     *above = gsl_cdf_gamma_Q(x, p[1], p[0]);
-}
-
-/* (fits.2) */
-static double gamma_log_density(const double *p, double from, double x)
-{
-    (void)from;
-    const double y = x / p[0];
-    return x < 0 ? -INFINITY
-                 : (p[1] == 1 ? 0 : (p[1] - 1) * log(y)) - y - gsl_sf_lngamma(p[1]) - log(p[0]);
-}
-
-static double gamma_quantile(const double *p, double from, double above)
-{
-    (void)from;
-    return gsl_cdf_gamma_Qinv(above, p[1], p[0]);
 }
 
 static void gamma_start(const fracas_family_moments *moments, int which, double *p)
@@ -172,26 +134,13 @@ static void gamma_start(const fracas_family_moments *moments, int which, double 
 
 /* ---- lognormal ---- */
 
+/* (fits.3) */
 static void lognormal_tails(const double *p, double from, double x, double *below, double *above)
 {
     (void)from;
     const double z = log(x / p[0]) / p[1];
     *below = gsl_cdf_ugaussian_P(z);
     *above = gsl_cdf_ugaussian_Q(z);
-}
-
-/* (fits.3) */
-static double lognormal_log_density(const double *p, double from, double x)
-{
-    (void)from;
-    const double z = log(x / p[0]) / p[1];
-    return x > 0 ? -0.5 * z * z - log(x * p[1]) - 0.5 * log(2 * M_PI) : -INFINITY;
-}
-
-static double lognormal_quantile(const double *p, double from, double above)
-{
-    (void)from;
-    return p[0] * exp(p[1] * gsl_cdf_ugaussian_Qinv(above));
 }
 
 static void lognormal_start(const fracas_family_moments *moments, int which, double *p)
@@ -209,6 +158,7 @@ static double to_gamma(const double *p, double x)
     return pow(x / p[0], p[2] / p[1]) / (p[2] * p[2]);
 }
 
+/* (fits.4) */
 static void generalised_gamma_tails(const double *p, double from, double x, double *below,
                                     double *above)
 {
@@ -216,22 +166,6 @@ static void generalised_gamma_tails(const double *p, double from, double x, doub
     const double g = to_gamma(p, x), shape = 1 / (p[2] * p[2]);
     *below = gsl_cdf_gamma_P(g, shape, 1);
     *above = gsl_cdf_gamma_Q(g, shape, 1);
-}
-
-/* (fits.4) */
-static double generalised_gamma_log_density(const double *p, double from, double x)
-{
-    (void)from;
-    if (x <= 0) return -INFINITY;
-    const double shape = 1 / (p[2] * p[2]), g = to_gamma(p, x);
-    return shape * log(g) - g - gsl_sf_lngamma(shape) + log(p[2] / (p[1] * x));
-}
-
-static double generalised_gamma_quantile(const double *p, double from, double above)
-{
-    (void)from;
-    const double g = gsl_cdf_gamma_Qinv(above, 1 / (p[2] * p[2]), 1);
-    return p[0] * pow(p[2] * p[2] * g, p[1] / p[2]);
 }
 
 /* A gamma, a Weibull, nearly a lognormal. */
@@ -264,31 +198,12 @@ static double beyond(const double *p, double x)
     return poor ? (found.val - pow(z, a) * exp(-z)) / a : found.val;
 }
 
+/* (fits.5) */
 static void power_law_tails(const double *p, double from, double x, double *below, double *above)
 {
     const double all = beyond(p, from), rest = x > from ? beyond(p, x) : all;
     *above = rest / all;
     *below = (all - rest) / all;
-}
-
-/* (fits.5) */
-static double power_law_log_density(const double *p, double from, double x)
-{
-    return x < from || x <= 0 ? -INFINITY
-                              : -p[0] * log(x / p[1]) - x / p[1] - log(beyond(p, from)) - log(p[1]);
-}
-
-/* P(size > x) falls with x: halves an interval of log x. */
-static double power_law_quantile(const double *p, double from, double above)
-{
-    double low = log(from > 0 ? from : p[1] * 1e-30), high = log(fmax(from, 0) + 700 * p[1]);
-    for (int i = 0; i < 60; i++) {
-        double below, rest;
-        const double middle = 0.5 * (low + high);
-        power_law_tails(p, from, exp(middle), &below, &rest);
-        *(rest > above ? &low : &high) = middle;
-    }
-    return exp(0.5 * (low + high));
 }
 
 static void power_law_start(const fracas_family_moments *moments, int which, double *p)
@@ -316,41 +231,35 @@ static void power_law_start(const fracas_family_moments *moments, int which, dou
         .name = symbol, .lower = low, .upper = high, .doc = what \
     }
 
-/* Name, P(size > x), families of which it is a special case, parameters. */
-#define FAMILY(member, title, formula, within, ...)                       \
+/* Name, families of which it is a special case, parameters. */
+#define FAMILY(member, title, within, ...)                                \
     const fracas_family fracas_family_##member = {                        \
         .name = title,                                                    \
-        .survival = formula,                                              \
         .general = within,                                                \
         .nparameters = sizeof((fracas_family_parameter[]){__VA_ARGS__}) / \
                        sizeof(fracas_family_parameter),                   \
         .parameter = {__VA_ARGS__},                                       \
         .tails = member##_tails,                                          \
-        .log_density = member##_log_density,                              \
-        .quantile = member##_quantile,                                    \
         .start = member##_start}
 
-FAMILY(exponential, "exponential", "exp(-x/mu)",
-       "weibull weibull-3 gamma generalised-gamma power-law", LENGTH("mu", "mean"));
-FAMILY(mott, "mott", "exp(-sqrt(x/mu))", "weibull weibull-3 generalised-gamma",
-       LENGTH("mu", "half of the mean"));
-FAMILY(rayleigh, "rayleigh", "exp(-x^2/(2 sigma^2))",
-       "shifted-rayleigh weibull weibull-3 generalised-gamma",
+FAMILY(exponential, "exponential", "weibull weibull-3 gamma generalised-gamma power-law",
+       LENGTH("mu", "mean"));
+FAMILY(mott, "mott", "weibull weibull-3 generalised-gamma", LENGTH("mu", "half of the mean"));
+FAMILY(rayleigh, "rayleigh", "shifted-rayleigh weibull weibull-3 generalised-gamma",
        LENGTH("sigma", "most frequent size"));
-FAMILY(shifted_rayleigh, "shifted-rayleigh", "exp(-(x - x0)^2/(2 sigma^2))", "weibull-3", SHIFT,
+FAMILY(shifted_rayleigh, "shifted-rayleigh", "weibull-3", SHIFT,
        LENGTH("sigma", "most frequent size - x0"));
-FAMILY(weibull, "weibull", "exp(-(x/lambda)^k)", "weibull-3 generalised-gamma",
-       LENGTH("lambda", "scale"), SHAPE("k", 0.1, 50, "shape"));
-FAMILY(weibull3, "weibull-3", "exp(-((x - x0)/lambda)^k)", "", SHIFT, LENGTH("lambda", "scale"),
+FAMILY(weibull, "weibull", "weibull-3 generalised-gamma", LENGTH("lambda", "scale"),
        SHAPE("k", 0.1, 50, "shape"));
-FAMILY(gamma, "gamma", "Q(k, x/theta)", "generalised-gamma", LENGTH("theta", "scale"),
+FAMILY(weibull3, "weibull-3", "", SHIFT, LENGTH("lambda", "scale"), SHAPE("k", 0.1, 50, "shape"));
+FAMILY(gamma, "gamma", "generalised-gamma", LENGTH("theta", "scale"),
        SHAPE("k", 0.02, 2000, "shape"));
-FAMILY(lognormal, "lognormal", "Phi(-log(x/m)/sigma)", "generalised-gamma", LENGTH("m", "median"),
+FAMILY(lognormal, "lognormal", "generalised-gamma", LENGTH("m", "median"),
        SHAPE("sigma", 0.01, 10, "deviation of log x"));
-FAMILY(generalised_gamma, "generalised-gamma", "Q(1/q^2, (x/m)^(q/sigma)/q^2)", "",
-       LENGTH("m", "scale"), SHAPE("sigma", 0.01, 10, "width of log x"),
+FAMILY(generalised_gamma, "generalised-gamma", "", LENGTH("m", "scale"),
+       SHAPE("sigma", 0.01, 10, "width of log x"),
        SHAPE("q", 0.03, 20, "1 Weibull, sigma gamma, towards 0 lognormal"));
 FAMILY(
-    power_law, "power-law", "Gamma(1 - alpha, x/lambda)/Gamma(1 - alpha, cut/lambda)", "",
+    power_law, "power-law", "",
     {.name = "alpha", .linear = true, .lower = 0, .upper = 6, .doc = "exponent"},
     {.name = "lambda", .length = true, .lower = 1e-3, .upper = 100, .doc = "where it is cut off"});

@@ -28,15 +28,10 @@ typedef struct {
  * probability below, looks at it. */
 typedef struct {
     const char *name;
-    const char *survival; /* P(size > x), for a reader */
     size_t nparameters;
     fracas_family_parameter parameter[FRACAS_FAMILY_PARAMETERS];
     /* P(size <= x) and P(size > x), each to full relative precision; NaN for invalid parameters. */
     void (*tails)(const double *parameter, double from, double x, double *below, double *above);
-    double (*log_density)(const double *parameter, double from,
-                          double x); /* -INFINITY where there is none */
-    double (*quantile)(const double *parameter, double from,
-                       double above); /* x with P(size > x) = above, 0 < above < 1 */
     /* Where search number `which` of FRACAS_FAMILY_STARTS begins, lengths over the mean. */
     void (*start)(const fracas_family_moments *moments, int which, double *parameter);
     const char *general; /* name of a family of which it is a special case, "" for none, more than

@@ -28,10 +28,46 @@ typedef struct {
     dependence how;
 } synthetic;
 
+/* Shift, scale and shape of a family that is a Weibull law; shape 0 of any other. */
+static inline void synthetic_weibull(const synthetic *what, double law[3])
+{
+    const fracas_family *family = what->family;
+    const bool shifted = family->parameter[0].shift, rayleigh = strstr(family->name, "rayleigh");
+    const double *p = what->parameter + shifted;
+    law[0] = shifted ? what->parameter[0] : 0;
+    law[1] = rayleigh ? M_SQRT2 * p[0] : p[0];
+    law[2] = rayleigh                               ? 2
+             : family == &fracas_family_exponential ? 1
+             : family == &fracas_family_mott        ? 0.5
+             : strstr(family->name, "weibull")      ? p[1]
+                                                    : 0;
+}
+
+/* x with P(size > x) = above. */
+static inline double synthetic_quantile(const synthetic *what, double above)
+{
+    const fracas_family *family = what->family;
+    const double *p = what->parameter;
+    double weibull[3];
+    synthetic_weibull(what, weibull);
+    if (weibull[2] > 0) return weibull[0] + weibull[1] * pow(-log(above), 1 / weibull[2]);
+    if (family == &fracas_family_gamma) return gsl_cdf_gamma_Qinv(above, p[1], p[0]);
+    if (family == &fracas_family_lognormal) return p[0] * exp(p[1] * gsl_cdf_ugaussian_Qinv(above));
+    if (family == &fracas_family_generalised_gamma)
+        return p[0] *
+               pow(p[2] * p[2] * gsl_cdf_gamma_Qinv(above, 1 / (p[2] * p[2]), 1), p[1] / p[2]);
+    double low = log(what->from), high = log(what->from + 700 * p[1]); /* of a power law */
+    for (int i = 0; i < 60; i++) {
+        double below, rest;
+        family->tails(p, what->from, exp(0.5 * (low + high)), &below, &rest);
+        *(rest > above ? &low : &high) = 0.5 * (low + high);
+    }
+    return exp(0.5 * (low + high));
+}
+
 static inline double synthetic_size(const synthetic *what, double score)
 {
-    const double size = what->family->quantile(what->parameter, what->from,
-                                               gsl_cdf_ugaussian_Q(score));
+    const double size = synthetic_quantile(what, gsl_cdf_ugaussian_Q(score));
     return what->lattice > 0 ? what->lattice * ceil(size / what->lattice - 0.5) : size;
 }
 
