@@ -72,9 +72,8 @@ typedef struct {
     const double *time; /* s, of each; NULL: evenly from the first onset (without it) to the end */
     fracas_surface_show show;
     const fracas_view *view; /* NULL: a flat surface as it lies, any other by FRACAS_VIEW_DEFAULT */
-    double explode; /* >= 0: fragments moved apart by this times (their centroid - centroid of the
-                       surface) */
-    bool table;     /* the first times of all replicas as CSV, too */
+    double explode;     /* >= 0: fragments moved by this times (their centroid - that of all) */
+    bool table;         /* the first times of all replicas as CSV, too */
     const char *folder; /* made if it is not there; NULL: STUDY/pictures */
 } fracas_picture_request;
 

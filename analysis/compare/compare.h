@@ -18,8 +18,7 @@ enum {
 #undef FRACAS_ONE_MORE
 
 typedef struct {
-    const char
-        *by; /* columns to match by, "loading.rate,strength.shape"; NULL: see fracas_match_points */
+    const char *by;       /* "loading.rate,strength.shape"; NULL: see fracas_match_points */
     bool common;          /* both campaigns have random_numbers: common */
     int64_t permutations; /* 0: FRACAS_COMPARE_PERMUTATIONS */
     uint64_t seed;        /* equal seeds give equal p */
@@ -34,9 +33,8 @@ extern const fracas_compared_quantity fracas_compared_quantities[FRACAS_COMPARED
 
 /* B - A of one number at one pair of points. */
 typedef struct {
-    fracas_estimate a, b; /* means; of pairs over the realizations with a partner */
-    double difference, low,
-        high; /* 95 % interval: Welch's, of pairs Student's; NaN if it has none */
+    fracas_estimate a, b;         /* means; of pairs over the realizations with a partner */
+    double difference, low, high; /* 95 %: Welch's, of pairs Student's; NaN: none */
     double relative, relative_low, relative_high; /* over the mean of A */
     double freedom;                               /* degrees of freedom of both intervals */
     double p;                                     /* by permutation; NaN: no test */
@@ -44,14 +42,12 @@ typedef struct {
 } fracas_compared_value;
 
 typedef struct {
-    size_t a, b;        /* the points */
-    fracas_label label; /* for the point in A */
-    char differs[512];  /* "mesh.elements 2500 | 5000": the other parameters in which they differ;
-                           "": none */
-    bool paired;        /* realizations have the same random numbers, replica by replica */
+    size_t a, b;            /* the points */
+    fracas_label label;     /* for the point in A */
+    char differs[512];      /* "mesh.elements 2500 | 5000": other differences; "": none */
+    bool paired;            /* realizations have the same random numbers, replica by replica */
     int64_t used_a, used_b; /* realizations compared */
-    fracas_compared_value
-        value[FRACAS_COMPARED_VALUES]; /* a.n = b.n = 0 where the points have no such number */
+    fracas_compared_value value[FRACAS_COMPARED_VALUES]; /* a.n = b.n = 0: no such number */
     double distance;  /* distance of the distributions of fragment sizes (Kolmogorov and Smirnov) */
     double p, p_holm; /* p of the distance */
     int64_t permutations; /* assignments looked at, the observed one among them */

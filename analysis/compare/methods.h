@@ -45,18 +45,15 @@ typedef struct {
     size_t na, nb; /* realizations; of pairs na = nb, and i of a belongs to i of b */
     bool paired;
     size_t nvalues;
-    const double *value; /* (na + nb) x nvalues, realization by realization, those of a first; NaN
-                            is left out */
+    const double *value; /* (na + nb) x nvalues, those of a first; NaN is left out */
     size_t ncuts;
-    const double *below; /* (na + nb) x ncuts: fragments of each realization of at most the size of
-                            the cut, ascending */
+    const double *below;     /* (na + nb) x ncuts: fragments up to each cut, ascending */
     const double *fragments; /* one each realization */
 } fracas_two_samples;
 
 typedef struct {
-    double p; /* NaN: no test */
-    double
-        distance; /* largest difference of the two distribution functions of sizes, at the cuts */
+    double p;        /* NaN: no test */
+    double distance; /* largest difference of the distribution functions of sizes, at cuts */
 } fracas_permuted;
 
 /* result[nvalues] of equal means, and one more behind them of equal distributions of sizes. Means

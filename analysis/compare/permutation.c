@@ -17,11 +17,10 @@ typedef struct {
 
 typedef struct {
     const fracas_two_samples *of;
-    size_t n;      /* na + nb */
-    double *value; /* as given, less their mean and over their deviation: equal in statistic, better
-                      in rounding */
-    bool *in_a;    /* the assignment */
-    totals a, all; /* side a, and both sides */
+    size_t n;                   /* na + nb */
+    double *value;              /* less their mean, over their deviation: for less rounding */
+    bool *in_a;                 /* the assignment */
+    totals a, all;              /* side a, and both sides */
     double *statistic;          /* nvalues + 1 */
     double *observed, *reached; /* nvalues + 1 */
 } permuter;

@@ -63,8 +63,7 @@ static void gather(const fracas_ensemble *before, const fracas_ensemble *after,
                    const fracas_compared_quantity *number, bool paired, two_samples *to)
 {
     to->n[0] = to->n[1] = 0;
-    for (size_t i = 0, k = 0; i < before->nrealizations;
-         i++) { /* both in the order of their replicas */
+    for (size_t i = 0, k = 0; i < before->nrealizations; i++) {
         while (paired && k < after->nrealizations && after->replica[k] < before->replica[i]) k++;
         const bool found = k < after->nrealizations && after->replica[k] == before->replica[i];
         if (paired && !found) continue;
@@ -94,9 +93,7 @@ static void put_parts(fracas_compared_value *value)
     value->relative_high = value->high / base;
 }
 
-enum {
-    ALIKE_LEAST = 8
-}; /* from so many on equality is no chance: two values, equally likely, agree once in 128 times */
+enum { ALIKE_LEAST = 8 }; /* of two equal chances all agree once in 128 times */
 
 /* Onset times and the part of bending are not alike by chance; the others may be multiples of one
  * break. */

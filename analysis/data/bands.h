@@ -40,13 +40,10 @@ typedef struct {
 typedef struct {
     size_t count;     /* times, 0 of a study without histories */
     double *time;     /* s */
-    int64_t *running; /* realizations still running at this time; the others count with their values
-                         at the end */
+    int64_t *running; /* still running at this time; the others count with their last values */
     fracas_band (*energy)[FRACAS_NBANDS];
-    int64_t realizations; /* taken: all usable ones, or as many, evenly spread over them, as fit in
-                             64 MiB */
-    bool extremes; /* low and high are the least and the greatest, of fewer than FRACAS_BAND_LEAST;
-                      else the quantiles 0.05 and 0.95 */
+    int64_t realizations; /* taken: the usable ones, or, evenly spread, as many as fit in 64 MiB */
+    bool extremes; /* fewer than FRACAS_BAND_LEAST: low and high are extremes, not quantiles */
 } fracas_bands;
 
 enum { FRACAS_BAND_LEAST = 20 };
@@ -55,11 +52,10 @@ enum { FRACAS_BAND_LEAST = 20 };
  */
 typedef struct {
     fracas_bands *bands;
-    size_t times; /* 0: there are no histories */
-    size_t all,
-        selected; /* usable realizations of the point, and how many of them are taken, evenly */
-    size_t met, count; /* met and taken so far */
-    double *value;     /* [time][energy][selected] */
+    size_t times;         /* 0: there are no histories */
+    size_t all, selected; /* usable realizations, and those of them to take, evenly */
+    size_t met, count;    /* met and taken so far */
+    double *value;        /* [time][energy][selected] */
 } fracas_bands_collector;
 
 /* Begins the bands of `realizations` usable ones, whose histories have `intervals` (>= 0) equal

@@ -102,8 +102,7 @@ fracas_err fracas_columns_create(const fracas_point_table *table, fracas_columns
 {
     *columns = (fracas_columns){0};
     columns->column = malloc((table->ncolumns + 1) * sizeof *columns->column);
-    size_t *class = calloc(2 * table->npoints + 1,
-                           sizeof *class); /* all points in the class of point 0 */
+    size_t *class = calloc(2 * table->npoints + 1, sizeof *class); /* all of class 0 */
     if (columns->column && class) select_columns(table, class, class + table->npoints, columns);
     bool made = columns->column && class;
     free(class);

@@ -27,15 +27,13 @@ typedef struct {
     fracas_replica_values *value; /* for each */
     int64_t *replica;             /* for each */
     size_t *row;                  /* for each, in the study */
-    size_t *first; /* fragments of realization i are first[i] to first[i + 1] - 1: nrealizations + 1
-                      of them */
+    size_t *first; /* nrealizations + 1: fragments first[i] to first[i + 1] - 1 are of i */
     size_t nfragments;
     double *size, *mass; /* for each fragment [m], [kg] */
     int32_t *elements;   /* for each */
     uint8_t *dust;       /* for each: 1, or 0 */
-    double lattice; /* m: every size is a whole multiple of it (a bar or ring of equal elements); 0:
-                       they are not */
-    bool surface;   /* a size is the square root of an area; false after init */
+    double lattice;      /* m: every size is a multiple of it (equal elements); 0: they are not */
+    bool surface;        /* a size is the square root of an area; false after init */
     size_t room, fragment_room;
 } fracas_ensemble;
 

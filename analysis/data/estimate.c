@@ -20,7 +20,7 @@ fracas_estimate fracas_estimate_of(const double *value, size_t stride, size_t co
 {
     int64_t n = 0;
     double first = NAN,
-           sum = 0; /* differences to the first value: equal values have a deviation of exactly 0 */
+           sum = 0; /* of differences to the first: equal values have a deviation of 0 */
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(value[i * stride])) continue;
         if (n++ == 0) first = value[i * stride];

@@ -105,8 +105,7 @@ void fracas_fields_json_flat(fracas_json *json, const fracas_fields *fields, con
 
 static void put_real(double value, FILE *out)
 {
-    if (value == 0 && !signbit(value))
-        putc('0', out); /* most of a bar's columns: %g takes longer than all else of a report */
+    if (value == 0 && !signbit(value)) putc('0', out); /* frequent, and %g is slow */
     else if (isfinite(value)) fprintf(out, "%.15g", value);
 }
 
@@ -165,7 +164,7 @@ static void put_reference(const char *key, const char *type, const char *unit, c
 {
     fprintf(out, "| `%s` | %s | %s | ", key, type, unit);
     for (const char *c = doc; *c; c++)
-        fprintf(out, *c == '|' ? "\\%c" : "%c", *c); /* |residual| is no column */
+        fprintf(out, *c == '|' ? "\\%c" : "%c", *c); /* as in |residual| */
     fputs(" |\n", out);
 }
 

@@ -129,14 +129,13 @@ void fracas_format_interval(double value, double low, double high, char *text, s
     }
     char rounded[64];
     FRACAS_PRINT(rounded, "%.1e", half_width);
-    const int place = exponent_of(strtod(rounded, NULL)) -
-                      1; /* place of the last digit supported by the interval */
+    const int place = exponent_of(strtod(rounded, NULL)) - 1; /* of the last digit shown */
     const bool large = place > 0, small = value != 0 && fabs(value) < 1e-2;
     const int exponent = large || small ? exponent_of(value) : 0;
     const double ends[3] = {value, low, high};
     for (int i = 0; i < 3; i++) {
         const bool vanishes = ends[i] > 0 &&
-                              ends[i] < 0.5 * pow(10, place); /* an end above 0 is not shown as 0 */
+                              ends[i] < 0.5 * pow(10, place); /* would be shown as 0 */
         const int last = vanishes ? exponent_of(ends[i]) : place;
         format_power(ends[i], exponent, exponent > last ? exponent - last : 0, part[i],
                      sizeof part[i]);
@@ -177,8 +176,7 @@ fracas_prefix fracas_prefix_over(const double *value, size_t stride, size_t coun
     }
     if (greatest <= 0) return prefix[none];
     double middle = (log10(least) + log10(greatest)) / 2;
-    int thousands = (int)floor(middle / 3 +
-                               1e-9); /* 1 itself is 1, whatever the rounding of log10 */
+    int thousands = (int)floor(middle / 3 + 1e-9); /* log10 rounds */
     int i = none + thousands;
     return prefix[i < 0 ? 0 : i > last ? last : i];
 }

@@ -43,8 +43,7 @@ fracas_ring_motion fracas_ring_motion_of(const fracas_record *record, double rad
         mass += fragment->mass;
         radial += fragment->mass * v[0];
         circumferential += fragment->mass * v[1] * v[1];
-        spin += fabs(fragment->angular_momentum[2]) /
-                inertia; /* mass * (angular momentum/(mass * inertia)) */
+        spin += fabs(fragment->angular_momentum[2]) / inertia;
     }
     motion.radial = radial / mass;
     for (size_t i = 0; i < record->nfragment; i++) {

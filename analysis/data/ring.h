@@ -37,8 +37,7 @@ typedef struct {
     double half_angle;   /* size/(2 radius) */
     double angle;        /* for the centre of mass, -pi to pi */
     double distance;     /* m, of the centre of mass from the origin */
-    double displacement; /* m, distance - where the centre of mass was in the ring at its start
-                            (estimators.10) */
+    double displacement; /* m, distance - that in the ring at its start (estimators.10) */
     double velocity[2];  /* m/s, outward and counter-clockwise, of the centre of mass */
     double relative[2];  /* m/s, the same beside the uniform expansion (estimators.11) */
 } fracas_ring_piece;

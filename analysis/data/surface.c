@@ -153,8 +153,7 @@ fracas_err fracas_surface_times_of(const fracas_stored_mesh *mesh, const fracas_
     static const int64_t pair[2][2] = {{1, 2}, {3, 4}};
     *times = (fracas_surface_times){NAN, NAN, {NAN, NAN}};
     TRY(check(mesh, record));
-    for (size_t i = 0; i < record->ninterface;
-         i++) { /* fmin gives the number where the other is NaN */
+    for (size_t i = 0; i < record->ninterface; i++) {
         times->onset = fmin(times->onset, record->interface[i].onset_time);
         times->broken = fmin(times->broken, record->interface[i].break_time);
     }

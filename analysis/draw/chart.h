@@ -12,10 +12,8 @@
 
 typedef enum {
     FRACAS_CURVE, /* straight lines from value to value */
-    FRACAS_STEPS, /* from a value down to the next one's y, then across: a complementary cumulative
-                   */
-    FRACAS_MARKS, /* a mark a value, with a bar from low to high; open below where low is off a log
-                     axis */
+    FRACAS_STEPS, /* down to the next y, then across: a complementary cumulative */
+    FRACAS_MARKS, /* a mark a value, with a bar from low to high, open below a log axis */
     FRACAS_BAND,  /* an area from low to high, and the line y within it */
     FRACAS_BOXES  /* a narrow area a value, from low to high */
 } fracas_series_kind;
@@ -24,8 +22,7 @@ typedef struct {
     char name[128]; /* in the legend and on hover */
     fracas_series_kind kind;
     unsigned look; /* which colour, dash or shape of mark: each look is another */
-    bool open;     /* MARKS: outlines. Not in the legend: they go with the filled series of the same
-                      look */
+    bool open;     /* MARKS: outlines, in the legend with the filled series of this look */
     size_t n;
     double *x, *y;
     double *low, *high; /* for MARKS, BAND and BOXES; NaN: no bar, a gap in the area, no box */
@@ -34,8 +31,7 @@ typedef struct {
 typedef struct {
     char label[96]; /* "": none */
     bool log;
-    size_t nnames; /* on x: values about 1, 2, ... nnames have names, and the axis no numbers; 0: an
-                      ordinary axis */
+    size_t nnames; /* on x: values about 1, 2, ... nnames have names; 0: an ordinary axis */
     const char *const *name; /* these; they outlive the chart */
 } fracas_axis;
 
@@ -107,10 +103,8 @@ bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, 
 /* The name of a value on an axis with names; NULL on any other. */
 const char *fracas_axis_name(const fracas_axis *axis, double value);
 
-extern const char fracas_chart_style[];   /* for every drawing, on a page or in a file of its own:
-                                             light. Colours of Okabe and Ito (2008) */
-extern const char fracas_surface_style[]; /* for pictures of surfaces, beside it: tints light enough
-                                             for broken interfaces to stand out on them */
+extern const char fracas_chart_style[];   /* of every drawing. Colours of Okabe and Ito */
+extern const char fracas_surface_style[]; /* of pictures of surfaces, beside it */
 extern const char fracas_page_style[];    /* for the page; drawings in the dark, too */
 extern const char fracas_page_script[];
 

@@ -72,8 +72,7 @@ static void fit(frame *f)
     for (size_t s = 0; s < f->panel.nseries; s++) {
         const fracas_series *series = &f->panel.series[s];
         for (size_t i = 0; i < series->n; i++) {
-            widen(series->x[i], &f->panel.x, &x[0],
-                  &x[1]); /* values of all panels, which share their x axis */
+            widen(series->x[i], &f->panel.x, &x[0], &x[1]); /* of all panels */
             if (!fracas_panel_shows(&f->panel, series, i)) continue;
             widen(series->y[i], &f->panel.y, &y[0], &y[1]);
             if (!ranges(series)) continue;
@@ -385,7 +384,7 @@ static double place(frame *f, double left, double top)
     fit(f);
     f->x.from = left;
     const char *last = f->nxtick > 0 ? f->xtick[f->nxtick - 1].label
-                                     : ""; /* in the middle of which the axis may end */
+                                     : ""; /* the axis may end in its middle */
     f->x.to = f->width - fmax(RIGHT, 4 + character * (double)characters(last) / 2);
     f->y.to = top + legend(f, false) + 8;
     f->y.from = f->y.to + f->panel.height;

@@ -13,8 +13,7 @@ static const double lamp[3] = {-0.36, 0.48, 0.8};
 void fracas_view_turn(const fracas_view *view, const double vector[3], double turned[3])
 {
     const double a = view->azimuth * M_PI / 180, h = view->elevation * M_PI / 180;
-    const double along = cos(a) * vector[0] +
-                         sin(a) * vector[1]; /* horizontal part of the direction to the reader */
+    const double along = cos(a) * vector[0] + sin(a) * vector[1]; /* on the horizontal */
     turned[0] = cos(a) * vector[1] - sin(a) * vector[0];
     turned[1] = cos(h) * vector[2] - sin(h) * along;
     turned[2] = cos(h) * along + sin(h) * vector[2];
@@ -50,8 +49,7 @@ typedef struct {
     double (*turned)[3];   /* for each node of the mesh, in the frame of the view */
     double (*normal)[3];   /* for length 1 */
     double (*shift)[3];    /* for each group, then the centroid of all */
-    uint32_t (*corner)[6]; /* for each element: nodes of its group, two of the facets' for each, the
-                              outer and the inner one */
+    uint32_t (*corner)[6]; /* for each element: its outer nodes, each before its inner one */
     int64_t (*across)[3];  /* for each element: interface at its side k, -1 at the border */
 } shaping;
 
@@ -288,7 +286,7 @@ static void put_cut(const shaping *s, size_t e, int k)
                inner = s->to->facet[e].kind == FRACAS_FACET_INNER;
     const fracas_side line = s->across[e][k] < 0 ? FRACAS_SIDE_EDGE : FRACAS_SIDE_PARTED;
     const uint32_t node[2][3] = {{a + 1, b + 1, b},
-                                 {b, a, a + 1}}; /* the inner edge first, and the outer one */
+                                 {b, a, a + 1}}; /* with the inner edge, the outer */
     double normal[2][3], sum[3];
     for (int half = 0; half < 2; half++) facet_normal(s, node[half], normal[half]);
     for (int i = 0; i < 3; i++) sum[i] = normal[0][i] + normal[1][i];
@@ -305,8 +303,7 @@ static void put_cut(const shaping *s, size_t e, int k)
         if (curved) facet->middle[0] = (int32_t)corner[3 + k] + !half;
         if (inner == half) facet->side[0] = (uint8_t)line;
     }
-    if (normal[0][2] > 0 &&
-        normal[1][2] > 0) { /* side 2 of the first half is side 2 of the other: b to a + 1 */
+    if (normal[0][2] > 0 && normal[1][2] > 0) { /* they share side 2 */
         const int32_t last = (int32_t)s->to->nfacets - 1;
         s->to->facet[last].neighbour[2] = last - 1;
         s->to->facet[last - 1].neighbour[2] = last;

@@ -7,18 +7,16 @@
 #include <math.h>
 
 static const double step = 0.02; /* part of the light below that a shade takes away */
-static const double ambient = 0.45,
-                    inside = 0.6;      /* ambient light; on the inner skin / on the outer */
-static const char night[] = "#0b1220"; /* facets to shade */
+static const double ambient = 0.45, inside = 0.6; /* ambient light; inner skin/outer */
+static const char night[] = "#0b1220";            /* facets to shade */
 
 typedef struct {
     const fracas_facets *facets;
     FILE *out;
     fracas_room room;
-    fracas_spot *spot; /* for each node of the facets */
-    uint8_t *tint;     /* for each facet */
-    uint8_t *shade,
-        *base; /* number of shades on it, and of those on its whole connected piece in this layer */
+    fracas_spot *spot;     /* for each node of the facets */
+    uint8_t *tint;         /* for each facet */
+    uint8_t *shade, *base; /* shades on it, and on all of its piece in this layer */
     uint8_t *least; /* fewest shades of each fragment in this layer, outer skin and inner one */
     int darkest;
     double line;            /* width of a broken interface, units */

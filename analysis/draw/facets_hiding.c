@@ -12,8 +12,7 @@
 
 enum { MOST_CORNERS = 6, LATTICE = 8 }; /* steps along a side: 45 points */
 enum { MOST_LAYERS = 32 };              /* circles of facets hiding each other stop there */
-static const double touching =
-    1e-6; /* overlapping areas / area of the smaller facet, and depths / size of the facets */
+static const double touching = 1e-6;    /* parts of areas, and of sizes, that count as none */
 
 typedef struct {
     uint32_t behind, front;

@@ -160,8 +160,7 @@ static void draw_piece(const canvas *on, size_t i)
 {
     const fracas_ring_pattern *pattern = &on->picture->pattern;
     const fracas_ring_piece *piece = &pattern->piece[i];
-    const double widest = 0.998 *
-                          M_PI; /* a whole circle would end where it starts, and be no path */
+    const double widest = 0.998 * M_PI; /* a whole circle is no path */
     double half = fmin(piece->half_angle, widest),
            push = on->picture->exaggeration * piece->displacement;
     double outer = pattern->radius * (1 + band / 2), inner = pattern->radius * (1 - band / 2),
@@ -171,8 +170,7 @@ static void draw_piece(const canvas *on, size_t i)
     place(on, inner, piece->angle + half, push, piece->angle, at[2]);
     place(on, inner, piece->angle - half, push, piece->angle, at[3]);
     int large = 2 * half > M_PI;
-    bool edged = 2 * half * pattern->radius * on->scale >
-                 3; /* pixels; an edge of paper would cover a narrower one */
+    bool edged = 2 * half * pattern->radius * on->scale > 3; /* pixels */
     fprintf(on->out,
             "<path class=\"band c%zu\"%s d=\"M%.2f %.2fA%.2f %.2f 0 %d 0 %.2f %.2fL%.2f %.2fA%.2f "
             "%.2f 0 %d 1 %.2f %.2fz\">",

@@ -17,8 +17,7 @@ typedef struct {
     char caption[1024];
     double exaggeration; /* drawn displacement / displacement, 1 or more */
     bool arrows;         /* few enough fragments for an arrow each */
-    double
-        fastest; /* m/s, greatest relative speed of a fragment with an arrow: the longest arrow */
+    double fastest;      /* m/s, greatest relative speed, of the longest arrow */
     fracas_ring_pattern pattern;
 } fracas_picture;
 

@@ -18,9 +18,8 @@ typedef struct {
     int width;               /* pixels */
     bool standalone;         /* as fracas_svg_begin has it */
     const fracas_view *view; /* NULL: a flat surface from +z, any other from (1, 1, 1) */
-    double
-        explode; /* fragments are moved by this times (their centroid - centroid of the surface) */
-    double thickness; /* thickness of the shell in space [m]; 0: its cuts do not show */
+    double explode;          /* fragments are moved by this times (their centroid - that of all) */
+    double thickness;        /* thickness of the shell in space [m]; 0: its cuts do not show */
 } fracas_surface_picture;
 
 /* All at one z, to rounding: drawn as it lies. */

@@ -169,8 +169,7 @@ fracas_err fracas_trail_write(const fracas_trail *trail, const fracas_spot *spot
     return err;
 }
 
-static const double tallest =
-    1.3; /* height of the surface as drawn / width of the picture, at most */
+static const double tallest = 1.3; /* height/width, at most */
 
 void fracas_frame_fit(const double least[2], const double largest[2], int width,
                       fracas_frame *frame)

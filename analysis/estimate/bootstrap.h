@@ -28,8 +28,7 @@ typedef void fracas_resampled(void *context, const uint32_t *weight, double *val
 typedef struct {
     double value;          /* for the realizations as they are */
     double low, high;      /* NaN where there is no interval */
-    double standard_error; /* standard deviation over resamples; of few realizations by
-                              fracas_jackknife, as is the bias */
+    double standard_error; /* deviation over resamples; of few realizations by fracas_jackknife */
     double bias;           /* mean over resamples - value */
     int64_t resamples;     /* resamples with a value */
 } fracas_interval;

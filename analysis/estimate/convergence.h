@@ -48,10 +48,8 @@ typedef struct {
     size_t count;
     fracas_running *row; /* after FRACAS_CONVERGENCE_FIRST 2^k realizations, and after all */
     double half[FRACAS_NHEADLINES],
-        rest[FRACAS_NHEADLINES]; /* values of the first half of the realizations alone, and of the
-                                    others; NaN of fewer than two */
-    double alike[FRACAS_NHEADLINES];      /* p-value of the difference of halves; NaN: no scatter is
-                                             known */
+        rest[FRACAS_NHEADLINES];          /* of half of the realizations, and of the others */
+    double alike[FRACAS_NHEADLINES];      /* p-value of the difference of halves; NaN: unknown */
     int64_t converged[FRACAS_NHEADLINES]; /* 1, or 0 */
     int64_t unconverged;                  /* existing numbers without convergence */
 } fracas_replica_convergence;

@@ -28,8 +28,7 @@ typedef struct {
     fracas_interval intraclass;      /* between/(within + between); from -1/(group - 1) to 1 */
     fracas_interval design_effect;   /* 1 + (group - 1) intraclass */
     double group;                    /* m0, fragments of a typical realization */
-    double effective; /* fragments/design effect: number of independent fragments with the same
-                         information on the mean; infinite at 0 */
+    double effective; /* fragments/design effect: independent ones that tell as much */
 } fracas_variance;
 
 typedef struct {

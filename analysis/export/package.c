@@ -119,8 +119,7 @@ static void put_source(fracas_json *json, const fracas_analysis *analysis)
     fracas_json_close(json);
     fracas_json_close(json);
     fracas_json_text(json, "campaign", hash);
-    fracas_json_text(json, "seed",
-                     seed); /* text: a 64-bit number is more than every JSON reader keeps */
+    fracas_json_text(json, "seed", seed); /* text: of 64 bits */
     fracas_json_text(json, "program_version", analysis->header.version);
     fracas_json_boolean(json, "complete", analysis->header.complete);
 }

@@ -64,8 +64,7 @@ static void put_values(const fracas_store_set *set, size_t first, const void *ro
     for (size_t c = first; c < set->ncolumns; c++) {
         const fracas_store_column *column = &set->column[c];
         const char *value = (const char *)row + column->offset;
-        for (size_t i = 0; i < column->width;
-             i++, value += sizeof(int64_t)) { /* in memory integers are int64_t, reals double */
+        for (size_t i = 0; i < column->width; i++, value += sizeof(int64_t)) {
             if (column->type == FRACAS_FLOAT64)
                 fracas_csv_real(*(const double *)(const void *)value, out);
             else fprintf(out, ",%" PRId64, *(const int64_t *)(const void *)value);

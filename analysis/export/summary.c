@@ -54,7 +54,7 @@ static void put_data(fracas_json *json, const fracas_fits *of)
                              *const ends[] = {"mean", "cv"};
     fracas_json_object(json, "data");
     fracas_json_text(json, "fingerprint",
-                     find(of, "data", "fingerprint")->note); /* it was compared: fracas_fits_keep */
+                     find(of, "data", "fingerprint")->note); /* compared before */
     for (size_t i = 0; i < FRACAS_COUNT(plain); i++) put_value(json, of, "data", plain[i]);
     for (size_t i = 0; i < FRACAS_COUNT(ends); i++) {
         const fracas_fits_row *row = find(of, "data", ends[i]);
@@ -336,8 +336,7 @@ void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fi
     fracas_json_begin(&json, out);
     fracas_json_text(&json, "name", analysis->name);
     fracas_json_text(&json, "campaign", hash);
-    fracas_json_text(&json, "seed",
-                     seed); /* text: a 64-bit number is more than every JSON reader keeps */
+    fracas_json_text(&json, "seed", seed); /* text: of 64 bits */
     fracas_json_text(&json, "version", analysis->header.version);
     fracas_json_boolean(&json, "complete", analysis->header.complete);
     fracas_json_boolean(&json, "partial", fracas_results_partial(analysis->results));

@@ -41,8 +41,7 @@ typedef struct fracas_table_column {
     size_t offset; /* in the struct of a row [bytes] */
     int digits;
     size_t other; /* place of a divisor of the number, or of a half width; 0: none */
-    int prefixed; /* columns of one group > 0 share a prefix, from the values of the first of them
-                   */
+    int prefixed; /* columns of one group > 0 share the prefix of the first of them */
     void (*format)(const fracas_analysis *analysis, size_t index, const void *row, char *text);
 } fracas_table_column;
 
@@ -105,7 +104,7 @@ typedef struct {
     size_t columns, size;          /* size: of a row's struct [bytes] */
     bool (*keep)(const void *row); /* as fracas_table_rows has it */
     fracas_err (*list)(const fracas_analysis *analysis, void **rows,
-                       size_t *count); /* the rows, freed by the caller; NULL: the points are it */
+                       size_t *count); /* owned by the caller; NULL: the points */
 } fracas_side_table;
 
 extern const fracas_side_table fracas_side_tables[FRACAS_SIDE_TABLES];

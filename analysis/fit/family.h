@@ -34,8 +34,7 @@ typedef struct {
     void (*tails)(const double *parameter, double from, double x, double *below, double *above);
     /* Where search number `which` of FRACAS_FAMILY_STARTS begins, lengths over the mean. */
     void (*start)(const fracas_family_moments *moments, int which, double *parameter);
-    const char *general; /* name of a family of which it is a special case, "" for none, more than
-                            one after spaces */
+    const char *general; /* names of the families of which it is a special case, spaces between */
 } fracas_family;
 
 enum { FRACAS_NFAMILIES = 10 };

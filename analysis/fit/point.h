@@ -39,10 +39,8 @@ FRACAS_MUST_USE fracas_err fracas_fit_goodness_of(const fracas_family *family,
 
 typedef struct {
     bool nested;      /* one family is a special case of the other */
-    double statistic; /* Vuong's z  (fits.14), positive where the first is the better one; nested: 2
-                         log likelihood ratio  (fits.15) */
-    double p; /* p of a difference as large though neither is better; nested: of a gain as large
-                 though the special case holds; NaN where it is not known */
+    double statistic; /* Vuong's z (fits.14), positive: the first is better; nested: (fits.15) */
+    double p; /* p of so much though neither is better, or the special case holds; NaN: unknown */
     int64_t resamples; /* for a nested one, number of refits that arrived */
 } fracas_fit_comparison;
 
@@ -59,8 +57,7 @@ typedef struct {
     int rank;         /* by aicc from 1; 0: it is no fit */
     fracas_fit_goodness goodness;
     fracas_interval parameter[FRACAS_FAMILY_PARAMETERS]; /* lengths in m */
-    fracas_interval relative[FRACAS_FAMILY_PARAMETERS];  /* for a length: over the mean of the sizes
-                                                            above the cut, resample by resample */
+    fracas_interval relative[FRACAS_FAMILY_PARAMETERS];  /* lengths over the mean above the cut */
 } fracas_family_fit;
 
 typedef struct {

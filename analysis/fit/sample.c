@@ -7,8 +7,7 @@
 
 /* Grid of log sizes; the cell beyond the last is open. */
 enum { GRID = 300 };
-static const double BEYOND =
-    2; /* the grid ends at so many of the largest size: resamples under a family may be larger */
+static const double BEYOND = 2; /* largest sizes to the end of the grid: resamples may be larger */
 
 static fracas_err make_room(const fracas_ensemble *ensemble, fracas_fit_sample *sample)
 {

@@ -23,13 +23,13 @@ typedef struct {
     size_t whole;                      /* for one piece */
     size_t *first; /* the occupied cells of realization i: first[i] to first[i + 1] - 1 */
     uint32_t *cell;
-    double *times;                /* fragments in each */
-    double *kept, *sum, *squares; /* for each realization: fragments above the cut, their sizes less
-                                     the mean [m], squares of these [m2] */
-    size_t fragments;             /* for all realizations, dust and whole bodies included */
-    double total;                 /* above the cut */
-    double mean, cv;              /* for those [m], [1] */
-    double cut, lattice;          /* m */
+    double *times; /* fragments in each */
+    double *kept, *sum,
+        *squares;     /* of each: fragments above the cut, sizes less the mean [m], squares [m2] */
+    size_t fragments; /* for all realizations, dust and whole bodies included */
+    double total;     /* above the cut */
+    double mean, cv;  /* for those [m], [1] */
+    double cut, lattice; /* m */
     fracas_family_moments moments;
 } fracas_fit_sample;
 

@@ -44,7 +44,7 @@ static const fracas_point_statistics *statistics_of(const rate_plot *plot, size_
 static bool has_mean(const fracas_point_statistics *statistics)
 {
     return isfinite(statistics->rate) && statistics->rate > 0 &&
-           isfinite(statistics->size.mean); /* the axis is a log one */
+           isfinite(statistics->size.mean); /* a log axis */
 }
 
 static bool has_scales(const fracas_point_statistics *statistics)
@@ -428,8 +428,7 @@ static fracas_err add_energy(const fracas_point_statistics *statistics, size_t w
     fracas_series *series;
     TRY(fracas_panel_add(panel, FRACAS_CURVE, look, statistics->nhistory, &series));
     const char *key = which == RESIDUAL ? "|residual|" : fracas_energies[which].key;
-    const int length = (int)strcspn(key,
-                                    "_"); /* "dissipated_bending" is shown as dissipated, bending */
+    const int length = (int)strcspn(key, "_"); /* "dissipated_bending": "dissipated, bending" */
     FRACAS_PRINT(series->name, "%.*s%s%s%s", length, key, key[length] ? ", " : "",
                  key[length] ? key + length + 1 : "",
                  which != RESIDUAL && start_of(statistics, which) > 0 ? " - start" : "");
@@ -449,8 +448,7 @@ static fracas_err add_energies(const fracas_point_statistics *statistics, double
     fracas_panel *panel = fracas_chart_add(chart, LOW);
     unsigned look = 0;
     for (size_t e = 0; e < FRACAS_ENERGIES; e++) {
-        const unsigned part = (unsigned)(e -
-                                         whole_of(e)); /* 0: no part, 1: the first of its whole */
+        const unsigned part = (unsigned)(e - whole_of(e)); /* 0: none */
         const unsigned own = part ? look - 1 + part * FRACAS_CHART_COLOURS : look;
         if (has_curve(statistics, e)) TRY(add_energy(statistics, e, own, time, joule, panel));
         look += !part && fracas_energies[e].role != FRACAS_ROLE_SOURCE;

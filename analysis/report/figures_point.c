@@ -118,8 +118,7 @@ static fracas_err add_above(const fracas_point_statistics *statistics, size_t n,
     TRY(fracas_panel_add(panel, lattice ? FRACAS_MARKS : FRACAS_STEPS, 0, *above, &series));
     FRACAS_PRINT(series->name, "fragments");
     for (size_t i = first; i < n; i++) {
-        if (i > first && size[i] <= size[i - 1] * (1 + 1e-9))
-            continue; /* the same number of elements */
+        if (i > first && size[i] <= size[i - 1] * (1 + 1e-9)) continue; /* equal */
         series->x[vertex] = (size[i] - half) * factor;
         series->y[vertex] = (double)(n - i) / (double)*above;
         if (lattice) series->low[vertex] = series->high[vertex] = NAN;
@@ -172,9 +171,7 @@ fracas_err fracas_figure_fits(const fracas_analysis *analysis, const fracas_fits
         return FRACAS_OK;
     const fracas_prefix prefix = fracas_prefix_for(&mean->value, 1);
     const fracas_fits_row *whole = fracas_fits_find(fits, (int64_t)point, "data", "whole");
-    const size_t n = statistics->nfragments -
-                     (whole ? (size_t)whole->value
-                            : 0); /* bodies of one piece: none is larger, and sizes ascend */
+    const size_t n = statistics->nfragments - (whole ? (size_t)whole->value : 0); /* the last */
     size_t above;
     fracas_panel *panel = fracas_chart_add(chart, FRACAS_FIGURE_LOW);
     TRY(add_above(statistics, n, cut->value, prefix.factor, panel, &above));

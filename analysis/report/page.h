@@ -22,18 +22,14 @@ typedef struct {
     const fracas_analysis *analysis;
     const char *folder;      /* for the report */
     const fracas_fits *fits; /* NULL: there are none */
-    size_t
-        stale; /* points whose fits were not of the results as these are now, and are not shown */
-    const void *of; /* subject of the sections of a page other than a study's */
-    const char
-        *source; /* source of its figures and tables; NULL: the study, by its name and campaign */
-    FILE *out;   /* for the section */
-    int figures, tables; /* numbered so far */
+    size_t stale;            /* points whose fits are of other results, and not shown */
+    const void *of;          /* subject of the sections of a page other than a study's */
+    const char *source;      /* source of its figures; NULL: the study */
+    FILE *out;               /* for the section */
+    int figures, tables;     /* numbered so far */
     size_t ndrawings, room;
-    char (*drawing)[FRACAS_DRAWING]; /* SVG files written to the folder, names without their ending:
-                                        they become PDF */
-    const char *grid; /* class of the grid of figures opened by the next figure; NULL: none, or it
-                         is open */
+    char (*drawing)[FRACAS_DRAWING]; /* SVG files, without their ending, to become PDF */
+    const char *grid; /* class of the grid that the next figure opens; NULL: none, or open */
     bool grid_open;
 } fracas_page;
 

@@ -44,21 +44,19 @@ typedef struct {
 
 static fracas_err load(library *of)
 {
-    void *handle = dlopen("librsvg-2.so.2",
-                          RTLD_NOW | RTLD_LOCAL); /* and its libraries, cairo among them */
+    void *handle = dlopen("librsvg-2.so.2", RTLD_NOW | RTLD_LOCAL); /* cairo, too */
     if (!handle)
         return fracas_fail(
             FRACAS_ENVIRONMENT,
             "no PDFs without the library they are drawn with, Debian's librsvg2-2: %s", dlerror());
     void *found;
-#define LOAD(name)                                                                               \
-    found = dlsym(handle, #name);                                                                \
-    if (!found)                                                                                  \
-        return fracas_fail(FRACAS_ENVIRONMENT,                                                   \
-                           "no PDFs: librsvg-2.so.2 is not the one fracas was built with: %s",   \
-                           dlerror());                                                           \
-    memcpy(&of->name, &found, sizeof found); /* ISO C converts no object pointer to a function's \
-                                              */
+#define LOAD(name)                                                                             \
+    found = dlsym(handle, #name);                                                              \
+    if (!found)                                                                                \
+        return fracas_fail(FRACAS_ENVIRONMENT,                                                 \
+                           "no PDFs: librsvg-2.so.2 is not the one fracas was built with: %s", \
+                           dlerror());                                                         \
+    memcpy(&of->name, &found, sizeof found); /* no cast: ISO C */
     FUNCTIONS(LOAD)
     return FRACAS_OK;
 }
@@ -72,7 +70,7 @@ static fracas_err draw(const library *lib, RsvgHandle *drawing, const char *to)
     height *= points_a_pixel;
     cairo_surface_t *surface = lib->cairo_pdf_surface_create(to, width, height);
     lib->cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE,
-                                        ""); /* equal studies, equal files */
+                                        ""); /* equal files */
     cairo_t *cairo = lib->cairo_create(surface);
     GError *error = NULL;
     const RsvgRectangle page = {0, 0, width, height};

@@ -125,8 +125,7 @@ static fracas_err say_times(const making *m, const fracas_broken_surface *surfac
     fracas_surface_times times;
     TRY(fracas_surface_times_of(&surface->mesh, &surface->record, &times));
     const double at[] = {times.onset, times.broken, fmin(times.through[0], times.through[1])};
-    for (int k = 0; k < (fracas_surface_is_flat(&surface->mesh) ? 3 : 2);
-         k++) { /* a body in space has no width */
+    for (int k = 0; k < (fracas_surface_is_flat(&surface->mesh) ? 3 : 2); k++) {
         fprintf(m->out, "%s: %s\n", what[k], fracas_surface_time(at[k], false).text);
     }
     return FRACAS_OK;

@@ -10,8 +10,7 @@
 
 static const size_t most_elements = 1500000; /* drawn on a page, some 20 MB of it */
 static const double apart = 0.1;             /* fragments of surfaces in space on a page */
-static const size_t most_apart =
-    50000; /* elements of a mesh; of larger ones the gaps are not worth the room they take */
+static const size_t most_apart = 50000; /* elements; of larger meshes gaps take too much room */
 
 fracas_err fracas_broken_surface_read(fracas_results *results, size_t point, size_t row,
                                       fracas_broken_surface *surface)

@@ -128,8 +128,7 @@ static void summarise(double *found, size_t count, double best, double sign,
     if (count < 20) return;
     for (size_t b = 0; b < count; b++) found[b] = sign * exp(found[b]);
     gsl_sort(found, 1, count);
-    interval->bias = quantile(found, count, 0.5) -
-                     interval->value; /* some draws run away, and their moments with them */
+    interval->bias = quantile(found, count, 0.5) - interval->value; /* some draws run away */
     interval->standard_error = (quantile(found, count, 0.8413) - quantile(found, count, 0.1587)) /
                                2;
     interval->low = quantile(found, count, 0.025);
@@ -170,11 +169,10 @@ static fracas_err judge(fitter *of, double best[NPARAMETERS], double chi2,
 static void draw(const fitter *of, const double best[NPARAMETERS],
                  const fracas_size_crossover *crossover, gsl_rng *random)
 {
-    const bool off = crossover->misfit <
-                     FRACAS_MISFIT_LIMIT; /* then the residuals tell how far off, for all alike */
+    const bool off = crossover->misfit < FRACAS_MISFIT_LIMIT; /* the residuals tell how far */
     const double shared = off ? crossover->freedom : crossover->pooled;
     const double factor = shared > 0 ? sqrt(shared / gsl_ran_chisq(random, shared))
-                                     : 1; /* a shared error is off for all equally */
+                                     : 1; /* for all equally */
     for (size_t i = 0; i < of->n; i++) {
         const bool alike = off || of->known[i].pooled;
         const double z = alike ? factor * gsl_ran_ugaussian(random)
@@ -309,8 +307,7 @@ static fracas_err fit_series(const fracas_size_series *series, int64_t resamples
 fracas_err fracas_crossover_fit(const fracas_size_series *series, int64_t resamples, uint64_t seed,
                                 fracas_size_crossover *crossover)
 {
-    gsl_error_handler_t *handler =
-        gsl_set_error_handler_off(); /* a failed fit is a reason, no end of the program */
+    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* a reason, no end */
     const fracas_err err = fit_series(series, resamples, seed, crossover);
     gsl_set_error_handler(handler);
     return err;

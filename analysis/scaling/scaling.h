@@ -21,9 +21,8 @@ typedef struct {
     int64_t replicas; /* in the mean */
     double rate;      /* 1/s, > 0 */
     double size;      /* m, mean over replicas, > 0 */
-    double
-        error; /* standard error of log(size) by its own replicas; 0: all alike, NaN: one replica */
-    bool whole; /* fracas_size_whole */
+    double error;     /* of log(size), by its own replicas; 0: all alike, NaN: one replica */
+    bool whole;       /* fracas_size_whole */
 } fracas_size_point;
 
 typedef struct {
@@ -51,14 +50,11 @@ enum { FRACAS_SLOPE_POINTS = 3 }; /* a line through fewer has no residual to jud
 typedef struct {
     int64_t n; /* values used */
     double slope, intercept;
-    double chi2;   /* sum of squared residuals, each over its variance; NaN if the variances are not
-                      known */
+    double chi2;   /* sum of squared residuals, each over its variance; NaN: unknown variances */
     double misfit; /* probability of such a chi2 or more if the values are on a line; NaN as chi2 */
-    double pooled; /* degrees of freedom of the variance shared by values; NaN: each has its own, or
-                      it is not known */
+    double pooled; /* degrees of freedom of the shared variance; NaN: none is shared, or known */
     double standard_error; /* for the slope, inflated where chi2/(n - 2) > 1 */
-    double half_width;     /* half width of the 95 % interval of the slope: t_(0.975, n-2)
-                              standard_error */
+    double half_width;     /* half width of the 95 % interval: t_(0.975, n-2) standard_error */
     double freedom;        /* n - 2 */
 } fracas_slope;
 
@@ -94,8 +90,7 @@ typedef struct {
     double slope;
     double standard_error; /* from those of the two means */
     double freedom;    /* degrees of freedom of the standard error, by Welch and Satterthwaite */
-    double half_width; /* half width of the 95 % interval; NaN if a mean is of one replica, or of
-                          less than FRACAS_REPLICAS_OWN where neither scatters */
+    double half_width; /* 95 %; NaN: one replica, or few (FRACAS_REPLICAS_OWN) without scatter */
 } fracas_window;
 
 /* (scaling-laws.11), (scaling-laws.12), (scaling-laws.13). NaN if the rates differ by rounding

@@ -43,8 +43,7 @@ static double weight_of(const double *x, const double *y, const fracas_mean_erro
 }
 
 typedef struct {
-    double weight, x, xx; /* sum w, weighted mean x, sum w (x - mean x)^2; xx is 0 if the x differ
-                             by rounding alone */
+    double weight, x, xx; /* sum w, weighted mean, sum w (x - mean)^2, 0 to rounding */
 } moments;
 
 /* Slope and intercept by (estimators.1). */

@@ -151,8 +151,7 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
                                                          : NULL;
     fracas_ensemble_init(&statistics->ensemble, lattice > 0 ? lattice : 0);
     statistics->ensemble.surface = statistics->surface;
-    for (int law = 0; law < FRACAS_SCALING_LAWS;
-         law++) /* at rate 0, a ring that spins or is accelerated, they say nothing */
+    for (int law = 0; law < FRACAS_SCALING_LAWS; law++)
         statistics->law[law] = statistics->rate > 0 && !statistics->surface
                                    ? fracas_scaling_law_at((fracas_scaling_law_id)law,
                                                            &statistics->scales, statistics->rate)
@@ -204,8 +203,7 @@ static void add_balance(fracas_point_statistics *statistics, const fracas_record
     const double stored = fracas_energy_held(record->energy, 1);
     double drift = record->residual / fmax(record->kinetic, fmax(stored, fabs(record->work)));
     if (drift > FRACAS_DRIFT_LIMIT) statistics->drifted++;
-    if (isfinite(drift))
-        statistics->drift = fmax(statistics->drift, drift); /* the number where the other is NaN */
+    if (isfinite(drift)) statistics->drift = fmax(statistics->drift, drift); /* not NaN */
     if (!(record->dissipated > 0)) return;
     statistics->residual = fmax(statistics->residual, record->residual / record->dissipated);
     statistics->created = fmax(statistics->created, record->created / record->dissipated);

@@ -27,8 +27,7 @@ typedef struct {
     double rate;   /* 1/s, NaN where the point has none */
     double length; /* m, of a ring its circumference */
     double radius; /* m, of a ring; NaN of anything else */
-    bool surface;  /* a size is the square root of an area, and the scaling laws, of one dimension,
-                      say  nothing */
+    bool surface;  /* sizes are square roots of areas, and scaling laws say nothing */
     fracas_scales scales;
     double law[FRACAS_SCALING_LAWS]; /* m, mean size by each law; NaN of surfaces */
     const char *without_mott;        /* why the size by Mott's law is NaN; NULL: it is not */
@@ -42,8 +41,7 @@ typedef struct {
 #undef FRACAS_MEMBER
     double residual; /* largest over replicas of (largest |residual| over the run)/dissipated */
     double created;  /* largest over replicas of created/dissipated */
-    double drift; /* largest over replicas of (largest |residual| over the run)/(largest energy at
-                     its end) */
+    double drift;    /* largest over replicas of |residual|/(largest energy at the end) */
     int64_t drifted; /* usable realizations with a drift above FRACAS_DRIFT_LIMIT */
 
     fracas_ensemble ensemble; /* the usable realizations */

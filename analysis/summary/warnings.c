@@ -20,10 +20,8 @@ static const double residual_limit = 1e-3; /* for the dissipated energy */
 static const double created_limit = 1e-2;  /* for the dissipated energy */
 static const double elements_limit = 10;   /* elements of a mean fragment */
 static const double dust_limit = 0.05;     /* share of all fragments */
-static const double rise_limit =
-    0.01; /* for the dissipated energy, in the last tenth of the time */
-static const double zone_limit =
-    0.25; /* fracture-limiting zone of a mean fragment (docs/results/ring.md) */
+static const double rise_limit = 0.01;     /* of the dissipated energy */
+static const double zone_limit = 0.25;     /* of a mean fragment (docs/results/ring.md) */
 
 enum { WARNINGS_PER_POINT = 17, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
 
@@ -130,7 +128,7 @@ static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning
     const size_t last = bands->count - 1;
     size_t before = last;
     while (before > 0 && bands->time[before - 1] >= 0.9 * end * (1 - 1e-9))
-        before--; /* within the last tenth: the end itself of fewer than ten intervals */
+        before--; /* within the last tenth */
     const double dissipated = bands->energy[last][FRACAS_BAND_dissipated].mean;
     const double rise = dissipated - bands->energy[before][FRACAS_BAND_dissipated].mean;
     if (!(rise > rise_limit * dissipated)) return;
