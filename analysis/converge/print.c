@@ -285,9 +285,9 @@ static printed print_of(const fracas_convergence *convergence, const fracas_conv
 }
 
 static const fracas_field mean_field[] = {
-    {"n", FRACAS_FIELD_INTEGER, "1", "%s", offsetof(fracas_estimate, n)},
-    {"mean", FRACAS_FIELD_NUMBER, NULL, "%s", offsetof(fracas_estimate, mean)},
-    {"half_width", FRACAS_FIELD_NUMBER, NULL, "%s", offsetof(fracas_estimate, half_width)},
+    FRACAS_FIELD(fracas_estimate, INTEGER, "n", "1", "%s", n),
+    FRACAS_FIELD(fracas_estimate, NUMBER, "mean", NULL, "%s", mean),
+    FRACAS_FIELD(fracas_estimate, NUMBER, "half_width", NULL, "%s", half_width),
 };
 static const fracas_fields mean_fields = FRACAS_FIELDS(mean_field);
 

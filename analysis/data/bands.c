@@ -5,11 +5,9 @@
 #include <stdlib.h>
 
 static const fracas_field band_fields[] = {
-    {"mean", FRACAS_FIELD_NUMBER, NULL, "%s", offsetof(fracas_band, mean)},
-    {"low", FRACAS_FIELD_NUMBER, NULL, "lower end of its band or interval: %s",
-     offsetof(fracas_band, low)},
-    {"high", FRACAS_FIELD_NUMBER, NULL, "upper end of its band or interval: %s",
-     offsetof(fracas_band, high)},
+    FRACAS_FIELD(fracas_band, NUMBER, "mean", NULL, "%s", mean),
+    FRACAS_FIELD(fracas_band, NUMBER, "low", NULL, "lower end of its band or interval: %s", low),
+    FRACAS_FIELD(fracas_band, NUMBER, "high", NULL, "upper end of its band or interval: %s", high),
 };
 static const fracas_fields band_of_energy = FRACAS_FIELDS(band_fields);
 

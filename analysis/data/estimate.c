@@ -6,13 +6,12 @@
 #include <math.h>
 
 static const fracas_field estimate_fields[] = {
-    {"n", FRACAS_FIELD_INTEGER, "1", "replicas in the mean %s", offsetof(fracas_estimate, n)},
-    {"mean", FRACAS_FIELD_NUMBER, NULL, "mean over replicas of the %s",
-     offsetof(fracas_estimate, mean)},
-    {"deviation", FRACAS_FIELD_NUMBER, NULL, "standard deviation over replicas of the %s",
-     offsetof(fracas_estimate, deviation)},
-    {"half_width", FRACAS_FIELD_NUMBER, NULL, "half width of the 95 % interval of the mean %s",
-     offsetof(fracas_estimate, half_width)},
+    FRACAS_FIELD(fracas_estimate, INTEGER, "n", "1", "replicas in the mean %s", n),
+    FRACAS_FIELD(fracas_estimate, NUMBER, "mean", NULL, "mean over replicas of the %s", mean),
+    FRACAS_FIELD(fracas_estimate, NUMBER, "deviation", NULL,
+                 "standard deviation over replicas of the %s", deviation),
+    FRACAS_FIELD(fracas_estimate, NUMBER, "half_width", NULL,
+                 "half width of the 95 % interval of the mean %s", half_width),
 };
 const fracas_fields fracas_estimate_fields = FRACAS_FIELDS(estimate_fields);
 

@@ -9,13 +9,13 @@
 #include <string.h>
 
 static const fracas_field interval_fields[] = {
-    {"value", FRACAS_FIELD_NUMBER, NULL, "%s", offsetof(fracas_interval, value)},
-    {"low", FRACAS_FIELD_NUMBER, NULL, "lower end of the 95 % interval of: %s",
-     offsetof(fracas_interval, low)},
-    {"high", FRACAS_FIELD_NUMBER, NULL, "upper end of the 95 % interval of: %s",
-     offsetof(fracas_interval, high)},
-    {"standard_error", FRACAS_FIELD_NUMBER, NULL, "standard error of: %s",
-     offsetof(fracas_interval, standard_error)},
+    FRACAS_FIELD(fracas_interval, NUMBER, "value", NULL, "%s", value),
+    FRACAS_FIELD(fracas_interval, NUMBER, "low", NULL, "lower end of the 95 % interval of: %s",
+                 low),
+    FRACAS_FIELD(fracas_interval, NUMBER, "high", NULL, "upper end of the 95 % interval of: %s",
+                 high),
+    FRACAS_FIELD(fracas_interval, NUMBER, "standard_error", NULL, "standard error of: %s",
+                 standard_error),
 };
 const fracas_fields fracas_interval_fields = {interval_fields, 3},
                     fracas_interval_error_fields = FRACAS_FIELDS(interval_fields);

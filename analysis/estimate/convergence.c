@@ -11,11 +11,11 @@
 const char *const fracas_headline_key[FRACAS_NHEADLINES] = {FRACAS_HEADLINES(KEY)};
 
 static const fracas_field settling_fields[] = {
-    {"value", FRACAS_FIELD_NUMBER, NULL, "%s", offsetof(fracas_settling, value)},
-    {"low", FRACAS_FIELD_NUMBER, NULL, "lower end of its band or interval: %s",
-     offsetof(fracas_settling, low)},
-    {"high", FRACAS_FIELD_NUMBER, NULL, "upper end of its band or interval: %s",
-     offsetof(fracas_settling, high)},
+    FRACAS_FIELD(fracas_settling, NUMBER, "value", NULL, "%s", value),
+    FRACAS_FIELD(fracas_settling, NUMBER, "low", NULL, "lower end of its band or interval: %s",
+                 low),
+    FRACAS_FIELD(fracas_settling, NUMBER, "high", NULL, "upper end of its band or interval: %s",
+                 high),
 };
 static const fracas_fields settling = FRACAS_FIELDS(settling_fields);
 
@@ -27,8 +27,8 @@ static const fracas_fields settling = FRACAS_FIELDS(settling_fields);
      offsetof(fracas_running, number[FRACAS_HEADLINE_##name]), \
      &settling},
 static const fracas_field running_fields[] = {
-    {"replicas", FRACAS_FIELD_INTEGER, "1", "the first so many usable ones",
-     offsetof(fracas_running, replicas)},
+    FRACAS_FIELD(fracas_running, INTEGER, "replicas", "1", "the first so many usable ones",
+                 replicas),
     FRACAS_HEADLINES(HEADLINE)};
 const fracas_fields fracas_running_fields = FRACAS_FIELDS(running_fields);
 

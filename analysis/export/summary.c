@@ -225,21 +225,18 @@ typedef struct {
 } decision_row;
 
 static const fracas_field decision_field[] = {
-    {"quantity", FRACAS_FIELD_TEXT, "", "number that the rule looks at",
-     offsetof(decision_row, quantity)},
-    {"rounds", FRACAS_FIELD_INTEGER, "1", "rounds so far", offsetof(decision_row, rounds)},
-    {"used", FRACAS_FIELD_INTEGER, "1", "realizations in the mean",
-     offsetof(decision_row, last.used)},
-    {"mean", FRACAS_FIELD_NUMBER, "", "mean of the quantity, in its unit",
-     offsetof(decision_row, last.mean)},
-    {"half_width", FRACAS_FIELD_NUMBER, "", "half width of the interval of the mean",
-     offsetof(decision_row, last.half_width)},
-    {"relative_half_width", FRACAS_FIELD_NUMBER, "1", "the rule's limit of half width / mean",
-     offsetof(decision_row, last.relative_half_width)},
-    {"confidence", FRACAS_FIELD_NUMBER, "1", "confidence of the interval",
-     offsetof(decision_row, last.confidence)},
-    {"at_maximum", FRACAS_FIELD_BOOLEAN, "", "true if the rule stopped at the most replicas",
-     offsetof(decision_row, at_maximum)},
+    FRACAS_FIELD(decision_row, TEXT, "quantity", "", "number that the rule looks at", quantity),
+    FRACAS_FIELD(decision_row, INTEGER, "rounds", "1", "rounds so far", rounds),
+    FRACAS_FIELD(decision_row, INTEGER, "used", "1", "realizations in the mean", last.used),
+    FRACAS_FIELD(decision_row, NUMBER, "mean", "", "mean of the quantity, in its unit", last.mean),
+    FRACAS_FIELD(decision_row, NUMBER, "half_width", "", "half width of the interval of the mean",
+                 last.half_width),
+    FRACAS_FIELD(decision_row, NUMBER, "relative_half_width", "1",
+                 "the rule's limit of half width / mean", last.relative_half_width),
+    FRACAS_FIELD(decision_row, NUMBER, "confidence", "1", "confidence of the interval",
+                 last.confidence),
+    FRACAS_FIELD(decision_row, BOOLEAN, "at_maximum", "",
+                 "true if the rule stopped at the most replicas", at_maximum),
 };
 static const fracas_fields decision_fields = FRACAS_FIELDS(decision_field);
 

@@ -15,10 +15,10 @@
 #define INTERVAL(key, unit, doc, member) \
     FRACAS_FIELD_OF(fracas_size_crossover, fracas_interval_error_fields, key, unit, doc, member)
 static const fracas_field fields[] = {
-    {"series", FRACAS_FIELD_CHARS, "", "name of the series", offsetof(fracas_size_crossover, name)},
-    {"points", FRACAS_FIELD_INTEGER, "1", "points in the fit", offsetof(fracas_size_crossover, n)},
-    {"reason", FRACAS_FIELD_REASON, "", "why there is no crossover; null: there is one",
-     offsetof(fracas_size_crossover, reason)},
+    FRACAS_FIELD(fracas_size_crossover, CHARS, "series", "", "name of the series", name),
+    FRACAS_FIELD(fracas_size_crossover, INTEGER, "points", "1", "points in the fit", n),
+    FRACAS_FIELD(fracas_size_crossover, REASON, "reason", "",
+                 "why there is no crossover; null: there is one", reason),
     INTERVAL("rate", "1/s", "strain rate of the bend", rate),
     INTERVAL("rate_normalised", "1", "the same / edot0", rate_normalised),
     INTERVAL("size", "m", "mean size at low rates", size),
@@ -30,8 +30,8 @@ static const fracas_field fields[] = {
     NUMBER("misfit", "probability of such a chi2 or more if the means are on the curve", misfit),
     NUMBER("pooled_freedom", "as of slopes", pooled),
     NUMBER("inflation", "factor of the standard errors, max(1, sqrt(chi2/freedom))", inflation),
-    {"resamples", FRACAS_FIELD_INTEGER, "1", "draws that gave a curve",
-     offsetof(fracas_size_crossover, rate.resamples)},
+    FRACAS_FIELD(fracas_size_crossover, INTEGER, "resamples", "1", "draws that gave a curve",
+                 rate.resamples),
 };
 const fracas_fields fracas_crossover_fields = FRACAS_FIELDS(fields);
 

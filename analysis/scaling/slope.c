@@ -10,10 +10,8 @@
 
 #define NUMBER(key, doc, member) FRACAS_FIELD(fracas_size_slope, NUMBER, key, "1", doc, member)
 static const fracas_field fields[] = {
-    {"series", FRACAS_FIELD_CHARS, "", "name of the series, or all points",
-     offsetof(fracas_size_slope, name)},
-    {"points", FRACAS_FIELD_INTEGER, "1", "points on the line",
-     offsetof(fracas_size_slope, slope.n)},
+    FRACAS_FIELD(fracas_size_slope, CHARS, "series", "", "name of the series, or all points", name),
+    FRACAS_FIELD(fracas_size_slope, INTEGER, "points", "1", "points on the line", slope.n),
     NUMBER("slope", "d log(mean size)/d log(strain rate)", slope.slope),
     NUMBER("standard_error", "standard error of the slope", slope.standard_error),
     NUMBER("half_width", "half width of the 95 % interval of the slope", slope.half_width),

@@ -11,11 +11,9 @@
 #define NUMBER(key, unit, doc, member) \
     FRACAS_FIELD(fracas_size_window, NUMBER, key, unit, doc, member)
 static const fracas_field fields[] = {
-    {"series", FRACAS_FIELD_CHARS, "", "name of the series", offsetof(fracas_size_window, name)},
-    {"from_point", FRACAS_FIELD_INDEX, "1", "point of the lower rate",
-     offsetof(fracas_size_window, point[0])},
-    {"to_point", FRACAS_FIELD_INDEX, "1", "point of the higher rate",
-     offsetof(fracas_size_window, point[1])},
+    FRACAS_FIELD(fracas_size_window, CHARS, "series", "", "name of the series", name),
+    FRACAS_FIELD(fracas_size_window, INDEX, "from_point", "1", "point of the lower rate", point[0]),
+    FRACAS_FIELD(fracas_size_window, INDEX, "to_point", "1", "point of the higher rate", point[1]),
     NUMBER("from_rate", "1/s", "lower strain rate", rate[0]),
     NUMBER("to_rate", "1/s", "higher strain rate", rate[1]),
     NUMBER("from_rate_normalised", "1", "lower strain rate / edot0", normalised[0]),

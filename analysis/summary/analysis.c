@@ -16,8 +16,8 @@ static const fracas_field progress_fields[] = {
     COUNT(done, "realizations that are there"),
     COUNT(failed, "realizations that FAILED"),
     COUNT(missing, "realizations that are done but could not be read"),
-    {"complete", FRACAS_FIELD_BOOLEAN, "", "all are done and none FAILED",
-     offsetof(fracas_progress, complete)},
+    FRACAS_FIELD(fracas_progress, BOOLEAN, "complete", "", "all are done and none FAILED",
+                 complete),
 };
 const fracas_fields fracas_progress_fields = FRACAS_FIELDS(progress_fields);
 

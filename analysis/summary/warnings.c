@@ -10,9 +10,9 @@
 #include <stdlib.h>
 
 static const fracas_field fields[] = {
-    {"point", FRACAS_FIELD_INDEX, "1", "number of the point; null: the study as a whole",
-     offsetof(fracas_warning, point)},
-    {"text", FRACAS_FIELD_CHARS, "", "the warning", offsetof(fracas_warning, text)},
+    FRACAS_FIELD(fracas_warning, INDEX, "point", "1",
+                 "number of the point; null: the study as a whole", point),
+    FRACAS_FIELD(fracas_warning, CHARS, "text", "", "the warning", text),
 };
 const fracas_fields fracas_warning_fields = FRACAS_FIELDS(fields);
 
