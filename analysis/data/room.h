@@ -8,6 +8,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 enum { FRACAS_ROOM_BLOCKS = 16 };
 
@@ -21,6 +22,12 @@ typedef struct {
  * FRACAS_ROOM_BLOCKS of them. */
 void *fracas_room_array(fracas_room *room, size_t count, size_t size);
 #define FRACAS_TAKE(room, array, count) ((array) = fracas_room_array(room, count, sizeof *(array)))
+
+/* The numbers 0 to count - 1 by their groups, below ngroups; SIZE_MAX: in none. Those of group g
+ * are
+ * (*of)[(*first)[g]] to (*of)[(*first)[g + 1] - 1], ascending. */
+FRACAS_MUST_USE fracas_err fracas_room_groups(fracas_room *room, const size_t *group, size_t count,
+                                              size_t ngroups, size_t **first, size_t **of);
 
 /* FRACAS_ENVIRONMENT with "no memory for <purpose>" if an array is lacking. */
 FRACAS_MUST_USE fracas_err fracas_room_check(const fracas_room *room, const char *what);

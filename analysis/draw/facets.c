@@ -123,17 +123,6 @@ static void find_room(const shaping *s)
 
 /* ---- nodes: every group has its own ---- */
 
-static fracas_err sort_elements(shaping *s, size_t **first, size_t **of)
-{
-    FRACAS_TAKE(&s->room, *first, s->ngroups + 1);
-    FRACAS_TAKE(&s->room, *of, s->mesh->nelements);
-    TRY(fracas_room_check(&s->room, "the fragments of a picture"));
-    for (size_t e = 0; e < s->mesh->nelements; e++) (*first)[group_of(s, e) + 2]++;
-    for (size_t g = 0; g < s->ngroups; g++) (*first)[g + 2] += (*first)[g + 1];
-    for (size_t e = 0; e < s->mesh->nelements; e++) (*of)[(*first)[group_of(s, e) + 1]++] = e;
-    return FRACAS_OK;
-}
-
 static void put_node(const shaping *s, size_t node, size_t group)
 {
     for (int skin = 0; skin < 2; skin++) {
@@ -167,14 +156,17 @@ static void number_nodes(const shaping *s, const size_t *first, const size_t *of
 static fracas_err place_nodes(shaping *s)
 {
     const fracas_stored_mesh *mesh = s->mesh;
-    size_t *first, *of, *last;
+    size_t *group, *first, *of, *last;
     uint32_t *copy;
     const size_t most = 2 * (s->apart ? 6 * mesh->nelements : mesh->nnodes);
     s->to->node = malloc((most + 1) * sizeof *s->to->node);
     if (!s->to->node) return fracas_no_memory("the fragments of a picture");
     FRACAS_TAKE(&s->room, last, mesh->nnodes);
     FRACAS_TAKE(&s->room, copy, mesh->nnodes);
-    TRY(sort_elements(s, &first, &of));
+    FRACAS_TAKE(&s->room, group, mesh->nelements);
+    TRY(fracas_room_check(&s->room, "the fragments of a picture"));
+    for (size_t e = 0; e < mesh->nelements; e++) group[e] = group_of(s, e);
+    TRY(fracas_room_groups(&s->room, group, mesh->nelements, s->ngroups, &first, &of));
     number_nodes(s, first, of, copy, last);
     return FRACAS_OK;
 }

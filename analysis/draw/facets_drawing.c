@@ -40,15 +40,15 @@ static fracas_err prepare(drawing *d, const fracas_frame *frame, const uint8_t *
     const fracas_facets *facets = d->facets;
     const size_t n = facets->nfacets + 1;
     fracas_room *room = &d->room;
+    size_t *layer;
     FRACAS_TAKE(room, d->spot, facets->nnodes);
     FRACAS_TAKE(room, d->tint, n);
     FRACAS_TAKE(room, d->shade, n);
     FRACAS_TAKE(room, d->base, n);
     FRACAS_TAKE(room, d->least, 2 * n);
-    FRACAS_TAKE(room, d->sorted, n);
+    FRACAS_TAKE(room, layer, n);
     FRACAS_TAKE(room, d->member, 4 * n);
     FRACAS_TAKE(room, d->in, n);
-    FRACAS_TAKE(room, d->first, facets->nlayers + 2);
     TRY(fracas_room_check(room, "a picture"));
     for (size_t k = 0; k < facets->nnodes; k++)
         d->spot[k] = fracas_frame_place(frame, facets->node[k]);
@@ -58,12 +58,9 @@ static fracas_err prepare(drawing *d, const fracas_frame *frame, const uint8_t *
         d->shade[f] = shaded ? shade_of(facet) : 0;
         if (d->shade[f] > d->darkest) d->darkest = d->shade[f];
         d->in[f] = -1;
-        if (facet->layer >= 0) d->first[facet->layer + 2]++;
+        layer[f] = facet->layer < 0 ? SIZE_MAX : (size_t)facet->layer;
     }
-    for (size_t l = 0; l < facets->nlayers; l++) d->first[l + 2] += d->first[l + 1];
-    for (size_t f = 0; f < facets->nfacets; f++)
-        if (facets->facet[f].layer >= 0) d->sorted[d->first[facets->facet[f].layer + 1]++] = f;
-    return FRACAS_OK;
+    return fracas_room_groups(room, layer, facets->nfacets, facets->nlayers, &d->first, &d->sorted);
 }
 
 static void join(drawing *d, size_t f)

@@ -26,8 +26,8 @@ typedef struct {
     size_t *first; /* for each cell, in `of` */
     uint32_t *of;  /* facets */
     size_t ncovers, capacity;
-    cover *covers, *sorted; /* as they are found; by the facet behind */
-    size_t *start;          /* for each facet, in `covers` */
+    cover *covers;          /* as they are found */
+    size_t *start, *sorted; /* for each facet, in `sorted`; covers by the facet behind */
 } hiding;
 
 static const double *corner_of(const fracas_facets *facets, size_t f, int k)
@@ -208,19 +208,12 @@ static fracas_err find_covers(hiding *h)
 
 static fracas_err sort_covers(hiding *h)
 {
-    const size_t nfacets = h->facets->nfacets;
-    cover *sorted;
-    FRACAS_TAKE(&h->room, sorted, h->ncovers);
-    FRACAS_TAKE(&h->room, h->start, nfacets + 1);
+    size_t *behind;
+    FRACAS_TAKE(&h->room, behind, h->ncovers);
     TRY(fracas_room_check(&h->room, "the facets of a picture"));
-    for (size_t c = 0; c < h->ncovers; c++) h->start[h->covers[c].behind + 2]++;
-    for (size_t f = 0; f < nfacets; f++) h->start[f + 2] += h->start[f + 1];
-    for (size_t c = 0; c < h->ncovers; c++)
-        sorted[h->start[h->covers[c].behind + 1]++] = h->covers[c];
-    free(h->covers);
-    h->covers = NULL;
-    h->sorted = sorted;
-    return FRACAS_OK;
+    for (size_t c = 0; c < h->ncovers; c++) behind[c] = h->covers[c].behind;
+    return fracas_room_groups(&h->room, behind, h->ncovers, h->facets->nfacets, &h->start,
+                              &h->sorted);
 }
 
 /* ---- visible parts ---- */
@@ -232,7 +225,8 @@ static bool is_covered(const hiding *h, size_t f, const double share[3])
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 3; i++) point[i] += share[k] * corner_of(h->facets, f, k)[i];
     for (size_t c = h->start[f]; c < h->start[f + 1]; c++)
-        if (depth_at(h->facets, h->sorted[c].front, point, &depth) && depth > point[2]) return true;
+        if (depth_at(h->facets, h->covers[h->sorted[c]].front, point, &depth) && depth > point[2])
+            return true;
     return false;
 }
 
@@ -299,7 +293,7 @@ static void raise_parts(const hiding *h, parts *p)
     while (grown) { /* some layer grows each time, and none beyond the last */
         grown = false;
         for (size_t c = 0; c < h->ncovers; c++) {
-            const cover *pair = &h->sorted[c];
+            const cover *pair = &h->covers[h->sorted[c]];
             if (facet[pair->front].layer < 0 || facet[pair->behind].layer < 0) continue;
             const uint32_t front = p->of[pair->front], behind = p->of[pair->behind];
             if (front == behind || p->layer[front] + 1 >= MOST_LAYERS)

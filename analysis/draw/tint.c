@@ -7,16 +7,14 @@
 
 enum { NONE = 255 };
 
-/* Interfaces by the fragments they part: those of fragment f are interface[first[f]] to
- * interface[first[f + 1] - 1]. */
 typedef struct {
     fracas_room room;
-    size_t *first, *interface;
-    uint32_t *order; /* fragments, the largest first */
+    size_t *first, *side; /* by fragment; 2 interface + side */
+    uint32_t *order;      /* fragments, the largest first */
 } neighbours;
 
 static uint32_t fragment_at(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
-                            size_t i, int side)
+                            size_t i, size_t side)
 {
     return state->fragment[mesh->interface[i].element[side]];
 }
@@ -32,21 +30,14 @@ static int larger_first(const void *a, const void *b, void *state)
 static fracas_err list_neighbours(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
                                   neighbours *of)
 {
-    FRACAS_TAKE(&of->room, of->first, state->nfragments + 1);
-    FRACAS_TAKE(&of->room, of->interface, 2 * mesh->ninterfaces);
+    size_t *parted; /* fragments on both sides of each interface */
+    FRACAS_TAKE(&of->room, parted, 2 * mesh->ninterfaces);
     FRACAS_TAKE(&of->room, of->order, state->nfragments);
     TRY(fracas_room_check(&of->room, "the tints of a picture"));
-    /* Counted one place further on: the filling below leaves each start where it belongs. */
-    for (size_t i = 0; i < mesh->ninterfaces; i++)
-        for (int side = 0; side < 2; side++) of->first[fragment_at(mesh, state, i, side) + 1]++;
-    for (size_t f = 0, sum = 0; f <= state->nfragments; f++) {
-        const size_t own = of->first[f + 1];
-        of->first[f + 1] = sum;
-        sum += own;
-    }
-    for (size_t i = 0; i < mesh->ninterfaces; i++)
-        for (int side = 0; side < 2; side++)
-            of->interface[of->first[fragment_at(mesh, state, i, side) + 1]++] = i;
+    for (size_t k = 0; k < 2 * mesh->ninterfaces; k++)
+        parted[k] = fragment_at(mesh, state, k / 2, k % 2);
+    TRY(fracas_room_groups(&of->room, parted, 2 * mesh->ninterfaces, state->nfragments, &of->first,
+                           &of->side));
     for (size_t f = 0; f < state->nfragments; f++) of->order[f] = (uint32_t)f;
     qsort_r(of->order, state->nfragments, sizeof *of->order, larger_first,
             (void *)(uintptr_t)state);
@@ -57,11 +48,10 @@ static uint8_t best_tint(const fracas_stored_mesh *mesh, const fracas_surface_st
                          const neighbours *of, uint32_t f, const uint8_t *tint, const size_t *drawn)
 {
     size_t edges[FRACAS_TINTS] = {0};
-    for (size_t k = of->first[f]; k < of->first[f + 1]; k++)
-        for (int side = 0; side < 2; side++) {
-            const uint32_t other = fragment_at(mesh, state, of->interface[k], side);
-            if (other != f && tint[other] < FRACAS_TINTS) edges[tint[other]]++;
-        }
+    for (size_t k = of->first[f]; k < of->first[f + 1]; k++) {
+        const uint32_t other = fragment_at(mesh, state, of->side[k] / 2, of->side[k] % 2 == 0);
+        if (other != f && tint[other] < FRACAS_TINTS) edges[tint[other]]++;
+    }
     uint8_t best = 0;
     for (uint8_t t = 1; t < FRACAS_TINTS; t++)
         if (edges[t] < edges[best] || (edges[t] == edges[best] && drawn[t] < drawn[best])) best = t;

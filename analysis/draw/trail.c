@@ -28,7 +28,7 @@ typedef struct {
     size_t nnodes;
     uint32_t *node;       /* nodes with an edge, ascending; edges know them by their place here */
     uint32_t (*place)[2]; /* for the ends of each edge */
-    size_t *first;        /* for each node, in `leaving`; nodes + 1 of them */
+    size_t *first;        /* for each node, in `leaving` */
     size_t *next;         /* for each node its first edge not known to be used */
     size_t *leaving;      /* 2 edge + 1 if the edge is gone through backwards */
     bool *used;           /* for each edge */
@@ -64,24 +64,17 @@ static fracas_err list_nodes(const fracas_trail *trail, departures *from)
 
 static fracas_err list_departures(const fracas_trail *trail, bool closed, departures *from)
 {
-    const int ends = closed ? 1 : 2;
+    size_t *start; /* node of each way */
     TRY(list_nodes(trail, from));
-    const size_t nodes = from->nnodes;
-    FRACAS_TAKE(&from->room, from->first, nodes + 1);
-    FRACAS_TAKE(&from->room, from->next, nodes);
-    FRACAS_TAKE(&from->room, from->leaving, 2 * trail->count);
+    FRACAS_TAKE(&from->room, start, 2 * trail->count);
+    FRACAS_TAKE(&from->room, from->next, from->nnodes);
     FRACAS_TAKE(&from->room, from->used, trail->count);
     TRY(fracas_room_check(&from->room, "the lines of a picture"));
-    for (size_t e = 0; e < trail->count; e++)
-        for (int end = 0; end < ends; end++) from->first[from->place[e][end] + 1]++;
-    for (size_t n = 0; n < nodes; n++) {
-        from->first[n + 1] += from->first[n];
-        from->next[n] = from->first[n];
-    }
-    for (size_t e = 0; e < trail->count; e++)
-        for (int end = 0; end < ends; end++)
-            from->leaving[from->next[from->place[e][end]]++] = 2 * e + (size_t)end;
-    for (size_t n = 0; n < nodes; n++) from->next[n] = from->first[n];
+    for (size_t way = 0; way < 2 * trail->count; way++)
+        start[way] = closed && way % 2 ? SIZE_MAX : from->place[way / 2][way % 2];
+    TRY(fracas_room_groups(&from->room, start, 2 * trail->count, from->nnodes, &from->first,
+                           &from->leaving));
+    for (size_t n = 0; n < from->nnodes; n++) from->next[n] = from->first[n];
     return FRACAS_OK;
 }
 
