@@ -6,6 +6,7 @@
 #include "base/own.h"
 
 #include <gsl/gsl_cdf.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,13 +14,75 @@
 const char *const fracas_number_verdict_name[FRACAS_NUMBER_VERDICTS] = {"moved", "shifted", "holds",
                                                                         "unclear", "unknown"};
 
+/* ---- notes ---- */
+
+static fracas_err add_note(fracas_convergence *convergence, const char *refinement, size_t point,
+                           fracas_convergence_note **note)
+{
+    TRY(fracas_grow(&convergence->note, sizeof *convergence->note, convergence->nnotes,
+                    &convergence->note_room, "the notes of the convergence"));
+    *note = &convergence->note[convergence->nnotes++];
+    (*note)->refinement = refinement;
+    (*note)->point = point;
+    return FRACAS_OK;
+}
+
+/* "7 of 10 realizations ended ENERGY_DRIFT, 1 NONFINITE: judged from 2" */
+static void write_lost(const fracas_point_statistics *of, size_t judged, char *text, size_t size)
+{
+    char first[64];
+    FRACAS_PRINT(first, " of %" PRId64 " realizations ended", of->realizations);
+    *text = '\0';
+    for (int o = FRACAS_NONFINITE; o <= FRACAS_FAILED; o++)
+        if (of->outcome[o] > 0)
+            fracas_append(text, size, ", ", "%" PRId64 "%s %s", of->outcome[o], *text ? "" : first,
+                          fracas_outcome_name(o));
+    if (judged > 0) fracas_append(text, size, "", ": judged from %zu", judged);
+    else fracas_append(text, size, "", ": none is left, its numbers are unknown");
+}
+
+/* The outcomes of unusable realizations, with `judged`, the number of realizations behind its
+ * numbers (0: unknown); and whether every usable one stays whole. */
+static fracas_err note_point(fracas_convergence *convergence, const char *refinement, size_t point,
+                             const fracas_point_statistics *of, size_t judged)
+{
+    fracas_convergence_note *note;
+    if (of->usable < of->realizations) {
+        TRY(add_note(convergence, refinement, point, &note));
+        write_lost(of, judged, note->text, sizeof note->text);
+    }
+    if (of->usable == 0 || of->outcome[FRACAS_INTACT] != of->usable) return FRACAS_OK;
+    TRY(add_note(convergence, refinement, point, &note));
+    FRACAS_PRINT(
+        note->text,
+        "all %" PRId64
+        " usable realizations end INTACT: nothing breaks, and nothing is judged of how it breaks",
+        of->usable);
+    return FRACAS_OK;
+}
+
+/* The number of warnings in the report of a study, if any, and the command to show them. */
+static fracas_err note_study(fracas_convergence *convergence, const char *refinement,
+                             const fracas_analysis *analysis, const char *study)
+{
+    fracas_convergence_note *note;
+    OWNED fracas_warning *warning = NULL;
+    size_t count;
+    TRY(fracas_analysis_warnings(analysis, &warning, &count));
+    if (count == 0) return FRACAS_OK;
+    TRY(add_note(convergence, refinement, SIZE_MAX, &note));
+    FRACAS_PRINT(note->text, "its report has %zu warning%s: fracas report %s", count,
+                 count == 1 ? "" : "s", study);
+    return FRACAS_OK;
+}
+
 static fracas_err note_base(fracas_convergence *convergence, const char *study)
 {
     const fracas_analysis *base = convergence->study;
     for (size_t p = 0; p < base->table->npoints; p++)
-        TRY(fracas_convergence_note_point(convergence, "base", p, &base->point[p],
-                                          base->point[p].ensemble.nrealizations));
-    return fracas_convergence_note_study(convergence, "base", base, study);
+        TRY(note_point(convergence, "base", p, &base->point[p],
+                       base->point[p].ensemble.nrealizations));
+    return note_study(convergence, "base", base, study);
 }
 
 fracas_err fracas_convergence_create(const char *study, double tolerance,
@@ -212,7 +275,7 @@ static fracas_err note_refined(fracas_convergence *convergence, size_t before,
         while (k < b->nrealizations && b->replica[k] < a->replica[i]) k++;
         judged += k < b->nrealizations && b->replica[k] == a->replica[i];
     }
-    return fracas_convergence_note_point(convergence, map->name, before, after, judged);
+    return note_point(convergence, map->name, before, after, judged);
 }
 
 fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *study,
@@ -227,7 +290,7 @@ fracas_err fracas_convergence_add(fracas_convergence *convergence, const char *s
         TRY(fracas_convergence_compare(convergence, before, &refined->point[after].ensemble, map));
         TRY(note_refined(convergence, before, &refined->point[after], map));
     }
-    return fracas_convergence_note_study(convergence, map->name, refined, study);
+    return note_study(convergence, map->name, refined, study);
 }
 
 void fracas_convergence_leave(fracas_convergence *convergence, const char *refinement,

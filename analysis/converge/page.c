@@ -3,16 +3,15 @@
 #include "analysis/converge/rows.h"
 #include "analysis/draw/chart.h"
 #include "analysis/data/format.h"
+#include "analysis/data/output.h"
 #include "analysis/report/page.h"
 #include "base/own.h"
 #include "base/param.h"
 #include "campaigns/store/file/disk.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { HEIGHT = 220, MARK_PIXELS = 22, MARGINS = 150, WIDEST = 940 };
 enum { BOX_LOOK = FRACAS_CHART_GREY, TOLERANCE_LOOK = FRACAS_CHART_GREY + 2 };
@@ -272,7 +271,6 @@ fracas_err fracas_convergence_write_page(const fracas_convergence *convergence, 
     FRACAS_PRINT(lead, "What refinement changes: %zu point%s, %zu numbers, tolerance %g %%",
                  npoints, npoints == 1 ? "" : "s", convergence->nrows,
                  100 * convergence->tolerance);
-    if (mkdir(to, 0777) && errno != EEXIST)
-        return fracas_fail_system(errno, "cannot make the folder %s", to);
+    TRY(fracas_output_folder(to));
     return fracas_page_write(&page, title, lead, sections, FRACAS_COUNT(sections));
 }

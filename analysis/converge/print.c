@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A convergence as text, JSON and CSV; its notes. */
+/* A convergence as text, JSON and CSV. */
 #include "analysis/converge/rows.h"
 #include "analysis/data/field.h"
 #include "analysis/data/format.h"
@@ -16,64 +16,6 @@
 #include <string.h>
 
 enum { NCOLUMNS = 8 };
-
-static fracas_err add_note(fracas_convergence *convergence, const char *refinement, size_t point,
-                           fracas_convergence_note **note)
-{
-    TRY(fracas_grow(&convergence->note, sizeof *convergence->note, convergence->nnotes,
-                    &convergence->note_room, "the notes of the convergence"));
-    *note = &convergence->note[convergence->nnotes++];
-    (*note)->refinement = refinement;
-    (*note)->point = point;
-    return FRACAS_OK;
-}
-
-/* "7 of 10 realizations ended ENERGY_DRIFT, 1 NONFINITE: judged from 2" */
-static void write_lost(const fracas_point_statistics *of, size_t judged, char *text, size_t size)
-{
-    char first[64];
-    FRACAS_PRINT(first, " of %" PRId64 " realizations ended", of->realizations);
-    *text = '\0';
-    for (int o = FRACAS_NONFINITE; o <= FRACAS_FAILED; o++)
-        if (of->outcome[o] > 0)
-            fracas_append(text, size, ", ", "%" PRId64 "%s %s", of->outcome[o], *text ? "" : first,
-                          fracas_outcome_name(o));
-    if (judged > 0) fracas_append(text, size, "", ": judged from %zu", judged);
-    else fracas_append(text, size, "", ": none is left, its numbers are unknown");
-}
-
-fracas_err fracas_convergence_note_point(fracas_convergence *convergence, const char *refinement,
-                                         size_t point, const fracas_point_statistics *of,
-                                         size_t judged)
-{
-    fracas_convergence_note *note;
-    if (of->usable < of->realizations) {
-        TRY(add_note(convergence, refinement, point, &note));
-        write_lost(of, judged, note->text, sizeof note->text);
-    }
-    if (of->usable == 0 || of->outcome[FRACAS_INTACT] != of->usable) return FRACAS_OK;
-    TRY(add_note(convergence, refinement, point, &note));
-    FRACAS_PRINT(
-        note->text,
-        "all %" PRId64
-        " usable realizations end INTACT: nothing breaks, and nothing is judged of how it breaks",
-        of->usable);
-    return FRACAS_OK;
-}
-
-fracas_err fracas_convergence_note_study(fracas_convergence *convergence, const char *refinement,
-                                         const fracas_analysis *analysis, const char *study)
-{
-    fracas_convergence_note *note;
-    OWNED fracas_warning *warning = NULL;
-    size_t count;
-    TRY(fracas_analysis_warnings(analysis, &warning, &count));
-    if (count == 0) return FRACAS_OK;
-    TRY(add_note(convergence, refinement, SIZE_MAX, &note));
-    FRACAS_PRINT(note->text, "its report has %zu warning%s: fracas report %s", count,
-                 count == 1 ? "" : "s", study);
-    return FRACAS_OK;
-}
 
 /* "mesh, radial 12 m/s: 7 of 10 realizations ..." */
 static void note_line(const fracas_convergence *convergence, const fracas_convergence_note *note,

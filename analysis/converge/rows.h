@@ -55,19 +55,6 @@ struct fracas_convergence {
     } left[FRACAS_MOST_LEFT];
 };
 
-/* Notes of one point (`point` in the base study), from its statistics: the outcomes of unusable
- * realizations, with `judged`, the number of realizations behind its numbers (0: unknown); and
- * whether every usable one stays whole. */
-FRACAS_MUST_USE fracas_err fracas_convergence_note_point(fracas_convergence *convergence,
-                                                         const char *refinement, size_t point,
-                                                         const fracas_point_statistics *of,
-                                                         size_t judged);
-/* Notes the number of warnings in the report of a study, if any, and the command to show them;
- * `study`: its folder. */
-FRACAS_MUST_USE fracas_err fracas_convergence_note_study(fracas_convergence *convergence,
-                                                         const char *refinement,
-                                                         const fracas_analysis *analysis,
-                                                         const char *study);
 /* Adds the rows of one point, `before` in the study as it is, from the realizations of its refined
  * self. */
 FRACAS_MUST_USE fracas_err fracas_convergence_compare(fracas_convergence *convergence,

@@ -4,7 +4,18 @@
 #include <errno.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+fracas_err fracas_output_folder(const char *folder)
+{
+    struct stat what;
+    if (!mkdir(folder, 0777)) return FRACAS_OK;
+    const int reason = errno;
+    if (reason == EEXIST && !stat(folder, &what) && S_ISDIR(what.st_mode)) return FRACAS_OK;
+    if (reason == EEXIST) return fracas_fail(FRACAS_USAGE, "%s is no folder; name another", folder);
+    return fracas_fail_system(reason, "cannot make the folder %s", folder);
+}
 
 fracas_err fracas_output_open(const char *folder, const char *name, fracas_output_file *output)
 {

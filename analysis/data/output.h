@@ -13,6 +13,10 @@ typedef struct {
     char *temporary; /* name until it is whole */
 } fracas_output_file;
 
+/* Makes the folder, which may be there. FRACAS_USAGE if it is a file, FRACAS_ENVIRONMENT if it
+ * cannot be made. */
+FRACAS_MUST_USE fracas_err fracas_output_folder(const char *folder);
+
 /* Starts folder/name under a temporary name beside it. FRACAS_ENVIRONMENT if it cannot. */
 FRACAS_MUST_USE fracas_err fracas_output_open(const char *folder, const char *name,
                                               fracas_output_file *output);

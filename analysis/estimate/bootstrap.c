@@ -76,9 +76,7 @@ static double acceleration(const double *value, size_t count)
     return isfinite(a) ? a : 0;
 }
 
-/* Quantile p of ascending values, as the definition of a bootstrap interval has it: value number p
- * (B + 1). */
-static double quantile(const double *ascending, size_t count, double p)
+double fracas_quantile(const double *ascending, size_t count, double p)
 {
     const double at = p * (double)(count + 1) - 1;
     if (at <= 0) return ascending[0];
@@ -128,7 +126,7 @@ static void summarise(double *found, size_t most, const double *left_out, size_t
         const double z = z0 + (side ? quantile_up : -quantile_up);
         const double p = gsl_cdf_ugaussian_P(a * z < 1 ? z0 + z / (1 - a * z)
                                                        : copysign(INFINITY, z));
-        *(side ? &interval->high : &interval->low) = quantile(found, count, p);
+        *(side ? &interval->high : &interval->low) = fracas_quantile(found, count, p);
     }
 }
 

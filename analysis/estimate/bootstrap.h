@@ -36,6 +36,10 @@ typedef struct {
 /* value, low, high; with the standard error. */
 extern const fracas_fields fracas_interval_fields, fracas_interval_error_fields;
 
+/* Quantile p of ascending values, as the definition of a bootstrap interval has it: value number p
+ * (count + 1). */
+double fracas_quantile(const double *ascending, size_t count, double p);
+
 typedef struct {
     int64_t resamples; /* B; 0: 2000 */
     double confidence; /* 0: 0.95 */

@@ -11,7 +11,6 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 static const char package_file[] = "datapackage.json";
@@ -154,17 +153,6 @@ static fracas_err remove_package(const char *folder)
     return FRACAS_OK;
 }
 
-static fracas_err make_folder(const char *folder)
-{
-    struct stat what;
-    if (!mkdir(folder, 0777)) return FRACAS_OK;
-    const int reason = errno;
-    if (reason == EEXIST && !stat(folder, &what) && S_ISDIR(what.st_mode)) return FRACAS_OK;
-    if (reason == EEXIST)
-        return fracas_fail(FRACAS_USAGE, "%s is no folder; name one with --to DIR", folder);
-    return fracas_fail_system(reason, "cannot make the folder %s", folder);
-}
-
 fracas_err fracas_export_write(const fracas_analysis *analysis, const char *folder, bool histories)
 {
     const fracas_csv_table *const table[] = {
@@ -178,7 +166,7 @@ fracas_err fracas_export_write(const fracas_analysis *analysis, const char *fold
         NULL,
     };
     fracas_output_file output;
-    TRY(make_folder(folder));
+    TRY(fracas_output_folder(folder));
     TRY(remove_package(folder));
     for (size_t i = 0; table[i]; i++) TRY(fracas_csv_file(table[i], analysis, folder));
     TRY(fracas_output_open(folder, package_file, &output));

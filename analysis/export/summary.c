@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The JSON summary. Its keys are those of fracas_statistics and of /point: they do not change. */
-#include "analysis/export/summary.h"
-
 #include "analysis/export/csv.h"
+#include "analysis/export/tables.h"
 #include "analysis/scaling/scaling.h"
 #include "base/param.h"
 

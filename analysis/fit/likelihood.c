@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/fit/likelihood.h"
+#include "analysis/fit/point.h"
 
 #include "analysis/data/text.h"
 
@@ -90,23 +90,25 @@ static double sum_log(const search *s, const double *probability)
     return sum;
 }
 
+static double likelihood_of(const search *s, const double *parameter, double *probability)
+{
+    return fracas_fit_probabilities(s->family, s->sample, parameter, probability)
+               ? sum_log(s, probability)
+               : -INFINITY;
+}
+
 static double likelihood_at(const search *s, const double *x, double *probability)
 {
     double parameter[FRACAS_FAMILY_PARAMETERS];
     to_parameters(s->family, x, parameter);
-    return fracas_fit_probabilities(s->family, s->sample, parameter, probability)
-               ? sum_log(s, probability)
-               : -INFINITY;
+    return likelihood_of(s, parameter, probability);
 }
 
 double fracas_fit_log_likelihood(const fracas_family *family, const fracas_fit_sample *sample,
                                  const double *count, const double *parameter)
 {
     double probability[FRACAS_FIT_CELLS];
-    const search s = {.family = family, .sample = sample, .count = count};
-    return fracas_fit_probabilities(family, sample, parameter, probability)
-               ? sum_log(&s, probability)
-               : -INFINITY;
+    return likelihood_of(&(search){family, sample, count}, parameter, probability);
 }
 
 /* Score and expected information at x, whose probabilities are given; differences towards the

@@ -4,17 +4,13 @@
 
 #include "analysis/export/csv.h"
 #include "analysis/data/output.h"
-#include "analysis/export/summary.h"
 #include "analysis/draw/chart.h"
 #include "base/param.h"
 #include "base/own.h"
 #include "campaigns/store/file/disk.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
 
 typedef struct {
     char *text[FRACAS_PAGE_SECTIONS];
@@ -128,12 +124,12 @@ static void say_what(const fracas_analysis *analysis, char *text, size_t size)
 static fracas_err write_tables(const fracas_analysis *analysis, const char *folder,
                                const fracas_fits *fits, size_t stale)
 {
+    static const fracas_csv_table *const table[] = {
+        &fracas_csv_table_points, &fracas_csv_table_slopes, &fracas_csv_table_energies,
+        &fracas_csv_table_convergence, &fracas_csv_table_fragments};
     fracas_output_file output;
-    TRY(fracas_csv_file(&fracas_csv_table_points, analysis, folder));
-    TRY(fracas_csv_file(&fracas_csv_table_slopes, analysis, folder));
-    TRY(fracas_csv_file(&fracas_csv_table_energies, analysis, folder));
-    TRY(fracas_csv_file(&fracas_csv_table_convergence, analysis, folder));
-    TRY(fracas_csv_file(&fracas_csv_table_fragments, analysis, folder));
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++)
+        TRY(fracas_csv_file(table[i], analysis, folder));
     TRY(fracas_output_open(folder, "summary.json", &output));
     fracas_summary_write(analysis, fits, stale, output.file);
     return fracas_output_close(&output, FRACAS_OK);
@@ -154,9 +150,7 @@ fracas_err fracas_report_write(const fracas_analysis *analysis, const char *stud
     OWN(fracas_fits) fits = NULL;
     size_t stale = 0;
     TRY(fracas_disk_join(study, "report", &folder));
-    if (mkdir(folder, 0777) && errno != EEXIST)
-        return fracas_fail(FRACAS_ENVIRONMENT, "cannot make the folder %s: %s", folder,
-                           strerror(errno));
+    TRY(fracas_output_folder(folder));
     TRY(fracas_fits_read(study, &fits));
     if (fits) fracas_fits_keep(fits, analysis, &stale);
     TRY(write_tables(analysis, folder, fits, stale));

@@ -6,12 +6,10 @@
 #include "analysis/report/page.h"
 #include "base/own.h"
 
-#include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 typedef struct {
     const char *study;
@@ -169,20 +167,6 @@ static fracas_err save_table(const making *m, const fracas_stored_mesh *mesh)
     return FRACAS_OK;
 }
 
-static fracas_err make_folder(making *m)
-{
-    const char *wanted = m->request->folder;
-    const int length = wanted ? asprintf(&m->folder, "%s", wanted)
-                              : asprintf(&m->folder, "%s/pictures", m->study);
-    if (length < 0) {
-        m->folder = NULL;
-        return fracas_no_memory("a path");
-    }
-    if (!mkdir(m->folder, 0777) || errno == EEXIST) return FRACAS_OK;
-    return fracas_fail(FRACAS_ENVIRONMENT, "cannot make the folder %s: %s", m->folder,
-                       strerror(errno));
-}
-
 static fracas_err make(making *m)
 {
     m->table = fracas_results_points(m->results);
@@ -192,7 +176,10 @@ static fracas_err make(making *m)
     TRY(fracas_broken_surface_read(m->results, m->request->point,
                                    m->first_row + (size_t)m->request->replica, &surface));
     TRY(check_record(m, &surface.record));
-    TRY(make_folder(m));
+    const char *wanted = m->request->folder;
+    TRY(wanted ? fracas_path(&m->folder, "%s", wanted)
+               : fracas_path(&m->folder, "%s/pictures", m->study));
+    TRY(fracas_output_folder(m->folder));
     TRY(save_pictures(m, &surface));
     if (m->request->table) TRY(save_table(m, &surface.mesh));
     return say_times(m, &surface);

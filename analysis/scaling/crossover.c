@@ -113,13 +113,6 @@ static double search(fitter *of, double best[NPARAMETERS])
     return least;
 }
 
-static double quantile(double *value, size_t count, double p)
-{
-    const double at = p * (double)(count + 1) - 1; /* value number p (B + 1) */
-    const size_t below = at < 0 ? 0 : at > (double)count - 2 ? count - 2 : (size_t)at;
-    return value[below] + (at - (double)below) * (value[below + 1] - value[below]);
-}
-
 /* Quantiles of `sign` exp(value): s_q and edot_c as they are, the exponent -k. */
 static void summarise(double *found, size_t count, double best, double sign,
                       fracas_interval *interval)
@@ -128,11 +121,11 @@ static void summarise(double *found, size_t count, double best, double sign,
     if (count < 20) return;
     for (size_t b = 0; b < count; b++) found[b] = sign * exp(found[b]);
     gsl_sort(found, 1, count);
-    interval->bias = quantile(found, count, 0.5) - interval->value; /* some draws run away */
-    interval->standard_error = (quantile(found, count, 0.8413) - quantile(found, count, 0.1587)) /
-                               2;
-    interval->low = quantile(found, count, 0.025);
-    interval->high = quantile(found, count, 0.975);
+    interval->bias = fracas_quantile(found, count, 0.5) - interval->value; /* some draws run away */
+    interval->standard_error =
+        (fracas_quantile(found, count, 0.8413) - fracas_quantile(found, count, 0.1587)) / 2;
+    interval->low = fracas_quantile(found, count, 0.025);
+    interval->high = fracas_quantile(found, count, 0.975);
 }
 
 /* Tests whether the means are on the curve `best` with this chi2, and inflates their errors if they

@@ -65,26 +65,23 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
 {
     if (statistics->usable == 0) warn(list, p, "no usable realization");
     warn_of_outcomes(statistics, p, list);
-    if (statistics->residual > residual_limit) {
+    if (statistics->residual > residual_limit)
         warn(
             list, p,
             "ledger residual up to %s of the dissipated energy (more than 1e-3): lower time.safety",
             fracas_digits(statistics->residual, 2).text);
-    }
-    if (statistics->drifted > 0) {
+    if (statistics->drifted > 0)
         warn(list, p,
              "energy drift above 1 %%: %lld of %lld usable realizations, their |residual| up to %s "
              "%% of their largest energy: lower time.safety (above 5 %% during its run a "
              "realization ends ENERGY_DRIFT)",
              (long long)statistics->drifted, (long long)statistics->usable,
              fracas_digits(100 * statistics->drift, 2).text);
-    }
-    if (statistics->created > created_limit) {
+    if (statistics->created > created_limit)
         warn(list, p,
              "energy created at breaks up to %s of the dissipated energy (more than 1e-2): refine "
              "the mesh or raise cohesive.beta",
              fracas_digits(statistics->created, 2).text);
-    }
     if (statistics->elements < elements_limit)
         warn(list, p, "a mean fragment has %.1f elements (fewer than 10): refine the mesh",
              statistics->elements);
