@@ -4,7 +4,6 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/session/part.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/session/upkeep.h"
 #include "campaigns/store/store.h"

@@ -5,7 +5,6 @@
 #include "analysis/summary/statistics.h"
 #include "base/json.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/session/part.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/store/store.h"
 

@@ -5,7 +5,6 @@
 #include "base/param.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/session/space.h"
-#include "campaigns/scheduler/session/part.h"
 #include "campaigns/scheduler/session/prepare.h"
 
 #include <errno.h>

@@ -3,7 +3,6 @@
 
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/director/director.h"
-#include "campaigns/scheduler/session/part.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/types/packet.h"
@@ -38,9 +37,9 @@ static void ask_drain(int signal_number)
 
 /* A message under way to another rank. */
 typedef struct posted {
-    MPI_Request request;
-    fracas_packet *message;
     struct posted *next;
+    MPI_Request request;
+    unsigned char bytes[];
 } posted;
 
 typedef struct {
@@ -254,7 +253,6 @@ static fracas_err clear_outbox(rank_state *rank)
             continue;
         }
         *at = p->next;
-        free(p->message);
         free(p);
     }
     return FRACAS_OK;
@@ -263,23 +261,15 @@ static fracas_err clear_outbox(rank_state *rank)
 /* Sends without waiting for the rank: a hung one must not hold up the others. */
 static fracas_err post(rank_state *rank, int to, const fracas_packet *message)
 {
-    posted *p = malloc(sizeof *p);
+    const size_t size = fracas_packet_bytes(message);
+    OWNED posted *p = malloc(sizeof *p + size);
     if (!p) return fracas_no_memory("a message");
-    p->message = malloc(fracas_packet_bytes(message));
-    if (!p->message) {
-        free(p);
-        return fracas_no_memory("a message");
-    }
-    memcpy(p->message, message, fracas_packet_bytes(message));
-    int code = MPI_Isend(p->message, (int)fracas_packet_bytes(message), MPI_BYTE, to, TAG,
-                         MPI_COMM_WORLD, &p->request);
-    if (code != MPI_SUCCESS) {
-        free(p->message);
-        free(p);
-        return mpi_failed("send", code);
-    }
+    memcpy(p->bytes, message, size);
+    int code = MPI_Isend(p->bytes, (int)size, MPI_BYTE, to, TAG, MPI_COMM_WORLD, &p->request);
+    if (code != MPI_SUCCESS) return mpi_failed("send", code);
     p->next = rank->outbox;
     rank->outbox = p;
+    p = NULL;
     return FRACAS_OK;
 }
 

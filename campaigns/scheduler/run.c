@@ -8,7 +8,6 @@
 #include "campaigns/scheduler/launch/signals.h"
 #include "campaigns/scheduler/rank.h"
 #include "campaigns/scheduler/session/failures.h"
-#include "campaigns/scheduler/session/part.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/session/space.h"
 #include "campaigns/scheduler/status/channel.h"
@@ -36,28 +35,22 @@ bool fracas_run_speaks(void)
     return rank < 0 || (rank == 0 && !getenv(FRACAS_LAUNCHER_MARK));
 }
 
-static fracas_err examine_needs(const char *study, const fracas_campaign *campaign,
-                                const fracas_run_options *options)
-{
-    OWNED double *cost = NULL;
-    OWNED double *bytes = NULL;
-    TRY(fracas_costs_create(campaign, options, &cost, &bytes));
-    return fracas_space_check(study, campaign, options, bytes);
-}
-
 /* Finds all faults of the campaign and the study before anything is written or started. */
 static fracas_err examine(const fracas_run_options *options, bool *settled, fracas_err *result)
 {
     OWN(fracas_campaign) campaign = NULL;
-    TRY(fracas_run_campaign(options, &campaign));
+    OWNED double *cost = NULL;
+    OWNED double *bytes = NULL;
     char study[4096];
     int64_t failed = 0;
-    fracas_err err = fracas_study_folder(options, campaign, study, sizeof study);
-    if (!err) err = fracas_study_examine(study, campaign, options->force, settled, &failed);
-    *result = err || !failed ? err : fracas_failure_report(study, NULL, &campaign->table);
-    if (!err && !*settled) err = fracas_limits_check(options);
-    if (!err && !*settled) err = examine_needs(study, campaign, options);
-    return err;
+    TRY(fracas_run_campaign(options, &campaign));
+    TRY(fracas_study_folder(options, campaign, study, sizeof study));
+    TRY(fracas_study_examine(study, campaign, options->force, settled, &failed));
+    *result = failed ? fracas_failure_report(study, NULL, &campaign->table) : FRACAS_OK;
+    if (*settled) return FRACAS_OK;
+    TRY(fracas_limits_check(options));
+    TRY(fracas_costs_create(campaign, options, &cost, &bytes));
+    return fracas_space_check(study, campaign, options, bytes);
 }
 
 fracas_err fracas_run(const fracas_run_options *options, int argc, char **argv, bool *ran)

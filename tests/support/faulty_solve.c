@@ -26,12 +26,8 @@ fracas_err __real_fracas_solve(const fracas_computation *computation, const int6
                                size_t count, fracas_record *record);
 fracas_err __wrap_fracas_solve(const fracas_computation *computation, const int64_t *replica,
                                size_t count, fracas_record *record);
-fracas_err __real_fracas_models_get(fracas_models *models, const fracas_campaign *campaign,
-                                    size_t point, const fracas_model **model,
-                                    const fracas_field **field);
-fracas_err __wrap_fracas_models_get(fracas_models *models, const fracas_campaign *campaign,
-                                    size_t point, const fracas_model **model,
-                                    const fracas_field **field);
+fracas_err __real_fracas_models_get(fracas_models *models, fracas_computation *computation);
+fracas_err __wrap_fracas_models_get(fracas_models *models, fracas_computation *computation);
 
 /* In large blocks, each of which points to the one before: a sanitizer needs some memory to report
  * its lack. */
@@ -131,12 +127,12 @@ fracas_err __wrap_fracas_solve(const fracas_computation *computation, const int6
     return __real_fracas_solve(computation, replica, count, record);
 }
 
-fracas_err __wrap_fracas_models_get(fracas_models *models, const fracas_campaign *campaign,
-                                    size_t point, const fracas_model **model,
-                                    const fracas_field **field)
+fracas_err __wrap_fracas_models_get(fracas_models *models, fracas_computation *computation)
 {
     const char *asked = getenv("FRACAS_TEST_FAULT");
     unsigned long long its_point;
-    if (asked && sscanf(asked, "model:%llu:", &its_point) == 1 && point == its_point) crash();
-    return __real_fracas_models_get(models, campaign, point, model, field);
+    if (asked && sscanf(asked, "model:%llu:", &its_point) == 1 &&
+        computation->lease->point == its_point)
+        crash();
+    return __real_fracas_models_get(models, computation);
 }

@@ -2,7 +2,7 @@
 /* What of a campaign a run computes: --replicas and --part. */
 #include "tests/support/campaign_text.h"
 
-#include "campaigns/scheduler/session/part.h"
+#include "campaigns/scheduler/session/prepare.h"
 #include "tests/support/test.h"
 
 static const char rule[] =

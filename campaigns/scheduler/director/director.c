@@ -3,7 +3,6 @@
 
 #include "campaigns/scheduler/director/state.h"
 #include "campaigns/scheduler/session/failures.h"
-#include "campaigns/scheduler/session/part.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/session/space.h"
 

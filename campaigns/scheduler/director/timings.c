@@ -1,28 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/director/timings.h"
 
-#include "base/param.h"
 #include "campaigns/scheduler/types/clock.h"
 
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
-
-static const char event[] = "measured";
-
-static const struct {
-    const char *name;
-    size_t at;
-} number[] = {
-#define NUMBER(name)                          \
-    {                                         \
-#name, offsetof(fracas_timings, name) \
-    }
-    NUMBER(workers), NUMBER(seconds),    NUMBER(planned), NUMBER(computed), NUMBER(merging),
-    NUMBER(giving),  NUMBER(committing), NUMBER(cpu),     NUMBER(memory),   NUMBER(messages),
-    NUMBER(leases),  NUMBER(commits),    NUMBER(rows),
-};
 
 static double cpu_seconds(struct rusage *used)
 {
@@ -52,27 +34,13 @@ void fracas_timings_end(fracas_timings *timings)
 
 fracas_err fracas_timings_note(const fracas_timings *timings, fracas_index *index)
 {
-    char text[40 * FRACAS_COUNT(number)];
-    size_t n = 0;
-    for (size_t i = 0; i < FRACAS_COUNT(number); i++) {
-        double value;
-        memcpy(&value, (const char *)timings + number[i].at, sizeof value);
-        n += (size_t)snprintf(text + n, sizeof text - n, "%s%s %.9g", i ? ", " : "", number[i].name,
-                              value);
-    }
-    return fracas_index_event(index, event, text);
-}
-
-fracas_err fracas_timings_read(fracas_index *index, bool *found, fracas_timings *timings)
-{
-    OWNED char *text = NULL;
-    *timings = (fracas_timings){0};
-    TRY(fracas_index_last_event(index, event, &text));
-    *found = text != NULL;
-    for (size_t i = 0; text && i < FRACAS_COUNT(number); i++) {
-        const char *at = strstr(text, number[i].name);
-        const double value = at ? strtod(at + strlen(number[i].name), NULL) : 0;
-        memcpy((char *)timings + number[i].at, &value, sizeof value);
-    }
-    return FRACAS_OK;
+    const fracas_timings *t = timings;
+    char text[512];
+    snprintf(text, sizeof text,
+             "workers %.9g, seconds %.9g, planned %.9g, computed %.9g, merging %.9g, giving %.9g, "
+             "committing %.9g, cpu %.9g, memory %.9g, messages %.9g, leases %.9g, commits %.9g, "
+             "rows %.9g",
+             t->workers, t->seconds, t->planned, t->computed, t->merging, t->giving, t->committing,
+             t->cpu, t->memory, t->messages, t->leases, t->commits, t->rows);
+    return fracas_index_event(index, "measured", text);
 }

@@ -28,8 +28,5 @@ void fracas_timings_end(fracas_timings *timings);
 
 /* Notes the event `workers 4, seconds 12.5, ...`. */
 FRACAS_MUST_USE fracas_err fracas_timings_note(const fracas_timings *timings, fracas_index *index);
-/* The latest timings of a study; if there are none, *found is false and all numbers are 0. */
-FRACAS_MUST_USE fracas_err fracas_timings_read(fracas_index *index, bool *found,
-                                               fracas_timings *timings);
 
 #endif

@@ -321,7 +321,7 @@ fracas_err fracas_launcher_run(const fracas_run_options *options, double began, 
 {
     int jobs;
     TRY(fracas_allocation_jobs(options->jobs, &jobs));
-    launcher *p = calloc(1, sizeof *p);
+    OWNED launcher *p = calloc(1, sizeof *p);
     if (!p) return fracas_no_memory("the run");
     p->durable = -1;
     fracas_progress_init(&p->progress, stderr);
@@ -329,6 +329,5 @@ fracas_err fracas_launcher_run(const fracas_run_options *options, double began, 
     set_deadline(p, options->walltime, began);
     fracas_err err = run(p, jobs, argc, argv, ran);
     fracas_progress_end(&p->progress);
-    free(p);
     return err;
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/launch/reap.h"
 
+#include "base/own.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <signal.h>
@@ -17,11 +19,9 @@ static pid_t parent_of(pid_t pid)
 {
     char path[64], text[512] = "";
     snprintf(path, sizeof path, "/proc/%ld/stat", (long)pid);
-    FILE *file = fopen(path, "r");
+    OWN(FILE) file = fopen(path, "r");
     if (!file) return 0;
-    const size_t n = fread(text, 1, sizeof text - 1, file);
-    fclose(file);
-    text[n] = '\0';
+    text[fread(text, 1, sizeof text - 1, file)] = '\0';
     const char *rest = strrchr(text, ')');
     long parent = 0;
     return rest && sscanf(rest, ") %*c %ld", &parent) == 1 ? (pid_t)parent : 0;
@@ -34,8 +34,8 @@ static size_t place_of(const fracas_reap *reap, pid_t pid)
     return i;
 }
 
-/* Counts, and with `kill_them` kills, the children but foreign ones. */
-static size_t scan(const fracas_reap *reap, bool kill_them)
+/* Calls `act` with each child but foreign ones, and returns their number. */
+static size_t each_child(fracas_reap *reap, void (*act)(fracas_reap *reap, pid_t pid))
 {
     size_t count = 0;
     DIR *all = opendir("/proc");
@@ -45,22 +45,21 @@ static size_t scan(const fracas_reap *reap, bool kill_them)
         if (pid <= 0 || parent_of(pid) != getpid() || place_of(reap, pid) < reap->nforeign)
             continue;
         count++;
-        if (kill_them) kill(pid, SIGKILL);
+        if (act) act(reap, pid);
     }
     closedir(all);
     return count;
 }
 
+static void note_foreign(fracas_reap *reap, pid_t pid)
+{
+    if (reap->nforeign < FRACAS_FOREIGN_MAX) reap->foreign[reap->nforeign++] = pid;
+}
+
 void fracas_reap_begin(fracas_reap *reap)
 {
     *reap = (fracas_reap){0};
-    DIR *all = opendir("/proc");
-    for (const struct dirent *entry;
-         all && (entry = readdir(all)) && reap->nforeign < FRACAS_FOREIGN_MAX;) {
-        const pid_t pid = (pid_t)strtol(entry->d_name, NULL, 10);
-        if (pid > 0 && parent_of(pid) == getpid()) reap->foreign[reap->nforeign++] = pid;
-    }
-    if (all) closedir(all);
+    each_child(reap, note_foreign);
     prctl(PR_SET_CHILD_SUBREAPER, 1);
 }
 
@@ -73,10 +72,16 @@ bool fracas_reap_wait(fracas_reap *reap, pid_t pid, int *status)
         const size_t i = place_of(reap, ended);
         if (i < reap->nforeign) reap->foreign[i] = reap->foreign[--reap->nforeign];
     }
-    return ended == 0 && (reap->nforeign == 0 || scan(reap, false) > 0);
+    return ended == 0 && (reap->nforeign == 0 || each_child(reap, NULL) > 0);
 }
 
-void fracas_reap_kill(const fracas_reap *reap)
+static void kill_child(fracas_reap *reap, pid_t pid)
 {
-    scan(reap, true);
+    (void)reap;
+    kill(pid, SIGKILL);
+}
+
+void fracas_reap_kill(fracas_reap *reap)
+{
+    each_child(reap, kill_child);
 }

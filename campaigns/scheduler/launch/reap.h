@@ -24,6 +24,6 @@ bool fracas_reap_wait(fracas_reap *reap, pid_t pid, int *status);
 
 /* Kills all children but foreign ones. Their children become ours, so call it until
  * fracas_reap_wait is false. */
-void fracas_reap_kill(const fracas_reap *reap);
+void fracas_reap_kill(fracas_reap *reap);
 
 #endif

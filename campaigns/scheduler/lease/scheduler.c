@@ -44,7 +44,7 @@ struct fracas_scheduler {
     uint64_t state; /* for the shuffle */
     uint64_t nextid;
     fracas_backlog *backlog; /* realizations never leased */
-    task *again, *last;      /* queue of waiting tasks */
+    task *again, **end;      /* queue of waiting tasks */
     size_t waiting;          /* realizations in both */
     size_t uncomputed;       /* tasks held, and neither in memory nor durable */
     worker_state *worker;
@@ -58,18 +58,12 @@ static const double SLOWEST = 1e6; /* element-steps/s, below any machine's speed
 
 /* ---- tasks ---- */
 
-/* The caller fills in the replicas. NULL without memory. */
-static task *new_task(fracas_scheduler *s, uint64_t point, size_t count)
+/* `replica` NULL: the caller fills in the replicas. NULL without memory. */
+static task *create_task(fracas_scheduler *s, uint64_t point, const int64_t *replica, size_t count)
 {
     task *t = malloc(sizeof *t + count * sizeof *t->replica);
     if (t) *t = (task){.id = s->nextid++, .point = point, .count = count};
-    return t;
-}
-
-static task *create_task(fracas_scheduler *s, uint64_t point, const int64_t *replica, size_t count)
-{
-    task *t = new_task(s, point, count);
-    if (t) memcpy(t->replica, replica, count * sizeof *replica);
+    if (t && replica) memcpy(t->replica, replica, count * sizeof *replica);
     return t;
 }
 
@@ -82,16 +76,15 @@ static void wait_first(fracas_scheduler *s, task *t)
 {
     t->next = s->again;
     s->again = t;
-    if (!s->last) s->last = t;
+    if (!t->next) s->end = &t->next;
     s->waiting += t->count;
 }
 
 static void wait_last(fracas_scheduler *s, task *t)
 {
     t->next = NULL;
-    if (s->last) s->last->next = t;
-    else s->again = t;
-    s->last = t;
+    *s->end = t;
+    s->end = &t->next;
     s->waiting += t->count;
 }
 
@@ -99,8 +92,7 @@ static task *take_again(fracas_scheduler *s)
 {
     task *t = s->again;
     s->again = t->next;
-    if (!s->again) s->last = NULL;
-    t->next = NULL;
+    if (!s->again) s->end = &s->again;
     s->waiting -= t->count;
     return t;
 }
@@ -174,34 +166,32 @@ static fracas_err add_point(fracas_scheduler *s, const fracas_index_row *row, si
 fracas_err fracas_scheduler_add(fracas_scheduler *scheduler, const fracas_index_row *row,
                                 size_t count)
 {
-    int64_t *replica = malloc((count + 1) * sizeof *replica);
+    OWNED int64_t *replica = malloc((count + 1) * sizeof *replica);
     if (!replica) return fracas_no_memory("the plan");
-    fracas_err err = FRACAS_OK;
-    for (size_t from = 0, to; !err && from < count; from = to) {
+    for (size_t from = 0, to; from < count; from = to) {
         for (to = from; to < count && row[to].point == row[from].point; to++)
             ;
-        err = add_point(scheduler, row + from, to - from, replica);
+        TRY(add_point(scheduler, row + from, to - from, replica));
     }
-    free(replica);
-    return err;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_scheduler_create(const fracas_index_row *row, size_t count,
                                    const fracas_scheduler_options *options,
                                    fracas_scheduler **scheduler)
 {
-    fracas_scheduler *s = calloc(1, sizeof *s);
+    OWN(fracas_scheduler) s = calloc(1, sizeof *s);
     if (!s) return fracas_no_memory("the plan");
     s->options = *options;
     s->state = options->seed;
+    s->end = &s->again;
     s->worker = calloc(options->workers, sizeof *s->worker);
-    fracas_err err = s->worker ? fracas_backlog_create(options->cost, options->first,
-                                                       options->npoints, &s->backlog)
-                               : fracas_no_memory("the workers");
-    if (!err) err = fracas_scheduler_add(s, row, count);
-    if (err) fracas_scheduler_destroy(s);
-    else *scheduler = s;
-    return err;
+    if (!s->worker) return fracas_no_memory("the workers");
+    TRY(fracas_backlog_create(options->cost, options->first, options->npoints, &s->backlog));
+    TRY(fracas_scheduler_add(s, row, count));
+    *scheduler = s;
+    s = NULL;
+    return FRACAS_OK;
 }
 
 /* ---- tasks of workers ---- */
@@ -304,7 +294,7 @@ static task *cut(fracas_scheduler *s, double now)
         point = fracas_backlog_longest(s->backlog);
         count = choose_count(s, point, now);
     }
-    task *t = new_task(s, point, count); /* first: without memory no replica is lost */
+    task *t = create_task(s, point, NULL, count); /* first: without memory no replica is lost */
     if (!t) return NULL;
     memcpy(t->replica, fracas_backlog_take(s->backlog, point, count), count * sizeof *t->replica);
     s->waiting -= count;

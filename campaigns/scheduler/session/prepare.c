@@ -11,6 +11,45 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* ---- the campaign of a run ---- */
+
+/* The replicas of a part must not depend on other runs. */
+static fracas_err check_part(const fracas_run_options *options, const fracas_campaign *campaign)
+{
+    for (size_t p = 0; options->parts > 1 && p < campaign->npoints; p++)
+        if (campaign->point[p].rule.maximum > 0)
+            return fracas_fail(FRACAS_USAGE,
+                               "--part %d/%d: in %s a rule decides the replicas of point %zu "
+                               "(`replicas: {minimum: ..., until: ...}`) by all that are there, "
+                               "which no part has; give a number of replicas, or leave --part out",
+                               options->part, options->parts, options->file, p);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_run_campaign(const fracas_run_options *options, fracas_campaign **campaign)
+{
+    OWN(fracas_campaign) made = NULL;
+    TRY(fracas_campaign_read(options->file, &made));
+    if (options->replicas) {
+        fracas_err err = fracas_campaign_replicas(made, options->replicas);
+        if (err) return fracas_fail_within(err, "%s", options->file);
+    }
+    TRY(check_part(options, made));
+    *campaign = made;
+    made = NULL;
+    return FRACAS_OK;
+}
+
+size_t fracas_run_part(int part, int parts, fracas_index_row *row, size_t count)
+{
+    if (parts < 2) return count;
+    size_t mine = 0;
+    for (size_t i = (size_t)part - 1; i < count; i += (size_t)parts) row[mine++] = row[i];
+    return mine;
+}
+
+/* ---- the study ---- */
+
 enum { PATH = 4096 };
 
 static fracas_err join(const char *folder, const char *name, char path[PATH])

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The study before and at the start of a run. */
+/* The campaign and the study before and at the start of a run. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_SESSION_PREPARE_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_SESSION_PREPARE_H
 
@@ -8,6 +8,15 @@
 #include "campaigns/store/store.h"
 
 #include <stdbool.h>
+
+/* Reads options->file (fracas_campaign_read), with options->replicas in place of its own.
+ * FRACAS_USAGE also for options->replicas or options->parts together with a rule for replicas. */
+FRACAS_MUST_USE fracas_err fracas_run_campaign(const fracas_run_options *options,
+                                               fracas_campaign **campaign);
+
+/* Moves the rows of a part to the front and returns their number: rows part - 1, part - 1 + parts,
+ * ... among `count` rows in plan order, or all with fewer than 2 parts. */
+size_t fracas_run_part(int part, int parts, fracas_index_row *row, size_t count);
 
 /* The study folder of a run: options->study or studies/<name>; FRACAS_USAGE if the path is too
  * long. */

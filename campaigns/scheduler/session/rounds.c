@@ -24,29 +24,20 @@ static double value_of(const fracas_index_summary *row, fracas_quantity quantity
     }
 }
 
-/* Values of the replicas 0 to replicas - 1; *complete: every one is done or failed for good. */
-static fracas_err read_values(fracas_index *index, const fracas_point *point, int64_t replicas,
-                              double *value, bool *complete)
+/* The decision of a round from its replicas, 0 to replicas - 1; *complete: every one is done or
+ * failed for good, *decision only then. */
+static fracas_err decide(fracas_index *index, const fracas_point *point, int64_t round,
+                         int64_t replicas, fracas_decision *decision, bool *complete)
 {
+    OWNED double *value = malloc((size_t)replicas * sizeof *value);
     OWNED fracas_index_summary *row = malloc((size_t)replicas * sizeof *row);
-    *complete = false;
-    if (!row) return fracas_no_memory("the realizations of a round");
+    if (!value || !row) return fracas_no_memory("the realizations of a round");
     TRY(fracas_index_summaries(index, &point->hash, (size_t)replicas, row));
     *complete = true;
     for (int64_t r = 0; r < replicas; r++) {
         *complete = *complete && row[r].status != FRACAS_PLANNED && row[r].status != FRACAS_LEASED;
         value[r] = value_of(&row[r], point->rule.quantity);
     }
-    return FRACAS_OK;
-}
-
-/* The decision of a round from its realizations; *complete as above, *decision only then. */
-static fracas_err decide(fracas_index *index, const fracas_point *point, int64_t round,
-                         int64_t replicas, fracas_decision *decision, bool *complete)
-{
-    OWNED double *value = malloc((size_t)replicas * sizeof *value);
-    if (!value) return fracas_no_memory("the realizations of a round");
-    TRY(read_values(index, point, replicas, value, complete));
     if (!*complete) return FRACAS_OK;
     const fracas_sequential_rule *rule = &point->rule;
     const fracas_sequential_decision made = fracas_sequential_decide(rule, value, replicas);

@@ -33,7 +33,7 @@ static fracas_err send_all(int fd, fracas_packet **record, size_t count)
 static fracas_err compute(const fracas_computation *computation, fracas_models *models, int fd)
 {
     fracas_computation own = *computation;
-    TRY(fracas_compute_prepare(&own, models));
+    TRY(fracas_models_get(models, &own));
     for (size_t from = 0, count; from < own.lease->count; from += count) {
         fracas_packet *record[FRACAS_LANES_MAX];
         TRY(fracas_compute_batch(&own, from, record, &count));
@@ -44,9 +44,8 @@ static fracas_err compute(const fracas_computation *computation, fracas_models *
 
 /* The life of the child. */
 static _Noreturn void run_child(const fracas_computation *computation, fracas_models *models,
-                                pid_t server, int fd, int errors)
+                                int fd, int errors)
 {
-    fracas_process_begin("fracas-lease", server, FRACAS_OOM_CHILD);
     if (errors >= 0) dup2(errors, STDERR_FILENO);
     fracas_err err = compute(computation, models, fd);
     fracas_trouble fault;
@@ -81,18 +80,13 @@ fracas_err fracas_child_start(fracas_child *child, const fracas_computation *com
         return fracas_fail_system(errno, "no pipe for a lease");
     }
     const int errors = create_errors();
-    const pid_t server = getpid(), pid = fork();
+    pid_t pid;
+    fracas_err err = fracas_process_fork("fracas-lease", FRACAS_OOM_CHILD, "a lease", &pid);
     if (pid == 0) {
         close(fd[0]);
         close(server_fd);
-        run_child(computation, models, server, fd[1], errors);
+        run_child(computation, models, fd[1], errors);
     }
-    fracas_err err = FRACAS_OK;
-    if (pid < 0)
-        err = fracas_fail(FRACAS_ENVIRONMENT,
-                          "no process for a lease: %s; use fewer --jobs, or raise the limits on "
-                          "processes and memory",
-                          strerror(errno));
     close(fd[1]);
     const double now = fracas_now();
     *child = (fracas_child){.pid = pid > 0 ? pid : 0,
@@ -211,24 +205,14 @@ static void explain(fracas_child *child, fracas_lease_failure *failure)
     quote(child, failure->reason, sizeof failure->reason);
 }
 
-fracas_err fracas_child_collect(fracas_child *child, bool *good, fracas_packet ***record,
-                                size_t *count, fracas_lease_failure *failure)
+fracas_err fracas_child_collect(fracas_child *child, bool *good, fracas_lease_failure *failure)
 {
     memset(failure, 0, sizeof *failure);
     failure->lease = child->lease.id;
-    *good = false;
-    *record = NULL;
-    *count = 0;
-    fracas_err err = reap(child, failure->reason, sizeof failure->reason);
-    if (!err) {
-        *good = child->count == child->lease.count && !failure->reason[0] && !child->fault[0];
-        if (!*good) explain(child, failure);
-        *record = child->record;
-        *count = child->count;
-        child->record = NULL;
-    }
-    fracas_child_clear(child);
-    return err;
+    TRY(reap(child, failure->reason, sizeof failure->reason));
+    *good = child->count == child->lease.count && !failure->reason[0] && !child->fault[0];
+    if (!*good) explain(child, failure);
+    return FRACAS_OK;
 }
 
 void fracas_child_clear(fracas_child *child)

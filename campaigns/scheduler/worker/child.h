@@ -5,6 +5,7 @@
 #define FRACAS_CAMPAIGNS_SCHEDULER_WORKER_CHILD_H
 
 #include "campaigns/scheduler/worker/compute.h"
+#include "campaigns/scheduler/worker/models.h"
 
 #include <stdbool.h>
 #include <sys/types.h>
@@ -39,12 +40,11 @@ FRACAS_MUST_USE fracas_err fracas_child_receive(fracas_child *child, bool *ended
 /* Kills the child at its deadline: fracas_child_receive will see its end. */
 void fracas_child_expire(fracas_child *child);
 
-/* After the end: reaps the process. record[i], of *count, is the message for lease.replica[i]; the
- * caller frees each, and `record`, with free(). *good is true when there is one for every
- * realization. Else `failure` has the place, the signal or error, and the child's standard error.
- */
+/* After the end: reaps the process. child->record[i], of child->count, is the message for
+ * lease.replica[i]; the caller may take them (and set `count` to 0). *good is true when there is
+ * one for every realization. Else `failure` has the place, the signal or error, and the child's
+ * standard error. */
 FRACAS_MUST_USE fracas_err fracas_child_collect(fracas_child *child, bool *good,
-                                                fracas_packet ***record, size_t *count,
                                                 fracas_lease_failure *failure);
 
 /* Kills the child if one runs and frees its messages. */

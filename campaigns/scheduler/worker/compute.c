@@ -51,12 +51,6 @@ static void limit_memory(double bytes, struct rlimit *before)
     setrlimit(RLIMIT_DATA, &limit);
 }
 
-fracas_err fracas_compute_prepare(fracas_computation *computation, fracas_models *models)
-{
-    return fracas_models_get(models, computation->campaign, (size_t)computation->lease->point,
-                             &computation->model, &computation->field);
-}
-
 fracas_err fracas_compute_batch(const fracas_computation *computation, size_t from,
                                 fracas_packet *record[FRACAS_LANES_MAX], size_t *count)
 {

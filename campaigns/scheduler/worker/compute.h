@@ -4,12 +4,7 @@
 #define FRACAS_CAMPAIGNS_SCHEDULER_WORKER_COMPUTE_H
 
 #include "campaigns/scheduler/types/packet.h"
-#include "campaigns/scheduler/worker/models.h"
 #include "campaigns/scheduler/worker/solve.h"
-
-/* Sets the model and the field, which `models` owns and builds if need be. */
-FRACAS_MUST_USE fracas_err fracas_compute_prepare(fracas_computation *computation,
-                                                  fracas_models *models);
 
 /* Computes the batch from realization `from` of the lease on: *count realizations, fracas_run_width
  * or the rest of the lease (also set on failure). record[i] is the RECORD message for

@@ -3,25 +3,26 @@
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_WORKER_MODELS_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_WORKER_MODELS_H
 
-#include "campaigns/campaign.h"
-#include "engine/engine.h"
+#include "campaigns/scheduler/worker/solve.h"
 
 enum { FRACAS_MODELS_KEPT = 4 };
 
 typedef struct {
-    struct {
-        size_t point;
-        fracas_model *model; /* NULL: free */
-        fracas_field *field;
-        uint64_t used; /* clock of the last use */
-    } slot[FRACAS_MODELS_KEPT];
+    size_t point;
+    fracas_model *model; /* NULL: free */
+    fracas_field *field;
+    uint64_t used; /* clock of the last use */
+} fracas_kept_model;
+
+typedef struct {
+    fracas_kept_model slot[FRACAS_MODELS_KEPT];
     uint64_t clock;
 } fracas_models;
 
-/* The model and the strength field of a point, owned by `models` and valid until the next call. */
-FRACAS_MUST_USE fracas_err fracas_models_get(fracas_models *models, const fracas_campaign *campaign,
-                                             size_t point, const fracas_model **model,
-                                             const fracas_field **field);
+/* Sets the model and the strength field of the lease's point, owned by `models` and valid until the
+ * next call. */
+FRACAS_MUST_USE fracas_err fracas_models_get(fracas_models *models,
+                                             fracas_computation *computation);
 void fracas_models_clear(fracas_models *models);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/process.h"
 
-#include "base/err.h"
 #include "base/own.h"
 
+#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
@@ -11,14 +11,23 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-void fracas_process_begin(const char *name, pid_t parent, int oom_score)
+fracas_err fracas_process_fork(const char *name, int oom_score, const char *purpose, pid_t *pid)
 {
+    const pid_t parent = getpid();
+    *pid = fork();
+    if (*pid < 0)
+        return fracas_fail(FRACAS_ENVIRONMENT,
+                           "no process for %s: %s; use fewer --jobs, or raise the limits on "
+                           "processes and memory",
+                           purpose, strerror(errno));
+    if (*pid > 0) return FRACAS_OK;
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(FRACAS_INTERRUPTED); /* the parent died before the line above */
     prctl(PR_SET_NAME, name);
-    if (oom_score == FRACAS_OOM_SAME) return;
+    if (oom_score == FRACAS_OOM_SAME) return FRACAS_OK;
     OWN(FILE) file = fopen("/proc/self/oom_score_adj", "we");
     if (file) fprintf(file, "%d", oom_score);
+    return FRACAS_OK;
 }
 
 void fracas_process_end_text(int status, char *text, size_t size)

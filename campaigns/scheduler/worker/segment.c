@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/segment.h"
 
+#include "base/json.h"
+#include "base/version.h"
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/types/header.h"
-#include "campaigns/scheduler/worker/provenance.h"
 
 #include <math.h>
+#include <mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,6 +35,82 @@ double fracas_segment_wait(const fracas_segment *segment, const fracas_run_optio
     if (segment->bytes >= options->segment_bytes) return 0;
     return segment->began + options->segment_age - fracas_now();
 }
+
+/* ---- provenance ---- */
+
+#ifdef __clang__
+static const char compiler[] = __VERSION__; /* names itself */
+#else
+static const char compiler[] = "gcc " __VERSION__;
+#endif
+
+static void read_cpu(char *model, size_t size)
+{
+    snprintf(model, size, "unknown");
+    OWN(FILE) file = fopen("/proc/cpuinfo", "r");
+    char line[256];
+    while (file && fgets(line, sizeof line, file)) {
+        const char *value = strchr(line, ':');
+        if (strncmp(line, "model name", 10) || !value) continue;
+        line[strcspn(line, "\n")] = '\0';
+        snprintf(model, size, "%s", value + 1 + strspn(value + 1, " "));
+        return;
+    }
+}
+
+/* "Open MPI v4.1.4": MPI allows this call before MPI_Init, hence in a compute server. */
+static void read_mpi(char *version, size_t size)
+{
+    char text[MPI_MAX_LIBRARY_VERSION_STRING] = "unknown";
+    int length;
+    if (MPI_Get_library_version(text, &length) != MPI_SUCCESS) strcpy(text, "unknown");
+    snprintf(version, size, "%.*s", (int)strcspn(text, ",\n"), text);
+}
+
+static void write_versions(fracas_json *json)
+{
+    char cpu[256], hdf5[32], mpi[128];
+    read_cpu(cpu, sizeof cpu);
+    fracas_hdf5_version(hdf5);
+    read_mpi(mpi, sizeof mpi);
+    fracas_json_text(json, "version", FRACAS_VERSION);
+    fracas_json_text(json, "compiler", compiler);
+    fracas_json_text(json, "hdf5", hdf5);
+    fracas_json_text(json, "sqlite", fracas_sqlite_version());
+    fracas_json_text(json, "mpi", mpi);
+    fracas_json_text(json, "cpu", cpu);
+}
+
+/* Place, time and program of the computation, one JSON object (docs/formats/study.md): never part
+ * of study.h5. *text is freed by the caller. */
+static fracas_err make_provenance(const fracas_segment *segment, const char *host,
+                                  const fracas_run_options *options, char **text)
+{
+    fracas_isa isa; /* for this server's batches */
+    size_t size;
+    TRY(fracas_isa_choose(options->isa, &isa));
+    FILE *out = open_memstream(text, &size);
+    if (!out) return fracas_no_memory("the provenance of a segment");
+    const char *job = getenv("SLURM_JOB_ID");
+    fracas_json json;
+    fracas_json_begin(&json, out);
+    fracas_json_text(&json, "host", host);
+    fracas_json_integer(&json, "pid", getpid());
+    if (job) fracas_json_text(&json, "slurm_job", job);
+    write_versions(&json);
+    fracas_json_text(&json, "isa", fracas_isa_name[isa]);
+    fracas_json_integer(&json, "lanes_asked",
+                        options->width); /* 0: by the number of realizations */
+    fracas_json_real(&json, "began",
+                     (double)segment->clock.tv_sec + 1e-9 * (double)segment->clock.tv_nsec);
+    fracas_json_real(&json, "wall_seconds", fracas_now() - segment->began);
+    fracas_json_real(&json, "compute_seconds", segment->compute);
+    fracas_json_end(&json);
+    if (fclose(out) || !*text) return fracas_no_memory("the provenance of a segment");
+    return FRACAS_OK;
+}
+
+/* ---- the file ---- */
 
 /* "20260131T120000.123456789-HOST-PID-NUMBER.h5" */
 static void make_name(const fracas_segment *segment, const char *host, char *name, size_t size)
@@ -88,9 +166,7 @@ fracas_err fracas_segment_write(fracas_segment *segment, const char *study,
     make_name(segment, host, head.name, sizeof head.name);
     if ((size_t)snprintf(path, sizeof path, "%s/segments/%s", study, head.name) >= sizeof path)
         return fracas_fail(FRACAS_ENVIRONMENT, "the path of the study is too long: %s", study);
-    const fracas_provenance origin = {host, segment->clock, fracas_now() - segment->began,
-                                      segment->compute};
-    TRY(fracas_provenance_make(&origin, options, &provenance));
+    TRY(make_provenance(segment, host, options, &provenance));
     size_t rows = segment->count * sizeof(fracas_segment_row), text = strlen(provenance) + 1;
     OWNED unsigned char *body = malloc(sizeof head + rows + text);
     if (!body) return fracas_no_memory("the rows of a segment");

@@ -53,6 +53,14 @@ static fracas_err send_failed(server *s, const fracas_lease_failure *failure)
     return fracas_packet_send(s->rank, FRACAS_PACKET_FAILED, failure, sizeof *failure);
 }
 
+/* The lease has failed here: its batch of `count` realizations after the first `kept`. */
+static fracas_err fail_lease(server *s, const fracas_lease *lease, size_t kept, size_t count)
+{
+    fracas_lease_failure failure = {.lease = lease->id, .kept = kept, .count = count};
+    strncpy(failure.reason, fracas_message(), sizeof failure.reason - 1);
+    return send_failed(s, &failure);
+}
+
 static fracas_err send_computed(server *s, uint64_t lease, double seconds)
 {
     const fracas_lease_report report = {lease, seconds};
@@ -94,6 +102,13 @@ static void set_alarm(double seconds)
     setitimer(ITIMER_REAL, &timer, NULL);
 }
 
+/* Realizations in the batch of the lease after the first `done`. */
+static size_t batch_of(const server *s, const fracas_lease *lease, size_t done)
+{
+    const size_t left = (size_t)lease->count - done, width = fracas_run_width(s->options);
+    return left < width ? left : width;
+}
+
 /* Starts the next lease. An impossible model fails the lease, not the server. */
 static fracas_err start_next(server *s)
 {
@@ -104,15 +119,9 @@ static fracas_err start_next(server *s)
         .campaign = s->campaign, .options = s->options, .lease = lease};
     if (lease->isolated) return fracas_child_start(&s->child, &computation, &s->models, s->rank);
     set_alarm(fmax(lease->limit, 0));
-    fracas_err err = fracas_compute_prepare(&computation, &s->models);
+    fracas_err err = fracas_models_get(&s->models, &computation);
     set_alarm(0);
-    if (err) {
-        const size_t width = fracas_run_width(s->options);
-        fracas_lease_failure failure = {.lease = lease->id,
-                                        .count = lease->count < width ? lease->count : width};
-        strncpy(failure.reason, fracas_message(), sizeof failure.reason - 1);
-        return send_failed(s, &failure);
-    }
+    if (err) return fail_lease(s, lease, 0, batch_of(s, lease, 0));
     if (s->options->isolation == FRACAS_ISOLATION_LEASE)
         return fracas_child_start(&s->child, &computation, &s->models, s->rank);
     s->own = (own_lease){.runs = true, .computation = computation};
@@ -127,17 +136,17 @@ static fracas_err receive_child(server *s)
     bool ended, good;
     TRY(fracas_child_receive(&s->child, &ended));
     if (!ended) return FRACAS_OK;
-    const fracas_lease lease = s->child.lease;
-    const double seconds = fracas_now() - s->child.began;
-    fracas_packet **record;
-    size_t count;
+    fracas_child *child = &s->child;
+    const double seconds = fracas_now() - child->began;
+    const uint64_t lease = child->lease.id;
     fracas_lease_failure failure;
-    TRY(fracas_child_collect(&s->child, &good, &record, &count, &failure));
-    fracas_err err = add_records(s, lease.point, lease.replica, record, count);
-    free(record);
+    TRY(fracas_child_collect(child, &good, &failure));
+    const size_t count = child->count;
+    child->count = 0; /* the segment owns them */
+    TRY(add_records(s, child->lease.point, child->lease.replica, child->record, count));
+    fracas_child_clear(child);
     s->segment.compute += seconds;
-    if (err) return err;
-    return good ? send_computed(s, lease.id, seconds) : send_failed(s, &failure);
+    return good ? send_computed(s, lease, seconds) : send_failed(s, &failure);
 }
 
 /* Computes one batch of the server's own lease. If the limit is over before, this batch is at
@@ -148,10 +157,9 @@ static fracas_err advance(server *s)
     const bool limited = own->lease.limit > 0;
     const double left = own->lease.limit - own->seconds, began = fracas_now();
     fracas_packet *record[FRACAS_LANES_MAX];
-    size_t count = (size_t)own->lease.count - own->done, width = fracas_run_width(s->options);
+    size_t count = batch_of(s, &own->lease, own->done);
     fracas_err err;
     if (limited && left <= 0) {
-        if (count > width) count = width;
         err = fracas_fail(FRACAS_ENVIRONMENT,
                           "it took the %g s that a lease may take (--lease-limit)",
                           own->lease.limit);
@@ -164,10 +172,8 @@ static fracas_err advance(server *s)
     own->seconds += seconds;
     s->segment.compute += seconds;
     if (err) {
-        fracas_lease_failure failure = {.lease = own->lease.id, .kept = own->done, .count = count};
-        strncpy(failure.reason, fracas_message(), sizeof failure.reason - 1);
         own->runs = false;
-        return send_failed(s, &failure);
+        return fail_lease(s, &own->lease, own->done, count);
     }
     const bool empty = s->segment.count == 0;
     TRY(add_records(s, own->lease.point, own->lease.replica + own->done, record, count));

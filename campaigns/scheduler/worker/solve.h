@@ -13,7 +13,7 @@ typedef struct {
     const fracas_campaign *campaign;
     const fracas_run_options *options;
     const fracas_model *model; /* at the lease's point ... */
-    const fracas_field *field; /* ... and of its strengths: fracas_compute_prepare */
+    const fracas_field *field; /* ... and of its strengths: fracas_models_get */
     const fracas_lease *lease;
 } fracas_computation;
 

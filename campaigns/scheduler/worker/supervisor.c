@@ -112,27 +112,18 @@ static fracas_err start_server(supervisor *k, int *connection, pid_t *pid)
     int pair[2];
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair))
         return fracas_fail_system(errno, "no connection to a compute server");
-    const pid_t self = getpid();
-    *pid = fork();
+    const bool computes = k->options->isolation == FRACAS_ISOLATION_NONE;
+    fracas_err err = fracas_process_fork("fracas-server",
+                                         computes ? FRACAS_OOM_COMPUTING_SERVER : FRACAS_OOM_SAME,
+                                         "a compute server", pid);
     if (*pid == 0) {
         signal(SIGCHLD, SIG_DFL);
         sigprocmask(SIG_SETMASK, &k->mask, NULL);
         close(k->control);
         close(pair[0]);
-        fracas_process_begin("fracas-server", self,
-                             k->options->isolation == FRACAS_ISOLATION_NONE
-                                 ? FRACAS_OOM_COMPUTING_SERVER
-                                 : FRACAS_OOM_SAME);
         fracas_server_run(k->campaign, k->options, k->study, pair[1]);
     }
-    fracas_err err = FRACAS_OK;
-    if (*pid < 0) {
-        err = fracas_fail(FRACAS_ENVIRONMENT,
-                          "no process for a compute server: %s; use fewer --jobs, or raise the "
-                          "limits on processes and memory",
-                          strerror(errno));
-        close(pair[0]);
-    }
+    if (err) close(pair[0]);
     close(pair[1]);
     *connection = pair[0];
     return err;
@@ -241,24 +232,18 @@ fracas_err fracas_supervisor_start(const fracas_campaign *campaign,
     *one = (fracas_supervisor){.control = -1, .server = -1};
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, pair))
         return fracas_fail_system(errno, "no connection to the supervisor of a compute server");
-    const pid_t rank = getpid(), pid = fork();
+    pid_t pid;
+    fracas_err err = fracas_process_fork("fracas-supervis", FRACAS_OOM_SAME,
+                                         "the supervisor of a compute server", &pid);
     if (pid == 0) {
         close(pair[0]);
-        fracas_process_begin("fracas-supervis", rank, FRACAS_OOM_SAME);
         supervisor k = {
             .campaign = campaign, .options = options, .study = study, .control = pair[1]};
         supervise(&k);
     }
     close(pair[1]);
-    if (pid < 0) {
-        fracas_err err = fracas_fail(
-            FRACAS_ENVIRONMENT,
-            "no process for the supervisor of a compute server: %s; use fewer "
-            "--jobs, or raise the limits on processes and memory",
-            strerror(errno));
-        close(pair[0]);
-        return err;
-    }
+    if (err) close(pair[0]);
+    TRY(err);
     *one = (fracas_supervisor){.pid = pid, .control = pair[0], .server = -1};
     return take_server(one);
 }
