@@ -6,6 +6,7 @@
 #include "base/own.h"
 #include "base/err.h"
 #include "base/hash.h"
+#include "base/units.h"
 #include "campaigns/points.h"
 #include "engine/spec.h"
 #include "sampler/api/sampler.h"
@@ -59,6 +60,9 @@ static inline int64_t fracas_point_most(const fracas_point *point)
  * for any error in it, and if the file is not there; FRACAS_ENVIRONMENT if it cannot be opened or
  * read. */
 FRACAS_MUST_USE fracas_err fracas_campaign_read(const char *path, fracas_campaign **campaign);
+/* The same with a loaded unit database, whose loading takes longer than reading a file. */
+FRACAS_MUST_USE fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path,
+                                                     fracas_campaign **campaign);
 void fracas_campaign_destroy(fracas_campaign *campaign); /* NULL is allowed */
 FRACAS_OWNER(fracas_campaign, fracas_campaign_destroy)
 

@@ -59,6 +59,18 @@ static fracas_err check_number(const fracas_file *file, const fracas_node *key,
         key->text);
 }
 
+/* A number within the range of `param`, as if it were a key of the section. */
+static fracas_err read_value(const fracas_file *file, const fracas_file_section *section,
+                             const char *path, const fracas_param *param, const fracas_node *node,
+                             double *value)
+{
+    const fracas_leaf leaf = {.section = section, .path = path, .key = param->name, .param = param};
+    fracas_setting setting;
+    TRY(fracas_setting_read(file, &leaf, node, &setting));
+    *value = setting.value;
+    return fracas_setting_check(file, &setting, param);
+}
+
 /* One number of a distribution, "mean: 370 GPa", in the unit of the parameter unless it has its
  * own.
  */
@@ -68,12 +80,9 @@ static fracas_err read_number(const fracas_file *file, const fracas_leaf *leaf,
 {
     fracas_param own = *param;
     if (strcmp(own.unit, FRACAS_OWN_UNIT) == 0) own.unit = leaf->param->unit;
-    const fracas_leaf number = {
-        .section = leaf->section, .path = leaf->path, .key = own.name, .param = &own};
-    fracas_setting setting;
-    TRY(fracas_setting_read(file, &number, node, &setting));
-    TRY(fracas_setting_check(file, &setting, &own));
-    fracas_param_set(param, uncertain, setting.value);
+    double value;
+    TRY(read_value(file, leaf->section, leaf->path, &own, node, &value));
+    fracas_param_set(param, uncertain, value);
     return FRACAS_OK;
 }
 
@@ -152,7 +161,7 @@ static fracas_err find_parameter(const fracas_file *file, const reading *read,
 {
     fracas_words words;
     char found[256];
-    fracas_words_init(&words, node->type == FRACAS_SCALAR ? node->text : "");
+    fracas_words_init(&words, fracas_node_text(node));
     for (*j = 0; *j < read->design.parameters; ++*j) {
         if (strcmp(words.found, read->leaf[*j]->path) == 0) return FRACAS_OK;
         fracas_words_add(&words, read->leaf[*j]->path);
@@ -167,24 +176,17 @@ static fracas_err read_pair(const fracas_file *file, const fracas_node *node, re
     static const char *const keys[] = {"between", "coefficient", NULL};
     static const fracas_param coefficient = {"coefficient", FRACAS_REAL, "1", .minimum = -1,
                                              .maximum = 1};
-    const fracas_leaf number = {.section = read->leaf[0]->section,
-                                .path = "coefficient",
-                                .key = "coefficient",
-                                .param = &coefficient};
-    const fracas_node *between = node->type == FRACAS_MAP ? fracas_node_find(node, "between")
-                                                          : NULL;
-    const fracas_node *value = node->type == FRACAS_MAP ? fracas_node_find(node, "coefficient")
-                                                        : NULL;
-    fracas_setting setting;
+    const fracas_node *between = fracas_node_find(node, "between"),
+                      *number = fracas_node_find(node, "coefficient");
+    double value;
     size_t j, k;
-    if (!between || !value || between->type != FRACAS_LIST || between->count != 2)
+    if (!between || !number || between->type != FRACAS_LIST || between->count != 2)
         return fracas_file_error(
             file, node, "a correlation is {between: [PARAMETER, PARAMETER], coefficient: NUMBER}");
     TRY(fracas_file_check_keys(file, node, keys, "a correlation"));
     TRY(find_parameter(file, read, between->first, &j));
     TRY(find_parameter(file, read, between->first->next, &k));
-    TRY(fracas_setting_read(file, &number, value, &setting));
-    TRY(fracas_setting_check(file, &setting, &coefficient));
+    TRY(read_value(file, read->leaf[0]->section, coefficient.name, &coefficient, number, &value));
     double *pair[2] = {&read->correlation[j * read->design.parameters + k],
                        &read->correlation[k * read->design.parameters + j]};
     if (j == k)
@@ -196,13 +198,13 @@ static fracas_err read_pair(const fracas_file *file, const fracas_node *node, re
             file, between,
             "the correlation between `%s` and `%s` is given twice; keep one of the two",
             read->leaf[j]->path, read->leaf[k]->path);
-    if (fabs(setting.value) == 1)
+    if (fabs(value) == 1)
         return fracas_file_error(
-            file, value,
+            file, number,
             "`coefficient`: %.15g is out of range; allowed is more than -1 and less than 1: of two "
             "exactly tied parameters, one is not uncertain",
-            setting.value);
-    *pair[0] = *pair[1] = setting.value;
+            value);
+    *pair[0] = *pair[1] = value;
     return FRACAS_OK;
 }
 

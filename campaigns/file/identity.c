@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- hashes ---- */
-
 /* Lines "path=value" of the sections in a point's hash, or of those outside it, sorted by path. */
 static void write_values(const fracas_catalog *catalog, bool hashed, const void *owner, FILE *out)
 {
@@ -64,35 +62,4 @@ fracas_err fracas_point_identify(const fracas_catalog *catalog, fracas_point *po
 fracas_err fracas_campaign_identify(const fracas_catalog *catalog, fracas_campaign *campaign)
 {
     return hash_of(catalog, NULL, campaign, &campaign->hash);
-}
-
-/* ---- repeated points ---- */
-
-typedef struct {
-    fracas_hash hash;
-    size_t point;
-} numbered_hash;
-
-static int by_hash(const void *a, const void *b)
-{
-    const numbered_hash *x = a, *y = b;
-    int order = memcmp(x->hash.byte, y->hash.byte, sizeof x->hash.byte);
-    return order ? order : (x->point > y->point) - (x->point < y->point);
-}
-
-fracas_err fracas_points_repeated(const fracas_campaign *campaign, size_t *earlier, size_t *later)
-{
-    OWNED numbered_hash *sorted = malloc(campaign->npoints * sizeof *sorted);
-    if (!sorted) return fracas_no_memory("the points of the campaign");
-    for (size_t p = 0; p < campaign->npoints; p++)
-        sorted[p] = (numbered_hash){campaign->point[p].hash, p};
-    qsort(sorted, campaign->npoints, sizeof *sorted, by_hash);
-    *earlier = *later = 0;
-    for (size_t i = 1; i < campaign->npoints; i++) {
-        if (!fracas_hash_equal(&sorted[i].hash, &sorted[i - 1].hash)) continue;
-        if (*later > 0 && sorted[i].point > *later) continue;
-        *earlier = sorted[i - 1].point;
-        *later = sorted[i].point;
-    }
-    return FRACAS_OK;
 }

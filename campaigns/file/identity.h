@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Hashes of points and campaigns (docs/formats/campaign-file.md), repeated points. */
+/* Hashes of points and campaigns (docs/formats/campaign-file.md). */
 #ifndef FRACAS_CAMPAIGNS_FILE_IDENTITY_H
 #define FRACAS_CAMPAIGNS_FILE_IDENTITY_H
 
@@ -9,11 +9,6 @@
 /* Fills point->hash: of lines "path=value" sorted by path. */
 FRACAS_MUST_USE fracas_err fracas_point_identify(const fracas_catalog *catalog,
                                                  fracas_point *point);
-
-/* The first two points of equal hash, in plan order of the later one; *later is 0 if there is none.
- */
-FRACAS_MUST_USE fracas_err fracas_points_repeated(const fracas_campaign *campaign, size_t *earlier,
-                                                  size_t *later);
 
 /* Fills campaign->hash, from the table. */
 FRACAS_MUST_USE fracas_err fracas_campaign_identify(const fracas_catalog *catalog,

@@ -27,7 +27,13 @@ typedef struct fracas_node {
 FRACAS_MUST_USE fracas_err fracas_node_read(const char *name, fracas_campaign_memory *memory,
                                             fracas_node **root);
 
-/* The entry of `map` with this key; NULL if there is none. */
+/* The text of a scalar; "" of anything else. */
+static inline const char *fracas_node_text(const fracas_node *node)
+{
+    return node->type == FRACAS_SCALAR ? node->text : "";
+}
+
+/* The entry of `map` with this key; NULL if there is none, or `map` is none. */
 fracas_node *fracas_node_find(const fracas_node *map, const char *key);
 
 #endif

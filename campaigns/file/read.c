@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* From a file to a campaign. */
-#include "campaigns/file/read.h"
+#include "campaigns/campaign.h"
 
 #include "campaigns/file/columns.h"
 #include "campaigns/file/identity.h"
@@ -53,7 +53,7 @@ static fracas_err unknown_section(const fracas_file *file, const fracas_node *ke
 
 static fracas_err read_seed(const fracas_file *file, const fracas_node *node, uint64_t *seed)
 {
-    const char *text = node->type == FRACAS_SCALAR ? node->text : "";
+    const char *text = fracas_node_text(node);
     errno = 0;
     unsigned long long value = strtoull(text, NULL, 10);
     if (!*text || strspn(text, "0123456789") != strlen(text) || errno == ERANGE)
@@ -66,7 +66,7 @@ static fracas_err read_seed(const fracas_file *file, const fracas_node *node, ui
 static fracas_err read_random_numbers(const fracas_file *file, const fracas_node *node,
                                       bool *common)
 {
-    const char *text = node->type == FRACAS_SCALAR ? node->text : "";
+    const char *text = fracas_node_text(node);
     *common = strcmp(text, "common") == 0;
     if (*common || strcmp(text, "independent") == 0) return FRACAS_OK;
     return fracas_file_expected(file, node, "random_numbers",
@@ -126,10 +126,10 @@ static fracas_err read_sections(reading *read)
 
 /* ---- points ---- */
 
-static void fill_slots(const fracas_file *file, const fracas_settings *settings,
+static void fill_slots(const fracas_file *file, const fracas_setting *settings,
                        const fracas_setting **slots)
 {
-    for (const fracas_setting *s = settings->first; s; s = s->next)
+    for (const fracas_setting *s = settings; s; s = s->next)
         slots[s->leaf - file->catalog->leaf] = s;
 }
 
@@ -160,7 +160,7 @@ static fracas_err make_point(const reading *read, fracas_draft *draft, size_t in
     const fracas_catalog *catalog = read->file.catalog;
     for (size_t i = 0; i < catalog->nleaves; i++) draft->swept[i] = NULL;
     for (size_t a = 0; a < read->sweep.naxes; a++)
-        fill_slots(&read->file, &fracas_sweep_choice(&read->sweep, index, a)->settings,
+        fill_slots(&read->file, fracas_sweep_choice(&read->sweep, index, a)->settings,
                    draft->swept);
     for (size_t s = 0; s < catalog->nsections; s++)
         if (catalog->section[s].table->hashed)
@@ -178,7 +178,7 @@ static fracas_err make_points(reading *read, fracas_campaign *campaign)
     campaign->point = fracas_memory_take(file->memory, campaign->npoints, sizeof *campaign->point);
     if (!draft.base || !draft.swept || !campaign->point)
         return fracas_no_memory("the points of the campaign");
-    fill_slots(file, &read->base, draft.base);
+    fill_slots(file, read->base, draft.base);
     TRY(fracas_draft_check_base(file, &draft));
     for (size_t s = 0; s < catalog->nsections; s++)
         if (!catalog->section[s].table->hashed)
@@ -230,6 +230,36 @@ static fracas_err repeated(const reading *read, size_t earlier, size_t later)
         earlier + 1, later + 1, there->line, there->column);
 }
 
+typedef struct {
+    fracas_hash hash;
+    size_t point;
+} numbered_hash;
+
+static int by_hash(const void *a, const void *b)
+{
+    const numbered_hash *x = a, *y = b;
+    int order = memcmp(x->hash.byte, y->hash.byte, sizeof x->hash.byte);
+    return order ? order : (x->point > y->point) - (x->point < y->point);
+}
+
+/* Refuses two points of equal hash: the first two, in plan order of the later one. */
+static fracas_err check_repeated(const reading *read, const fracas_campaign *campaign)
+{
+    OWNED numbered_hash *sorted = malloc(campaign->npoints * sizeof *sorted);
+    if (!sorted) return fracas_no_memory("the points of the campaign");
+    for (size_t p = 0; p < campaign->npoints; p++)
+        sorted[p] = (numbered_hash){campaign->point[p].hash, p};
+    qsort(sorted, campaign->npoints, sizeof *sorted, by_hash);
+    size_t earlier = 0, later = 0;
+    for (size_t i = 1; i < campaign->npoints; i++) {
+        if (!fracas_hash_equal(&sorted[i].hash, &sorted[i - 1].hash)) continue;
+        if (later > 0 && sorted[i].point > later) continue;
+        earlier = sorted[i - 1].point;
+        later = sorted[i].point;
+    }
+    return later > 0 ? repeated(read, earlier, later) : FRACAS_OK;
+}
+
 static fracas_err identify(reading *read, fracas_campaign *campaign)
 {
     const char **name = fracas_memory_take(read->file.memory, campaign->npoints, sizeof *name);
@@ -237,9 +267,7 @@ static fracas_err identify(reading *read, fracas_campaign *campaign)
     for (size_t p = 0; p < campaign->npoints; p++) TRY(name_case(read, p, &name[p]));
     for (size_t p = 0; p < campaign->npoints; p++)
         TRY(fracas_point_identify(read->file.catalog, &campaign->point[p]));
-    size_t earlier, later;
-    TRY(fracas_points_repeated(campaign, &earlier, &later));
-    if (later > 0) return repeated(read, earlier, later);
+    TRY(check_repeated(read, campaign));
     fracas_err err = fracas_campaign_tabulate(read->file.catalog, name, campaign);
     if (err)
         return err == FRACAS_USAGE ? fracas_file_error_within(&read->file, read->file.root, "mesh")

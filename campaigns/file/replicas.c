@@ -26,7 +26,7 @@ static fracas_err read_quantity(const fracas_file *file, const fracas_node *node
                                 fracas_quantity *quantity)
 {
     for (int q = 0; q < FRACAS_NQUANTITIES; q++)
-        if (node->type == FRACAS_SCALAR && strcmp(node->text, fracas_quantity_name[q]) == 0) {
+        if (strcmp(fracas_node_text(node), fracas_quantity_name[q]) == 0) {
             *quantity = (fracas_quantity)q;
             return FRACAS_OK;
         }

@@ -138,7 +138,7 @@ fracas_err fracas_setting_name(const fracas_file *file, const fracas_node *node,
 fracas_err fracas_settings_add(const fracas_file *file, const fracas_setting *setting,
                                fracas_settings *settings)
 {
-    for (const fracas_setting *earlier = settings->first; earlier; earlier = earlier->next)
+    for (const fracas_setting *earlier = *settings; earlier; earlier = earlier->next)
         if (earlier->leaf == setting->leaf)
             return fracas_file_error(
                 file, setting->node,
@@ -147,8 +147,8 @@ fracas_err fracas_settings_add(const fracas_file *file, const fracas_setting *se
     fracas_setting *copy = fracas_memory_take(file->memory, 1, sizeof *copy);
     if (!copy) return fracas_no_memory("the campaign's values");
     *copy = *setting;
-    copy->next = settings->first;
-    settings->first = copy;
+    copy->next = *settings;
+    *settings = copy;
     return FRACAS_OK;
 }
 

@@ -15,10 +15,8 @@ typedef struct fracas_setting {
     struct fracas_setting *next;
 } fracas_setting;
 
-/* Settings of the same point, no leaf twice. */
-typedef struct {
-    fracas_setting *first;
-} fracas_settings;
+/* Settings of the same point, no leaf twice; NULL: none. */
+typedef fracas_setting *fracas_settings;
 
 /* Converts the scalar `node` for `leaf`. Does not check ranges, which may depend on the kind. */
 FRACAS_MUST_USE fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,

@@ -51,8 +51,8 @@ static fracas_err read_spacing(const fracas_file *file, const fracas_node *node,
 {
     const fracas_node *spacing = fracas_node_find(node, "spacing");
     if (!spacing) return FRACAS_OK;
-    made->logarithmic = spacing->type == FRACAS_SCALAR && strcmp(spacing->text, "log") == 0;
-    if (!made->logarithmic && (spacing->type != FRACAS_SCALAR || strcmp(spacing->text, "lin") != 0))
+    made->logarithmic = strcmp(fracas_node_text(spacing), "log") == 0;
+    if (!made->logarithmic && strcmp(fracas_node_text(spacing), "lin") != 0)
         return fracas_file_expected(file, spacing, "spacing",
                                     "lin (equal differences) or log (equal ratios)");
     if (made->logarithmic && (made->from <= 0.0 || made->to <= 0.0))
@@ -245,8 +245,7 @@ static fracas_err check_axes_apart(const fracas_file *file, const fracas_sweep *
 {
     for (size_t a = 0; a < sweep->naxes; a++)
         for (size_t c = 0; c < sweep->axis[a].nchoices; c++)
-            for (const fracas_setting *s = sweep->axis[a].choice[c].settings.first; s;
-                 s = s->next) {
+            for (const fracas_setting *s = sweep->axis[a].choice[c].settings; s; s = s->next) {
                 size_t leaf = (size_t)(s->leaf - file->catalog->leaf);
                 if (owner[leaf] && owner_axis[leaf] != a)
                     return fracas_file_error(

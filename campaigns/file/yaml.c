@@ -298,6 +298,6 @@ fracas_err fracas_node_read(const char *name, fracas_campaign_memory *memory, fr
 fracas_node *fracas_node_find(const fracas_node *map, const char *key)
 {
     for (fracas_node *entry = map->first; entry; entry = entry->next)
-        if (strcmp(entry->key->text, key) == 0) return entry;
+        if (map->type == FRACAS_MAP && strcmp(entry->key->text, key) == 0) return entry;
     return NULL;
 }

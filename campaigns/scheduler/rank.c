@@ -100,29 +100,27 @@ static fracas_err report_death(rank_state *rank, fracas_packet **message)
 {
     char how[512];
     fracas_trouble trouble = {.code = FRACAS_ENVIRONMENT};
-    fracas_packet_kind kind = FRACAS_PACKET_LOST;
-    fracas_err gone = fracas_supervisor_reap(&rank->supervisor, how, sizeof how);
-    if (gone) {
-        snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d %s", rank->rank,
-                 fracas_message());
+    const int used = snprintf(trouble.text, sizeof trouble.text, "the compute server of rank %d ",
+                              rank->rank);
+    char *text = trouble.text + used;
+    const size_t room = sizeof trouble.text - (size_t)used;
+    rank->fresh = false;
+    if (fracas_supervisor_reap(&rank->supervisor, how, sizeof how)) {
+        snprintf(text, room, "%s", fracas_message());
     } else if (++rank->deaths >= DEATHS_MAX) {
-        snprintf(trouble.text, sizeof trouble.text,
-                 "the compute server of rank %d %s, and %d died before it with no segment in "
-                 "between; it is not started again",
-                 rank->rank, how, rank->deaths - 1);
+        snprintf(text, room,
+                 "%s, and %d died before it with no segment in between; it is not started again",
+                 how, rank->deaths - 1);
         fracas_supervisor_end(&rank->supervisor);
     } else if (fracas_supervisor_restart(&rank->supervisor)) {
-        snprintf(trouble.text, sizeof trouble.text,
-                 "the compute server of rank %d %s, and there is no new one: %.400s", rank->rank,
-                 how, fracas_message());
+        snprintf(text, room, "%s, and there is no new one: %.400s", how, fracas_message());
     } else {
-        snprintf(trouble.text, sizeof trouble.text,
-                 "the compute server of rank %d %s; a new one goes on", rank->rank, how);
-        kind = FRACAS_PACKET_REPLACED;
+        snprintf(text, room, "%s; a new one goes on", how);
+        rank->fresh = true;
     }
-    rank->ended = kind == FRACAS_PACKET_LOST;
-    rank->fresh = kind == FRACAS_PACKET_REPLACED;
-    return fracas_packet_create(kind, &trouble, sizeof trouble, message);
+    rank->ended = !rank->fresh;
+    return fracas_packet_create(rank->fresh ? FRACAS_PACKET_REPLACED : FRACAS_PACKET_LOST, &trouble,
+                                sizeof trouble, message);
 }
 
 /* Updates the rank by a message of its server. */

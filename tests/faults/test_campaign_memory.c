@@ -2,7 +2,6 @@
 /* Reading, writing and planning a campaign when the k-th allocation fails, for every k: an error,
  * never a crash. The file has no units: the scanner inside UDUNITS-2 ends the program when memory
  * is short. */
-#include "campaigns/file/read.h"
 #include "campaigns/plan/plan.h"
 #include "tests/support/campaign_text.h"
 #include "tests/support/test.h"

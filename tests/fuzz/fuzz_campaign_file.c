@@ -7,7 +7,6 @@
 #include "tests/fuzz/fuzz.h"
 
 #include "campaigns/campaign.h"
-#include "campaigns/file/read.h"
 #include "campaigns/plan/plan.h"
 
 #include <stdio.h>

@@ -6,7 +6,6 @@
 #define FOLDER "fracas-fuzz"
 #include "tests/support/folder.h"
 
-#include "campaigns/file/read.h"
 #include "tests/support/campaign_text.h"
 #include "tests/support/test.h"
 

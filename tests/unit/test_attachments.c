@@ -7,7 +7,6 @@
 #include "tests/support/folder.h"
 
 #include "tests/support/strengths.h"
-#include "campaigns/file/read.h"
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/point_model.h"
 #include "tests/support/campaign_text.h"

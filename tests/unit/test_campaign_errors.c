@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a wrong campaign file is told: place, what was found, what is allowed, the nearest known
  * key. */
-#include "campaigns/file/read.h"
 #include "campaigns/file/setting.h"
 #include "tests/support/campaign_text.h"
 #include "tests/support/test.h"

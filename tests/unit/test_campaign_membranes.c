@@ -4,7 +4,6 @@
 #include "tests/support/strengths.h"
 #include "tests/support/campaign_text.h"
 
-#include "campaigns/file/read.h"
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"

@@ -83,15 +83,13 @@ static fracas_err unfinished(const fracas_director *director, const fracas_count
             (fracas_err)director->trouble.code,
             "%s (%lld of %lld realizations are done and kept; the same command goes on from there)",
             director->trouble.text, kept, total);
-    if (director->drained)
-        return fracas_fail(
-            FRACAS_INTERRUPTED,
-            "%s: %lld of %lld realizations are done and kept; the same command goes on from there",
-            director->late ? "the walltime is nearly over" : "interrupted", kept, total);
-    return fracas_fail(FRACAS_ENVIRONMENT,
-                       "a compute server died at the end: %lld of %lld realizations are done and "
-                       "kept; the same command goes on from there",
-                       kept, total);
+    return fracas_fail(
+        director->drained ? FRACAS_INTERRUPTED : FRACAS_ENVIRONMENT,
+        "%s: %lld of %lld realizations are done and kept; the same command goes on from there",
+        !director->drained ? "a compute server died at the end"
+        : director->late   ? "the walltime is nearly over"
+                           : "interrupted",
+        kept, total);
 }
 
 /* Merges, or fails with the reason not to. */

@@ -250,13 +250,9 @@ static bool is_over(const launcher *p)
 
 static fracas_err stopped(const launcher *p)
 {
-    if (p->drain_at <= p->asked)
-        return fracas_fail(
-            FRACAS_INTERRUPTED,
-            "the walltime is over: what was done is kept; the same command goes on from there");
-    return fracas_fail(
-        FRACAS_INTERRUPTED,
-        "stopped at once: what was done is kept; the same command goes on from there");
+    return fracas_fail(FRACAS_INTERRUPTED,
+                       "%s: what was done is kept; the same command goes on from there",
+                       p->drain_at <= p->asked ? "the walltime is over" : "stopped at once");
 }
 
 /* After an early end: FRACAS_OK to start again. */

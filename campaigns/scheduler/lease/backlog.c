@@ -114,18 +114,16 @@ static void update(fracas_backlog *b, size_t point)
 fracas_err fracas_backlog_create(const double *cost, const bool *first, size_t npoints,
                                  fracas_backlog **backlog)
 {
-    fracas_backlog *b = calloc(1, sizeof *b);
+    OWN(fracas_backlog) b = calloc(1, sizeof *b);
     if (!b) return fracas_no_memory("the plan");
     *b = (fracas_backlog){.cost = cost, .first = first, .npoints = npoints, .nleaves = 1};
     while (b->nleaves < npoints) b->nleaves *= 2;
     b->point = calloc(npoints + 1, sizeof *b->point);
     b->range = malloc(2 * b->nleaves * sizeof *b->range);
-    if (!b->point || !b->range) {
-        fracas_backlog_destroy(b);
-        return fracas_no_memory("the plan");
-    }
+    if (!b->point || !b->range) return fracas_no_memory("the plan");
     for (size_t i = 0; i < 2 * b->nleaves; i++) b->range[i] = (range){.best = {NONE, NONE}};
     *backlog = b;
+    b = NULL;
     return FRACAS_OK;
 }
 

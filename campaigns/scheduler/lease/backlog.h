@@ -6,6 +6,7 @@
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_LEASE_BACKLOG_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_LEASE_BACKLOG_H
 
+#include "base/own.h"
 #include "base/err.h"
 
 #include <stdbool.h>
@@ -19,6 +20,7 @@ typedef struct fracas_backlog fracas_backlog;
 FRACAS_MUST_USE fracas_err fracas_backlog_create(const double *cost, const bool *first,
                                                  size_t npoints, fracas_backlog **backlog);
 void fracas_backlog_destroy(fracas_backlog *backlog); /* NULL is allowed */
+FRACAS_OWNER(fracas_backlog, fracas_backlog_destroy)
 
 /* Appends `count` replicas of a point. FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_backlog_add(fracas_backlog *backlog, size_t point,

@@ -262,22 +262,22 @@ fracas_err fracas_campaign_keep(const fracas_campaign *campaign, const char *fol
 fracas_err fracas_study_plan(const char *study, const fracas_campaign *campaign,
                              fracas_index **index, char **report)
 {
+    OWN(fracas_index) made = NULL;
+    OWNED char *said = NULL;
+    const fracas_file_header header = fracas_campaign_header(campaign);
     *report = NULL;
     *index = NULL;
     TRY(fracas_study_fits(study, campaign));
-    TRY(fracas_index_open(study, true, index));
-    fracas_file_header header = fracas_campaign_header(campaign);
-    fracas_err err = fracas_index_claim(*index, &header);
-    if (!err) err = fracas_campaign_keep(campaign, study, "campaign.yaml");
-    if (!err) err = fracas_study_recover(study, *index, &header, &campaign->table, report);
-    if (!err) err = fracas_index_plan(*index, &campaign->table);
-    if (err) {
-        free(*report);
-        *report = NULL;
-        fracas_index_close(*index);
-        *index = NULL;
-    }
-    return err;
+    TRY(fracas_index_open(study, true, &made));
+    TRY(fracas_index_claim(made, &header));
+    TRY(fracas_campaign_keep(campaign, study, "campaign.yaml"));
+    TRY(fracas_study_recover(study, made, &header, &campaign->table, &said));
+    TRY(fracas_index_plan(made, &campaign->table));
+    *index = made;
+    *report = said;
+    made = NULL;
+    said = NULL;
+    return FRACAS_OK;
 }
 
 static fracas_err note_takeover(fracas_index *index, int lock)
@@ -298,9 +298,12 @@ fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campai
     TRY(fracas_study_lock(study, force, lock));
     fracas_err err = fracas_study_plan(study, campaign, index, report);
     if (!err) err = note_takeover(*index, *lock);
-    if (err) {
-        fracas_study_unlock(*lock);
-        *lock = -1;
-    }
+    if (!err) return FRACAS_OK;
+    fracas_index_close(*index);
+    free(*report);
+    fracas_study_unlock(*lock);
+    *index = NULL;
+    *report = NULL;
+    *lock = -1;
     return err;
 }
