@@ -153,9 +153,7 @@ static void a_body_that_turns_has_that_spin(void **unused)
             for (size_t k = 0; k < model->surface->corners; k++) {
                 double x[2];
                 for (int i = 0; i < 2; i++) {
-                    state = state * 6364136223846793005u + 1442695040888963407u;
-                    *value_at(batch, e, SURFACE_U,
-                              2 * k + (size_t)i) = 3e-4 * ((double)(state >> 11) * 0x1p-53 - 0.5);
+                    *value_at(batch, e, SURFACE_U, 2 * k + (size_t)i) = 3e-4 * random_noise(&state);
                     x[i] = node_at(model, e, k)[i] +
                            *value_at(batch, e, SURFACE_U, 2 * k + (size_t)i);
                 }

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The ring's energy: forces are its gradient, it does not see where the ring is, the ledger closes
  * with it, and the critical step is that of its curvature. */
+#include "tests/support/dense.h"
 #include "tests/support/ring_sample.h"
-#include "tests/support/test.h"
-
-#include <gsl/gsl_eigen.h>
 
 enum { MOST = 12 }; /* elements of the rings of which states are set */
 
@@ -21,7 +19,7 @@ typedef struct {
 } ring_answer;
 
 /* n elements 20 um long. */
-static ring_run small_ring(size_t n, double beta, const fracas_kind *direction)
+static one_run small_ring(size_t n, double beta, const fracas_kind *direction)
 {
     fracas_spec spec = ring_reference((int64_t)n, 1e4, 1);
     spec.cohesive.beta = beta;
@@ -32,7 +30,7 @@ static ring_run small_ring(size_t n, double beta, const fracas_kind *direction)
 
 /* What the engine makes of a state that it does not move: energies, and forces from the kick of
  * velocities that are 0. */
-static ring_answer answer(ring_run *s, const ring_state *state)
+static ring_answer answer(one_run *s, const ring_state *state)
 {
     fracas_step *step = &s->batch->step;
     ring_answer a = {.largest = 0};
@@ -56,7 +54,7 @@ static ring_answer answer(ring_run *s, const ring_state *state)
     return a;
 }
 
-static double potential(ring_run *s, const ring_state *state)
+static double potential(one_run *s, const ring_state *state)
 {
     const ring_answer a = answer(s, state);
     return a.elastic + a.cohesive + a.dissipated;
@@ -90,7 +88,7 @@ static ring_point at_angle(double angle)
 }
 
 /* The direction of interface e when its elements lie along a and b. */
-static ring_point normal_of(const ring_run *s, size_t e, ring_point a, ring_point b)
+static ring_point normal_of(const one_run *s, size_t e, ring_point a, ring_point b)
 {
     const size_t n = s->model->elements;
     if (s->model->spec.geometry.direction == &fracas_direction_initial)
@@ -103,7 +101,7 @@ static ring_point normal_of(const ring_run *s, size_t e, ring_point a, ring_poin
  * strained by up to 2e-3, every interface of a random kind. Laid out from element `first` on; where
  * the ends meet the interface is broken and open, whatever is between them: false if they overlap,
  * which would press with forces beside which all others vanish. */
-static bool draw_state(const ring_run *s, size_t first, double whole, double each, uint64_t *seed,
+static bool draw_state(const one_run *s, size_t first, double whole, double each, uint64_t *seed,
                        ring_state *state, int *seen)
 {
     const size_t n = s->model->elements;
@@ -157,7 +155,7 @@ static const struct {
                      {4, true, -3, 1.0}};
 enum { NSTATES = sizeof kind_of_state / sizeof *kind_of_state };
 
-static void next_state(const ring_run *s, int kind, size_t trial, uint64_t *seed, ring_state *state,
+static void next_state(const one_run *s, int kind, size_t trial, uint64_t *seed, ring_state *state,
                        int *seen)
 {
     for (int attempt = 0; attempt < 1000; attempt++) {
@@ -180,9 +178,9 @@ static void forces_are_the_gradient_of_the_energy(void **unused)
     uint64_t seed = 11;
     int seen[NKINDS] = {0};
     for (int k = 0; k < NSTATES; k++) {
-        ring_run s = small_ring(kind_of_state[k].elements, 4,
-                                kind_of_state[k].current ? &fracas_direction_current
-                                                         : &fracas_direction_initial);
+        one_run s = small_ring(kind_of_state[k].elements, 4,
+                               kind_of_state[k].current ? &fracas_direction_current
+                                                        : &fracas_direction_initial);
         double worst = 0;
         for (size_t trial = 0; trial < 60; trial++) {
             ring_state state;
@@ -204,13 +202,13 @@ static void forces_are_the_gradient_of_the_energy(void **unused)
                       s.model->elements, kind_of_state[k].current ? "current" : "initial",
                       kind_of_state[k].whole, kind_of_state[k].each, worst);
         assert_true(worst < 2e-8);
-        clear(&s);
+        clear_run(&s);
     }
     for (int k = 0; k < NKINDS; k++) assert_true(seen[k] > 100);
 }
 
 /* The state, turned by `angle` about the origin and moved. */
-static ring_state moved(const ring_run *s, const ring_state *state, double angle, ring_point by)
+static ring_state moved(const one_run *s, const ring_state *state, double angle, ring_point by)
 {
     ring_state to = *state;
     for (size_t i = 0; i < 2 * s->model->elements; i++) {
@@ -235,8 +233,8 @@ static void the_energy_does_not_see_where_the_ring_is(void **unused)
     double worst = 0, turned = 0;
     for (int k = 0; k < NSTATES; k++) {
         const bool current = kind_of_state[k].current;
-        ring_run s = small_ring(kind_of_state[k].elements, 4,
-                                current ? &fracas_direction_current : &fracas_direction_initial);
+        one_run s = small_ring(kind_of_state[k].elements, 4,
+                               current ? &fracas_direction_current : &fracas_direction_initial);
         for (size_t trial = 0; trial < 60; trial++) {
             ring_state state;
             next_state(&s, k, trial, &seed, &state, seen);
@@ -259,7 +257,7 @@ static void the_energy_does_not_see_where_the_ring_is(void **unused)
             const ring_state aside = moved(&s, &state, 0.1, (ring_point){0, 0});
             turned = fmax(turned, fabs(potential(&s, &aside) - potential(&s, &state)) / held);
         }
-        clear(&s);
+        clear_run(&s);
     }
     print_message(
         "[  figures ] energies and forces differ by %.1e; initial, turned by 0.1: by %.1e\n", worst,
@@ -272,7 +270,7 @@ static void the_energy_does_not_see_where_the_ring_is(void **unused)
  * and out of reach. Interface 0 has this damage, both elements this strain, the jump is such that
  * the trial traction is `trial` at t = 1 us, after a step of 1 ns in which it grows at 1 m/s, and
  * the elements' lengths at 0.5 m/s; across it is `across` [m]. Takes that step. */
-static ring_answer one_event(ring_run *s, double damage, double strain, double trial, double across)
+static ring_answer one_event(one_run *s, double damage, double strain, double trial, double across)
 {
     const double h = s->model->element_size, young = 275e9, spring = 4 * young / h, dt = 1e-9;
     const ring_point zero = {0, 0}, n = at_angle(RING_PI * (0.5 + 2.0 / 12)), m = {n.y, -n.x};
@@ -314,7 +312,7 @@ static ring_answer one_event(ring_run *s, double damage, double strain, double t
 static void events_book_what_they_drop_at_the_time_they_happen(void **unused)
 {
     for (int i = 0; i < 2; i++) {
-        ring_run s = small_ring(12, 4, i ? &fracas_direction_initial : &fracas_direction_current);
+        one_run s = small_ring(12, 4, i ? &fracas_direction_initial : &fracas_direction_current);
         const double young = 275e9, spring = 4 * young / s.model->element_size, p = 1e-8,
                      x = spring * 200 / BAR_STRENGTH_MEAN - BAR_STRENGTH_MEAN;
         const double strain = 1e-3, mean = young * strain,
@@ -341,7 +339,7 @@ static void events_book_what_they_drop_at_the_time_they_happen(void **unused)
         const ring_answer with = one_event(&s, 0, 0, 0, p), without = one_event(&s, 0, 0, 0, 0);
         assert_true(fabs((with.elastic - without.elastic) / restraint - 1) <
                     1e-6); /* of differences of 1e-6 J by 1e-4 J */
-        clear(&s);
+        clear_run(&s);
     }
 }
 
@@ -445,17 +443,17 @@ static void the_work_of_turning_drives_is_of_second_order(void **unused)
                                             .force_rate = i == 1 ? 0 : 1e11};
             spec.time.safety = half ? 0.2 : 0.4;
             spec.cohesive.fracture_energy = 1e4; /* strong interfaces need it of these elements */
-            ring_run s = begin(&spec, BAR_STRENGTH_MEAN);
+            one_run s = begin(&spec, BAR_STRENGTH_MEAN);
             for (size_t e = 0; e < 300; e++) {
                 *ring_field(&s, e, RING_STRENGTH) = 2e9;
                 *ring_field(&s, e, RING_LAW) = 2 * (4 * 275e9 / s.model->element_size) * 1e4 / 2e9 -
                                                2e9;
             }
-            while (s.running) step(&s);
+            finish_run(&s);
             assert_int_equal(s.record.outcome, FRACAS_INTACT);
             residual[half] = s.record.residual;
             work[half] = s.record.work;
-            clear(&s);
+            clear_run(&s);
         }
         print_message("[  figures ] circumferential %s: work %.3e J, residual %.1e of it, at half "
                       "the step %.1e\n",
@@ -472,7 +470,7 @@ static void the_work_of_turning_drives_is_of_second_order(void **unused)
 
 /* A ring that all its interfaces press together: of a shrinkage by 1e-6 elements and contacts share
  * beta and 1 parts. */
-static void press(const ring_run *s)
+static void press(const one_run *s)
 {
     const double share = s->model->spec.cohesive.beta / (1 + s->model->spec.cohesive.beta);
     for (size_t e = 0; e < s->model->elements; e++) {
@@ -485,7 +483,7 @@ static void press(const ring_run *s)
 }
 
 /* 2/omega_max of the engine's own forces about the pressed ring, by differences. */
-static double limit_of(ring_run *s, const double *damage)
+static double limit_of(one_run *s, const double *damage)
 {
     const size_t n = s->model->elements;
     ring_state state;
@@ -494,9 +492,7 @@ static double limit_of(ring_run *s, const double *damage)
         memcpy(state.u[e], ring_field(s, e, RING_U_LEFT), sizeof state.u[e]);
         state.damage[e] = damage[e];
     }
-    gsl_matrix *hessian = gsl_matrix_alloc(4 * n, 4 * n);
-    gsl_vector *value = gsl_vector_alloc(4 * n);
-    gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(4 * n);
+    OWNED double *hessian = vector_of(16 * n * n);
     for (size_t i = 0; i < 4 * n; i++) {
         double *u = &state.u[i / 4][i % 4], here = *u;
         *u = here + 1e-13;
@@ -507,17 +503,13 @@ static double limit_of(ring_run *s, const double *damage)
         for (size_t j = 0; j < 4 * n; j++) {
             const ring_point change = ring_minus(down.force[j / 4][j % 4 / 2],
                                                  up.force[j / 4][j % 4 / 2]);
-            gsl_matrix_set(hessian, i, j,
-                           (j % 2 ? change.y : change.x) / (far - *u) / ring_nodal_mass(s));
+            hessian[4 * n * i + j] = (j % 2 ? change.y : change.x) / (far - *u) /
+                                     ring_nodal_mass(s);
         }
         *u = here;
     }
-    gsl_eigen_symm(hessian, value, work);
-    const double limit = 2 / sqrt(gsl_vector_max(value));
-    gsl_matrix_free(hessian);
-    gsl_vector_free(value);
-    gsl_eigen_symm_free(work);
-    return limit;
+    OWNED double *value = eigenvalues_of(hessian, 4 * n);
+    return 2 / sqrt(value[4 * n - 1]);
 }
 
 /* The critical step is the chain's. In a ring of few elements chords meet at angles; then, and in
@@ -534,8 +526,8 @@ static void no_state_of_a_small_ring_has_a_smaller_limit(void **unused)
     for (int i = 0; i < 30; i++) {
         const size_t n = elements[i % 5];
         const double beta = betas[i / 5 % 3], tilt = sin(RING_PI / (double)n);
-        ring_run s = small_ring(n, beta,
-                                i < 15 ? &fracas_direction_current : &fracas_direction_initial);
+        one_run s = small_ring(n, beta,
+                               i < 15 ? &fracas_direction_current : &fracas_direction_initial);
         double damage[MOST], least = INFINITY, whole = 0, broken = 0;
         for (int draw = 0; draw < 40; draw++) {
             for (size_t e = 0; e < n; e++)
@@ -553,13 +545,13 @@ static void no_state_of_a_small_ring_has_a_smaller_limit(void **unused)
                       least);
         assert_true(least > 1 - 2e-6);
         assert_true(broken < (1 + 2e-6) / sqrt(1 - beta / (1 + beta) * tilt * tilt));
-        clear(&s);
+        clear_run(&s);
     }
 }
 
 /* Root of the sum of all squared velocities, less what is the same in all elements: the ring's own
  * breathing and turning. */
-static double shaking(const ring_run *s)
+static double shaking(const one_run *s)
 {
     double sum = 0;
     const size_t n = s->model->elements;
@@ -588,7 +580,7 @@ static double growth(size_t n, double part, bool broken, bool current)
 {
     fracas_spec spec = ring_reference((int64_t)n, 0, 1);
     spec.geometry.direction = current ? &fracas_direction_current : &fracas_direction_initial;
-    ring_run s = begin(&spec, BAR_STRENGTH_MEAN);
+    one_run s = begin(&spec, BAR_STRENGTH_MEAN);
     const double critical = broken ? s.model->critical_cracked : s.model->critical_closed;
     s.model->time_step = part * critical;
     uint64_t seed = 3;
@@ -602,11 +594,11 @@ static double growth(size_t n, double part, bool broken, bool current)
     const double start = shaking(&s);
     double largest = 0;
     for (int i = 0; i < 200 && largest < 1e8 * start; i++) {
-        step(&s);
+        step_run(&s);
         largest = fmax(largest, shaking(&s));
     }
     for (size_t e = 0; broken && part < 1 && e < n; e++) assert_true(ring_jump(&s, e).x < 0);
-    clear(&s);
+    clear_run(&s);
     return largest / start;
 }
 
@@ -645,11 +637,11 @@ static void a_spinning_ring_swings_about_its_hoop_stress(void **unused)
     const double speed = 10, w = BAR_WAVE_SPEED / RING_RADIUS, stress = 2750 * speed * speed;
     fracas_spec spec = ring_reference(400, 0, 3 * 2 * RING_PI / w);
     spec.loading.circumferential = speed;
-    ring_run s = begin(&spec, BAR_STRENGTH_MEAN);
+    one_run s = begin(&spec, BAR_STRENGTH_MEAN);
     const double h = s.model->element_size;
     double worst = 0, sum = 0, steps = 0;
     while (s.running) {
-        step(&s);
+        step_run(&s);
         const ring_point chord = ring_chord(&s, 37);
         const double found = 275e9 * (sqrt(ring_inner(chord, chord)) / h - 1),
                      t = s.batch->step.time[0];
@@ -667,7 +659,7 @@ static void a_spinning_ring_swings_about_its_hoop_stress(void **unused)
     assert_true(fabs(sum / steps / stress - 1) < 3.5e-4);
     assert_true(fabs(angular / (s.model->mass * speed * RING_RADIUS) - 1 -
                      RING_PI * RING_PI / 3 / 160000) < 1e-9);
-    clear(&s);
+    clear_run(&s);
 }
 
 TESTS(forces_are_the_gradient_of_the_energy, the_energy_does_not_see_where_the_ring_is,

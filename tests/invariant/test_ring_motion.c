@@ -6,7 +6,7 @@
 
 /* Strengths uniform in 300 MPa +- 0.33 %, of replica `replica`, interface i having that of i +
  * shift, or backwards. */
-static void draw(ring_run *s, uint64_t replica, size_t shift, bool mirrored)
+static void draw(one_run *s, uint64_t replica, size_t shift, bool mirrored)
 {
     const fracas_stream stream = {
         .seed = 1, .purpose = FRACAS_PURPOSE_STRENGTH, .point = {2, 3}, .replica = replica};
@@ -21,7 +21,7 @@ static void draw(ring_run *s, uint64_t replica, size_t shift, bool mirrored)
     }
 }
 
-static ring_run fragmenting(const fracas_kind *direction, double spin, double end)
+static one_run fragmenting(const fracas_kind *direction, double spin, double end)
 {
     fracas_spec spec = ring_reference(1250, 1e4, end);
     spec.geometry.direction = direction;
@@ -32,7 +32,7 @@ static ring_run fragmenting(const fracas_kind *direction, double spin, double en
 /* ---- momenta ---- */
 
 /* Sum of |m v| [kg m/s], the scale of momenta. */
-static double motion_of(const ring_run *s)
+static double motion_of(const one_run *s)
 {
     double sum = 0;
     for (size_t i = 0; i < 2 * s->model->elements; i++) {
@@ -52,14 +52,14 @@ static void a_free_ring_keeps_its_momenta(void **unused)
 {
     for (int i = 0; i < 4; i++) {
         const bool current = i < 2;
-        ring_run s = fragmenting(current ? &fracas_direction_current : &fracas_direction_initial,
-                                 i & 1 ? 300.0 : 0.0, 2e-6);
+        one_run s = fragmenting(current ? &fracas_direction_current : &fracas_direction_initial,
+                                i & 1 ? 300.0 : 0.0, 2e-6);
         double angular, angular_end = 0, scale = 0, drift = 0, slide = 0;
         ring_point linear;
         draw(&s, 0, 0, false);
         ring_momenta(&s, 0, 1250, &linear, &angular);
         for (int64_t steps = 0; s.running; steps++) {
-            step(&s);
+            step_run(&s);
             if (steps % 50 && s.running) continue;
             scale = fmax(scale, motion_of(&s));
             ring_momenta(&s, 0, 1250, &linear, &angular_end);
@@ -92,7 +92,7 @@ static void a_free_ring_keeps_its_momenta(void **unused)
             assert_true(fabs(whole[k] - (k ? linear.y : linear.x)) < 1e-13 * scale);
         }
         assert_true(fabs(whole[2] - angular_end) < 1e-13 * scale * radius);
-        clear(&s);
+        clear_run(&s);
     }
 }
 
@@ -106,7 +106,7 @@ typedef struct {
 } piece;
 
 /* The fragments, from the first broken interface on. */
-static size_t pieces_of(const ring_run *s, piece *into)
+static size_t pieces_of(const one_run *s, piece *into)
 {
     const size_t n = s->model->elements;
     size_t start = 0, count = 0;
@@ -122,7 +122,7 @@ static size_t pieces_of(const ring_run *s, piece *into)
 }
 
 /* Marks the pieces on both sides of each broken interface that is pressed together now. */
-static void mark_contacts(const ring_run *s, piece *of, size_t count)
+static void mark_contacts(const one_run *s, piece *of, size_t count)
 {
     for (size_t k = 0; k < count; k++) {
         const size_t last = (of[k].first + of[k].count - 1) % s->model->elements;
@@ -134,7 +134,7 @@ static void mark_contacts(const ring_run *s, piece *of, size_t count)
 /* What the record says of every fragment is what its nodes say: sums of some 50 products, 1e-14 of
  * their scales. The inertia of an element, 20 um about a centre 8 mm away, has a rounding of 400
  * times as much, some 50 times over: 1e-11. */
-static void compare_records(const ring_run *s, const piece *of, size_t count)
+static void compare_records(const one_run *s, const piece *of, size_t count)
 {
     size_t zero =
         0; /* records go by the smallest element: the fragment with element 0 comes first */
@@ -174,12 +174,12 @@ static void compare_records(const ring_run *s, const piece *of, size_t count)
 
 /* Runs until `cut`, marks the pieces there, and on to the end; the same pieces then. Returns how
  * many. */
-static size_t fly(ring_run *s, double cut, piece *then, piece *now)
+static size_t fly(one_run *s, double cut, piece *then, piece *now)
 {
-    while (s->batch->step.time[0] < cut) step(s);
+    while (s->batch->step.time[0] < cut) step_run(s);
     const size_t count = pieces_of(s, then);
     while (s->running) {
-        step(s);
+        step_run(s);
         mark_contacts(s, then, count);
     }
     assert_int_equal(pieces_of(s, now), count); /* no break in between */
@@ -196,8 +196,8 @@ static void fragments_fly_on(void **unused)
     static piece then[1250], now[1250];
     for (int i = 0; i < 2; i++) {
         const bool current = !i;
-        ring_run s = fragmenting(current ? &fracas_direction_current : &fracas_direction_initial, 0,
-                                 2e-6);
+        one_run s = fragmenting(current ? &fracas_direction_current : &fracas_direction_initial, 0,
+                                2e-6);
         draw(&s, 2, 0, false);
         const size_t count = fly(&s, 1e-6, then, now);
         size_t free = 0;
@@ -222,7 +222,7 @@ static void fragments_fly_on(void **unused)
         if (current) assert_true(turned < 2.5e-13);
         assert_true(pushed > 1e-3); /* contact does push: the measure sees it */
         compare_records(&s, now, count);
-        clear(&s);
+        clear_run(&s);
     }
 }
 
@@ -235,9 +235,9 @@ typedef struct {
     size_t broken;
 } outcome;
 
-static void run_to(ring_run *s, outcome *o)
+static void run_to(one_run *s, outcome *o)
 {
-    while (s->running) step(s);
+    finish_run(s);
     *o = (outcome){.dissipated = s->record.dissipated,
                    .elastic = s->record.elastic,
                    .broken = (size_t)s->record.broken};
@@ -284,13 +284,13 @@ static void strengths_moved_on_or_mirrored_give_the_same_ring(void **unused)
         double off[4];
         for (int j = 0; j < 5; j++) {
             static const size_t shifts[] = {0, 1, 777};
-            ring_run s = fragmenting(direction, 0, 4e-7);
+            one_run s = fragmenting(direction, 0, 4e-7);
             draw(&s, 0, j < 3 ? shifts[j] : 0, j == 3);
             for (size_t e = 0; j == 4 && e < 1250; e++)
                 *ring_field(&s, e, RING_STRENGTH) *= 1 + (e % 2 ? 1e-12 : -1e-12);
             run_to(&s, j ? &other : &plain);
             if (j) off[j - 1] = difference(&plain, &other, j < 3 ? shifts[j] : 0, j == 3);
-            clear(&s);
+            clear_run(&s);
         }
         print_message("[  figures ] %s: %zu broken; moved on by 1: off by %.1e, by 777: %.1e; "
                       "mirrored: %.1e; strengths off by 1e-12: %.1e\n",

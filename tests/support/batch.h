@@ -77,6 +77,55 @@ static inline void run_to_end(fracas_batch *batch, fracas_record *record)
     while (running > 0) OK(fracas_batch_step(batch, record, &running));
 }
 
+/* One realization, step by step. */
+typedef struct {
+    fracas_model *model;
+    fracas_batch *batch;
+    fracas_record record;
+    size_t n, running; /* elements; 1 until it is over */
+    double h;          /* length of a chain's elements [m] */
+} one_run;
+
+/* All strengths alike [Pa], to be changed before begin_run; the model goes with the run. */
+static inline one_run make_run(fracas_model *model, int width, double strength)
+{
+    one_run run = {
+        .model = model,
+        .batch = batch_with(
+            model, 1,
+            (fracas_batch_options){.width = width, .isa = FRACAS_ISA_BEST, .interfaces = true}),
+        .n = model->elements,
+        .running = 1,
+        .h = model->element_size};
+    for (size_t k = 0; k < strengths_of(model); k++) bar_set_strength(run.batch, 0, k, strength);
+    fracas_record_init(&run.record);
+    return run;
+}
+
+static inline one_run begin_run(fracas_model *model, int width, double strength)
+{
+    one_run run = make_run(model, width, strength);
+    OK(fracas_batch_begin(run.batch));
+    return run;
+}
+
+static inline void step_run(one_run *run)
+{
+    OK(fracas_batch_step(run->batch, &run->record, &run->running));
+}
+
+static inline void finish_run(one_run *run)
+{
+    while (run->running) step_run(run);
+}
+
+static inline void clear_run(one_run *run)
+{
+    fracas_record_clear(&run->record);
+    fracas_batch_destroy(run->batch);
+    fracas_model_destroy(run->model);
+}
+
 /* Runs replicas first, first + 1, ..., of strengths 300 MPa (1 +- scatter), to their ends; replica
  * r is in slot r - first. The caller clears the records. */
 static inline void run_replicas(const fracas_model *model, uint64_t first, size_t count,

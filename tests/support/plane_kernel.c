@@ -3,91 +3,67 @@
 
 #include "engine/cohesive/kernels.h"
 
+/* One field of each lane's struct, `step` bytes apart. */
+LANES_FUNCTION vd gathered(const double *first, size_t step)
+{
+    _Alignas(64) double lanes[LANES];
+    for (int l = 0; l < LANES; l++) lanes[l] = *(const double *)((const char *)first + l * step);
+    return lanes_load(lanes);
+}
+
+LANES_FUNCTION void scatter(double *first, size_t step, vd from)
+{
+    _Alignas(64) double lanes[LANES];
+    lanes_store(lanes, from);
+    for (int l = 0; l < LANES; l++) *(double *)((char *)first + l * step) = lanes[l];
+}
+
+#define OF(lanes, field) .field = gathered(&(lanes)->field, sizeof *(lanes))
+#define INTO(lanes, from, field) scatter(&(lanes)->field, sizeof *(lanes), (from).field)
+
+/* What the laws remember. */
+#define NITSCHE(X) X(damage) X(peak) X(slip) X(rub)
+#define EXTRINSIC(X) NITSCHE(X) X(q_n) X(q_t) X(t_n) X(t_t)
+#define TAKE(field) OF(state, field),
+#define GIVE(field) INTO(state, s, field);
+
 plane_unit LANES_UNIT(plane_call);
 
 void LANES_UNIT(plane_call)(const plane_case *const *kind, const plane_at *in, plane_memory *state,
                             plane_out *out)
 {
-#define GATHER(name, from)                                  \
-    _Alignas(64) double name##_lanes[LANES];                \
-    for (int l = 0; l < LANES; l++) name##_lanes[l] = from; \
-    const vd name = lanes_load(name##_lanes)
-#define SCATTER(to, from)                               \
-    do {                                                \
-        _Alignas(64) double lanes_[LANES];              \
-        lanes_store(lanes_, from);                      \
-        for (int l = 0; l < LANES; l++) to = lanes_[l]; \
-    } while (0)
-    GATHER(k_n, kind[l]->k_n);
-    GATHER(k_t, kind[l]->k_t);
-    GATHER(sigma_c, kind[l]->sigma_c);
-    GATHER(beta_c, kind[l]->beta_c);
-    GATHER(mu_c, kind[l]->mu_c);
-    GATHER(energy, kind[l]->energy);
-    GATHER(opening, kind[l]->opening);
-    GATHER(m_n, in[l].m_n);
-    GATHER(m_t, in[l].m_t);
-    GATHER(q_n, in[l].q_n);
-    GATHER(q_t, in[l].q_t);
-    GATHER(damage, state[l].damage);
-    GATHER(peak, state[l].peak);
-    GATHER(slip, state[l].slip);
-    GATHER(rub, state[l].rub);
-    GATHER(start_q_n, state[l].q_n);
-    GATHER(start_q_t, state[l].q_t);
-    GATHER(start_t_n, state[l].t_n);
-    GATHER(start_t_t, state[l].t_t);
-    const plane_interface at = {.k_n = k_n,
-                                .k_t = k_t,
-                                .sigma_c = sigma_c,
-                                .beta_c = beta_c,
-                                .mu_c = mu_c,
-                                .energy = energy,
-                                .opening = opening,
-                                .softness_n = lanes_set(1.0) / k_n,
-                                .softness_t = lanes_set(1.0) / k_t,
-                                .per_beta_c = lanes_set(1.0) / beta_c,
-                                .onset_mean = kind[0]->onset_mean};
-    GATHER(opened, in[l].opened);
+    plane_case kinds[LANES];
+    double opened[LANES];
+    for (int l = 0; l < LANES; l++) kinds[l] = *kind[l], opened[l] = in[l].opened;
+    plane_interface at = {
+        OF(kinds, k_n),  OF(kinds, k_t),    OF(kinds, sigma_c), OF(kinds, beta_c),
+        OF(kinds, mu_c), OF(kinds, energy), OF(kinds, opening), .onset_mean = kinds->onset_mean};
+    at.softness_n = lanes_set(1.0) / at.k_n;
+    at.softness_t = lanes_set(1.0) / at.k_t;
+    at.per_beta_c = lanes_set(1.0) / at.beta_c;
     const plane_input input = {
-        .m_n = m_n, .m_t = m_t, .q_n = q_n, .q_t = q_t, .opened = lanes_lt(lanes_set(0.0), opened)};
-    const int friction = kind[0]->mu_c > 0;
+        OF(in, m_n), OF(in, m_t), OF(in, q_n), OF(in, q_t),
+        .opened = lanes_lt(lanes_set(0.0), gathered(opened, sizeof *opened))};
+    const int friction = kinds->mu_c > 0;
     plane_result r;
-    if (kind[0]->law == PLANE_NITSCHE) {
-        nitsche_state s = {.damage = damage, .peak = peak, .slip = slip, .rub = rub};
+    if (kinds->law == PLANE_NITSCHE) {
+        nitsche_state s = {NITSCHE(TAKE)};
         r = plane_nitsche(&at, &input, friction, &s);
-        SCATTER(state[l].damage, s.damage);
-        SCATTER(state[l].peak, s.peak);
-        SCATTER(state[l].slip, s.slip);
-        SCATTER(state[l].rub, s.rub);
+        NITSCHE(GIVE)
     } else {
-        extrinsic_state s = {.damage = damage,
-                             .peak = peak,
-                             .q_n = start_q_n,
-                             .q_t = start_q_t,
-                             .t_n = start_t_n,
-                             .t_t = start_t_t,
-                             .slip = slip,
-                             .rub = rub};
-        r = plane_extrinsic(&at, &input, kind[0]->law == PLANE_STANDARD, friction, &s);
-        SCATTER(state[l].damage, s.damage);
-        SCATTER(state[l].peak, s.peak);
-        SCATTER(state[l].q_n, s.q_n);
-        SCATTER(state[l].q_t, s.q_t);
-        SCATTER(state[l].t_n, s.t_n);
-        SCATTER(state[l].t_t, s.t_t);
-        SCATTER(state[l].slip, s.slip);
-        SCATTER(state[l].rub, s.rub);
+        extrinsic_state s = {EXTRINSIC(TAKE)};
+        r = plane_extrinsic(&at, &input, kinds->law == PLANE_STANDARD, friction, &s);
+        EXTRINSIC(GIVE)
     }
-    SCATTER(out[l].t_n, r.t_n);
-    SCATTER(out[l].t_t, r.t_t);
-    SCATTER(out[l].s_n, r.s_n);
-    SCATTER(out[l].s_t, r.s_t);
-    SCATTER(out[l].flux, r.flux);
-    SCATTER(out[l].stored, r.stored);
-    SCATTER(out[l].created, r.created);
-    SCATTER(out[l].rubbed, r.rubbed);
-    SCATTER(out[l].dissipated, r.dissipated);
+    INTO(out, r, t_n);
+    INTO(out, r, t_t);
+    INTO(out, r, s_n);
+    INTO(out, r, s_t);
+    INTO(out, r, flux);
+    INTO(out, r, stored);
+    INTO(out, r, created);
+    INTO(out, r, rubbed);
+    INTO(out, r, dissipated);
     for (int l = 0; l < LANES; l++) {
         out[l].cracked = lanes_get(r.cracked, l) != 0;
         out[l].cracks = lanes_get(r.cracks, l) != 0;

@@ -5,7 +5,6 @@
 #define FRACAS_TESTS_SUPPORT_RING_H
 
 #include "tests/support/bar.h"
-#include "tests/support/test.h"
 
 #define RING_CIRCUMFERENCE 0.05 /* m */
 #define RING_RADIUS (RING_CIRCUMFERENCE / (2 * 3.14159265358979323846))
@@ -35,51 +34,15 @@ static inline fracas_spec ring_stershic(int64_t elements, double rate, double en
     return spec;
 }
 
-/* One ring in one lane, step by step. */
-typedef struct {
-    fracas_model *model;
-    fracas_batch *batch;
-    fracas_record record;
-    size_t n, running; /* elements; 1 until it is over */
-    double h;          /* m */
-} ring_run;
-
-/* Strengths all `strength`, to be changed before begin(). */
-static inline ring_run make(const fracas_spec *spec, double strength)
+/* One ring in one lane; strengths all `strength`, to be changed before it begins. */
+static inline one_run make(const fracas_spec *spec, double strength)
 {
-    ring_run run = {.running = 1};
-    const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST, .interfaces = true};
-    OK(fracas_model_create(spec, &run.model));
-    OK(fracas_batch_create(run.model, 1, &options, &run.batch));
-    run.n = run.model->elements;
-    run.h = run.model->element_size;
-    for (size_t i = 0; i < run.n; i++) bar_set_strength(run.batch, 0, i, strength);
-    fracas_record_init(&run.record);
-    return run;
+    return make_run(make_model(spec), 1, strength);
 }
 
-static inline ring_run begin(const fracas_spec *spec, double strength)
+static inline one_run begin(const fracas_spec *spec, double strength)
 {
-    ring_run run = make(spec, strength);
-    OK(fracas_batch_begin(run.batch));
-    return run;
-}
-
-static inline void step(ring_run *run)
-{
-    OK(fracas_batch_step(run->batch, &run->record, &run->running));
-}
-
-static inline void finish(ring_run *run)
-{
-    while (run->running) step(run);
-}
-
-static inline void clear(ring_run *run)
-{
-    fracas_record_clear(&run->record);
-    fracas_batch_destroy(run->batch);
-    fracas_model_destroy(run->model);
+    return begin_run(make_model(spec), 1, strength);
 }
 
 #endif

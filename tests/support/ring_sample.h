@@ -34,13 +34,13 @@ static inline ring_point ring_turned(ring_point a, double angle)
     return (ring_point){a.x * cos(angle) - a.y * sin(angle), a.x * sin(angle) + a.y * cos(angle)};
 }
 
-static inline double *ring_field(const ring_run *s, size_t element, int field)
+static inline double *ring_field(const one_run *s, size_t element, int field)
 {
     return s->batch->step.state + element * RING_FIELDS + (size_t)field;
 }
 
 /* Of the left (0) or right (1) node of an element: where it starts, where it is, its velocity. */
-static inline ring_point ring_origin(const ring_run *s, size_t element, size_t side)
+static inline ring_point ring_origin(const one_run *s, size_t element, size_t side)
 {
     const size_t n = s->model->elements;
     const double radius = s->model->element_size / (2 * sin(RING_PI / (double)n)),
@@ -48,19 +48,19 @@ static inline ring_point ring_origin(const ring_run *s, size_t element, size_t s
     return (ring_point){radius * cos(angle), radius * sin(angle)};
 }
 
-static inline ring_point ring_node(const ring_run *s, size_t element, size_t side)
+static inline ring_point ring_node(const one_run *s, size_t element, size_t side)
 {
     const double *u = ring_field(s, element, side ? RING_U_RIGHT : RING_U_LEFT);
     return ring_plus(ring_origin(s, element, side), 1, (ring_point){u[0], u[1]});
 }
 
-static inline ring_point ring_velocity(const ring_run *s, size_t element, size_t side)
+static inline ring_point ring_velocity(const one_run *s, size_t element, size_t side)
 {
     const double *v = ring_field(s, element, side ? RING_V_RIGHT : RING_V_LEFT);
     return (ring_point){v[0], v[1]};
 }
 
-static inline void ring_put(const ring_run *s, size_t element, size_t side, ring_point at)
+static inline void ring_put(const one_run *s, size_t element, size_t side, ring_point at)
 {
     const ring_point u = ring_minus(at, ring_origin(s, element, side));
     double *to = ring_field(s, element, side ? RING_U_RIGHT : RING_U_LEFT);
@@ -68,13 +68,13 @@ static inline void ring_put(const ring_run *s, size_t element, size_t side, ring
     to[1] = u.y;
 }
 
-static inline ring_point ring_chord(const ring_run *s, size_t element)
+static inline ring_point ring_chord(const one_run *s, size_t element)
 {
     return ring_minus(ring_node(s, element, 1), ring_node(s, element, 0));
 }
 
 /* The direction along which interface e opens. */
-static inline ring_point ring_normal(const ring_run *s, size_t e)
+static inline ring_point ring_normal(const one_run *s, size_t e)
 {
     const size_t n = s->model->elements, next = (e + 1) % n;
     const double angle = 2 * RING_PI * (double)next / (double)n;
@@ -85,7 +85,7 @@ static inline ring_point ring_normal(const ring_run *s, size_t e)
 }
 
 /* What interface e has opened by, along its normal and across it [m]. */
-static inline ring_point ring_jump(const ring_run *s, size_t e)
+static inline ring_point ring_jump(const one_run *s, size_t e)
 {
     const ring_point n = ring_normal(s, e), outward = {n.y, -n.x};
     const ring_point jump = ring_minus(ring_node(s, (e + 1) % s->model->elements, 0),
@@ -94,14 +94,14 @@ static inline ring_point ring_jump(const ring_run *s, size_t e)
 }
 
 /* Mass of a node [kg]. */
-static inline double ring_nodal_mass(const ring_run *s)
+static inline double ring_nodal_mass(const one_run *s)
 {
     return s->model->mass / (2 * (double)s->model->elements);
 }
 
 /* Linear and angular momentum about the origin of elements first .. first + count - 1, round the
  * ring. */
-static inline void ring_momenta(const ring_run *s, size_t first, size_t count, ring_point *linear,
+static inline void ring_momenta(const one_run *s, size_t first, size_t count, ring_point *linear,
                                 double *angular)
 {
     const double mass = ring_nodal_mass(s);
@@ -118,8 +118,7 @@ static inline void ring_momenta(const ring_run *s, size_t first, size_t count, r
 /* Uniform in [-1, 1). */
 static inline double ring_noise(uint64_t *seed)
 {
-    *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*seed >> 11) * 0x1p-52 - 1;
+    return 2 * random_noise(seed);
 }
 
 #endif

@@ -20,20 +20,20 @@ static inline fracas_spec at_rest(int64_t elements)
     return spec;
 }
 
-static inline double *at(const ring_run *run, size_t element, int field)
+static inline double *at(const one_run *run, size_t element, int field)
 {
     return run->batch->step.state + element % run->n * RING_FIELDS_STERSHIC + field;
 }
 
 /* Directions of element e at the start, and of the vertex of interface e. */
-static inline void chord_of(const ring_run *run, size_t e, double t[2])
+static inline void chord_of(const one_run *run, size_t e, double t[2])
 {
     const double angle = 3.14159265358979323846 * (double)(2 * (e % run->n) + 1) / (double)run->n;
     t[0] = -sin(angle);
     t[1] = cos(angle);
 }
 
-static inline void normal_of(const ring_run *run, size_t e, double n[2])
+static inline void normal_of(const one_run *run, size_t e, double n[2])
 {
     const double angle = 3.14159265358979323846 * (double)(2 * (e % run->n) + 2) / (double)run->n;
     n[0] = -sin(angle);
@@ -42,7 +42,7 @@ static inline void normal_of(const ring_run *run, size_t e, double n[2])
 
 /* Gives element e this stress [Pa], by moving its nodes apart along its chord: nodes of closed
  * links are no longer at one place, which the first step does not look at. */
-static inline void set_stress(const ring_run *run, size_t e, double stress)
+static inline void set_stress(const one_run *run, size_t e, double stress)
 {
     double t[2];
     chord_of(run, e, t);
@@ -53,7 +53,7 @@ static inline void set_stress(const ring_run *run, size_t e, double stress)
 }
 
 /* Gives all elements this stress [Pa] by expanding the ring; nodes of a link stay at one place. */
-static inline void expand(const ring_run *run, double stress)
+static inline void expand(const one_run *run, double stress)
 {
     const double pi = 3.14159265358979323846, radius = run->h / (2 * sin(pi / (double)run->n));
     for (size_t e = 0; e < run->n; e++)
@@ -67,7 +67,7 @@ static inline void expand(const ring_run *run, double stress)
 
 /* Opens the jump of interface e by moving element e + 1 along the interface's normal, unstrained.
  */
-static inline void set_jump(const ring_run *run, size_t e, double q)
+static inline void set_jump(const one_run *run, size_t e, double q)
 {
     double n[2];
     normal_of(run, e, n);
@@ -75,13 +75,13 @@ static inline void set_jump(const ring_run *run, size_t e, double q)
         *at(run, e + 1, field) += q * n[field & 1];
 }
 
-static inline double *link_of(const ring_run *run, size_t e)
+static inline double *link_of(const one_run *run, size_t e)
 {
     return at(run, e, RING_LAW);
 }
 
 /* What the elements of interface e pull it apart with along its normal, as the step saw it [Pa]. */
-static inline double pull_of(const ring_run *run, size_t e)
+static inline double pull_of(const one_run *run, size_t e)
 {
     return *at(run, e, RING_PULL);
 }

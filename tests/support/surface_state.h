@@ -194,46 +194,12 @@ static inline double *squares_of_frequencies(const fracas_model *model, double *
     return eigenvalues_of(matrix, n);
 }
 
-/* ---- runs ---- */
-
-typedef struct {
-    fracas_model *model;
-    fracas_batch *batch;
-    fracas_record record;
-    size_t running;
-} surface_run;
-
-/* Before its first step, in a batch of this width, all strengths as given [Pa]; the model goes with
- * the run. */
-static inline surface_run begin_run(fracas_model *model, int width, double strength)
-{
-    surface_run run = {.model = model, .running = 1};
-    run.batch = batch_with(model, 1,
-                           (fracas_batch_options){.width = width, .isa = FRACAS_ISA_BEST});
-    for (size_t k = 0; k < strengths_of(model); k++) bar_set_strength(run.batch, 0, k, strength);
-    OK(fracas_batch_begin(run.batch));
-    fracas_record_init(&run.record);
-    return run;
-}
-
-static inline void step_run(surface_run *run)
-{
-    OK(fracas_batch_step(run->batch, &run->record, &run->running));
-}
-
-static inline void clear_run(surface_run *run)
-{
-    fracas_record_clear(&run->record);
-    fracas_batch_destroy(run->batch);
-    fracas_model_destroy(run->model);
-}
-
 /* One step from displacements up to 0.5e-9 and velocities up to `speed`/2 at random: the kick is
  * that of the operator, the elastic energy u.K u/2, the kinetic one v.M v'/2 with the velocities
  * before and after. Sums of n terms: 1e-12 by the largest. */
 static inline void check_first_step(fracas_model *model, int width, double strength, double speed)
 {
-    surface_run run = begin_run(model, width, strength);
+    one_run run = begin_run(model, width, strength);
     const size_t n = unknowns_of(model);
     OWNED double *u = vector_of(n), *v = vector_of(n), *f = vector_of(n), *a = vector_of(n),
                  *momentum = vector_of(n);

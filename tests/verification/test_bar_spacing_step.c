@@ -2,16 +2,14 @@
 /* The critical time step of bars on elements of any lengths, against a dense eigenvalue
  * solver and by running. */
 #include "tests/support/bar_state.h"
-#include "tests/support/test.h"
-
-#include <gsl/gsl_eigen.h>
+#include "tests/support/dense.h"
 
 typedef struct {
     const fracas_model *model;
     bool ring, nitsche, broken;
     double contact; /* K of a broken interface / mean of both elements' E/h */
     size_t size;
-    gsl_matrix *stiffness; /* of all nodes, left and right of each element */
+    double *stiffness; /* of all nodes, left and right of each element */
 } dense_operator;
 
 static void add_product(dense_operator *o, const size_t *at, const double *a, const double *b,
@@ -19,7 +17,7 @@ static void add_product(dense_operator *o, const size_t *at, const double *a, co
 {
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
-            *gsl_matrix_ptr(o->stiffness, at[i], at[j]) += factor * (a[i] * b[j] + b[i] * a[j]);
+            o->stiffness[at[i] * o->size + at[j]] += factor * (a[i] * b[j] + b[i] * a[j]);
 }
 
 /* Second derivatives of (bar.4) with delta = 0, or of elements and contact springs: bulk (E/2h) (b
@@ -29,7 +27,7 @@ static void assemble(dense_operator *o)
     const size_t n = o->model->elements;
     const fracas_model *model = o->model;
     o->size = 2 * n;
-    o->stiffness = gsl_matrix_calloc(o->size, o->size);
+    o->stiffness = vector_of(o->size * o->size);
     for (size_t e = 0; e < n; e++) {
         const size_t at[4] = {2 * e, 2 * e + 1, 2 * e, 2 * e + 1};
         const double strain[4] = {-1, 1, 0, 0};
@@ -83,23 +81,17 @@ static double dense_step(const fracas_model *model, bool broken)
     double mass[2 * MOST] = {0};
     for (size_t i = 0; i < o.size; i++)
         if (number[i] >= 0) mass[number[i]] += 0.5 * 2750 * length_of(model, i / 2);
-    gsl_matrix *matrix = gsl_matrix_calloc(n, n);
+    OWNED double *matrix = vector_of(n * n);
     for (size_t i = 0; i < o.size; i++)
         for (size_t j = 0; j < o.size; j++)
             if (number[i] >= 0 && number[j] >= 0)
-                *gsl_matrix_ptr(matrix, (size_t)number[i], (size_t)number[j]) +=
-                    gsl_matrix_get(o.stiffness, i, j) / sqrt(mass[number[i]] * mass[number[j]]);
-    gsl_vector *value = gsl_vector_alloc(n);
-    gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(n);
-    assert_int_equal(gsl_eigen_symm(matrix, value, work), 0);
-    const double omega_squared = gsl_vector_max(value);
-    assert_true(gsl_vector_min(value) >
-                -1e-10 * omega_squared); /* stiff in every direction, at every beta > 1 */
-    gsl_eigen_symm_free(work);
-    gsl_vector_free(value);
-    gsl_matrix_free(matrix);
-    gsl_matrix_free(o.stiffness);
-    return 2 / sqrt(omega_squared);
+                matrix[(size_t)number[i] * n + (size_t)number[j]] +=
+                    o.stiffness[i * o.size + j] / sqrt(mass[number[i]] * mass[number[j]]);
+    OWNED double *value = eigenvalues_of(matrix, n);
+    /* stiff in every direction, at every beta > 1 */
+    assert_true(value[0] > -1e-10 * value[n - 1]);
+    free(o.stiffness);
+    return 2 / sqrt(value[n - 1]);
 }
 
 /* Steps above the true critical one by less than 1e-7 whatever the mesh, and below it by round-off

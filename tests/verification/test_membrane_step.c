@@ -63,7 +63,7 @@ static double expected_velocity(const fracas_model *model, size_t unknown)
 static void check_edges_hold(int64_t order, bool consistent, bool rest)
 {
     const fracas_spec spec = held_plate(order, consistent, rest);
-    surface_run run = begin_run(distorted_model(spec, DISTORTION, 9), 1, 1e12);
+    one_run run = begin_run(distorted_model(spec, DISTORTION, 9), 1, 1e12);
     const size_t n = unknowns_of(run.model);
     size_t count[2] = {0, 0};
     for (size_t i = 0; i < n; i++) {

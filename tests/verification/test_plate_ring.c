@@ -130,7 +130,7 @@ static fracas_model *disk_model(int64_t order, double size, const fracas_kind *m
 static membrane_errors turn_by(int64_t order, double size, const fracas_kind *mass,
                                const fracas_kind *integrator)
 {
-    surface_run run = begin_run(disk_model(order, size, mass, integrator), 1, 1e12);
+    one_run run = begin_run(disk_model(order, size, mass, integrator), 1, 1e12);
     const fracas_model *model = run.model;
     const fracas_batch *batch = run.batch;
     membrane_errors errors = {.residual = 0};

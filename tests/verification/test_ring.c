@@ -9,9 +9,9 @@
 
 /* One realization, every interface of this strength unless `strength` is NaN: then it is replica 0
  * of 0.33 %. */
-static ring_run start(const fracas_spec *spec, double strength)
+static one_run start(const fracas_spec *spec, double strength)
 {
-    ring_run run = make(spec, isnan(strength) ? BAR_STRENGTH_MEAN : strength);
+    one_run run = make(spec, isnan(strength) ? BAR_STRENGTH_MEAN : strength);
     if (isnan(strength)) bar_draw(run.batch, 0, 1.0 / 300, 0);
     OK(fracas_batch_begin(run.batch));
     return run;
@@ -33,14 +33,14 @@ static void a_free_ring_cracks_at_the_exact_time(void **unused)
 {
     for (int stershic = 0; stershic < 2; stershic++) {
         const fracas_spec spec = either(stershic, 1000, 1e4, 1.2e-7);
-        ring_run run = start(&spec, 300e6);
-        finish(&run);
+        one_run run = start(&spec, 300e6);
+        finish_run(&run);
         const double w = BAR_WAVE_SPEED / RING_RADIUS, exact = asin(300e6 * w / (YOUNG * 1e4)) / w;
         print_message("[  figures ] onset %.6f ns, exact %.6f: relative difference %.1e\n",
                       1e9 * run.record.onset_time, 1e9 * exact, run.record.onset_time / exact - 1);
         assert_true(fabs(1e9 * exact - 109.4355) < 5e-5);
         assert_true(fabs(run.record.onset_time / exact - 1) < (stershic ? 1.5e-6 : 6.7e-6));
-        clear(&run);
+        clear_run(&run);
     }
 }
 
@@ -55,14 +55,14 @@ static void a_ring_below_the_critical_rate_stays_whole(void **unused)
         for (int above = 0; above < 2; above++) {
             const fracas_spec spec = either(stershic, 500, (above ? 1.0002 : 0.9998) * critical,
                                             1.2 * quarter);
-            ring_run run = start(&spec, 300e6);
-            finish(&run);
+            one_run run = start(&spec, 300e6);
+            finish_run(&run);
             assert_int_equal(run.record.outcome == FRACAS_INTACT && run.record.cracked == 0,
                              !above);
             if (above)
                 assert_true(fabs(run.record.onset_time / quarter - 1) <
                             0.02); /* near the crest: acos(1/1.0002)/(pi/2) */
-            clear(&run);
+            clear_run(&run);
         }
 }
 
@@ -73,13 +73,13 @@ static void a_ring_below_the_critical_rate_stays_whole(void **unused)
 static void an_uncracked_ring_breathes_as_a_sine(void **unused)
 {
     fracas_spec spec = ring_reference(1000, 1e3, 3e-6);
-    ring_run run = start(&spec, 1e9);
+    one_run run = start(&spec, 1e9);
     const double radius = run.model->element_size / (2 * sin(3.14159265358979323846 / 1000)),
                  w = BAR_WAVE_SPEED / radius;
     const double dt = run.model->time_step, v = 1e3 * radius, lower = 2 * asin(0.5 * w * dt) / dt;
     double worst = 0, drift = 0;
     while (run.running) {
-        step(&run);
+        step_run(&run);
         const double *u = run.batch->step.state + RING_U_LEFT;
         const double exact = v * dt * sin(lower * run.batch->step.time[0]) / sin(lower * dt);
         worst = fmax(worst, fabs(u[0] - exact) * w / v); /* element 0 starts on the x axis */
@@ -90,7 +90,7 @@ static void an_uncracked_ring_breathes_as_a_sine(void **unused)
         worst, drift / run.record.kinetic);
     assert_true(worst < 1e-9);
     assert_true(drift < 1e-12 * run.batch->lane[0].ledger.initial);
-    clear(&run);
+    clear_run(&run);
 }
 
 /* The free ring's onset tends to the bar's as R^-2: t = (1/w) asin(w t_bar), so t/t_bar - 1 = (w
@@ -104,8 +104,8 @@ static void a_ring_tends_to_the_bar(void **unused)
         fracas_spec spec = ring_reference(1000 << k, 1e4, 1.2e-7);
         spec.geometry.radius = radius;
         spec.loading.radial = 1e4 * radius;
-        ring_run run = start(&spec, 300e6);
-        finish(&run);
+        one_run run = start(&spec, 300e6);
+        finish_run(&run);
         const double excess = run.record.onset_time / exact - 1, order = log2(before / excess);
         print_message("[  figures ] R %6.3f mm: onset beyond the bar's by %.4e%s%.4f\n",
                       1e3 * radius, excess, k ? ", order " : "; ", k ? order : 0.0);
@@ -114,7 +114,7 @@ static void a_ring_tends_to_the_bar(void **unused)
                 fabs(order - 2) <
                 0.0095); /* the next term: 9/20 (w t)^2 of the first, 8.5e-3 less 2.1e-3, by ln 2 */
         before = excess;
-        clear(&run);
+        clear_run(&run);
     }
 }
 
@@ -126,9 +126,9 @@ static void a_driven_ring_is_the_bar(void **unused)
     const int64_t n = 1250;
     fracas_spec ring = ring_reference(n, 1e5, 1e-7), bar = bar_reference(n, 1e5, 1e-7);
     ring.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 1e5};
-    ring_run one = start(&ring, NAN), other = start(&bar, NAN);
-    finish(&one);
-    finish(&other);
+    one_run one = start(&ring, NAN), other = start(&bar, NAN);
+    finish_run(&one);
+    finish_run(&other);
     const fracas_record *a = &one.record, *b = &other.record;
     print_message(
         "[  figures ] ring: %ld fragments, dissipated %.6e J, work %.6e J; bar: %ld, %.6e, %.6e\n",
@@ -137,8 +137,8 @@ static void a_driven_ring_is_the_bar(void **unused)
     assert_true(labs((long)(a->fragments - b->fragments)) <= 3);
     assert_true(fabs(a->dissipated / b->dissipated - 1) < 5e-3);
     assert_true(fabs(a->work / b->work - 1) < 5e-3);
-    clear(&one);
-    clear(&other);
+    clear_run(&one);
+    clear_run(&other);
 }
 
 /* A force f per length on an uncracked ring at rest is a step load on an oscillator: strain f R/(E
@@ -158,8 +158,8 @@ static void forces_do_what_they_say(void **unused)
                                         .force_rate = linear ? f / end : 0};
         if (i >> 2)
             spec.time.safety = 0.1; /* velocities at whole steps: energy wobbles by (omega dt)^2 */
-        ring_run run = start(&spec, 1e9);
-        finish(&run);
+        one_run run = start(&spec, 1e9);
+        finish_run(&run);
         const double t = run.record.end_time,
                      radius = run.model->element_size / (2 * sin(3.14159265358979323846 / 500));
         const double w = BAR_WAVE_SPEED / radius, slope = f / end;
@@ -186,7 +186,7 @@ static void forces_do_what_they_say(void **unused)
         assert_true(fabs(found / exact - 1) < 2e-4);
         if (around) assert_true(fabs(run.record.work / work - 1) < 1e-4);
         assert_true(run.record.work > 0 && run.record.residual < 2e-5 * run.record.work);
-        clear(&run);
+        clear_run(&run);
     }
 }
 
@@ -204,8 +204,8 @@ static void held_velocities_are_held(void **unused)
                                         .direction = around ? &fracas_axis_circumferential
                                                             : &fracas_axis_radial};
         if (i >> 1) spec.time.safety = 0.1;
-        ring_run run = start(&spec, 1e9);
-        finish(&run);
+        one_run run = start(&spec, 1e9);
+        finish_run(&run);
         const double t = run.record.end_time, swell = run.model->element_size /
                                                       (2 * sin(3.14159265358979323846 / 400)) /
                                                       RING_RADIUS;
@@ -222,7 +222,7 @@ static void held_velocities_are_held(void **unused)
          * 6e-7 */
         assert_true(fabs(run.record.work / (kinetic + elastic) - 1) < 2e-4);
         assert_true(run.record.residual < 1e-5 * run.record.work);
-        clear(&run);
+        clear_run(&run);
     }
 }
 

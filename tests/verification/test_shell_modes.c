@@ -40,24 +40,16 @@ static double lowest_by_largest(const fracas_model *model, const double *soft, c
                                 double share, bool across, size_t n)
 {
     const size_t size = across ? n / 3 : 2 * n / 3;
-    gsl_matrix *copy = gsl_matrix_alloc(size, size);
-    gsl_vector *values = gsl_vector_alloc(size);
-    gsl_eigen_symm_workspace *work = gsl_eigen_symm_alloc(size);
-    assert_true(copy && values && work);
+    OWNED double *part = vector_of(size * size);
     for (size_t i = 0; i < size; i++)
         for (size_t j = 0; j < size; j++) {
             const size_t p = across ? 3 * i + 2 : i / 2 * 3 + i % 2,
                          q = across ? 3 * j + 2 : j / 2 * 3 + j % 2;
-            const double entry = (1 - share) * 0.5 * (soft[p * n + q] + soft[q * n + p]) +
-                                 share * 0.5 * (stiff[p * n + q] + stiff[q * n + p]);
-            gsl_matrix_set(copy, i, j, entry / sqrt(mass_of(model, p) * mass_of(model, q)));
+            part[i * size + j] = ((1 - share) * soft[p * n + q] + share * stiff[p * n + q]) /
+                                 sqrt(mass_of(model, p) * mass_of(model, q));
         }
-    gsl_eigen_symm(copy, values, work);
-    const double ratio = gsl_vector_min(values) / gsl_vector_max(values);
-    gsl_eigen_symm_free(work);
-    gsl_vector_free(values);
-    gsl_matrix_free(copy);
-    return ratio;
+    OWNED double *value = eigenvalues_of(part, size);
+    return value[0] / value[size - 1];
 }
 
 /* K is linear in beta: the least at which no eigenvalue is negative, by bisection between 0 and 10.

@@ -74,7 +74,7 @@ static void breathing_frequency(void **unused)
 
 /* Mean stress of stretching of an element, E/(1 - nu) times half the trace of the strain at the
  * points where resultants are. */
-static double stress_of(const surface_run *run, size_t e)
+static double stress_of(const one_run *run, size_t e)
 {
     static const double place[3][2] = {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}};
     const fracas_material *m = &run->model->spec.material;
@@ -92,7 +92,7 @@ static double stress_of(const surface_run *run, size_t e)
 }
 
 /* Mean over the area, and the furthest element from it. */
-static double mean_stress(const surface_run *run, double *spread)
+static double mean_stress(const one_run *run, double *spread)
 {
     double sum = 0, area = 0, least = INFINITY, most = -INFINITY;
     for (size_t e = 0; e < run->model->elements; e++) {
@@ -118,7 +118,7 @@ static void a_growing_sphere(void **unused)
     for (int whole = 0; whole < 2; whole++) {
         const fracas_spec spec = alumina(whole ? &fracas_part_whole : &fracas_part_octant,
                                          whole ? 16 : 32);
-        surface_run run = begin_run(distorted_model(spec, 0.1, 5), 1, 1e10);
+        one_run run = begin_run(distorted_model(spec, 0.1, 5), 1, 1e10);
         const double omega = breathing(&spec),
                      amplitude = spec.material.young * 1e4 / (1 - spec.material.poisson) / omega;
         const double end = whole ? 200e-9 : 2 * PI / omega;
@@ -261,7 +261,7 @@ static void symmetry_is_a_mirror(void **unused)
     fracas_surface_operator_close(op_all);
 }
 
-static void start_ellipsoid(surface_run *run)
+static void start_ellipsoid(one_run *run)
 {
     const double rate[3] = {1e4, -4e3, -5e3};
     for (size_t i = 0; i < unknowns_of(run->model); i++)
@@ -277,7 +277,7 @@ static double ellipsoids_differ(int64_t divisions)
     octant->time_step *= 0.9; /* below both critical steps */
     fracas_model *whole = mirrored(octant);
     whole->time_step = octant->time_step;
-    surface_run one = begin_run(octant, 1, 1e10), all = begin_run(whole, 1, 1e10);
+    one_run one = begin_run(octant, 1, 1e10), all = begin_run(whole, 1, 1e10);
     start_ellipsoid(&one);
     start_ellipsoid(&all);
     double worst = 0;

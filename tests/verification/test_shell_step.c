@@ -44,13 +44,13 @@ static void edges_hold_what_they_should(void **unused)
             spec.geometry.edge[tag] = kinds[k];
             spec.loading.rate = rate;
             spec.loading.ratio = 0.5;
-            surface_run run = begin_run(grid_model(&spec, &(shell_grid){.nx = 3,
-                                                                        .ny = 3,
-                                                                        .map = flat_map,
-                                                                        .how = unit,
-                                                                        .distortion = 0.1,
-                                                                        .seed = 3}),
-                                        1, 1e3);
+            one_run run = begin_run(grid_model(&spec, &(shell_grid){.nx = 3,
+                                                                    .ny = 3,
+                                                                    .map = flat_map,
+                                                                    .how = unit,
+                                                                    .distortion = 0.1,
+                                                                    .seed = 3}),
+                                    1, 1e3);
             const fracas_surface *s = run.model->surface;
             const double speed[3] = {rate, 0.5 * rate, rate};
             for (int n = 0; n < 20; n++) step_run(&run);

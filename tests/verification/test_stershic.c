@@ -7,7 +7,7 @@
 /* Traction of link e [Pa] as both of its nodes felt it: in the first step a velocity is forces by
  * half the next time step by dt/2, and unstrained elements exert none. The element's own sum is
  * turned into the link's direction. */
-static double felt(const ring_run *run, size_t e, bool right)
+static double felt(const one_run *run, size_t e, bool right)
 {
     double n[2];
     const double mass = 0.5 * DENSITY * run->h, kick = 0.5 * run->batch->step.next[0];
@@ -57,11 +57,11 @@ static void the_law_at_prescribed_openings(void **unused)
                                     {1, -0.3, -0.3 * contact, 1}};
         for (size_t i = 0; i < FRACAS_COUNT(points); i++) {
             const law_point *p = &points[i];
-            ring_run run = begin(&spec, sigma_c);
+            one_run run = begin(&spec, sigma_c);
             *link_of(&run, LINK) = RING_LINK_OPEN;
             *at(&run, LINK, RING_DAMAGE) = p->damage;
             set_jump(&run, LINK, p->q * delta_c);
-            step(&run);
+            step_run(&run);
             const fracas_ledger *ledger = &run.batch->lane[0].ledger;
             const double area = spec.geometry.area,
                          stored = 0.5 * area * p->traction * sigma_c * p->q * delta_c;
@@ -71,7 +71,7 @@ static void the_law_at_prescribed_openings(void **unused)
             assert_true(fabs(ledger->cohesive - stored) < 1e-13 * area * sigma_c * delta_c);
             assert_true(fabs(ledger->dissipated - area * 100 * p->after) < 1e-13 * area * 100);
             assert_int_equal(run.batch->step.broken[0], p->damage < 1 && p->after == 1);
-            clear(&run);
+            clear_run(&run);
         }
     }
 }
@@ -85,7 +85,7 @@ static void closed_links_share_their_elements_forces(void **unused)
     enum { N = 40, LINK = 39 }; /* between the last element and the first */
     for (int state = RING_LINK_CLOSED; state <= RING_LINK_BARRED; state++) {
         const fracas_spec spec = at_rest(N);
-        ring_run run = begin(&spec, 300e6);
+        one_run run = begin(&spec, 300e6);
         set_stress(&run, LINK, stress);
         set_stress(&run, LINK + 1, 3 * stress);
         *link_of(&run, LINK) = state;
@@ -100,7 +100,7 @@ static void closed_links_share_their_elements_forces(void **unused)
             *at(&run, LINK + 1, RING_U_LEFT + i) -= jump;
             *at(&run, LINK + 1, RING_U_RIGHT + i) -= jump;
         }
-        step(&run);
+        step_run(&run);
         double a[2], b[2];
         chord_of(&run, LINK, a);
         chord_of(&run, LINK + 1, b);
@@ -117,7 +117,7 @@ static void closed_links_share_their_elements_forces(void **unused)
                 assert_true(*at(&run, LINK, RING_V_RIGHT + i) ==
                             *at(&run, LINK + 1, RING_V_LEFT + i));
         }
-        clear(&run);
+        clear_run(&run);
     }
 }
 
@@ -179,7 +179,7 @@ static void critical_zones_refine_the_time_step(void **unused)
             const size_t link = around ? N - 1 : LINK;
             fracas_spec spec = at_rest(N);
             spec.cohesive.refinement = xi;
-            ring_run run = make(&spec, 3e9);
+            one_run run = make(&spec, 3e9);
             bar_set_strength(run.batch, 0, link, 1e8 * it->strength);
             OK(fracas_batch_begin(run.batch));
             for (size_t e = 0; e < N; e++) {
@@ -196,26 +196,26 @@ static void critical_zones_refine_the_time_step(void **unused)
                 jump += n[c] *
                         (*at(&run, link + 1, RING_U_LEFT + c) - *at(&run, link, RING_U_RIGHT + c));
             set_jump(&run, link, it->q * delta_c - jump);
-            step(&run);
+            step_run(&run);
             double expected = run.model->time_step;
             for (int k = 0; k < it->zones; k++) expected *= xi;
             if (run.batch->step.next[0] != expected)
                 fail_msg("%s: next step is %g of the base, xi^%d expected", it->what,
                          run.batch->step.next[0] / run.model->time_step, it->zones);
-            clear(&run);
+            clear_run(&run);
         }
 }
 
 /* One step of a ring whose elements all have this stress, but for the last bits; link 5 has this
  * strength. */
-static ring_run stressed(double stress, double strength)
+static one_run stressed(double stress, double strength)
 {
     const fracas_spec spec = at_rest(40);
-    ring_run run = make(&spec, 3e9);
+    one_run run = make(&spec, 3e9);
     bar_set_strength(run.batch, 0, 5, strength);
     OK(fracas_batch_begin(run.batch));
     expand(&run, stress);
-    step(&run);
+    step_run(&run);
     return run;
 }
 
@@ -223,10 +223,10 @@ static ring_run stressed(double stress, double strength)
  * bit. */
 static void the_edges_of_the_first_zone_and_of_opening(void **unused)
 {
-    ring_run run = stressed(200e6, 1e9);
+    one_run run = stressed(200e6, 1e9);
     const double pull = pull_of(&run, 5);
     assert_true(fabs(pull / (200e6 * cos(3.14159265358979323846 / 40)) - 1) < 1e-11);
-    clear(&run);
+    clear_run(&run);
     double edge = pull / 0.95;
     while (0.95 * edge > pull) edge = nextafter(edge, 0);
     while (0.95 * edge < pull) edge = nextafter(edge, INFINITY);
@@ -244,7 +244,7 @@ static void the_edges_of_the_first_zone_and_of_opening(void **unused)
                     run.model->time_step * (cases[i].refined ? 0.25 : 1));
         assert_int_equal(*link_of(&run, 5) == RING_LINK_OPEN, cases[i].opened);
         assert_int_equal(run.batch->step.cracked[0], cases[i].opened);
-        clear(&run);
+        clear_run(&run);
     }
 }
 
@@ -256,17 +256,17 @@ static void a_link_opens_by_the_pull_along_its_normal(void **unused)
 {
     const double part = cos(3.14159265358979323846 / 40);
     for (int opens = 0; opens < 2; opens++) {
-        ring_run run = stressed(200e6, 200e6 * (opens ? part * (1 - 1e-6) : 0.5 * (1 + part)));
+        one_run run = stressed(200e6, 200e6 * (opens ? part * (1 - 1e-6) : 0.5 * (1 + part)));
         assert_int_equal(run.batch->step.cracked[0], opens);
         if (opens) {
             /* dt^2/2 times the difference of accelerations, 1e-6 of S either side; displacements of
              * 6e-6 m are good to 1e-21 m of 7e-14 */
             const double dt = run.batch->step.next[0],
                          q = 0.5 * dt * dt * 2e-6 * 200e6 * part / (0.5 * DENSITY * run.h);
-            step(&run);
+            step_run(&run);
             assert_true(fabs(*at(&run, 5, RING_DAMAGE) * 200 / (200e6 * part) / q - 1) < 1e-3);
         }
-        clear(&run);
+        clear_run(&run);
     }
 }
 
@@ -298,16 +298,16 @@ typedef struct {
     double ratio;
 } candidate;
 
-static ring_run qualify(int64_t n, double zone, const candidate *candidates, size_t count)
+static one_run qualify(int64_t n, double zone, const candidate *candidates, size_t count)
 {
     fracas_spec spec = at_rest(n);
     spec.cohesive.zone = zone;
     for (int again = 0;; again++) {
-        ring_run run = begin(&spec, 3e9);
+        one_run run = begin(&spec, 3e9);
         for (size_t e = 0; e < run.n; e++) set_stress(&run, e, 200e6);
         for (size_t i = 0; again && i < count; i++)
             bar_set_strength(run.batch, 0, candidates[i].link, candidates[i].ratio);
-        step(&run);
+        step_run(&run);
         if (again) return run;
         /* the second run takes strengths from the first one's stresses; C has no arrays of variable
          * length to return */
@@ -316,12 +316,12 @@ static ring_run qualify(int64_t n, double zone, const candidate *candidates, siz
             found[i] = (candidate){candidates[i].link,
                                    pull_of(&run, candidates[i].link) / candidates[i].ratio};
         candidates = found;
-        clear(&run);
+        clear_run(&run);
     }
 }
 
 /* Every link is open where listed, barred within `reach` of one that is open, closed elsewhere. */
-static void assert_links(const ring_run *run, size_t reach, const size_t *open, size_t count)
+static void assert_links(const one_run *run, size_t reach, const size_t *open, size_t count)
 {
     for (size_t e = 0; e < run->n; e++) {
         ring_link_state expected = RING_LINK_CLOSED;
@@ -362,15 +362,15 @@ static void links_open_by_stress_over_strength(void **unused)
         {{{56, 2}, {0, 2}, {1, 4}, {57, 1}}, 4, {1, 56}, 2}, /* 1 bars 0 and 57, not 56 */
     };
     for (size_t i = 0; i < FRACAS_COUNT(cases); i++) {
-        ring_run run = qualify(N, zone, cases[i].candidates, cases[i].ncandidates);
+        one_run run = qualify(N, zone, cases[i].candidates, cases[i].ncandidates);
         assert_links(&run, K, cases[i].open, cases[i].nopen);
-        clear(&run);
+        clear_run(&run);
         /* without a zone all of them open */
         size_t all[5];
         for (size_t c = 0; c < cases[i].ncandidates; c++) all[c] = cases[i].candidates[c].link;
         run = qualify(N, 0, cases[i].candidates, cases[i].ncandidates);
         assert_links(&run, 0, all, cases[i].ncandidates);
-        clear(&run);
+        clear_run(&run);
     }
 }
 
@@ -387,9 +387,9 @@ static void a_zone_is_as_long_as_it_says(void **unused)
             const size_t link[2] = {0, (size_t)n - 1};
             below += length / h < (double)k;
             for (int end = 0; end < 2; end++) {
-                ring_run run = qualify(n, length, &(candidate){link[end], 2}, 1);
+                one_run run = qualify(n, length, &(candidate){link[end], 2}, 1);
                 assert_links(&run, k, &link[end], 1);
-                clear(&run);
+                clear_run(&run);
             }
             if (k == 1) { /* a zone shorter than an element is refused */
                 fracas_spec spec = at_rest(n);
@@ -398,16 +398,16 @@ static void a_zone_is_as_long_as_it_says(void **unused)
                 assert_int_equal(fracas_model_create(&spec, &model), FRACAS_USAGE);
                 continue;
             }
-            ring_run run = qualify(n, length * (1 - 1e-9), &(candidate){link[1], 2}, 1);
+            one_run run = qualify(n, length * (1 - 1e-9), &(candidate){link[1], 2}, 1);
             assert_links(&run, k - 1, &link[1], 1);
-            clear(&run);
+            clear_run(&run);
         }
     print_message("[  figures ] %d zones of k elements are less than k h by rounding\n", below);
     assert_true(below > 0);
     for (int i = 0; i < 3; i++) { /* far longer than the ring */
-        ring_run run = qualify(30 + i, (double[]){1, 1e9, 1e300}[i], &(candidate){4, 2}, 1);
+        one_run run = qualify(30 + i, (double[]){1, 1e9, 1e300}[i], &(candidate){4, 2}, 1);
         assert_links(&run, 40, (size_t[]){4}, 1);
-        clear(&run);
+        clear_run(&run);
     }
 }
 
@@ -415,16 +415,16 @@ static void a_zone_is_as_long_as_it_says(void **unused)
 static void barred_links_stay_barred(void **unused)
 {
     fracas_spec spec = at_rest(40);
-    ring_run run = begin(&spec, 100e6);
+    one_run run = begin(&spec, 100e6);
     for (size_t e = 0; e < run.n; e++) {
         set_stress(&run, e, 200e6);
         *link_of(&run, e) = RING_LINK_BARRED;
     }
-    step(&run);
+    step_run(&run);
     assert_int_equal(run.batch->step.cracked[0], 0);
     for (size_t e = 0; e < run.n; e++) assert_true(*link_of(&run, e) == RING_LINK_BARRED);
     assert_true(run.batch->step.next[0] == run.model->time_step);
-    clear(&run);
+    clear_run(&run);
 }
 
 /* ---- bulk damage ---- */
@@ -443,7 +443,7 @@ static void elements_between_barred_links_are_watched(void **unused)
         const candidate both[2] = {{(size_t)cases[i][0], 4},
                                    {(size_t)(cases[i][1] < 0 ? 0 : cases[i][1]), 2}};
         const size_t open[2] = {both[0].link, both[1].link}, count = cases[i][1] < 0 ? 1 : 2;
-        ring_run run = qualify(N, zone, both, count);
+        one_run run = qualify(N, zone, both, count);
         assert_links(&run, K, open, count);
         for (size_t e = 0; e < N; e++) {
             const bool expected = *link_of(&run, e) == RING_LINK_BARRED &&
@@ -454,7 +454,7 @@ static void elements_between_barred_links_are_watched(void **unused)
                          cases[i][0], cases[i][1], e, expected ? "between two" : "not between two",
                          largest);
         }
-        clear(&run);
+        clear_run(&run);
     }
 }
 
@@ -484,14 +484,14 @@ static void the_bulk_law_at_prescribed_strains(void **unused)
         const damage_point *p = &points[i];
         fracas_spec spec = at_rest(N);
         spec.cohesive.zone = 1.3e-3;
-        ring_run run = make(&spec, 1e9);
+        one_run run = make(&spec, 1e9);
         bar_set_strength(run.batch, 0, AT - 1, 280e6);
         bar_set_strength(run.batch, 0, AT, 320e6);
         OK(fracas_batch_begin(run.batch));
         *link_of(&run, AT - 1) = *link_of(&run, AT) = RING_LINK_BARRED;
         *at(&run, AT, RING_STRAIN) = p->largest < 0 ? -1 : p->largest * eps_y;
         set_stress(&run, AT, p->strain * yield);
-        step(&run);
+        step_run(&run);
         const fracas_ledger *ledger = &run.batch->lane[0].ledger;
         const double unit = spec.geometry.area * run.h * yield * eps_y,
                      d = 1 - 1 / fmax(1, p->after);
@@ -507,7 +507,7 @@ static void the_bulk_law_at_prescribed_strains(void **unused)
         const double pushed = *at(&run, AT, RING_V_LEFT) * t[0] +
                               *at(&run, AT, RING_V_LEFT + 1) * t[1];
         assert_true(fabs(pushed / (0.5 * scale * yield) - p->stress) < 1e-10);
-        clear(&run);
+        clear_run(&run);
     }
 }
 
@@ -522,11 +522,11 @@ static void what_is_barred_beyond_its_yield_is_booked(void **unused)
     for (int zone = 0; zone < 2; zone++) {
         fracas_spec spec = at_rest(N);
         spec.cohesive.zone = zone * 5 * RING_CIRCUMFERENCE / N;
-        ring_run run = make(&spec, yield);
+        one_run run = make(&spec, yield);
         bar_set_strength(run.batch, 0, WEAK, 90e6);
         OK(fracas_batch_begin(run.batch));
         for (size_t e = 0; e < N; e++) set_stress(&run, e, e == AT ? stress : 100e6);
-        step(&run);
+        step_run(&run);
         assert_links(&run, zone * 5, (size_t[]){WEAK}, 1);
         const fracas_step *s = &run.batch->step;
         held[zone] = s->elastic[0] + s->dissipated[0] + s->cohesive[0];
@@ -535,7 +535,7 @@ static void what_is_barred_beyond_its_yield_is_booked(void **unused)
             assert_true(fabs(s->dissipated[0] / (0.5 * spec.geometry.area * run.h * yield *
                                                  (stress - yield) / YOUNG) -
                              1) < 1e-10);
-        clear(&run);
+        clear_run(&run);
     }
     const double beyond = (stress - yield) / YOUNG,
                  exact = -0.5 * YOUNG * beyond * beyond * 1e-6 * RING_CIRCUMFERENCE / N;
@@ -563,7 +563,7 @@ static void the_onset_is_within_the_step(void **unused)
     for (int turn = 0; turn < 6; turn++) {
         const double angle = turn * pi / 3, c = cos(angle), s = sin(angle);
         const fracas_spec spec = at_rest(N);
-        ring_run run = begin(&spec, 203e6);
+        one_run run = begin(&spec, 203e6);
         for (size_t e = 0; e < N; e++)
             for (size_t side = 0; side < 2; side++) {
                 const double theta = 2 * pi * (double)((e + side) % N) / N,
@@ -575,11 +575,11 @@ static void the_onset_is_within_the_step(void **unused)
                     *at(&run, e, (side ? RING_V_RIGHT : RING_V_LEFT) + i) = rate * to[i];
                 }
             }
-        while (!run.batch->step.cracked[0]) step(&run);
+        while (!run.batch->step.cracked[0]) step_run(&run);
         if (fabs(run.batch->step.first_onset[0] - exact) > 2e-4 * dt)
             fail_msg("turned by %.3f: onset after %.6f of a time step, exact %.6f", angle,
                      run.batch->step.first_onset[0] / dt, exact / dt);
-        clear(&run);
+        clear_run(&run);
     }
 }
 

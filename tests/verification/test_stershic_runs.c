@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Stershic's algorithm (docs/theory/ring.md) in whole runs: isolated link, clock, bulk damage,
  * ledger, energy guard, momentum. */
+#include "tests/support/lanes.h"
 #include "tests/support/stershic.h"
 #include "tests/support/test.h"
 
@@ -23,13 +24,13 @@ static crack_errors isolated_link(double rate, double x_b, int elements_per_s0, 
     spec.cohesive.fracture_energy = by_opening ? 0 : 100;
     spec.cohesive.critical_opening = by_opening ? delta_c : 0;
     spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = rate};
-    ring_run run = make(&spec, 2.9e9);
+    one_run run = make(&spec, 2.9e9);
     const size_t weak = (size_t)n / 3;
     bar_set_strength(run.batch, 0, weak, sigma_c);
     OK(fracas_batch_begin(run.batch));
     crack_errors errors = {0};
     while (run.running) {
-        step(&run);
+        step_run(&run);
         const double x = (run.batch->step.time[0] - onset) / BAR_T0,
                      damage = *at(&run, weak, RING_DAMAGE);
         const double exact = 2 * BAR_WAVE_SPEED * rate * BAR_T0 * BAR_T0 * (exp(x) - 1 - x);
@@ -49,7 +50,7 @@ static crack_errors isolated_link(double rate, double x_b, int elements_per_s0, 
     errors.broke = fabs((row->break_time - onset) / (x_b * BAR_T0) - 1);
     assert_true(fabs(run.record.dissipated / (spec.geometry.area * 100) - 1) <
                 1e-15); /* sigma_c (2 G_c/sigma_c)/2: 2 roundings */
-    clear(&run);
+    clear_run(&run);
     return errors;
 }
 
@@ -80,21 +81,13 @@ static void one_weak_link_opens_as_the_closed_form(void **unused)
     }
 }
 
-/* The same record, byte by byte. */
-static void assert_same(const fracas_record *a, const fracas_record *b)
-{
-    assert_memory_equal(a, b, offsetof(fracas_record, fragment));
-    assert_memory_equal(a->fragment, b->fragment, a->nfragment * sizeof *a->fragment);
-    assert_memory_equal(a->interface, b->interface, a->ninterface * sizeof *a->interface);
-}
-
 /* With one strength for all, delta_c = 2 G_c/sigma_c is the same number either way: runs are the
  * same to the last bit. With several strengths they are not. */
 static void one_strength_needs_no_choice_of_parameters(void **unused)
 {
     for (int several = 0; several < 2; several++)
         for (int zone = 0; zone < 2; zone++) {
-            ring_run run[2];
+            one_run run[2];
             for (int by_opening = 0; by_opening < 2; by_opening++) {
                 fracas_spec spec = ring_stershic(300, 1e4, 8e-7);
                 spec.cohesive.zone = zone * 3.5 * RING_CIRCUMFERENCE / 300;
@@ -105,13 +98,13 @@ static void one_strength_needs_no_choice_of_parameters(void **unused)
                 run[by_opening] = make(&spec, 300e6);
                 if (several) bar_draw(run[by_opening].batch, 0, 0.05, 0);
                 OK(fracas_batch_begin(run[by_opening].batch));
-                finish(&run[by_opening]);
+                finish_run(&run[by_opening]);
             }
             assert_true(run[0].record.broken > 20);
             if (several) assert_true(run[0].record.dissipated != run[1].record.dissipated);
-            else assert_same(&run[0].record, &run[1].record);
-            clear(&run[0]);
-            clear(&run[1]);
+            else assert_same_record(&run[0].record, &run[1].record);
+            clear_run(&run[0]);
+            clear_run(&run[1]);
         }
 }
 
@@ -122,7 +115,7 @@ static void the_clock_adds_up(void **unused)
 {
     fracas_spec spec = ring_stershic(1250, 1e4, 6e-7);
     spec.cohesive.refinement = 0.3;
-    ring_run run = make(&spec, 300e6);
+    one_run run = make(&spec, 300e6);
     bar_draw(run.batch, 0, 1.0 / 300, 0);
     OK(fracas_batch_begin(run.batch));
     const double base = run.model->time_step, steps[3] = {base, base * 0.3, base * 0.3 * 0.3};
@@ -130,7 +123,7 @@ static void the_clock_adds_up(void **unused)
     int64_t seen[3] = {0}, changes = 1;
     double planned = 0, last = 0;
     while (run.running) {
-        step(&run);
+        step_run(&run);
         const double drift = run.batch->step.drift[0];
         assert_true(drift == planned);
         sum += (long double)drift;
@@ -156,7 +149,7 @@ static void the_clock_adds_up(void **unused)
                 run.record.end_time >= spec.time.end);
     assert_true(run.record.end_time - run.batch->step.drift[0] < spec.time.end);
     assert_true(run.record.time_step == base);
-    clear(&run);
+    clear_run(&run);
 }
 
 /* ---- bulk damage ---- */
@@ -178,7 +171,7 @@ static double bulk_stress(const watched *w)
 }
 
 /* Strain from the places of the nodes, in long double. */
-static double strain_of(const ring_run *run, size_t e)
+static double strain_of(const one_run *run, size_t e)
 {
     const long double pi = 3.14159265358979323846264338L, h = run->h,
                       angle = pi * (long double)(2 * e + 1) / (long double)run->n;
@@ -191,7 +184,7 @@ static double strain_of(const ring_run *run, size_t e)
 
 /* One element, one step on, from what the test knew of it. Stress is linear in the strain but for
  * one corner a step at most, where the trapezoid misses E (change of strain)^2/2 or less. */
-static void watch_element(const ring_run *run, size_t e, watched *w)
+static void watch_element(const one_run *run, size_t e, watched *w)
 {
     const watched before = *w;
     w->strain = strain_of(run, e);
@@ -214,17 +207,17 @@ static void watch_element(const ring_run *run, size_t e, watched *w)
 enum { N = 200, WEAK = 50 };
 
 /* Under imposed rate until its weak link has just opened and barred all others. */
-static ring_run barred_ring(void)
+static one_run barred_ring(void)
 {
     fracas_spec spec = ring_stershic(N, 1e4, 3e-6);
     spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 1e4};
     spec.cohesive.zone = 1;
     spec.time.safety = 0.1;
-    ring_run run = make(&spec, 300e6);
+    one_run run = make(&spec, 300e6);
     for (size_t i = 0; i < N; i++)
         bar_set_strength(run.batch, 0, i, i == WEAK ? 300e6 : 310e6 + 1e5 * (double)((i * 37) % N));
     OK(fracas_batch_begin(run.batch));
-    while (!run.batch->step.cracked[0]) step(&run);
+    while (!run.batch->step.cracked[0]) step_run(&run);
     return run;
 }
 
@@ -234,7 +227,7 @@ static ring_run barred_ring(void)
  * the test, is what it stores and dissipates (ring.17). */
 static void a_barred_ring_yields(void **unused)
 {
-    ring_run run = barred_ring();
+    one_run run = barred_ring();
     static watched element[N];
     for (size_t e = 0; e < N; e++) {
         watched *w = &element[e];
@@ -251,7 +244,7 @@ static void a_barred_ring_yields(void **unused)
     int64_t seen[4] = {0};
     double deepest = 0;
     while (run.running) {
-        step(&run);
+        step_run(&run);
         for (size_t e = 0; e < N; e++) {
             if (e == WEAK || e == WEAK + 1) continue;
             watch_element(&run, e, &element[e]);
@@ -289,17 +282,17 @@ static void a_barred_ring_yields(void **unused)
     assert_true(fabs(r->dissipated / dissipated - 1) < 1e-11);
     assert_true(r->dissipated > 100 * area * 100); /* it is the bulk's, not the link's */
     assert_true(r->residual < 1e-4 * r->work);
-    clear(&run);
+    clear_run(&run);
 }
 
 /* ---- ledger, guard, momentum ---- */
 
 /* |residual| by the largest energy, the largest of the steps that the guard looks at. */
-static double residual_of(ring_run *run)
+static double residual_of(one_run *run)
 {
     double worst = 0;
     while (run->running) {
-        step(run);
+        step_run(run);
         const fracas_ledger *ledger = &run->batch->lane[0].ledger;
         const double held = ledger->elastic + ledger->cohesive + ledger->dissipated;
         const double scale = fmax(fmax(ledger->kinetic, held), fabs(ledger->work));
@@ -309,9 +302,9 @@ static double residual_of(ring_run *run)
     return worst;
 }
 
-static ring_run scattered(const fracas_spec *spec, double scatter, uint64_t replica)
+static one_run scattered(const fracas_spec *spec, double scatter, uint64_t replica)
 {
-    ring_run run = make(spec, 300e6);
+    one_run run = make(spec, 300e6);
     bar_draw(run.batch, 0, scatter, replica);
     OK(fracas_batch_begin(run.batch));
     return run;
@@ -330,7 +323,7 @@ static void the_ledger_closes_as_the_time_step_falls(void **unused)
             spec.time.safety = safety;
             if (driven)
                 spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 1e4};
-            ring_run run = scattered(&spec, 1.0 / 300, 0);
+            one_run run = scattered(&spec, 1.0 / 300, 0);
             const double worst = residual_of(&run);
             const fracas_record *r = &run.record;
             print_message("[  figures ] %s, safety %.1f: residual %.1e J, %.1e of the largest "
@@ -341,7 +334,7 @@ static void the_ledger_closes_as_the_time_step_falls(void **unused)
             assert_true(worst < 5e-3 && r->residual < 0.5 * last);
             if (safety < 0.3) assert_true(r->residual < 1e-4 * r->dissipated);
             last = r->residual;
-            clear(&run);
+            clear_run(&run);
         }
     }
 }
@@ -357,12 +350,12 @@ static void the_energy_guard_ends_what_has_drifted(void **unused)
         fracas_spec spec = ring_stershic(400, 1e4, 1.2e-6);
         spec.cohesive.refinement = 1;
         spec.cohesive.penalty = 100;
-        ring_run run = scattered(&spec, 1.0 / 30, replica);
+        one_run run = scattered(&spec, 1.0 / 30, replica);
         const double drifted = residual_of(&run);
         assert_int_equal(run.record.outcome, FRACAS_ENERGY_DRIFT);
         assert_true(run.record.end_time < 0.5 * spec.time.end);
         least = fmin(least, drifted);
-        clear(&run);
+        clear_run(&run);
         fracas_spec mild = ring_stershic(100, 1e4, 1.2e-6);
         mild.cohesive.refinement = 1;
         run = scattered(&mild, 1.0 / 30, replica);
@@ -371,7 +364,7 @@ static void the_energy_guard_ends_what_has_drifted(void **unused)
         assert_true(run.record.end_time >= mild.time.end);
         lowest = fmin(lowest, warned);
         highest = fmax(highest, warned);
-        clear(&run);
+        clear_run(&run);
     }
     print_message("[  figures ] residual by the largest energy: at least %.3f; on the coarse mesh "
                   "%.4f to %.4f\n",
@@ -399,11 +392,11 @@ static void the_papers_time_step_is_too_long_for_some(void **unused)
             spec.cohesive.critical_zone = zones[way];
             spec.cohesive.zone = i % 2 ? 3.5 * 6e-3 / 200 : 0;
             spec.time.safety = way == 1 ? 0.2 : 0.8;
-            ring_run run = scattered(&spec, 0.2, i / 2);
-            finish(&run);
+            one_run run = scattered(&spec, 0.2, i / 2);
+            finish_run(&run);
             drifted[way] += run.record.outcome == FRACAS_ENERGY_DRIFT;
             worst[way] = fmax(worst[way], run.record.residual / run.record.dissipated);
-            clear(&run);
+            clear_run(&run);
         }
     print_message("[  figures ] of 16 runs at 0.8 h/c %d drift; at 0.2 %d, residuals to %.1e of "
                   "the dissipated energy; with steep links watched %d, %.1e\n",
@@ -423,8 +416,8 @@ static void momentum_is_kept(void **unused)
         if (k & 1) spec.geometry.direction = &fracas_direction_initial;
         if (k & 2) spec.cohesive.zone = 5.5 * RING_CIRCUMFERENCE / 1250;
         if (k & 4) spec.loading.circumferential = 10;
-        ring_run run = scattered(&spec, 1.0 / 300, 0);
-        finish(&run);
+        one_run run = scattered(&spec, 1.0 / 300, 0);
+        finish_run(&run);
         const double radius = run.h / (2 * sin(PI / 1250)), start = run.model->mass *
                                                                     spec.loading.circumferential *
                                                                     radius / RING_RADIUS * radius;
@@ -446,7 +439,7 @@ static void momentum_is_kept(void **unused)
         /* 3000 steps of 2500 nodes, a rounding of 1e-16 each, in random directions */
         assert_true(momentum < 1e-14 * scale);
         assert_true(drift < (k == 5 || k == 7 ? 1e-5 : 1e-7));
-        clear(&run);
+        clear_run(&run);
     }
 }
 
