@@ -83,19 +83,13 @@ static void test_tables(void **state)
 {
     const fracas_attachment measured = {.path = "s.csv", .text = "3e8\n4e8\n3.5e8\n", .size = 14};
     const fracas_attachment factor = {.path = "f.csv", .text = "0 1\n0.5 2\n1 1\n", .size = 14};
-    for (size_t k = 0; k < fracas_strength_section.nkinds; k++) {
-        const fracas_kind *kind = fracas_strength_section.kinds[k];
-        if (strcmp(kind->name, "empirical") != 0) continue;
-        fracas_strength strength = correlated(&fracas_covariance_exponential, 0.3, NAN);
-        strength.distribution = kind;
-        strength.file = &measured;
-        strength.factor = &factor;
-        strength.factor_along = &fracas_along_x;
-        sites_scattered(10, position);
-        fail_each(strength, 10, LONG_MAX);
-        return;
-    }
-    fail_msg("there is no distribution `empirical`");
+    fracas_strength strength = correlated(&fracas_covariance_exponential, 0.3, NAN);
+    strength.distribution = kind_of(&fracas_strength_section, "empirical");
+    strength.file = &measured;
+    strength.factor = &factor;
+    strength.factor_along = &fracas_along_x;
+    sites_scattered(10, position);
+    fail_each(strength, 10, LONG_MAX);
 }
 
 TESTS(test_circle, test_line, test_scattered, test_tables)

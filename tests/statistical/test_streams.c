@@ -70,16 +70,19 @@ static void numbers_are_uncorrelated(void **state)
     assert_chi_square("correlations of successive sites", squares, LAGS);
 }
 
-/* Pairs of numbers of two streams in 64 x 64 cells, by their highest and by their lowest 6 bits. */
+/* Pairs of numbers of two streams, of one site and of neighbouring ones, in 64 x 64 cells by their
+ * highest and by their lowest 6 bits. */
 static void assert_independent(const char *what)
 {
     static const unsigned shifts[] = {46, 0};
-    for (size_t k = 0; k < FRACAS_COUNT(shifts); k++) {
-        uint32_t count[CELLS] = {0};
-        for (size_t i = 0; i < N; i++)
-            count[(bits_of(u[i]) >> shifts[k] & 63) * 64 + (bits_of(v[i]) >> shifts[k] & 63)]++;
-        assert_even(what, count);
-    }
+    for (size_t k = 0; k < FRACAS_COUNT(shifts); k++)
+        for (size_t off = 0; off < 3; off++) {
+            uint32_t count[CELLS] = {0};
+            for (size_t i = 0; i < N; i++)
+                count[(bits_of(u[(i + (off == 1)) % N]) >> shifts[k] & 63) * 64 +
+                      (bits_of(v[(i + (off == 2)) % N]) >> shifts[k] & 63)]++;
+            assert_even(what, count);
+        }
 }
 
 static void neighbouring_streams_are_independent(void **state)

@@ -4,14 +4,11 @@
 #define FRACAS_TESTS_SUPPORT_LAWS_H
 
 #include "sampler/api/sampler.h"
-#include "tests/support/test.h"
+#include "tests/support/kinds.h"
 
 static inline const fracas_kind *law_named(const char *name)
 {
-    for (size_t i = 0; i < fracas_strength_section.nkinds; i++)
-        if (strcmp(fracas_strength_section.kinds[i]->name, name) == 0)
-            return fracas_strength_section.kinds[i];
-    abort();
+    return kind_of(&fracas_strength_section, name);
 }
 
 static inline const fracas_param *param_of(const fracas_kind *law, const char *key)

@@ -4,21 +4,18 @@
 #define FRACAS_TESTS_SUPPORT_SITES_H
 
 #include "sampler/field/covariance.h"
-#include "tests/support/test.h"
+#include "tests/support/kinds.h"
 
 /* Lognormal strengths of sigma 1 and median 1 Pa: their logarithms are the normal field. */
 static inline fracas_strength correlated(const fracas_kind *covariance, double length,
                                          double smoothness)
 {
-    fracas_strength strength = {.median = 1,
-                                .sigma = 1,
-                                .covariance = covariance,
-                                .correlation_length = length,
-                                .smoothness = smoothness};
-    for (size_t k = 0; k < fracas_strength_section.nkinds; k++)
-        if (fracas_strength_section.kinds[k]->name[0] == 'l')
-            strength.distribution = fracas_strength_section.kinds[k];
-    return strength;
+    return (fracas_strength){.distribution = kind_of(&fracas_strength_section, "lognormal"),
+                             .median = 1,
+                             .sigma = 1,
+                             .covariance = covariance,
+                             .correlation_length = length,
+                             .smoothness = smoothness};
 }
 
 /* Along a circle that lies askew in space, far from the origin. */
