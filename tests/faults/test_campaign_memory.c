@@ -4,7 +4,6 @@
  * is short. */
 #include "campaigns/plan/plan.h"
 #include "tests/support/campaign_text.h"
-#include "tests/support/test.h"
 
 #include <limits.h>
 

@@ -4,7 +4,6 @@
 #include "sampler/field/sparse_factor.h"
 #include "sampler/api/sampler.h"
 #include "tests/support/sites.h"
-#include "tests/support/test.h"
 
 #ifdef __SANITIZE_ADDRESS__
 /* AddressSanitizer owns malloc; this program has nothing to do there. */

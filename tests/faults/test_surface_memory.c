@@ -2,7 +2,6 @@
 /* Making and reading a surface when the k-th allocation fails, for every k: an error, never a
  * crash. */
 #include "tests/support/gmsh.h"
-#include "tests/support/test.h"
 
 #ifdef __SANITIZE_ADDRESS__
 /* AddressSanitizer owns malloc; this program has nothing to do there. */

@@ -172,8 +172,8 @@ static void make_damaged(void)
     make_incomplete();
     fracas_index_close(index_);
     index_ = NULL;
-    sample_spill(sample_path(study, "index.sqlite"), "no database, but long enough to be looked at",
-                 44);
+    write_bytes(sample_path(study, "index.sqlite"), "no database, but long enough to be looked at",
+                44);
 }
 
 static void make_garbage(void)
@@ -182,13 +182,13 @@ static void make_garbage(void)
     sql("UPDATE realization SET status = 'planned', outcome = NULL, segment = NULL, row = NULL, "
         "fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL, "
         "residual = NULL, size = NULL WHERE segment = 2");
-    sample_spill(sample_path(study, "segments/.x.h5.tmp-12"), "abc", 3);
-    sample_spill(sample_path(study, "index.sqlite.before-1"), "abc", 3);
+    write_bytes(sample_path(study, "segments/.x.h5.tmp-12"), "abc", 3);
+    write_bytes(sample_path(study, "index.sqlite.before-1"), "abc", 3);
     assert_int_equal(mkdir(sample_path(study, ".reindex"), 0777) |
                          mkdir(sample_path(study, "attachments"), 0777),
                      0);
-    sample_spill(sample_path(study, ".reindex/index.sqlite"), "abc", 3);
-    sample_spill(sample_path(study, "attachments/00000000000000000000000000000002"), "abc", 3);
+    write_bytes(sample_path(study, ".reindex/index.sqlite"), "abc", 3);
+    write_bytes(sample_path(study, "attachments/00000000000000000000000000000002"), "abc", 3);
 }
 
 static void make_two(void)

@@ -37,29 +37,6 @@ static size_t ndatasets;
 
 /* ---- sound files ---- */
 
-static const fracas_decision decision[2] = {
-    {.point = 0,
-     .replicas = 2,
-     .used = 2,
-     .mean = 3,
-     .half_width = 1,
-     .minimum = 2,
-     .maximum = 8,
-     .relative_half_width = 0.1,
-     .confidence = 0.95},
-    {.point = 0,
-     .round = 1,
-     .replicas = 4,
-     .used = 3,
-     .mean = 3,
-     .half_width = 0.1,
-     .stop = 1,
-     .minimum = 2,
-     .maximum = 8,
-     .relative_half_width = 0.1,
-     .confidence = 0.95},
-};
-
 static void write_meshes(fracas_writer *writer)
 {
     static const grid_shape shape = {.nx = 2, .ny = 1, .middles = true};
@@ -91,11 +68,12 @@ static void write_base(int which)
         fracas_record_clear(&record);
     }
     if (which == 2) {
-        FUZZ_DEMAND(fracas_writer_decisions(writer, decision, 2) == FRACAS_OK, fracas_message());
+        FUZZ_DEMAND(fracas_writer_decisions(writer, sample_decision, SAMPLE_DECISIONS) == FRACAS_OK,
+                    fracas_message());
         write_meshes(writer);
     }
     FUZZ_DEMAND(fracas_writer_finish(writer, true, &seal) == FRACAS_OK, fracas_message());
-    base[which].bytes = sample_slurp(path, &base[which].size);
+    base[which].bytes = whole_bytes(path, &base[which].size);
 }
 
 static void start(void)
@@ -292,7 +270,7 @@ static void by_hdf5(script *s, uint64_t operations)
 static void by_bytes(script *s)
 {
     size_t size;
-    unsigned char *bytes = sample_slurp(path, &size);
+    unsigned char *bytes = whole_bytes(path, &size);
     for (int n = 0; n < MOST_OPERATIONS && s->left > 0 && size > 0; n++) {
         const uint64_t at = take(s, 3) % size, length = take(s, 1);
         if (length == 0) size = at; /* cut short */

@@ -7,7 +7,6 @@
 #include "tests/support/folder.h"
 
 #include "tests/support/campaign_text.h"
-#include "tests/support/test.h"
 
 #include <sys/stat.h>
 #include <time.h>
@@ -23,94 +22,11 @@ static uint64_t next_random(uint64_t *x)
     return *x >> 33;
 }
 
-/* Pieces that mean something to YAML, to numbers, to units or to a sweep. */
-static const char *const pieces[] = {
-    "[",
-    "]",
-    "{",
-    "}",
-    ": ",
-    "- ",
-    "\n",
-    "  ",
-    "\t",
-    "#",
-    "&a ",
-    "*a",
-    "!!",
-    "\"",
-    "'",
-    "|\n",
-    ">",
-    "---\n",
-    "...",
-    "%",
-    "@",
-    "?",
-    "1e",
-    "1e308",
-    "-",
-    "0",
-    "nan",
-    "1e-400",
-    "99999999999999999999",
-    " MPa",
-    " s since 1",
-    " (((",
-    "^",
-    "\xff",
-    "\xc2",
-    "\xe2\x82",
-    "sweep:\n",
-    "zip:",
-    "cases:",
-    "from: 1",
-    "points: 50",
-    "name: a",
-    "strength",
-    "shape: 1",
-    ".",
-    "..",
-    ",",
-    "<<: ",
-    "\\x00",
-    "\r",
-    "model: bar",
-    "model: ring",
-    "law: stershic",
-    "law: nitsche",
-    "shape: ring",
-    "spacing: perturbed",
-    "direction: radial",
-    "ends: held",
-    "critical_zone: steep",
-    "zone: 1e300",
-    "distribution: file",
-    ("file: " STRENGTHS),
-    "file: /dev/zero",
-    "file: attachments/5fca4fc001bc57a73d51c9e49f315ad3",
-    "file: ../../",
-    "-0",
-};
+/* Pieces that mean something to YAML, to numbers, to units or to a sweep: those of the fuzzer. */
+static char pieces[128][64];
+static size_t npieces;
 
-static const char ring[] = "name: ring\nseed: 3\nmodel: ring\ngeometry: {radius: 1 mm, area: 1 "
-                           "mm2, direction: initial}\nmesh: {elements: 100}\n"
-                           "material: {young: 275 GPa, density: 2750 kg/m3}\n"
-                           "strength:\n  distribution: file\n  file: " STRENGTHS "\n"
-                           "loading: {type: held-velocity, direction: circumferential, velocity: "
-                           "100 m/s, acceleration: 0}\n"
-                           "time: {stop: settled, end: 150 ns, quiet: 20 ns, safety: "
-                           "0.5}\nreplicas: 2\noutput: {history: 20, interfaces: true}\n"
-                           "sweep:\n  - cases:\n      - {name: zone, cohesive: {law: stershic, "
-                           "fracture_energy: 100 J/m2, zone: 100 um, refinement: 0.1}}\n"
-                           "      - {name: steep, cohesive: {law: stershic, critical_opening: 0.6 "
-                           "um, critical_zone: steep}}\n"
-                           "      - name: bar\n        model: bar\n        geometry: {shape: bar, "
-                           "length: 6 mm, ends: periodic}\n"
-                           "        mesh: {elements: 100, spacing: perturbed, amplitude: 0.3}\n"
-                           "        cohesive: {law: rigid-link, fracture_energy: 100 J/m2}\n       "
-                           " loading: {type: imposed-rate, rate: 1e5 1/s}\n"
-                           "  - strength.file: [" STRENGTHS ", ./" STRENGTHS "2]\n";
+static char *ring; /* tests/data/campaigns/ring-of-files.yaml */
 
 static size_t replace_bytes(unsigned char *text, size_t size, size_t at, size_t cut,
                             const void *put, size_t length)
@@ -126,7 +42,7 @@ static size_t mutate(unsigned char *text, size_t size, uint64_t *x)
 {
     size_t at = size ? next_random(x) % size : 0, other = size ? next_random(x) % size : 0;
     unsigned char byte = (unsigned char)next_random(x), copy[64];
-    const char *piece = pieces[next_random(x) % FRACAS_COUNT(pieces)];
+    const char *piece = pieces[next_random(x) % npieces];
     size_t length = next_random(x) % sizeof copy;
     switch (next_random(x) % 6) {
     case 0: return replace_bytes(text, size, at, 1, &byte, 1);
@@ -141,16 +57,11 @@ static size_t mutate(unsigned char *text, size_t size, uint64_t *x)
     return replace_bytes(text, size, at, 0, copy, length);
 }
 
-static void check_round_trip(const fracas_units *units, const fracas_campaign *campaign,
-                             const char *path)
+static void check_written(const fracas_units *units, const fracas_campaign *campaign,
+                          const char *path)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    OK(fracas_campaign_write(campaign, out));
-    assert_int_equal(fclose(out), 0);
-    write_bytes(path, text, size);
+    char *text = write_text(campaign);
+    write_bytes(path, text, strlen(text));
     for (const fracas_attached *a = campaign->attached; a; a = a->next) {
         char copy[80];
         snprintf(copy, sizeof copy, "%s/" FRACAS_ATTACHMENTS "/%s", folder, a->attachment.digest);
@@ -195,7 +106,7 @@ static void try_mutation(const fracas_units *units, const unsigned char *example
     size_t size = example_size;
     for (uint64_t n = 1 + next_random(x) % 4; n > 0; n--) size = mutate(text, size, x);
     write_bytes(of_strengths ? in_folder(STRENGTHS) : path, text, size);
-    if (of_strengths) write_bytes(path, ring, sizeof ring - 1);
+    if (of_strengths) write_bytes(path, ring, strlen(ring));
     fracas_campaign *campaign = NULL;
     double before = seconds();
     fracas_err err = fracas_campaign_read_with(units, path, &campaign);
@@ -206,7 +117,7 @@ static void try_mutation(const fracas_units *units, const unsigned char *example
         fail_msg("mutation %zu: %d %s", count->tried, err, fracas_message());
     if (err) return;
     count->accepted++;
-    check_round_trip(units, campaign, path);
+    check_written(units, campaign, path);
     fracas_campaign_destroy(campaign);
 }
 
@@ -230,11 +141,9 @@ static void test_mutations_of(const unsigned char *example, size_t size, bool of
 
 static void test_bars(void **state)
 {
-    static unsigned char example[LARGEST];
-    FILE *in = fopen(FRACAS_SOURCE_DIR "/campaigns/examples/bar-rate-sweep.yaml", "rb");
-    assert_non_null(in);
-    const size_t size = fread(example, 1, sizeof example, in);
-    fclose(in);
+    size_t size;
+    OWNED unsigned char *example = whole_bytes(
+        FRACAS_SOURCE_DIR "/campaigns/examples/bar-rate-sweep.yaml", &size);
     test_mutations_of(example, size, false);
 }
 
@@ -243,7 +152,7 @@ static const char strengths[] =
 
 static void test_rings(void **state)
 {
-    test_mutations_of((const unsigned char *)ring, sizeof ring - 1, false);
+    test_mutations_of((const unsigned char *)ring, strlen(ring), false);
 }
 
 static void test_strengths(void **state)
@@ -253,10 +162,24 @@ static void test_strengths(void **state)
 
 static int make_files(void **state)
 {
+    OWNED char *dictionary = whole_file(FRACAS_SOURCE_DIR "/tests/fuzz/campaign_file.dict");
+    for (char *next = dictionary, *line; (line = strsep(&next, "\n"));) {
+        if (*line != '"') continue;
+        assert_true(npieces < FRACAS_COUNT(pieces) && strlen(line) < sizeof *pieces);
+        *strrchr(line, '"') = '\0';
+        unescape(strcpy(pieces[npieces++], line + 1));
+    }
+    ring = campaign_file("ring-of-files");
     if (make_folder(state) || mkdir(in_folder(FRACAS_ATTACHMENTS), 0777)) return -1;
     write_bytes(in_folder(STRENGTHS), strengths, sizeof strengths - 1);
     write_bytes(in_folder(STRENGTHS "2"), "3e8\n", 4);
     return 0;
 }
 
-TESTS_ALL(make_files, remove_folder, test_bars, test_rings, test_strengths)
+static int remove_files(void **state)
+{
+    free(ring);
+    return remove_folder(state);
+}
+
+TESTS_ALL(make_files, remove_files, test_bars, test_rings, test_strengths)

@@ -39,52 +39,55 @@ static const char plain_campaign[] = "name: test\n"                  /* 1 */
                                      "  history: 10\n"               /* 27 */
                                      ""; /* 28: where `sweep:` is appended */
 
+/* The text of tests/data/campaigns/NAME.yaml. Freed by the caller. */
+static inline char *campaign_file(const char *name)
+{
+    char path[300];
+    snprintf(path, sizeof path, FRACAS_SOURCE_DIR "/tests/data/campaigns/%s.yaml", name);
+    return whole_file(path);
+}
+
 /* `text` with its one `find` replaced by `put`; an empty `find` appends. Freed by the caller. */
 static inline char *replace(const char *text, const char *find, const char *put)
 {
     const char *at = *find ? strstr(text, find) : text + strlen(text);
     if (!at || (*find && strstr(at + 1, find)))
         fail_msg("the text has not exactly one \"%s\"", find);
-    size_t before = (size_t)(at - text), size = strlen(text) + strlen(put) + 1;
-    char *made = malloc(size);
-    if (!made) abort();
-    snprintf(made, size, "%.*s%s%s", (int)before, text, put, at + strlen(find));
+    char *made = taken(strlen(text) + strlen(put) + 1);
+    sprintf(made, "%.*s%s%s", (int)(at - text), text, put, at + strlen(find));
     return made;
+}
+
+/* Makes \n, \t, \xHH and any other character after a backslash what they are in C. */
+static inline void unescape(char *text)
+{
+    char *to = text;
+    for (const char *from = text; *from; from++) {
+        unsigned code = (unsigned char)*from;
+        if (code == '\\' && *++from == 'x') {
+            assert_int_equal(sscanf(from + 1, "%2x", &code), 1);
+            from += 2;
+        } else if (code == '\\')
+            code = (unsigned char)(*from == 'n' ? '\n' : *from == 't' ? '\t' : *from);
+        *to++ = (char)code;
+    }
+    *to = '\0';
 }
 
 /* The campaign as resolved. Freed by the caller. */
 static inline char *write_text(const fracas_campaign *campaign)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
+    FILE *out = text_begin();
     OK(fracas_campaign_write(campaign, out));
-    assert_int_equal(fclose(out), 0);
-    return text;
+    return text_end(out);
 }
 
-/* What `fracas plan` prints for so many processes. Freed by the caller. (Inlined, gcc takes what it
- * returns for the address of a local.) */
-__attribute__((noinline, unused)) static char *plan_text(const fracas_campaign *campaign, int jobs,
-                                                         bool json)
+/* What `fracas plan` prints for so many processes. Freed by the caller. */
+static inline char *plan_text(const fracas_campaign *campaign, int jobs, bool json)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
-    if (fracas_plan_print(campaign, jobs, out, json)) fail_msg("%s", fracas_message());
-    assert_int_equal(fclose(out), 0);
-    return text;
-}
-
-/* Writes `size` bytes to `path`. */
-static inline void write_bytes(const char *path, const void *bytes, size_t size)
-{
-    FILE *out = fopen(path, "wb");
-    assert_non_null(out);
-    assert_int_equal(fwrite(bytes, 1, size, out), size);
-    assert_int_equal(fclose(out), 0);
+    FILE *out = text_begin();
+    OK(fracas_plan_print(campaign, jobs, out, json));
+    return text_end(out);
 }
 
 /* A temporary file's name in `path`; the file exists. */
@@ -107,6 +110,36 @@ static inline fracas_campaign *read_text(const char *text)
     unlink(path);
     if (err) fail_msg("%s\n%s", fracas_message(), text);
     return campaign;
+}
+
+/* The campaign as it is written is the same, and is written the same. */
+static inline void check_round_trip(const fracas_campaign *campaign)
+{
+    OWNED char *text = write_text(campaign);
+    OWN(fracas_campaign) back = read_text(text);
+    OWNED char *again = write_text(back);
+    assert_string_equal(text, again);
+    assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
+    assert_string_equal(campaign->name, back->name);
+    assert_int_equal(campaign->npoints, back->npoints);
+    assert_int_equal(campaign->table.ncolumns, back->table.ncolumns);
+    for (size_t p = 0; p < campaign->npoints; p++) {
+        const fracas_point *a = &campaign->point[p], *b = &back->point[p];
+        assert_true(fracas_hash_equal(&a->hash, &b->hash) && a->replicas == b->replicas);
+        assert_memory_equal(&a->spec, &b->spec, sizeof a->spec);
+        assert_memory_equal(&a->strength, &b->strength, sizeof a->strength);
+    }
+    OK(fracas_campaign_extends(campaign, back));
+}
+
+/* Whether a campaign goes on with a study of another; if not, the message has the words, up to the
+ * first NULL. */
+static inline void check_extends(const fracas_campaign *now, const fracas_campaign *before,
+                                 const char *const words[3])
+{
+    if (words[0])
+        test_fails("extends", fracas_campaign_extends(now, before), FRACAS_DAMAGED, words, 3);
+    else OK(fracas_campaign_extends(now, before));
 }
 
 /* What a point has at a path. */

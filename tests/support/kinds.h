@@ -14,4 +14,8 @@ static inline const fracas_kind *kind_of(const fracas_section *section, const ch
     return NULL;
 }
 
+/* An uncertain parameter of a distribution, by its name. */
+#define UNCERTAIN(distribution, ...) \
+    ((fracas_uncertain){.kind = kind_of(&fracas_uncertain_section, distribution), __VA_ARGS__})
+
 #endif

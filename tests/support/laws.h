@@ -6,9 +6,14 @@
 #include "sampler/api/sampler.h"
 #include "tests/support/kinds.h"
 
-static inline const fracas_kind *law_named(const char *name)
+/* Strengths of a law, by its name. */
+#define STRENGTH(law, ...) \
+    ((fracas_strength){.distribution = kind_of(&fracas_strength_section, law), __VA_ARGS__})
+
+static inline void assert_close(double got, double expected, double relative)
 {
-    return kind_of(&fracas_strength_section, name);
+    if (!(fabs(got - expected) <= relative * fabs(expected)))
+        fail_msg("%.17g is not %.17g to %g relative", got, expected, relative);
 }
 
 static inline const fracas_param *param_of(const fracas_kind *law, const char *key)
@@ -21,7 +26,7 @@ static inline const fracas_param *param_of(const fracas_kind *law, const char *k
 /* A strength as a campaign file gives it: what is not given is NaN, or the default. */
 static inline fracas_strength law_blank(const char *name)
 {
-    fracas_strength strength = {.distribution = law_named(name)};
+    fracas_strength strength = {.distribution = kind_of(&fracas_strength_section, name)};
     const fracas_section *section = &fracas_strength_section;
     for (size_t p = 0; p < strength.distribution->nparams; p++) {
         const fracas_param *param = &strength.distribution->params[p];
@@ -58,6 +63,12 @@ static inline fracas_strength law_of_file(const fracas_attachment *file, bool st
     fracas_param_set(param_of(strength.distribution, "interpolation"), &strength, steps ? 1 : 0);
     strength.file = file;
     return strength;
+}
+
+/* A file that a campaign names. */
+static inline fracas_attachment attached(const char *path, const char *text)
+{
+    return (fracas_attachment){.path = path, .text = text, .size = strlen(text), .digest = "0"};
 }
 
 #define FILE_OF(name, content)                                                    \

@@ -125,13 +125,7 @@ static inline char *report_contents(const char *folder, const char *name)
 {
     char path[640];
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    char *text = zeroed(1, 1 << 20);
-    size_t used = fread(text, 1, (1 << 20) - 1, file);
-    assert_true(used > 0);
-    fclose(file);
-    return text;
+    return whole_file(path);
 }
 
 #endif

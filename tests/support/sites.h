@@ -4,18 +4,14 @@
 #define FRACAS_TESTS_SUPPORT_SITES_H
 
 #include "sampler/field/covariance.h"
-#include "tests/support/kinds.h"
+#include "tests/support/laws.h"
 
 /* Lognormal strengths of sigma 1 and median 1 Pa: their logarithms are the normal field. */
 static inline fracas_strength correlated(const fracas_kind *covariance, double length,
                                          double smoothness)
 {
-    return (fracas_strength){.distribution = kind_of(&fracas_strength_section, "lognormal"),
-                             .median = 1,
-                             .sigma = 1,
-                             .covariance = covariance,
-                             .correlation_length = length,
-                             .smoothness = smoothness};
+    return STRENGTH("lognormal", .median = 1, .sigma = 1, .covariance = covariance,
+                    .correlation_length = length, .smoothness = smoothness);
 }
 
 /* Along a circle that lies askew in space, far from the origin. */

@@ -10,15 +10,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* A call that must fail with this code and with `text` in its message. */
-static inline void sample_fails(fracas_err err, fracas_err wanted, const char *text)
-{
-    if (err != wanted || !strstr(fracas_message(), text))
-        print_error("code %d: %s\n", err, fracas_message());
-    assert_int_equal(err, wanted);
-    assert_non_null(strstr(fracas_message(), text));
-}
-
 /* ---- three points; the second has no strength.shape, the third no law text ---- */
 
 enum { SAMPLE_POINTS = 3 };
@@ -51,6 +42,16 @@ static inline fracas_file_header sample_header(void)
                                 .interfaces = true,
                                 .version = "0.1.0"};
 }
+
+/* Three decisions about two of the points: point, round, replicas, used; mean, half width; stop;
+ * quantity, minimum, maximum, relative half width and confidence of the rule. */
+enum { SAMPLE_DECISIONS = 3 };
+
+static const fracas_decision sample_decision[SAMPLE_DECISIONS] = {
+    {0, 0, 8, 7, 0.1, NAN, 0, 2, 8, 1000000000, 0.02, 0.95},
+    {0, 1, 16, 16, -1e300, 5e-324, 1, 1, 8, 16, 1, 0.5},
+    {2, 0, 9, 0, NAN, NAN, 2, 0, 9, 9, 1e-9, 0.999},
+};
 
 /* ---- random records ---- */
 
@@ -165,32 +166,10 @@ static inline bool sample_equal(const fracas_record *a, const fracas_record *b)
     return memcmp(bytes_a, bytes_b, size) == 0;
 }
 
-/* A file's bytes; freed by the caller. */
-static inline unsigned char *sample_slurp(const char *path, size_t *size)
-{
-    FILE *in = fopen(path, "rb");
-    assert_non_null(in);
-    fseek(in, 0, SEEK_END);
-    *size = (size_t)ftell(in);
-    rewind(in);
-    unsigned char *bytes = malloc(*size + 1);
-    assert_int_equal(fread(bytes, 1, *size, in), *size);
-    fclose(in);
-    return bytes;
-}
-
-static inline void sample_spill(const char *path, const void *bytes, size_t size)
-{
-    FILE *out = fopen(path, "wb");
-    assert_non_null(out);
-    assert_int_equal(fwrite(bytes, 1, size, out), size);
-    assert_int_equal(fclose(out), 0);
-}
-
 static inline bool sample_same_file(const char *a, const char *b)
 {
     size_t size_a, size_b;
-    unsigned char *bytes_a = sample_slurp(a, &size_a), *bytes_b = sample_slurp(b, &size_b);
+    unsigned char *bytes_a = whole_bytes(a, &size_a), *bytes_b = whole_bytes(b, &size_b);
     bool same = size_a == size_b && memcmp(bytes_a, bytes_b, size_a) == 0;
     free(bytes_a);
     free(bytes_b);

@@ -4,7 +4,7 @@
 #define FRACAS_TESTS_SUPPORT_STRENGTHS_H
 
 #include "sampler/api/sampler.h"
-#include "tests/support/test.h"
+#include "tests/support/laws.h"
 
 /* A realization of the field of `strength` over n interfaces that stand for these volumes (NULL: 1
  * m3 each), with areas of 1 m2, at these positions (NULL: at 0). */

@@ -22,14 +22,40 @@ static fracas_point_row point_row[SAMPLE_POINTS];
 static fracas_point_table table;
 static fracas_index *index_;
 
+/* A planned study without segments, in the folder. */
+static inline void begin_study(void)
+{
+    assert_int_equal(mkdir(sample_path(study, "segments"), 0777), 0);
+    OK(fracas_index_open(study, true, &index_));
+    OK(fracas_index_plan(index_, &table));
+}
+
 static inline int set_up(void **state)
 {
     study = sample_folder();
     table = sample_table(point_row, REPLICAS);
-    assert_int_equal(mkdir(sample_path(study, "segments"), 0777), 0);
-    OK(fracas_index_open(study, true, &index_));
-    OK(fracas_index_plan(index_, &table));
+    begin_study();
     return 0;
+}
+
+/* Forgets the segments and the index. */
+static inline void begin_study_again(void)
+{
+    fracas_index_close(index_);
+    sample_remove_tree(sample_path(study, "segments"));
+    unlink(sample_path(study, "index.sqlite"));
+    begin_study();
+}
+
+/* Sets study.h5 aside, for study_is_the_first(). */
+static inline void keep_first(void)
+{
+    assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
+}
+
+static inline bool study_is_the_first(void)
+{
+    return sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first"));
 }
 
 static inline int tear_down(void **state)
@@ -70,6 +96,17 @@ static inline void commit_everything(uint64_t seed)
         commit_segment(name, what + first, size);
         first += size;
     }
+}
+
+/* The number that a query of the index finds. */
+static inline int64_t number(const char *query)
+{
+    sqlite3_stmt *statement;
+    assert_int_equal(sqlite3_prepare_v2(index_->db, query, -1, &statement, NULL), SQLITE_OK);
+    assert_int_equal(sqlite3_step(statement), SQLITE_ROW);
+    const int64_t value = sqlite3_column_int64(statement, 0);
+    sqlite3_finalize(statement);
+    return value;
 }
 
 /* Computes what is planned (again). */
@@ -130,7 +167,7 @@ static inline void verify_finds_as(bool full, int64_t wanted, const char *part)
     if (problems != wanted || !strstr(text, part))
         print_error("%lld problems:\n%s", (long long)problems, text);
     assert_int_equal(problems, wanted);
-    assert_non_null(strstr(text, part));
+    assert_has(text, part);
 }
 
 static inline void verify_finds(int64_t wanted, const char *part)
@@ -152,9 +189,9 @@ static inline void recover_says(const char *part)
 static inline void flip_byte(const char *path, size_t at)
 {
     size_t size;
-    unsigned char *bytes = sample_slurp(path, &size);
+    unsigned char *bytes = whole_bytes(path, &size);
     bytes[at % size] ^= 0x10;
-    sample_spill(path, bytes, size);
+    write_bytes(path, bytes, size);
     free(bytes);
 }
 

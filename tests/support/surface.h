@@ -15,6 +15,51 @@ static inline double next_share(uint64_t *x)
     return (double)(*x >> 32) * 0x1p-32;
 }
 
+/* A surface that ends with its scope: OWN(a_surface). */
+typedef const fracas_surface a_surface;
+FRACAS_OWNER(a_surface, fracas_surface_destroy)
+
+/* Bodies of two lengths [m], or of one. */
+typedef enum { SHAPE_RECTANGLE, SHAPE_ANNULUS, SHAPE_SPHERE, SHAPE_OCTANT } body_shape;
+
+static inline a_surface *surface_of(body_shape shape, const double length[2],
+                                    const fracas_surface_fineness *fineness)
+{
+    a_surface *surface = NULL;
+    switch (shape) {
+    case SHAPE_RECTANGLE:
+        OK(fracas_surface_rectangle(length[0], length[1], fineness, &surface));
+        break;
+    case SHAPE_ANNULUS: OK(fracas_surface_annulus(length[0], length[1], fineness, &surface)); break;
+    case SHAPE_SPHERE: OK(fracas_surface_sphere(length[0], fineness, &surface)); break;
+    case SHAPE_OCTANT: OK(fracas_surface_octant(length[0], fineness, &surface)); break;
+    }
+    return surface;
+}
+
+/* The same, its nodes moved by 0.3 of the room that they have: by random numbers, or (`ends`) by
+ * the ends of their range. */
+static inline a_surface *surface_moved(body_shape shape, const double length[2], size_t divisions,
+                                       int order, uint64_t seed, bool ends)
+{
+    fracas_surface_fineness fineness = {.divisions = divisions, .order = 1};
+    OWN(a_surface) plain = surface_of(shape, length, &fineness);
+    double(*shift)[2] = taken(plain->nvertices * sizeof *shift);
+    for (size_t v = 0; v < plain->nvertices; v++)
+        for (int i = 0; i < 2; i++) {
+            shift[v][i] = 2.0 * next_share(&seed) - 1.0;
+            if (ends) shift[v][i] = shift[v][i] < 0.0 ? -1.0 : 1.0;
+        }
+    fineness = (fracas_surface_fineness){.divisions = divisions,
+                                         .order = order,
+                                         .amplitude = 0.3,
+                                         .shift = (const double(*)[2])shift,
+                                         .nshifts = plain->nvertices};
+    a_surface *surface = surface_of(shape, length, &fineness);
+    free(shift);
+    return surface;
+}
+
 static inline long euler(const fracas_surface *s)
 {
     return (long)s->nvertices - (long)(s->ninterfaces + s->nborders) + (long)s->nelements;

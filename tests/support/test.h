@@ -24,6 +24,27 @@
         if (call) fail_msg("%s: %s", #call, fracas_message()); \
     } while (0)
 
+/* The call fails with this code, and its message has the parts that follow. */
+#define FAILS(call, code, ...) \
+    test_fails(#call, call, code, (const char *const[]){__VA_ARGS__, NULL}, SIZE_MAX)
+
+/* The same with `most` parts, or those before the first NULL. */
+void test_fails(const char *call, fracas_err err, fracas_err wanted, const char *const part[],
+                size_t most);
+
+void assert_has(const char *text, const char *part);
+
+/* A stream, and what was written to it: closes the stream, the text is freed by the caller. One at
+ * a time. */
+FILE *text_begin(void);
+char *text_end(FILE *out);
+
+/* A file's content and a 0 after it, freed by the caller. */
+char *whole_file(const char *path);
+unsigned char *whole_bytes(const char *path, size_t *size);
+
+void write_bytes(const char *path, const void *bytes, size_t size);
+
 /* A record that is initialised here, and cleared where the block ends. */
 #define RECORD(name)                    \
     FRACAS_CLEARED(fracas_record) name; \

@@ -22,7 +22,7 @@ static const fracas_said said = {keep_line, said_text};
 
 static inline void says(const char *part)
 {
-    if (!strstr(said_text, part)) fail_msg("no \"%s\" in:\n%s", part, said_text);
+    assert_has(said_text, part);
 }
 
 static inline void sql(const char *text)
@@ -30,16 +30,6 @@ static inline void sql(const char *text)
     char *message = NULL;
     if (sqlite3_exec(index_->db, text, NULL, NULL, &message) != SQLITE_OK)
         fail_msg("%s: %s", text, message);
-}
-
-static inline int64_t number(const char *query)
-{
-    sqlite3_stmt *statement;
-    assert_int_equal(sqlite3_prepare_v2(index_->db, query, -1, &statement, NULL), SQLITE_OK);
-    assert_int_equal(sqlite3_step(statement), SQLITE_ROW);
-    const int64_t value = sqlite3_column_int64(statement, 0);
-    sqlite3_finalize(statement);
-    return value;
 }
 
 static inline void open_again(void)

@@ -43,8 +43,7 @@ static void a_task_of_srun_without_mpi(void **state)
     setenv("SLURM_STEP_NUM_TASKS", "1", 1);
     OK(fracas_allocation_check());
     setenv("SLURM_STEP_NUM_TASKS", "4", 1);
-    assert_int_equal(fracas_allocation_check(), FRACAS_USAGE);
-    assert_non_null(strstr(fracas_message(), "--mpi=pmix"));
+    FAILS(fracas_allocation_check(), FRACAS_USAGE, "--mpi=pmix");
     unsetenv("SLURM_STEP_ID"); /* the batch script itself */
     OK(fracas_allocation_check());
     unsetenv("SLURM_STEP_NUM_TASKS");

@@ -9,7 +9,6 @@
 #include "analysis/data/ring.h"
 #include "base/param.h"
 #include "base/version.h"
-#include "tests/support/test.h"
 
 /* ---- arcs ---- */
 
@@ -276,14 +275,14 @@ static void report_of_rings(void **state)
     report_analyse(folder);
     OWNED char *table = report_contents(folder, "table.txt"),
                *page = report_contents(folder, "report/index.html");
-    assert_non_null(strstr(table, "radius  radial  strain rate"));
-    assert_non_null(strstr(table, "  [mm]   [m/s]        [1/s]"));
-    assert_non_null(strstr(table, "     8      25         3125"));
-    assert_non_null(strstr(
-        table, "energy drift above 1 %: 2 of 6 usable realizations, their |residual| up to 1.2 %"));
-    assert_non_null(strstr(page, "Replica 1, the first that ended FRAGMENTED"));
+    assert_has(table, "radius  radial  strain rate");
+    assert_has(table, "  [mm]   [m/s]        [1/s]");
+    assert_has(table, "     8      25         3125");
+    assert_has(table,
+               "energy drift above 1 %: 2 of 6 usable realizations, their |residual| up to 1.2 %");
+    assert_has(page, "Replica 1, the first that ended FRAGMENTED");
     assert_null(strstr(page, "pattern-point-0.svg"));
-    assert_non_null(strstr(page, "radius 8 mm"));
+    assert_has(page, "radius 8 mm");
     report_check(folder);
 }
 
@@ -408,7 +407,7 @@ static void laws_of_mixed_series(void **state)
         for (size_t s = 0; s < chart.panel[0].nseries; s++)
             curves += chart.panel[0].series[s].kind == FRACAS_CURVE;
         assert_int_equal(curves, table[i].curves);
-        assert_non_null(strstr(chart.caption, table[i].caption));
+        assert_has(chart.caption, table[i].caption);
     }
     fracas_columns_clear(&analysis.shown);
 }

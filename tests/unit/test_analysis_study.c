@@ -4,7 +4,6 @@
 #include "tests/support/report.h"
 
 #include "base/version.h"
-#include "tests/support/test.h"
 
 enum { NCOLUMNS = 13, NPOINTS = 4, HISTORY = 50 };
 
@@ -200,11 +199,10 @@ static void table_of_a_sweep(void **state)
     char folder[512];
     make_study(&sweep, folder, sizeof folder);
     OWNED char *table = report_contents(folder, "table.txt");
-    assert_non_null(strstr(table, "58.0 +- 1.1"));
-    assert_non_null(
-        strstr(table, "1600.0 +- 2.7")); /* 8 replicas: t = 2.3646, 2.3646 3/sqrt(7) = 2.681 */
-    assert_non_null(strstr(table, " 864 +- 16 "));
-    assert_non_null(strstr(table, "32 FRAGMENTED\n"));
+    assert_has(table, "58.0 +- 1.1");
+    assert_has(table, "1600.0 +- 2.7"); /* 8 replicas: t = 2.3646, 2.3646 3/sqrt(7) = 2.681 */
+    assert_has(table, " 864 +- 16 ");
+    assert_has(table, "32 FRAGMENTED\n");
     size_t lines = 0;
     for (const char *line = table; *line != '\n';
          line += strcspn(line, "\n") + 1) { /* up to the empty line */
@@ -222,13 +220,12 @@ static void table_of_awkward_points(void **state)
     char folder[512];
     make_study(&awkward, folder, sizeof folder);
     OWNED char *table = report_contents(folder, "table.txt");
-    assert_non_null(strstr(table, "58.00 +- -")); /* one replica: 60 - 2 */
-    assert_non_null(strstr(table, "3 TIME_LIMIT, 1 FAILED"));
-    assert_non_null(strstr(table, "2 FRAGMENTED, 1 INTACT"));
-    assert_non_null(strstr(table, "1 NONFINITE, 1 ENERGY_DRIFT"));
-    assert_non_null(strstr(table, "no usable realization"));
-    assert_non_null(
-        strstr(table, "warning: rate 1e5 1/s, young 275 GPa: ledger residual up to 2.0e-3"));
+    assert_has(table, "58.00 +- -"); /* one replica: 60 - 2 */
+    assert_has(table, "3 TIME_LIMIT, 1 FAILED");
+    assert_has(table, "2 FRAGMENTED, 1 INTACT");
+    assert_has(table, "1 NONFINITE, 1 ENERGY_DRIFT");
+    assert_has(table, "no usable realization");
+    assert_has(table, "warning: rate 1e5 1/s, young 275 GPa: ledger residual up to 2.0e-3");
     report_check(folder);
 }
 
@@ -237,8 +234,7 @@ static void study_that_is_not_there(void **state)
     fracas_analysis *analysis;
     assert_int_equal(fracas_analysis_create("/nonexistent", NULL, NULL, &analysis), FRACAS_DAMAGED);
     assert_null(analysis);
-    assert_int_equal(fracas_analysis_create(report_root, NULL, NULL, &analysis), FRACAS_DAMAGED);
-    assert_non_null(strstr(fracas_message(), "fracas run"));
+    FAILS(fracas_analysis_create(report_root, NULL, NULL, &analysis), FRACAS_DAMAGED, "fracas run");
 }
 
 static void report_that_cannot_be_written(void **state)
@@ -247,13 +243,10 @@ static void report_that_cannot_be_written(void **state)
     snprintf(folder, sizeof folder, "%s/blocked", report_root);
     write_study(&awkward, folder);
     snprintf(blocker, sizeof blocker, "%s/report", folder);
-    FILE *file = fopen(blocker, "w"); /* where the folder should be */
-    assert_non_null(file);
-    fclose(file);
+    write_bytes(blocker, "", 0); /* where the folder should be */
     OWN(fracas_analysis) analysis;
     OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
-    assert_int_equal(fracas_report_write(analysis, folder), FRACAS_ENVIRONMENT);
-    assert_non_null(strstr(fracas_message(), "blocked/report"));
+    FAILS(fracas_report_write(analysis, folder), FRACAS_ENVIRONMENT, "blocked/report");
 }
 
 TESTS_ALL(report_make_root, report_remove_root, table_of_a_sweep, table_of_awkward_points,

@@ -3,11 +3,11 @@
  * `fracas picture` refuses. Meshes are made by hand: grids of squares of 1 m, cut in two. */
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
+#include "tests/support/svg_path.h"
 
 #include "analysis/draw/facets.h"
 #include "analysis/draw/surface_picture.h"
 #include "base/hash.h"
-#include "tests/support/test.h"
 
 static const grid_shape plate = {.nx = 6, .ny = 4}, ring = {.nx = 12, .ny = 3, .rolled = true};
 
@@ -135,8 +135,8 @@ static void a_ring_cracks_through(void **state)
     OK(fracas_surface_through(&mesh, &record, nowhere, &time));
     assert_true(isnan(time));
     record.ninterface--;
-    sample_fails(fracas_surface_through(&mesh, &record, width, &time), FRACAS_DAMAGED,
-                 "has 95 interfaces, the mesh of its point 96");
+    FAILS(fracas_surface_through(&mesh, &record, width, &time), FRACAS_DAMAGED,
+          "has 95 interfaces, the mesh of its point 96");
 }
 
 /* A plate whose left and lower edge meet in a corner: every crack from there would reach both. */
@@ -228,66 +228,36 @@ typedef struct {
     size_t lines, edges;
 } path_measures;
 
-/* Of a path of M, l, q and z, whole numbers. As y is down in a drawing, loops with the inside to
- * the left are counted positive. A parabola has 2/3 of its triangle beside its chord. */
-static path_measures measure_path(const char *d)
-{
-    path_measures path = {0};
-    double x = 0, y = 0, x0 = 0, y0 = 0, control[2] = {0, 0};
-    char command = 0;
-    bool half = false; /* of a q */
-    while (*d && *d != '"') {
-        if (*d == 'M' || *d == 'l' || *d == 'q' || *d == 'z') {
-            command = *d++;
-            if (command == 'z') path.area -= (x * y0 - x0 * y) / 2;
-            continue;
-        }
-        char *end;
-        const double a = strtod(d, &end), b = strtod(end, (char **)&d);
-        while (*d == ' ') d++;
-        if (command == 'M') {
-            x = x0 = a;
-            y = y0 = b;
-            path.lines++;
-        } else if (command == 'q' && !half) {
-            control[0] = a;
-            control[1] = b;
-            half = true;
-        } else {
-            if (half) path.area -= 2.0 / 3 * (control[0] * b - control[1] * a) / 2;
-            path.area -= (x * (y + b) - (x + a) * y) / 2;
-            path.moment[0] += x + a / 2;
-            path.moment[1] += y + b / 2;
-            x += a;
-            y += b;
-            path.edges++;
-            half = false;
-        }
-    }
-    return path;
-}
-
 static char *draw(const fracas_stored_mesh *mesh, const fracas_record *record, double time,
                   fracas_surface_show show)
 {
-    char *text;
-    size_t size;
     FRACAS_CLEARED(fracas_surface_state) now;
-    FILE *out = open_memstream(&text, &size);
+    FILE *out = text_begin();
     OK(fracas_surface_state_create(mesh, record, time, &now));
     const fracas_surface_picture picture = {"a & b", show, 800, true};
     OK(fracas_surface_picture_write(mesh, &now, &picture, out));
-    fclose(out);
-    return text;
+    return text_end(out);
 }
 
-/* Of the path with this class; all 0 if there is none. */
+/* Of the path with this class; all 0 if there is none. As y is down in a drawing, loops with the
+ * inside to the left are counted positive. */
 static path_measures measure(const char *svg, const char *class)
 {
     char start[64];
+    path_measures path = {0};
+    svg_edge edge;
     snprintf(start, sizeof start, "<path class=\"%s\"", class);
     const char *found = strstr(svg, start);
-    return found ? measure_path(strstr(found, " d=\"") + 4) : (path_measures){0};
+    if (!found) return path;
+    svg_pen pen = svg_begin(found);
+    while (svg_next(&pen, &edge)) {
+        path.area -= svg_area(&edge);
+        path.edges += !edge.closes;
+        for (int i = 0; i < 2 && !edge.closes; i++)
+            path.moment[i] += (edge.from[i] + edge.to[i]) / 2;
+    }
+    path.lines = pen.lines;
+    return path;
 }
 
 /* The plate is 784 pixels wide: a square has sides of 1306.67 units, and a corner is at most 0.71
@@ -316,14 +286,14 @@ static void fragments_are_filled(void **state)
     assert_int_equal(measure(svg, "t4").lines, 0);
     assert_true(fabs(measure(svg, "dust-fill").area / square - 1) < 0.02);
     assert_int_equal(measure(svg, "broken").edges, 4 + 6 + 2);
-    assert_non_null(strstr(svg, "s: 5 fragments (dust: 1)</text>"));
-    assert_non_null(strstr(svg, ">1000 mm</text>")); /* 0.3 of 800 pixels are 1837 mm */
-    assert_non_null(strstr(svg, "class=\"broken\""));
+    assert_has(svg, "s: 5 fragments (dust: 1)</text>");
+    assert_has(svg, ">1000 mm</text>"); /* 0.3 of 800 pixels are 1837 mm */
+    assert_has(svg, "class=\"broken\"");
     assert_null(strstr(svg, "class=\"cracked\""));
     free(svg);
     svg = draw(&mesh, &record, 9.7, FRACAS_SHOW_MESH); /* one interface cracked, none broken */
-    assert_non_null(strstr(svg, "class=\"cracked\""));
-    assert_non_null(strstr(svg, "class=\"mesh\""));
+    assert_has(svg, "class=\"cracked\"");
+    assert_has(svg, "class=\"mesh\"");
     assert_null(strstr(svg, "class=\"broken\""));
     assert_true(fabs(measure(svg, "t0").area / square - 24) < 0.02);
     assert_int_equal(measure(svg, "cracked").edges, 1);

@@ -5,7 +5,6 @@
 #include "analysis/report/figures.h"
 #include "analysis/scaling/scaling.h"
 #include "analysis/export/tables.h"
-#include "tests/support/test.h"
 
 enum { NPOINTS = 4 };
 

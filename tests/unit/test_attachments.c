@@ -3,14 +3,9 @@
 /* Files that a campaign names: strengths given line by line, what is said of wrong ones, and what
  * stands for a file in a point. And what is drawn once a point: the moves of a mesh's nodes. */
 #define FOLDER "fracas-test"
-#include "tests/support/kinds.h"
-#include "tests/support/folder.h"
+#include "tests/support/campaign_folder.h"
 
 #include "tests/support/strengths.h"
-#include "campaigns/plan/forecast.h"
-#include "campaigns/plan/point_model.h"
-#include "tests/support/campaign_text.h"
-#include "tests/support/test.h"
 
 #include <errno.h>
 #include <sys/stat.h>
@@ -44,8 +39,7 @@ static void test_values(void **state)
     };
     static const double expected[3] = {3, 1, 8}, volume[4] = {1, 1, 1, 1};
     for (size_t t = 0; t < FRACAS_COUNT(texts); t++) {
-        const fracas_attachment file = {
-            .path = "s.csv", .text = texts[t], .size = strlen(texts[t])};
+        const fracas_attachment file = attached("s.csv", texts[t]);
         const fracas_strength strength = {.distribution = file_kind(), .file = &file};
         if (fracas_strength_check(&strength)) fail_msg("%s\n%s", fracas_message(), texts[t]);
         assert_int_equal(fracas_strength_count(&strength), 3);
@@ -55,10 +49,8 @@ static void test_values(void **state)
         for (uint64_t replica = 0; replica < 2;
              replica++) { /* whatever the stream, and the stride */
             double got[8] = {0};
-            assert_int_equal(
-                sample_strengths(&strength, &(fracas_stream){.seed = 1, .replica = replica}, 4,
-                                 volume, NULL, 2, got),
-                FRACAS_OK);
+            OK(sample_strengths(&strength, &(fracas_stream){.seed = 1, .replica = replica}, 4,
+                                volume, NULL, 2, got));
             for (int i = 0; i < 3; i++)
                 if (got[2 * i] != expected[i] || got[2 * i + 1] != 0)
                     fail_msg("%g is not %g of:\n%s", got[2 * i], expected[i], texts[t]);
@@ -90,12 +82,9 @@ static void test_bad_values(void **state)
         {"\n", "s.csv has no strength"},
     };
     for (size_t t = 0; t < FRACAS_COUNT(table); t++) {
-        const fracas_attachment file = {
-            .path = "s.csv", .text = table[t].text, .size = strlen(table[t].text)};
+        const fracas_attachment file = attached("s.csv", table[t].text);
         const fracas_strength strength = {.distribution = file_kind(), .file = &file};
-        assert_int_equal(fracas_strength_check(&strength), FRACAS_USAGE);
-        if (strncmp(fracas_message(), table[t].message, strlen(table[t].message)) != 0)
-            fail_msg("not \"%s\" but: %s", table[t].message, fracas_message());
+        FAILS(fracas_strength_check(&strength), FRACAS_USAGE, table[t].message);
     }
     static const char with_nul[] = "3\n4\0junk\n";
     const fracas_attachment file = {.path = "s.csv", .text = with_nul, .size = sizeof with_nul - 1};
@@ -113,9 +102,8 @@ static const double square[4][3] = {{0, 0, 7}, {1, 0, 7}, {0, 1, 7}, {1, 1, 7}};
 static fracas_err sample_places(const char *text, size_t n, const double (*position)[3],
                                 size_t stride, double *got)
 {
-    const fracas_attachment file = {.path = "p.csv", .text = text, .size = strlen(text)};
-    const fracas_strength strength = {
-        .distribution = kind_of(&fracas_strength_section, "positions"), .file = &file};
+    const fracas_attachment file = attached("p.csv", text);
+    const fracas_strength strength = STRENGTH("positions", .file = &file);
     TRY(fracas_strength_check(&strength));
     assert_true(fracas_strength_is_placed(&strength) && fracas_strength_is_given(&strength));
     return sample_strengths(&strength, &(fracas_stream){.seed = 1}, n, NULL, position, stride, got);
@@ -148,7 +136,7 @@ static void test_places(void **state)
         edge[1][0] = 0.998 - 1e-4 * side;
         snprintf(text, sizeof text, "0 0 1\n%g 0 2\n2 0 3\n",
                  0.998 + 5e-4 * side); /* in the other cell */
-        assert_int_equal(sample_places(text, 3, (const double(*)[3])edge, 1, three), FRACAS_OK);
+        OK(sample_places(text, 3, (const double(*)[3])edge, 1, three));
         assert_true(three[0] == 1 && three[1] == 2 && three[2] == 3);
     }
     assert_int_equal(sample_places("0 0 1\n.9975 0 2\n.9985 0 2\n2 0 3\n", 3,
@@ -157,14 +145,13 @@ static void test_places(void **state)
     static const double one[1][3] = {{2, 3, 0}},
                         none[1][3] = {{0, 0, 0}}; /* without a spacing: 1e-3 of how far out it is */
     double got;
-    assert_int_equal(sample_places("2.001 3.001 5", 1, one, 1, &got), FRACAS_OK);
+    OK(sample_places("2.001 3.001 5", 1, one, 1, &got));
     assert_true(got == 5);
-    assert_int_equal(sample_places("0,0,6", 1, none, 1, &got), FRACAS_OK);
+    OK(sample_places("0,0,6", 1, none, 1, &got));
     assert_true(got == 6);
-    assert_int_equal(sample_places("0,0,6", 0, NULL, 1, NULL), FRACAS_OK); /* a single triangle */
-    const fracas_attachment file = {.path = "p.csv", .text = texts[2], .size = strlen(texts[2])};
-    const fracas_strength strength = {
-        .distribution = kind_of(&fracas_strength_section, "positions"), .file = &file};
+    OK(sample_places("0,0,6", 0, NULL, 1, NULL)); /* a single triangle */
+    const fracas_attachment file = attached("p.csv", texts[2]);
+    const fracas_strength strength = STRENGTH("positions", .file = &file);
     assert_int_equal(fracas_strength_count(&strength), 6); /* all lines */
     assert_true(quantile_of(&strength, 1, 0.1) == 1 && quantile_of(&strength, 1, 0.9) == 99);
     assert_true(mean_of_strength(&strength, 1) == (1 + 2 + 99 + 7 + 3 + 4) / 6.0);
@@ -199,13 +186,10 @@ static void test_bad_places(void **state)
     };
     double got[4];
     for (size_t t = 0; t < FRACAS_COUNT(table); t++) {
-        assert_int_equal(sample_places(table[t].text, 4, square, 1, got), FRACAS_USAGE);
-        if (strncmp(fracas_message(), table[t].message, strlen(table[t].message)) != 0)
-            fail_msg("not \"%s\" but: %s", table[t].message, fracas_message());
+        FAILS(sample_places(table[t].text, 4, square, 1, got), FRACAS_USAGE, table[t].message);
     }
-    assert_int_equal(sample_places("0,0,1\n1,0,2\n", 3, twice, 1, got), FRACAS_USAGE);
-    assert_non_null(
-        strstr(fracas_message(), "p.csv:1: x = 0 m, y = 0 m is at two interfaces, 0 and 2"));
+    FAILS(sample_places("0,0,1\n1,0,2\n", 3, twice, 1, got), FRACAS_USAGE,
+          "p.csv:1: x = 0 m, y = 0 m is at two interfaces, 0 and 2");
 }
 
 /* A jittered grid of 200 by 200 and a ring of 40 000, lines in another order: each finds its own,
@@ -213,7 +197,7 @@ static void test_bad_places(void **state)
 static void test_many_places(void **state)
 {
     enum { SIDE = 200, N = SIDE * SIDE, LINE = 64 };
-    double(*position)[3] = zeroed(N, sizeof *position), *got = zeroed(N, sizeof *got);
+    static double position[N][3], got[N];
     OWNED char *text = taken((size_t)N * LINE);
     for (int body = 0; body < 2; body++) {
         for (uint64_t i = 0; i < N; i++) {
@@ -232,60 +216,39 @@ static void test_many_places(void **state)
             at += sprintf(at, "%.9g,%.9g,%zu\n", position[i][0], position[i][1], i + 1);
         }
         const clock_t start = clock();
-        if (sample_places(text, N, (const double(*)[3])position, 1, got))
-            fail_msg("%s", fracas_message());
+        OK(sample_places(text, N, (const double(*)[3])position, 1, got));
         print_message("[  figures ] %d strengths by position: %.3f s\n", N,
                       (double)(clock() - start) / CLOCKS_PER_SEC);
         for (size_t i = 0; i < N; i++) assert_true(got[i] == (double)(i + 1));
     }
-    free(position);
-    free(got);
 }
 
 /* ---- campaigns with files, in a folder of their own ---- */
 
-static const char *in_folder(const char *name)
-{
-    static char path[2][200];
-    static int which;
-    which = !which;
-    snprintf(path[which], sizeof path[which], "%s/%s", folder, name);
-    return path[which];
-}
-
-static void put(const char *name, const char *text)
-{
-    write_bytes(in_folder(name), text, strlen(text));
-}
-
 static const char uniform[] = "  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n";
 
-/* Reads FOLDER/c.yaml: the plain campaign, its lines 16 to 18 replaced, and something at its end
- * (line 26 + new lines). */
-static fracas_err read_with(const char *strength, const char *end, fracas_campaign **campaign)
+/* The plain campaign, its lines 16 to 18 replaced, and something at its end (line 26 + new lines).
+ */
+static char *with(const char *strength, const char *end)
 {
-    OWNED char *text = replace(plain_campaign, uniform, strength), *whole = replace(text, "", end);
-    put("c.yaml", whole);
-    return fracas_campaign_read(in_folder("c.yaml"), campaign);
+    OWNED char *text = replace(plain_campaign, uniform, strength);
+    return replace(text, "", end);
 }
 
-static fracas_campaign *good(const char *strength, const char *end)
+static fracas_campaign *good_with(const char *strength, const char *end)
 {
-    fracas_campaign *campaign = NULL;
-    if (read_with(strength, end, &campaign)) fail_msg("%s", fracas_message());
-    return campaign;
+    OWNED char *text = with(strength, end);
+    return good(text);
 }
 
-static void bad(const char *strength, const char *end, int line, int column, const char *words)
+static void bad_at(const char *strength, const char *end, int line, int column, const char *words)
 {
-    fracas_campaign *campaign = NULL;
     char place[300];
-    assert_int_equal(read_with(strength, end, &campaign), FRACAS_USAGE);
-    assert_null(campaign);
+    OWNED char *text = with(strength, end);
     snprintf(place, sizeof place, "%s:%d:%d: ", in_folder("c.yaml"), line, column);
+    bad(text, words);
     if (strncmp(fracas_message(), place, strlen(place)) != 0)
         fail_msg("not at %d:%d: %s", line, column, fracas_message());
-    if (!strstr(fracas_message(), words)) fail_msg("no \"%s\" in: %s", words, fracas_message());
 }
 
 #define FROM_FILE "  distribution: file\n  file: " /* line 17, column 9 */
@@ -299,33 +262,35 @@ static void test_errors(void **state)
     assert_int_equal(truncate(in_folder("large.csv"), (256 << 20) + 1), 0); /* takes no disk */
     assert_int_equal(mkdir(in_folder("folder"), 0777), 0);
     assert_int_equal(symlink("loop.csv", in_folder("loop.csv")), 0);
-    bad(FROM_FILE "absent.csv\n", "", 17, 9, "/absent.csv: No such file");
-    bad(FROM_FILE "loop.csv\n", "", 17, 9, "/loop.csv: Too many levels of symbolic links");
-    bad(FROM_FILE "folder\n", "", 17, 9, "/folder is not a file");
-    bad(FROM_FILE "empty.csv\n", "", 17, 9, "/empty.csv is empty");
-    bad(FROM_FILE "large.csv\n", "", 17, 9, "/large.csv has 256 MiB; a file can have at most 256");
-    bad(FROM_FILE "/dev/null\n", "", 17, 9, "/dev/null is not a file");
-    bad(FROM_FILE "\n", "", 17, 8, "`file`: found nothing; expected the path of a file");
-    bad(FROM_FILE "{a: 1}\n", "", 17, 9, "`file`: found a section; expected the path of a file");
-    bad(FROM_FILE "[s.csv]\n", "", 17, 9, "- strength.file: [...]");
-    bad(FROM_FILE "wrong.csv\n", "", 17, 9, "`strength`: wrong.csv:3: found `Pa`");
-    bad("  distribution: file\n", "", 16, 17, "strength with distribution file needs `file` (");
-    bad("  distribution: constant\n  value: 1 MPa\n  file: s.csv\n", "", 18, 3,
-        "`file` belongs to distribution empirical or file or positions");
-    bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, absent.csv]\n", 28, 28,
-        "/absent.csv: No such file");
-    bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: {from: 1, to: 2, points: 2}\n", 28, 20,
-        "is not a number");
-    bad(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, ./s.csv]\n", 28, 28,
-        "the same values");
+    bad_at(FROM_FILE "absent.csv\n", "", 17, 9, "/absent.csv: No such file");
+    bad_at(FROM_FILE "loop.csv\n", "", 17, 9, "/loop.csv: Too many levels of symbolic links");
+    bad_at(FROM_FILE "folder\n", "", 17, 9, "/folder is not a file");
+    bad_at(FROM_FILE "empty.csv\n", "", 17, 9, "/empty.csv is empty");
+    bad_at(FROM_FILE "large.csv\n", "", 17, 9,
+           "/large.csv has 256 MiB; a file can have at most 256");
+    bad_at(FROM_FILE "/dev/null\n", "", 17, 9, "/dev/null is not a file");
+    bad_at(FROM_FILE "\n", "", 17, 8, "`file`: found nothing; expected the path of a file");
+    bad_at(FROM_FILE "{a: 1}\n", "", 17, 9, "`file`: found a section; expected the path of a file");
+    bad_at(FROM_FILE "[s.csv]\n", "", 17, 9, "- strength.file: [...]");
+    bad_at(FROM_FILE "wrong.csv\n", "", 17, 9, "`strength`: wrong.csv:3: found `Pa`");
+    bad_at("  distribution: file\n", "", 16, 17, "strength with distribution file needs `file` (");
+    bad_at("  distribution: constant\n  value: 1 MPa\n  file: s.csv\n", "", 18, 3,
+           "`file` belongs to distribution empirical or file or positions");
+    bad_at(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, absent.csv]\n", 28, 28,
+           "/absent.csv: No such file");
+    bad_at(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: {from: 1, to: 2, points: 2}\n", 28, 20,
+           "is not a number");
+    bad_at(FROM_FILE "s.csv\n", "sweep:\n  - strength.file: [s.csv, ./s.csv]\n", 28, 28,
+           "the same values");
 }
 
 static void test_empirical(void **state)
 {
     put("m.csv", "strength\n3e8\n5e8\n4e8\n");
     put("bad.csv", "3e8\n5e8\n4e8;\n");
-    OWN(fracas_campaign) campaign = good("  distribution: empirical\n  file: m.csv\n",
-                                         "sweep:\n  - strength.interpolation: [linear, steps]\n");
+    OWN(fracas_campaign) campaign = good_with(
+        "  distribution: empirical\n  file: m.csv\n",
+        "sweep:\n  - strength.interpolation: [linear, steps]\n");
     const size_t mean = fracas_point_table_find(&campaign->table, "derived.strength_mean");
     assert_true(campaign->table.point[0].value[mean].real == 4e8 &&
                 campaign->table.point[1].value[mean].real == 4e8);
@@ -333,10 +298,10 @@ static void test_empirical(void **state)
     assert_true(quantile_of(&campaign->point[0].strength, 1.0, u) == 3.5e8 &&
                 quantile_of(&campaign->point[1].strength, 1.0, u) == 3e8);
     assert_false(fracas_strength_is_given(&campaign->point[0].strength));
-    bad("  distribution: empirical\n  file: bad.csv\n", "", 17, 9,
-        "`strength`: bad.csv:3: found `4e8;`");
-    bad("  distribution: empirical\n", "", 16, 17,
-        "strength with distribution empirical needs `file` (");
+    bad_at("  distribution: empirical\n  file: bad.csv\n", "", 17, 9,
+           "`strength`: bad.csv:3: found `4e8;`");
+    bad_at("  distribution: empirical\n", "", 16, 17,
+           "strength with distribution empirical needs `file` (");
 }
 
 /* The digest was computed by xxhsum -H2. */
@@ -346,10 +311,12 @@ static void test_identity(void **state)
     put("s.csv", "strength\n300e6\n1,301e6\n");
     put("t.csv", "strength\n300e6\n1,301e6\n");
     put("u.csv", "strength\n300e6\n1,302e6\n");
-    OWN(fracas_campaign) one = good(FROM_FILE "s.csv\n", ""), *same = good(FROM_FILE "t.csv\n", "");
-    OWN(fracas_campaign) other = good(uniform, "sweep:\n  - strength: [{distribution: file, file: "
-                                               "u.csv}, {distribution: file, file: t.csv}]\n"
-                                               "  - loading.rate: [1e4, 2e4]\n");
+    OWN(fracas_campaign) one = good_with(FROM_FILE "s.csv\n", ""),
+                         *same = good_with(FROM_FILE "t.csv\n", "");
+    OWN(fracas_campaign) other = good_with(uniform,
+                                           "sweep:\n  - strength: [{distribution: file, file: "
+                                           "u.csv}, {distribution: file, file: t.csv}]\n"
+                                           "  - loading.rate: [1e4, 2e4]\n");
     const size_t column = fracas_point_table_find(&one->table, "strength.file");
     assert_int_not_equal(column, SIZE_MAX);
     assert_true(one->table.column[column].text);
@@ -367,21 +334,13 @@ static void test_identity(void **state)
     assert_int_equal(fracas_campaign_extends(one, other), FRACAS_DAMAGED);
 }
 
-static void write_campaign(const fracas_campaign *campaign, const char *path)
-{
-    FILE *out = fopen(path, "w");
-    assert_non_null(out);
-    OK(fracas_campaign_write(campaign, out));
-    assert_int_equal(fclose(out), 0);
-}
-
 /* What is written reads back to the same points where copies of the files are beside it; a copy
  * that is not what its name says is refused. */
 static void test_round_trip(void **state)
 {
     put("s.csv", "300e6\n");
     put("t.csv", "301e6\n");
-    OWN(fracas_campaign) campaign = good(
+    OWN(fracas_campaign) campaign = good_with(
         uniform, "sweep:\n  - strength: [{distribution: file, file: s.csv}, {distribution: file, "
                  "file: t.csv}, {distribution: constant, value: 5}]\n");
     assert_int_equal(mkdir(in_folder("study"), 0777), 0);
@@ -393,24 +352,17 @@ static void test_round_trip(void **state)
         put(name, a->attachment.text);
     }
     assert_int_equal(copies, 2);
-    write_campaign(campaign, in_folder("study/campaign.yaml"));
-    fracas_campaign *back = NULL;
-    if (fracas_campaign_read(in_folder("study/campaign.yaml"), &back))
-        fail_msg("%s", fracas_message());
+    OWNED char *text = write_text(campaign);
+    put("study/campaign.yaml", text);
+    OWN(fracas_campaign) back = NULL;
+    OK(fracas_campaign_read(in_folder("study/campaign.yaml"), &back));
     assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
-    write_campaign(back, in_folder("again.yaml"));
-    char texts[2][4096] = {"", ""};
-    for (int i = 0; i < 2; i++) {
-        FILE *in = fopen(in_folder(i ? "again.yaml" : "study/campaign.yaml"), "r");
-        assert_non_null(in);
-        assert_true(fread(texts[i], 1, sizeof texts[i] - 1, in) > 100);
-        fclose(in);
-    }
-    assert_string_equal(texts[0], texts[1]);
-    fracas_campaign_destroy(back);
+    OWNED char *again = write_text(back);
+    assert_string_equal(text, again);
+    fracas_campaign *damaged = NULL;
     put(name, "302e6\n");
-    assert_int_equal(fracas_campaign_read(in_folder("study/campaign.yaml"), &back), FRACAS_USAGE);
-    assert_non_null(strstr(fracas_message(), "is damaged: its content has the digest"));
+    FAILS(fracas_campaign_read(in_folder("study/campaign.yaml"), &damaged), FRACAS_USAGE,
+          "is damaged: its content has the digest");
 }
 
 /* ---- the forecast ---- */
@@ -425,7 +377,7 @@ static void test_forecast(void **state)
     put("equal.csv", text);
     text[strlen(text) - strlen("300e6\n")] = '2';
     put("s.csv", text);
-    fracas_campaign *campaign = good(
+    OWN(fracas_campaign) campaign = good_with(
         FROM_FILE "s.csv\n",
         "sweep:\n  - cases:\n      - {name: a}\n      - {replicas: 1, strength.file: equal.csv}\n"
         "      - strength.file: short.csv\n");
@@ -436,20 +388,17 @@ static void test_forecast(void **state)
     assert_int_equal(fracas_forecast_make(campaign, 2, &forecast), FRACAS_USAGE);
     assert_string_equal(fracas_message(), "point 2: short.csv has 99 strengths, but the mesh has "
                                           "100 interfaces; each needs one line of the file");
-    fracas_campaign_destroy(campaign);
     memcpy(text + 6, "9e20 \n", 6); /* one interface too strong for the mesh is enough */
     put("s.csv", text);
-    campaign = good(FROM_FILE "s.csv\n", "");
-    assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
-    assert_non_null(strstr(fracas_message(), "the strongest of"));
-    fracas_campaign_destroy(campaign);
+    OWN(fracas_campaign) strong = good_with(FROM_FILE "s.csv\n", "");
+    FAILS(fracas_forecast_make(strong, 0, &forecast), FRACAS_USAGE, "the strongest of");
 }
 
 /* The model of point 0, and where its interfaces are. */
 static fracas_model *model_of(const fracas_campaign *campaign, double (*position)[3])
 {
     fracas_model *model;
-    if (fracas_point_model_create(campaign, 0, &model)) fail_msg("%s", fracas_message());
+    OK(fracas_point_model_create(campaign, 0, &model));
     fracas_model_interface_positions(model, position);
     return model;
 }
@@ -465,33 +414,27 @@ static const char ring[] =
 static void test_positions(void **state)
 {
     double x[100][3];
-    fracas_campaign *campaign = read_replaced("", "");
-    fracas_model *model = model_of(campaign, x);
+    OWN(fracas_campaign) campaign = read_replaced("", "");
+    OWN(fracas_model) model = model_of(campaign, x);
     const double length = campaign->point[0].spec.geometry.length;
     for (int i = 0; i < 100; i++)
         assert_true(fabs(x[i][0] - length * (i + 1) / 100) < 1e-15 * length && x[i][1] == 0 &&
                     x[i][2] == 0);
-    fracas_model_destroy(model);
-    fracas_campaign_destroy(campaign);
-    campaign = read_replaced("",
-                             "sweep:\n  - mesh: [{elements: 100, spacing: graded, ratio: 4}]\n");
-    model = model_of(campaign, x);
+    OWN(fracas_campaign) grading = read_replaced(
+        "", "sweep:\n  - mesh: [{elements: 100, spacing: graded, ratio: 4}]\n");
+    OWN(fracas_model) graded = model_of(grading, x);
     assert_true(fabs(x[99][0] - length) <
                 1e-14 *
                     length); /* elements in geometric progression: so are their ends' distances */
     for (int i = 1; i < 99; i++)
         assert_true(fabs((x[i + 1][0] - x[i][0]) / (x[i][0] - x[i - 1][0]) - pow(4, 1.0 / 99)) <
                     1e-11);
-    fracas_model_destroy(model);
-    fracas_campaign_destroy(campaign);
-    campaign = read_text(ring);
-    model = model_of(campaign, x);
-    assert_int_equal(fracas_model_interfaces(model), 8);
+    OWN(fracas_campaign) circle = read_text(ring);
+    OWN(fracas_model) round = model_of(circle, x);
+    assert_int_equal(fracas_model_interfaces(round), 8);
     for (int i = 0; i < 8; i++)
         assert_true(fabs(x[i][0] - 8e-3 * cos(M_PI_4 * (i + 1))) < 1e-15 * 8e-3 &&
                     fabs(x[i][1] - 8e-3 * sin(M_PI_4 * (i + 1))) < 1e-15 * 8e-3 && x[i][2] == 0);
-    fracas_model_destroy(model);
-    fracas_campaign_destroy(campaign);
 }
 
 static const char by_position[] =
@@ -511,9 +454,7 @@ static void test_positions_of_a_surface(void **state)
     double x[8][3], got[8];
     char text[1000] = "x,y,strength\n";
     put("p.csv", "0,0,3e8\n");
-    put("c.yaml", by_position);
-    fracas_campaign *campaign;
-    if (fracas_campaign_read(in_folder("c.yaml"), &campaign)) fail_msg("%s", fracas_message());
+    OWN(fracas_campaign) campaign = good(by_position);
     OWN(fracas_model) model = model_of(campaign, x);
     assert_int_equal(fracas_model_interfaces(model), 8);
     int sides = 0, diagonals = 0;
@@ -527,26 +468,21 @@ static void test_positions_of_a_surface(void **state)
     }
     assert_true(sides == 4 && diagonals == 4);
     fracas_forecast forecast;
-    assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
-    assert_non_null(strstr(fracas_message(), "point 0: p.csv has no line for 8 of 8 interfaces"));
-    fracas_campaign_destroy(campaign);
+    FAILS(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE,
+          "point 0: p.csv has no line for 8 of 8 interfaces");
     put("p.csv", text);
-    if (fracas_campaign_read(in_folder("c.yaml"), &campaign)) fail_msg("%s", fracas_message());
-    OK(fracas_forecast_make(campaign, 0, &forecast));
-    assert_int_equal(sample_strengths(&campaign->point[0].strength, &(fracas_stream){0}, 8, NULL,
-                                      (const double(*)[3])x, 1, got),
-                     FRACAS_OK);
+    OWN(fracas_campaign) placed = good(by_position);
+    OK(fracas_forecast_make(placed, 0, &forecast));
+    OK(sample_strengths(&placed->point[0].strength, &(fracas_stream){0}, 8, NULL,
+                        (const double(*)[3])x, 1, got));
     for (int i = 0; i < 8; i++)
         assert_true(fabs(got[i] - (3e8 + 1e11 * x[i][0] + 1e10 * x[i][1])) < 1e-6);
-    fracas_campaign_destroy(campaign);
     char *end = strrchr(text, ',');
     strcpy(end, ",9e20\n"); /* one interface too strong for the mesh is enough, and is named: the
                                first, whose line is the last */
     put("p.csv", text);
-    if (fracas_campaign_read(in_folder("c.yaml"), &campaign)) fail_msg("%s", fracas_message());
-    assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
-    assert_non_null(strstr(fracas_message(), "p.csv, interface 0 at x = "));
-    fracas_campaign_destroy(campaign);
+    OWN(fracas_campaign) strong = good(by_position);
+    FAILS(fracas_forecast_make(strong, 0, &forecast), FRACAS_USAGE, "p.csv, interface 0 at x = ");
 }
 
 /* ---- the mesh's noise ---- */

@@ -50,9 +50,7 @@ static void hashes_are_xxh3(void **unused)
 
 static void json_is_well_formed(void **unused)
 {
-    OWNED char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
+    FILE *out = text_begin();
     fracas_json json;
     fracas_json_begin(&json, out);
     fracas_json_text(&json, "a \"b\"\n", "\\");
@@ -66,7 +64,7 @@ static void json_is_well_formed(void **unused)
     fracas_json_boolean(&json, "yes", true);
     fracas_json_text(&json, "none", NULL);
     fracas_json_end(&json);
-    fclose(out);
+    OWNED char *text = text_end(out);
     assert_string_equal(text, "{\n  \"a \\\"b\\\"\\u000a\": \"\\\\\",\n  \"list\": [\n    "
                               "0.10000000000000001,\n    null,\n    -3\n  ],\n"
                               "  \"empty\": {},\n  \"yes\": true,\n  \"none\": null\n}\n");

@@ -2,21 +2,18 @@
 /* Drawings of surfaces in space, read again: what is painted last where, lengths of lines, areas,
  * bytes. Spheres and octants of 1 m, broken along the borders of Voronoi cells. */
 #include "tests/support/body.h"
+#include "tests/support/svg_path.h"
 
 #include "analysis/draw/trail.h"
 #include "analysis/draw/facets.h"
-#include "tests/support/test.h"
 
 static char *draw(const body *b, const fracas_view *view, double explode, double thickness,
                   fracas_surface_show show)
 {
-    char *text;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
+    FILE *out = text_begin();
     const fracas_surface_picture picture = {"a body", show, 800, true, view, explode, thickness};
     OK(fracas_surface_picture_write(&b->mesh, &b->now, &picture, out));
-    fclose(out);
-    return text;
+    return text_end(out);
 }
 
 /* Length of the straight lines of all paths with this class, in units; how many edges. */
@@ -27,16 +24,10 @@ static double length_of(const char *svg, const char *class, size_t *edges)
     *edges = 0;
     snprintf(start, sizeof start, "<path class=\"%s\"", class);
     for (const char *found = strstr(svg, start); found; found = strstr(found + 1, start)) {
-        char command = 0;
-        for (const char *d = strstr(found, " d=\"") + 4; *d != '"';) {
-            if (*d == 'M' || *d == 'l' || *d == 'z') {
-                command = *d++;
-                continue;
-            }
-            char *end;
-            const double x = strtod(d, &end), y = strtod(end, (char **)&d);
-            while (*d == ' ') d++;
-            if (command == 'l') length += hypot(x, y), ++*edges;
+        svg_pen pen = svg_begin(found);
+        for (svg_edge edge; svg_next(&pen, &edge);) {
+            length += hypot(edge.to[0] - edge.from[0], edge.to[1] - edge.from[1]);
+            *edges += !edge.closes;
         }
     }
     return length;
@@ -45,7 +36,7 @@ static double length_of(const char *svg, const char *class, size_t *edges)
 /* ---- what a reader sees at a point ---- */
 
 typedef struct {
-    double from[2], to[2];
+    svg_edge edge;
     size_t path;
 } stroke;
 
@@ -67,23 +58,10 @@ static painting *read_areas(const char *svg)
         if (!dust && !tinted) continue;
         assert_true(all->npaths < 512);
         all->tint[all->npaths] = dust ? FRACAS_TINT_DUST : (uint8_t)(class[1] - '0');
-        double x = 0, y = 0;
-        char command = 0;
-        for (const char *d = strstr(found, " d=\"") + 4; *d != '"';) {
-            if (strchr("Mlz", *d)) {
-                command = *d++;
-                continue;
-            }
-            char *end;
-            const double a = strtod(d, &end), c = strtod(end, (char **)&d);
-            while (*d == ' ') d++;
-            if (command == 'M') {
-                x = a, y = c;
-                continue;
-            }
+        svg_pen pen = svg_begin(found);
+        for (svg_edge edge; svg_next(&pen, &edge);) {
             assert_true(all->count < 200000);
-            all->stroke[all->count++] = (stroke){{x, y}, {x + a, y + c}, all->npaths};
-            x += a, y += c;
+            all->stroke[all->count++] = (stroke){edge, all->npaths};
         }
         all->npaths++;
     }
@@ -96,7 +74,7 @@ static uint8_t tint_at(const painting *all, const double point[2])
 {
     bool inside[512] = {false};
     for (size_t s = 0; s < all->count; s++) {
-        const double *a = all->stroke[s].from, *b = all->stroke[s].to,
+        const double *a = all->stroke[s].edge.from, *b = all->stroke[s].edge.to,
                      square = pow(b[0] - a[0], 2) + pow(b[1] - a[1], 2);
         double share =
             square > 0
@@ -228,51 +206,31 @@ static void cracks_have_their_length(void **state)
         assert_int_equal(edges, expected);
         assert_true(fabs(drawn[k] - scale * exact) < 1.42 * (double)expected);
     }
-    assert_non_null(strstr(svg, "text-anchor=\"middle\">z</text>"));
+    assert_has(svg, "text-anchor=\"middle\">z</text>");
     free(svg);
     svg = draw(&b, NULL, 0, 0, FRACAS_SHOW_CRACKS);
     assert_true(length_of(svg, "broken", &edges) == drawn[0] &&
                 length_of(svg, "cracked", &edges) == drawn[1]);
     assert_null(strstr(svg, "class=\"t0\""));
     assert_null(strstr(svg, "class=\"mesh\""));
-    assert_non_null(strstr(svg, "class=\"body\""));
+    assert_has(svg, "class=\"body\"");
     free(svg);
     svg = draw(&b, NULL, 0.2, 0.01, FRACAS_SHOW_FRAGMENTS);
-    assert_non_null(strstr(svg, ", fragments apart: 0.2</text>"));
+    assert_has(svg, ", fragments apart: 0.2</text>");
     free(svg);
     clear_body(&b);
 }
 
-/* Area inside the loops of all paths with these classes, in square units; a parabola has 2/3 of its
- * triangle beside its chord. */
+/* Area inside the loops of all paths with these classes, in square units. */
 static double filled(const char *svg, const char *classes)
 {
     double sum = 0;
     for (const char *found = strstr(svg, "<path class=\""); found;
          found = strstr(found + 1, "<path class=\"")) {
         if (!strchr(classes, found[13]) || found[14] < '0' || found[14] > '9') continue;
-        double x = 0, y = 0, first[2] = {0, 0}, control[2], area = 0;
-        char command = 0;
-        bool half = false;
-        for (const char *d = strstr(found, " d=\"") + 4; *d != '"';) {
-            if (strchr("Mlqz", *d)) {
-                command = *d++;
-                if (command == 'z') area += (x * first[1] - first[0] * y) / 2;
-                continue;
-            }
-            char *end;
-            const double a = strtod(d, &end), c = strtod(end, (char **)&d);
-            while (*d == ' ') d++;
-            if (command == 'M') {
-                x = first[0] = a, y = first[1] = c;
-            } else if (command == 'q' && !half) {
-                control[0] = a, control[1] = c, half = true;
-            } else {
-                if (half) area += 2.0 / 3 * (control[0] * c - control[1] * a) / 2;
-                area += (x * (y + c) - (x + a) * y) / 2;
-                x += a, y += c, half = false;
-            }
-        }
+        double area = 0;
+        svg_pen pen = svg_begin(found);
+        for (svg_edge edge; svg_next(&pen, &edge);) area += svg_area(&edge);
         sum += fabs(area);
     }
     return sum;
@@ -294,13 +252,6 @@ static void curved_edges_are_curved(void **state)
         assert_true(fabs(filled(svg, "t") / exact - 1) < 1e-4 + 0.71 * 3 * 7840 / exact);
     }
     clear_body(&b);
-}
-
-static size_t count_of(const char *svg, const char *part)
-{
-    size_t count = 0;
-    for (const char *found = strstr(svg, part); found; found = strstr(found + 1, part)) count++;
-    return count;
 }
 
 /* From behind, each of the three planes in which an octant is cut has a shade of its own, at once.
@@ -339,8 +290,8 @@ static void flat_surfaces_can_be_looked_at_too(void **state)
         OWNED char *svg = draw(&b, side ? &below : &above, 0, 0, FRACAS_SHOW_FRAGMENTS);
         assert_true(fabs(length_of(svg, "broken", &edges) - length) <= 4);
         assert_int_equal(edges, flat_edges);
-        assert_non_null(strstr(svg, side ? "fill-opacity=\"0.465\"" : "fill-opacity=\"0.114\""));
-        assert_non_null(strstr(svg, "M2693 ")); /* 8 + 784/3 pixels from the left, either way up */
+        assert_has(svg, side ? "fill-opacity=\"0.465\"" : "fill-opacity=\"0.114\"");
+        assert_has(svg, "M2693 "); /* 8 + 784/3 pixels from the left, either way up */
     }
     clear_body(&b);
 }

@@ -3,7 +3,6 @@
  * and a search for what is nearest. Spheres and octants of 1 m, broken along the borders of Voronoi
  * cells. */
 #include "tests/support/body.h"
-#include "tests/support/test.h"
 
 /* Largest circumradius of an element: the planes of the elements are at least sqrt(1 - that^2) from
  * the centre. */

@@ -8,7 +8,6 @@
 #include "tests/support/campaign_text.h"
 
 #include "base/units.h"
-#include "tests/support/test.h"
 
 #define YOUNG                                                                                    \
     "        material.young: {distribution: normal, mean: 370 GPa, deviation: 10 GPa, minimum: " \
@@ -49,19 +48,11 @@ static void test_points(void **state)
     const double tied[16] = {1, 0.5, 0, 0, 0.5, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     const uint64_t name[4] = {name_of("material.young"), name_of("cohesive.fracture_energy"),
                               name_of("loading.rate"), name_of("mesh.elements")};
-    const fracas_uncertain young = {.kind = kind_of(&fracas_uncertain_section, "normal"),
-                                    .mean = 370e9,
-                                    .deviation = 10e9,
-                                    .minimum = 365e9,
-                                    .maximum = NAN};
-    const fracas_uncertain energy = {.kind = kind_of(&fracas_uncertain_section, "weibull"),
-                                     .minimum = 0,
-                                     .scale = 50,
-                                     .shape = 10};
-    const fracas_uncertain rate = {
-        .kind = kind_of(&fracas_uncertain_section, "log-uniform"), .minimum = 1e3, .maximum = 1e5};
-    const fracas_uncertain elements = {
-        .kind = kind_of(&fracas_uncertain_section, "uniform"), .minimum = 50.5, .maximum = 950.5};
+    const fracas_uncertain young = UNCERTAIN("normal", .mean = 370e9, .deviation = 10e9,
+                                             .minimum = 365e9, .maximum = NAN);
+    const fracas_uncertain energy = UNCERTAIN("weibull", .minimum = 0, .scale = 50, .shape = 10);
+    const fracas_uncertain rate = UNCERTAIN("log-uniform", .minimum = 1e3, .maximum = 1e5);
+    const fracas_uncertain elements = UNCERTAIN("uniform", .minimum = 50.5, .maximum = 950.5);
     for (size_t t = 0; t < FRACAS_COUNT(types); t++) {
         OWN(fracas_campaign) campaign = read_design(types[t], YOUNG ENERGY RATE ELEMENTS TIED);
         const fracas_design design = {fracas_design_types[t], 7, 9, 4, name, tied};
@@ -149,12 +140,7 @@ static void test_extension(void **state)
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
         OWN(fracas_campaign) before = read_design(table[i].before, YOUNG),
                              *now = read_design(table[i].after, YOUNG);
-        const fracas_err err = fracas_campaign_extends(now, before);
-        if (err != (table[i].words[0] ? FRACAS_DAMAGED : FRACAS_OK))
-            fail_msg("%s: %d %s", table[i].after, err, fracas_message());
-        for (int w = 0; w < 3 && table[i].words[w]; w++)
-            if (!strstr(fracas_message(), table[i].words[w]))
-                fail_msg("no \"%s\" in: %s", table[i].words[w], fracas_message());
+        check_extends(now, before, table[i].words);
     }
 }
 
@@ -221,21 +207,5 @@ static void test_common_hash(void **state)
     assert_string_equal(hex, "e2446cf15144b9e2154645bd5c8473e0");
 }
 
-static void test_random_numbers_errors(void **state)
-{
-    static const char *const wrong[] = {"random_numbers: same\n", "random_numbers: [common]\n"};
-    for (size_t i = 0; i < FRACAS_COUNT(wrong); i++) {
-        char path[40], *text = replace(plain_campaign, "", wrong[i]);
-        fracas_campaign *campaign = NULL;
-        make_path(path);
-        write_bytes(path, text, strlen(text));
-        assert_int_equal(fracas_campaign_read(path, &campaign), FRACAS_USAGE);
-        unlink(path);
-        free(text);
-        assert_non_null(strstr(fracas_message(), ":28:17: `random_numbers`: found "));
-        assert_non_null(strstr(fracas_message(), "expected independent"));
-    }
-}
-
 TESTS(test_points, test_shipped, test_product, test_drawn_with_kind, test_extension, test_hashes,
-      test_common_random_numbers, test_common_hash, test_random_numbers_errors)
+      test_common_random_numbers, test_common_hash)

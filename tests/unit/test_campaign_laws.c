@@ -5,7 +5,6 @@
 #include "tests/support/strengths.h"
 
 #include "campaigns/plan/point_model.h"
-#include "tests/support/test.h"
 
 static const char uniform[] = "  distribution: uniform\n  minimum: 299 MPa\n  maximum: 301 MPa\n";
 

@@ -5,7 +5,6 @@
 #include "campaigns/plan/plan.h"
 #include "engine/engine.h"
 #include "tests/support/campaign_text.h"
-#include "tests/support/test.h"
 
 #include <time.h>
 
@@ -14,7 +13,7 @@ static const char sweep[] =
 
 static void expect(const char *text, const char *part)
 {
-    if (!strstr(text, part)) fail_msg("no \"%s\" in:\n%s", part, text);
+    assert_has(text, part);
 }
 
 static void test_cost(void **state)
@@ -104,7 +103,7 @@ static double bound_of(const char *loading)
 {
     OWN(fracas_campaign) campaign = read_ring(loading, "");
     fracas_forecast forecast;
-    if (fracas_forecast_make(campaign, 0, &forecast)) fail_msg("%s", fracas_message());
+    OK(fracas_forecast_make(campaign, 0, &forecast));
     assert_true(campaign->point[0].spec.time.end == 500e-9);
     return forecast.bound;
 }
@@ -213,9 +212,8 @@ static void test_heavy_tail(void **state)
     double mean = mean_of_strength(&point->strength, fracas_model_interface_volume(model, 0));
     OK(fracas_model_check_strength(model, mean));
     double cost;
-    assert_int_equal(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE);
-    expect(fracas_message(), "point 0: the strongest of ");
-    expect(fracas_message(), "raise mesh.elements above");
+    FAILS(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE, "point 0: the strongest of ",
+          "raise mesh.elements above");
 }
 
 /* Flaws are rarest in the smallest interface: on a graded mesh it is that one, here the last, whose
@@ -233,8 +231,7 @@ static void test_flaws_of_small_elements(void **state)
     double first = quantile_of(&point->strength, fracas_model_interface_volume(model, 0), 1 - 1e-6);
     OK(fracas_model_check_strength(model, first));
     double cost;
-    assert_int_equal(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE);
-    expect(fracas_message(), "point 0: the strongest of ");
+    FAILS(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE, "point 0: the strongest of ");
 }
 
 /* What the engine refuses is refused here, with the point. */
@@ -244,8 +241,7 @@ static void test_refused(void **state)
         "", "sweep:\n  - cohesive.fracture_energy: [100, 1e-9]\n");
     FILE *out = fopen("/dev/null", "w");
     assert_non_null(out);
-    assert_int_equal(fracas_plan_print(campaign, 1, out, false), FRACAS_USAGE);
-    expect(fracas_message(), "point 1: ");
+    FAILS(fracas_plan_print(campaign, 1, out, false), FRACAS_USAGE, "point 1: ");
     fclose(out);
 }
 
@@ -297,8 +293,7 @@ static void test_write_fails(void **state)
     OWN(fracas_campaign) campaign = read_text(plain_campaign);
     FILE *full = fopen("/dev/full", "w");
     assert_non_null(full);
-    assert_int_equal(fracas_plan_print(campaign, 1, full, true), FRACAS_ENVIRONMENT);
-    expect(fracas_message(), "No space left");
+    FAILS(fracas_plan_print(campaign, 1, full, true), FRACAS_ENVIRONMENT, "No space left");
     fclose(full);
 }
 

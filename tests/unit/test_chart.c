@@ -3,7 +3,7 @@
 #include "analysis/draw/chart.h"
 #include "analysis/report/page.h"
 #include "base/param.h"
-#include "tests/support/test.h"
+#include "tests/support/svg_path.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -77,15 +77,11 @@ static void make_names(fracas_chart *chart)
 static char *written_of(void (*make)(fracas_chart *chart),
                         void (*write)(const fracas_chart *chart, FILE *out))
 {
-    char *text;
-    size_t size;
     FRACAS_CLEARED(fracas_chart) chart;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
+    FILE *out = text_begin();
     make(&chart);
     write(&chart, out);
-    assert_int_equal(fclose(out), 0);
-    return text;
+    return text_end(out);
 }
 
 static char *written(void (*write)(const fracas_chart *chart, FILE *out))
@@ -107,13 +103,6 @@ static void the_csv_has_what_is_drawn(void **state)
                         "2,\"band\",band,2,2,,4\n"
                         "2,\"band\",band,3,2,1,4\n"
                         "2,\"band\",band,4,2,1,4\n");
-}
-
-static size_t count_of(const char *text, const char *part)
-{
-    size_t count = 0;
-    for (const char *at = text; (at = strstr(at, part)); at += strlen(part)) count++;
-    return count;
 }
 
 static void write_page(const fracas_chart *chart, FILE *out)
@@ -143,13 +132,13 @@ static void drawings_have_marks_bands_and_keys(void **state)
                      2); /* the line goes with the marks */
     assert_int_equal(count_of(page, "class=\"entry c0\" data-key=\"0.1\""), 1);
     assert_int_equal(count_of(page, "class=\"entry"), 2);
-    assert_non_null(strstr(page, "data-x=\"log 1 10 "));
-    assert_non_null(strstr(linear, "data-x=\"linear 0 10 "));
+    assert_has(page, "data-x=\"log 1 10 ");
+    assert_has(linear, "data-x=\"linear 0 10 ");
     assert_int_equal(count_of(linear, "class=\"mark\""), 3); /* where it can be below 0 */
-    assert_non_null(strstr(page, "a &quot;quoted&quot;, &lt;name&gt;; rate [1/s]: 1.000; size "
-                                 "[mm]: 2.000 (95 %: -1.000 to 3.000)"));
+    assert_has(page, "a &quot;quoted&quot;, &lt;name&gt;; rate [1/s]: 1.000; size "
+                     "[mm]: 2.000 (95 %: -1.000 to 3.000)");
     assert_null(strstr(page, "<style>"));
-    assert_non_null(strstr(file, ".c5{color:#56B4E9}"));
+    assert_has(file, ".c5{color:#56B4E9}");
     assert_null(strstr(file, "data-"));
     assert_null(strstr(file, "class=\"hit\""));
 }
@@ -183,10 +172,9 @@ static void an_axis_may_have_names(void **state)
                      1); /* both kinds of marks have one entry */
     assert_int_equal(count_of(page, "class=\"series c2\" data-key=\"0.1\""), 2);
     assert_int_equal(count_of(page, "class=\"series cg\""), 2);
-    assert_non_null(strstr(page, "data-x=\"names 0.5 2.5 "));
-    assert_non_null(strstr(
-        page, "<title>a point; refined: mesh; change [%]: 2.000 (95 %: 0 to 3.000)</title>"));
-    assert_non_null(strstr(page, "refined: &lt;beta&gt;; "));
+    assert_has(page, "data-x=\"names 0.5 2.5 ");
+    assert_has(page, "<title>a point; refined: mesh; change [%]: 2.000 (95 %: 0 to 3.000)</title>");
+    assert_has(page, "refined: &lt;beta&gt;; ");
     const double mesh = place_of(page, ">mesh</text>"),
                  beta = place_of(page, ">&lt;beta&gt;</text>");
     const char *mark = strstr(page, "class=\"mark open\" d=\"M");
@@ -215,16 +203,12 @@ static void put_file(const char *name, const char *text)
 {
     char path[512];
     snprintf(path, sizeof path, "%s/%s", folder, name);
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    fputs(text, file);
-    assert_int_equal(fclose(file), 0);
+    write_bytes(path, text, strlen(text));
 }
 
 static void fails_with(char (*name)[FRACAS_DRAWING], const char *message)
 {
-    assert_int_equal(fracas_pdf_write(folder, name, 1), FRACAS_ENVIRONMENT);
-    if (!strstr(fracas_message(), message)) fail_msg("%s", fracas_message());
+    FAILS(fracas_pdf_write(folder, name, 1), FRACAS_ENVIRONMENT, message);
 }
 
 static void drawings_become_pdf(void **state)
@@ -233,19 +217,15 @@ static void drawings_become_pdf(void **state)
         print_message("skipped: built without librsvg\n");
         skip();
     }
-    char names[2][FRACAS_DRAWING] = {"chart", "again"}, path[512], begin[6] = "",
-         *svg = written(write_file);
+    char names[2][FRACAS_DRAWING] = {"chart", "again"}, path[512], *svg = written(write_file);
     put_file("chart.svg", svg);
     put_file("again.svg", svg);
     free(svg);
     OK(fracas_pdf_write(folder, names, 2));
     for (int i = 0; i < 2; i++) {
         snprintf(path, sizeof path, "%s/%s.pdf", folder, names[i]);
-        FILE *file = fopen(path, "r");
-        assert_non_null(file);
-        assert_int_equal(fread(begin, 1, 5, file), 5);
-        assert_string_equal(begin, "%PDF-");
-        fclose(file);
+        OWNED char *pdf = whole_file(path);
+        assert_memory_equal(pdf, "%PDF-", 5);
     }
     char missing[1][FRACAS_DRAWING] = {"missing"}, torn[1][FRACAS_DRAWING] = {"torn"},
          taken[1][FRACAS_DRAWING] = {"taken"};

@@ -9,7 +9,6 @@
 
 #include "base/hash.h"
 #include "tests/support/kinds.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_qrng.h>
@@ -20,18 +19,11 @@ enum { LATIN_HYPERCUBE, SOBOL, RANDOM, TYPES };
 static const uint64_t names[5] = {11, 7, 5000000000, 3, 2};
 static const uint64_t SEED = 20261121;
 
-static void *room_for(size_t count, size_t size)
-{
-    void *room = malloc(count * size);
-    if (!room) abort();
-    return room;
-}
-
 /* The first `d` of the parameters above. */
 static fracas_probability *fill(int type, size_t n, size_t d, const double *correlation)
 {
     const fracas_design design = {fracas_design_types[type], SEED, n, d, names, correlation};
-    fracas_probability *p = room_for(n * d, sizeof *p);
+    fracas_probability *p = zeroed(n * d, sizeof *p);
     OK(fracas_design_fill(&design, p));
     return p;
 }
@@ -75,7 +67,7 @@ static void test_sobol_is_gsl_shifted(void **state)
     uint64_t many[D];
     for (size_t j = 0; j < D; j++) many[j] = 100 + j;
     const fracas_design design = {fracas_design_types[SOBOL], SEED, N, D, many, NULL};
-    OWNED fracas_probability *p = room_for(N * D, sizeof *p);
+    OWNED fracas_probability *p = zeroed(N * D, sizeof *p);
     OK(fracas_design_fill(&design, p));
     gsl_qrng *qrng = gsl_qrng_alloc(gsl_qrng_sobol, D);
     double x[D] = {0.0};
@@ -131,7 +123,7 @@ static void test_other_parameters(void **state)
         OWNED fracas_probability *three = fill(type, 30, 3, three_tied),
                                  *two = fill(type, 30, 2, two_tied);
         OWNED fracas_probability *free_of_ties = fill(type, 30, 3, NULL),
-                                 *other = room_for(90, sizeof *other);
+                                 *other = zeroed(90, sizeof *other);
         const fracas_design design = {fracas_design_types[type], SEED, 30, 3, turned, NULL};
         int kept = 0;
         OK(fracas_design_fill(&design, other));
@@ -183,7 +175,7 @@ static void test_strata(void **state)
         for (int tied = 0; tied < 2; tied++) {
             const size_t n = counts[c];
             OWNED fracas_probability *p = fill(LATIN_HYPERCUBE, n, 3, tied ? three_tied : NULL),
-                                     *column = room_for(n, sizeof *column);
+                                     *column = zeroed(n, sizeof *column);
             for (size_t j = 0; j < 3; j++) {
                 double inside = 0.0;
                 for (size_t i = 0; i < n; i++) column[i] = p[3 * i + j];
@@ -301,7 +293,7 @@ static void test_margins(void **state)
 {
     enum { N = 16384 };
     OWNED fracas_probability *p = fill(RANDOM, N, 3, three_tied),
-                             *column = room_for(N, sizeof *column);
+                             *column = zeroed(N, sizeof *column);
     for (size_t j = 0; j < 3; j++) {
         double distance = 0.0;
         for (size_t i = 0; i < N; i++) column[i] = p[3 * i + j];
@@ -331,23 +323,14 @@ static void assert_quantile(const fracas_uncertain *uncertain, fracas_probabilit
 static void test_distributions(void **state)
 {
     static const double probes[] = {1e-9, 1e-4, 0.03, 0.3, 0.5, 0.77, 0.99, 0.99999};
-    const fracas_uncertain uniform = {
-        .kind = kind_of(&fracas_uncertain_section, "uniform"), .minimum = -3.0, .maximum = 5.0};
-    const fracas_uncertain log_uniform = {
-        .kind = kind_of(&fracas_uncertain_section, "log-uniform"), .minimum = 1e3, .maximum = 1e5};
-    const fracas_uncertain normal = {.kind = kind_of(&fracas_uncertain_section, "normal"),
-                                     .mean = 370.0,
-                                     .deviation = 200.0,
-                                     .minimum = NAN,
-                                     .maximum = NAN};
-    const fracas_uncertain lognormal = {
-        .kind = kind_of(&fracas_uncertain_section, "lognormal"), .median = 4.0, .sigma = 0.5};
-    const fracas_uncertain weibull = {.kind = kind_of(&fracas_uncertain_section, "weibull"),
-                                      .minimum = -20.0,
-                                      .scale = 50.0,
-                                      .shape = 10.0};
-    const fracas_uncertain gamma_law = {
-        .kind = kind_of(&fracas_uncertain_section, "gamma"), .scale = 3.0, .shape = 2.5};
+    const fracas_uncertain uniform = UNCERTAIN("uniform", .minimum = -3.0, .maximum = 5.0);
+    const fracas_uncertain log_uniform = UNCERTAIN("log-uniform", .minimum = 1e3, .maximum = 1e5);
+    const fracas_uncertain normal = UNCERTAIN("normal", .mean = 370.0, .deviation = 200.0,
+                                              .minimum = NAN, .maximum = NAN);
+    const fracas_uncertain lognormal = UNCERTAIN("lognormal", .median = 4.0, .sigma = 0.5);
+    const fracas_uncertain weibull = UNCERTAIN("weibull", .minimum = -20.0, .scale = 50.0,
+                                               .shape = 10.0);
+    const fracas_uncertain gamma_law = UNCERTAIN("gamma", .scale = 3.0, .shape = 2.5);
     for (size_t i = 0; i < FRACAS_COUNT(probes); i++) {
         const fracas_probability p = fracas_probability_of(probes[i]);
         const double z = gsl_cdf_ugaussian_Pinv(p.below);
@@ -372,11 +355,9 @@ static void test_cut_normal(void **state)
     const double mean = 10.0, deviation = 4.0;
     for (size_t b = 0; b < FRACAS_COUNT(bounds); b++) {
         const double low = bounds[b][0], high = bounds[b][1];
-        const fracas_uncertain normal = {.kind = kind_of(&fracas_uncertain_section, "normal"),
-                                         .mean = mean,
-                                         .deviation = deviation,
-                                         .minimum = mean + deviation * low,
-                                         .maximum = mean + deviation * high};
+        const fracas_uncertain normal = UNCERTAIN("normal", .mean = mean, .deviation = deviation,
+                                                  .minimum = mean + deviation * low,
+                                                  .maximum = mean + deviation * high);
         OK(fracas_uncertain_check(&normal));
         for (double u = 0.0625; u < 1.0; u += 0.0625) {
             const double z = (fracas_uncertain_quantile(&normal, fracas_probability_of(u)) - mean) /
@@ -399,33 +380,20 @@ static void test_cut_normal(void **state)
 
 static void test_distribution_checks(void **state)
 {
-    const fracas_uncertain turned = {
-        .kind = kind_of(&fracas_uncertain_section, "uniform"), .minimum = 5.0, .maximum = 3.0};
-    const fracas_uncertain equal = {
-        .kind = kind_of(&fracas_uncertain_section, "log-uniform"), .minimum = 5.0, .maximum = 5.0};
-    const fracas_uncertain crossed = {.kind = kind_of(&fracas_uncertain_section, "normal"),
-                                      .mean = 0.0,
-                                      .deviation = 1.0,
-                                      .minimum = 1.0,
-                                      .maximum = -1.0};
-    const fracas_uncertain far = {.kind = kind_of(&fracas_uncertain_section, "normal"),
-                                  .mean = 0.0,
-                                  .deviation = 1.0,
-                                  .minimum = 7.0,
-                                  .maximum = NAN};
-    const fracas_uncertain open = {.kind = kind_of(&fracas_uncertain_section, "normal"),
-                                   .mean = 0.0,
-                                   .deviation = 1.0,
-                                   .minimum = 1.0,
-                                   .maximum = NAN};
+    const fracas_uncertain turned = UNCERTAIN("uniform", .minimum = 5.0, .maximum = 3.0);
+    const fracas_uncertain equal = UNCERTAIN("log-uniform", .minimum = 5.0, .maximum = 5.0);
+    const fracas_uncertain crossed = UNCERTAIN("normal", .mean = 0.0, .deviation = 1.0,
+                                               .minimum = 1.0, .maximum = -1.0);
+    const fracas_uncertain far = UNCERTAIN("normal", .mean = 0.0, .deviation = 1.0, .minimum = 7.0,
+                                           .maximum = NAN);
+    const fracas_uncertain open = UNCERTAIN("normal", .mean = 0.0, .deviation = 1.0, .minimum = 1.0,
+                                            .maximum = NAN);
     const fracas_uncertain *const wrong[] = {&turned, &equal, &crossed};
     for (size_t i = 0; i < FRACAS_COUNT(wrong); i++) {
-        assert_int_equal(fracas_uncertain_check(wrong[i]), FRACAS_USAGE);
-        assert_non_null(strstr(fracas_message(), "the maximum must be the larger"));
+        FAILS(fracas_uncertain_check(wrong[i]), FRACAS_USAGE, "the maximum must be the larger");
     }
-    assert_int_equal(fracas_uncertain_check(&far), FRACAS_USAGE);
-    assert_non_null(
-        strstr(fracas_message(), "its bounds leave 1.28e-12 of the normal distribution"));
+    FAILS(fracas_uncertain_check(&far), FRACAS_USAGE,
+          "its bounds leave 1.28e-12 of the normal distribution");
     OK(fracas_uncertain_check(&open));
 }
 

@@ -6,7 +6,6 @@
 #include "analysis/export/tables.h"
 #include "analysis/summary/study.h"
 #include "tests/support/fit_sample.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_errno.h>
 
@@ -133,17 +132,15 @@ static void same_rows(const fracas_fits *a, const fracas_fits *b)
  * fragments. */
 static void fits_of_a_study(void **state)
 {
-    char folder[320], *text = NULL;
-    size_t size;
+    char folder[320];
     snprintf(folder, sizeof folder, "%s/one", report_root);
     write_study(folder, 40);
-    FILE *out = open_memstream(&text, &size);
+    FILE *out = text_begin();
     OWN(fracas_fits) fits = fit(folder, SIZE_MAX, out), *read = NULL;
-    fclose(out);
+    OWNED char *text = text_end(out);
     print_message("%s", text);
-    assert_non_null(strstr(text, "shifted-rayleigh"));
-    assert_non_null(strstr(text, "fragments above the cut; 30 are needed"));
-    free(text);
+    assert_has(text, "shifted-rayleigh");
+    assert_has(text, "fragments above the cut; 30 are needed");
     const fracas_fits_row *shift = fracas_fits_find(fits, 0, "shifted-rayleigh", "x0");
     assert_true(value_of(fits, 0, "shifted-rayleigh", "delta_aicc") < 10 &&
                 value_of(fits, 0, "shifted-rayleigh", "fitted") == 1);
@@ -237,8 +234,8 @@ static void one_point(void **state)
     same_rows(one, all);
     fracas_fits_destroy(one);
     OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
-    assert_int_equal(fracas_fits_create(analysis, NPOINTS, RESAMPLES, &one), FRACAS_USAGE);
-    assert_non_null(strstr(fracas_message(), "point 4: the study has points 0 to 3"));
+    FAILS(fracas_fits_create(analysis, NPOINTS, RESAMPLES, &one), FRACAS_USAGE,
+          "point 4: the study has points 0 to 3");
     fracas_fits_destroy(all);
 }
 
@@ -258,12 +255,9 @@ static void damaged_files(void **state)
     fracas_fits *fits;
     snprintf(path, sizeof path, "%s/fits.csv", report_root);
     for (size_t i = 0; i < sizeof line / sizeof *line; i++) {
-        FILE *out = fopen(path, "w");
-        assert_non_null(out);
-        fputs(line[i], out);
-        fclose(out);
-        assert_int_equal(fracas_fits_read(report_root, &fits), FRACAS_DAMAGED);
-        assert_non_null(strstr(fracas_message(), i ? "line 2 is none of ours" : "line 1 is not"));
+        write_bytes(path, line[i], strlen(line[i]));
+        FAILS(fracas_fits_read(report_root, &fits), FRACAS_DAMAGED,
+              i ? "line 2 is none of ours" : "line 1 is not");
         assert_null(fits);
     }
 }

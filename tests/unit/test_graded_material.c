@@ -2,30 +2,23 @@
 /* Where strengths are: one for each Gauss point, and a factor that depends on the position; from
  * the file to the field. */
 #define FOLDER "fracas-test"
-#include "tests/support/kinds.h"
-#include "tests/support/folder.h"
+#include "tests/support/campaign_folder.h"
 
-#include "campaigns/plan/forecast.h"
-#include "campaigns/plan/point_model.h"
 #include "campaigns/sample/sample.h"
 #include "engine/solver/batch.h"
 #include "sampler/field/grading.h"
-#include "tests/support/campaign_text.h"
 #include "tests/support/strengths.h"
-#include "tests/support/test.h"
 
 /* ---- the factor ---- */
 
 /* The factor at one place, by a profile. */
 static double factor_of(const char *text, const fracas_kind *along, const double position[3])
 {
-    const fracas_attachment file = {.path = "f.csv", .text = text, .size = strlen(text)};
+    const fracas_attachment file = attached("f.csv", text);
     const fracas_strength strength = {.factor = &file, .factor_along = along};
-    double *factor = NULL, value;
-    if (fracas_grading_create(&strength, 1, (const double(*)[3])position, &factor))
-        fail_msg("%s", fracas_message());
-    value = factor[0];
-    free(factor);
+    OWNED double *factor = NULL;
+    OK(fracas_grading_create(&strength, 1, (const double(*)[3])position, &factor));
+    const double value = factor[0];
     return value;
 }
 
@@ -76,16 +69,10 @@ static void what_is_wrong_is_said(void **state)
         {"1,1\n1,2\n1,3\n", "f.csv:3: the coordinate 1 m is given a third time"},
         {"x,f\n", "f.csv has no factor; expected lines of a coordinate [m] and a factor"}};
     for (size_t t = 0; t < sizeof table / sizeof *table; t++) {
-        const fracas_attachment file = {
-            .path = "f.csv", .text = table[t].text, .size = strlen(table[t].text)};
-        const fracas_strength strength = {
-            .distribution = kind_of(&fracas_strength_section, "constant"),
-            .value = 1,
-            .factor = &file,
-            .factor_along = &fracas_along_x};
-        assert_int_equal(fracas_strength_check(&strength), FRACAS_USAGE);
-        if (!strstr(fracas_message(), table[t].words))
-            fail_msg("no \"%s\" in: %s", table[t].words, fracas_message());
+        const fracas_attachment file = attached("f.csv", table[t].text);
+        const fracas_strength strength = STRENGTH("constant", .value = 1, .factor = &file,
+                                                  .factor_along = &fracas_along_x);
+        FAILS(fracas_strength_check(&strength), FRACAS_USAGE, table[t].words);
     }
 }
 
@@ -98,71 +85,30 @@ static void a_field_is_the_law_times_the_factor(void **state)
                       halves[] = "0,1\n10,1\n10,0.5\n20,0.5\n20,3\n30,3\n30,0.7\n";
     char lines[N * sizeof given] = "";
     for (int i = 0; i < N; i++) strcat(lines, given);
-    const fracas_attachment file = {.path = "s.csv", .text = lines, .size = strlen(lines)};
-    const fracas_attachment one = {.path = "1.csv", .text = ones, .size = strlen(ones)},
-                            half = {.path = "f.csv", .text = halves, .size = strlen(halves)};
+    const fracas_attachment file = attached("s.csv", lines);
+    const fracas_attachment one = attached("1.csv", ones), half = attached("f.csv", halves);
     const fracas_strength law[] = {
-        {.distribution = kind_of(&fracas_strength_section, "weibull"),
-         .minimum = 264e6,
-         .scale = 50e6,
-         .shape = 2},
-        {.distribution = kind_of(&fracas_strength_section, "flaws"),
-         .own[0] = 1e9,
-         .own[1] = 3,
-         .minimum = 1e6,
-         .maximum = 1e9},
-        {.distribution = kind_of(&fracas_strength_section, "file"), .file = &file}};
+        STRENGTH("weibull", .minimum = 264e6, .scale = 50e6, .shape = 2),
+        STRENGTH("flaws", .own[0] = 1e9, .own[1] = 3, .minimum = 1e6, .maximum = 1e9),
+        STRENGTH("file", .file = &file)};
     double position[N][3] = {{0}}, plain[N], got[N];
     for (int i = 0; i < N; i++) position[i][1] = i;
     for (size_t l = 0; l < sizeof law / sizeof *law; l++) {
         const fracas_stream stream = {.seed = 3, .purpose = FRACAS_PURPOSE_STRENGTH};
         fracas_strength graded = law[l];
-        assert_int_equal(
-            sample_strengths(&law[l], &stream, N, NULL, (const double(*)[3])position, 1, plain), 0);
+        OK(sample_strengths(&law[l], &stream, N, NULL, (const double(*)[3])position, 1, plain));
         graded.factor_along = &fracas_along_y;
         graded.factor = &one;
-        assert_int_equal(
-            sample_strengths(&graded, &stream, N, NULL, (const double(*)[3])position, 1, got), 0);
+        OK(sample_strengths(&graded, &stream, N, NULL, (const double(*)[3])position, 1, got));
         assert_memory_equal(plain, got, sizeof got);
         graded.factor = &half;
-        assert_int_equal(
-            sample_strengths(&graded, &stream, N, NULL, (const double(*)[3])position, 1, got), 0);
+        OK(sample_strengths(&graded, &stream, N, NULL, (const double(*)[3])position, 1, got));
         for (int i = 0; i < N; i++)
             assert_true(got[i] == plain[i] * (i < 10 ? 1 : i < 20 ? 0.5 : i < 30 ? 3 : 0.7));
     }
 }
 
 /* ---- campaigns, in a folder of their own ---- */
-
-static void put(const char *name, const char *text)
-{
-    char path[100];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    write_bytes(path, text, strlen(text));
-}
-
-static fracas_err read_in_folder(const char *text, fracas_campaign **campaign)
-{
-    char path[100];
-    put("c.yaml", text);
-    snprintf(path, sizeof path, "%s/c.yaml", folder);
-    *campaign = NULL;
-    return fracas_campaign_read(path, campaign);
-}
-
-static fracas_campaign *good(const char *text)
-{
-    fracas_campaign *campaign;
-    if (read_in_folder(text, &campaign)) fail_msg("%s\n%s", fracas_message(), text);
-    return campaign;
-}
-
-static void bad(const char *text, const char *words)
-{
-    fracas_campaign *campaign;
-    assert_int_equal(read_in_folder(text, &campaign), FRACAS_USAGE);
-    if (!strstr(fracas_message(), words)) fail_msg("no \"%s\" in: %s", words, fracas_message());
-}
 
 /* A bar of 50 mm and 100 elements that all stretch alike, until it cracks; its strengths are what a
  * test says. */
@@ -198,7 +144,7 @@ static void keys_go_together(void **state)
     assert_true(fracas_strength_is_per_point(&same->point[0].strength) &&
                 !fracas_strength_is_per_point(&graded->point[0].strength));
     OWN(fracas_model) model;
-    if (fracas_point_model_create(same, 0, &model)) fail_msg("%s", fracas_message());
+    OK(fracas_point_model_create(same, 0, &model));
     assert_int_equal(fracas_model_strengths_per_interface(model), 1);
 }
 
@@ -213,18 +159,16 @@ static void a_bar_opens_where_its_factor_is_least(void **state)
     OWN(fracas_field) field;
     OWN(fracas_batch) batch;
     size_t stride;
-    assert_int_equal(fracas_point_model_create(campaign, 0, &model), 0);
-    assert_int_equal(fracas_model_field(model, &campaign->point[0].strength, &field), 0);
-    assert_int_equal(
-        fracas_batch_create(
-            model, 1, &(fracas_batch_options){.interfaces = true, .isa = FRACAS_ISA_BEST}, &batch),
-        0);
+    OK(fracas_point_model_create(campaign, 0, &model));
+    OK(fracas_model_field(model, &campaign->point[0].strength, &field));
+    OK(fracas_batch_create(
+        model, 1, &(fracas_batch_options){.interfaces = true, .isa = FRACAS_ISA_BEST}, &batch));
     double *sigma_c = fracas_batch_strength(batch, 0, &stride);
-    assert_int_equal(fracas_field_sample(field, &(fracas_stream){0}, stride, sigma_c), 0);
+    OK(fracas_field_sample(field, &(fracas_stream){0}, stride, sigma_c));
     assert_true(fabs(sigma_c[WEAK * stride] / 270e6 - 1) < 1e-15 &&
                 fabs(sigma_c[29 * stride] / 330e6 - 1) < 1e-15); /* x = 15 mm: 1.1 */
     RECORD(record);
-    assert_int_equal(fracas_batch_run(batch, &record), 0);
+    OK(fracas_batch_run(batch, &record));
     assert_true(record.cracked > 0 && record.onset_time == record.interface[WEAK].onset_time);
     assert_true(fabs(record.onset_time / (270e6 / (275e9 * 1e4)) - 1) < 1e-12);
 }
@@ -235,7 +179,7 @@ static fracas_forecast forecast_of(const char *text)
 {
     fracas_forecast forecast;
     OWN(fracas_campaign) campaign = good(text);
-    if (fracas_forecast_make(campaign, 0, &forecast)) fail_msg("%s", fracas_message());
+    OK(fracas_forecast_make(campaign, 0, &forecast));
     return forecast;
 }
 
@@ -254,9 +198,8 @@ static void a_forecast_knows_the_factor(void **state)
     assert_true(fabs(twice.coarseness / plain.coarseness - 4) < 1e-12);
     OWN(fracas_campaign) campaign = good(BAR(CONSTANT ", factor: large.csv, factor_along: x"));
     fracas_forecast forecast;
-    assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
-    assert_non_null(
-        strstr(fracas_message(), "the strongest of 100 interfaces (all replicas together)"));
+    FAILS(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE,
+          "the strongest of 100 interfaces (all replicas together)");
     const size_t column = fracas_point_table_find(&campaign->table, "derived.strength_mean");
     assert_true(campaign->table.point[0].value[column].real == 300e6); /* of the law */
 }
@@ -279,7 +222,7 @@ static void check_points(const char *text, size_t points)
 {
     OWN(fracas_campaign) campaign = good(text);
     FRACAS_CLEARED(fracas_sample) sample;
-    if (fracas_sample_draw(campaign, 0, 4, &sample)) fail_msg("%s", fracas_message());
+    OK(fracas_sample_draw(campaign, 0, 4, &sample));
     const fracas_stream stream = fracas_point_stream(campaign, 0, FRACAS_PURPOSE_STRENGTH, 4);
     assert_int_equal(fracas_model_strengths_per_interface(sample.model), points);
     assert_int_equal(sample.n, points * fracas_model_interfaces(sample.model));
@@ -307,7 +250,7 @@ static void each_gauss_point_has_its_own(void **state)
         SURFACE("membrane", "width: 2 mm, height: 1 mm", "divisions: 3",
                 CONSTANT ", per: gauss-point, factor: f.csv, factor_along: x"));
     FRACAS_CLEARED(fracas_sample) sample;
-    if (fracas_sample_draw(campaign, 0, 0, &sample)) fail_msg("%s", fracas_message());
+    OK(fracas_sample_draw(campaign, 0, 0, &sample));
     size_t right = 0;
     for (size_t k = 0; k < sample.n; k++) {
         assert_true(sample.strength[k] == (sample.position[k][0] < 0 ? 300e6 : 600e6));
@@ -329,9 +272,7 @@ static void a_forecast_counts_gauss_points(void **state)
     for (int t = 0; t < 2; t++) {
         OWN(fracas_campaign) campaign = good(text[t]);
         fracas_forecast forecast;
-        assert_int_equal(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE);
-        if (!strstr(fracas_message(), words[t]))
-            fail_msg("no \"%s\" in: %s", words[t], fracas_message());
+        FAILS(fracas_forecast_make(campaign, 0, &forecast), FRACAS_USAGE, words[t]);
     }
 }
 

@@ -5,7 +5,6 @@
 
 #include "engine/mesh/make.h"
 #include "tests/support/surface_measures.h"
-#include "tests/support/test.h"
 
 static double mean_of(const fracas_spec *spec)
 {

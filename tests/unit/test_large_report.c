@@ -9,7 +9,6 @@
 #include "tests/support/report.h"
 
 #include "tests/support/large_study.h"
-#include "tests/support/test.h"
 
 #include <sys/resource.h>
 #include <sys/wait.h>

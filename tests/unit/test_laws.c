@@ -2,18 +2,10 @@
 /* Laws of strengths by mean and standard deviation, and from measured strengths. */
 #include "base/hash.h"
 #include "sampler/special/weibull_shape.h"
-#include "tests/support/laws.h"
 #include "tests/support/strengths.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <inttypes.h>
-
-static void assert_close(double got, double expected, double relative)
-{
-    if (!(fabs(got - expected) <= relative * fabs(expected)))
-        fail_msg("%.17g is not %.17g to %g relative", got, expected, relative);
-}
 
 static const fracas_extent one = {1.0, 1.0};
 
@@ -102,36 +94,30 @@ static void moments_come_back(void **state)
 static void deviations_are_exact(void **state)
 {
     for (double shape = 0.1; shape <= 1000.0; shape *= 1.31) {
-        fracas_strength law = {
-            .distribution = law_named("weibull"), .minimum = 100e6, .scale = 50e6, .shape = shape};
+        fracas_strength law = STRENGTH("weibull", .minimum = 100e6, .scale = 50e6, .shape = shape);
         const long double x = 1.0L / shape;
         assert_close(fracas_strength_deviation(&law, one),
                      (double)(50e6L * expl(lgammal(1.0L + x)) * sqrtl(exact_variation(x))), 1e-13);
     }
     for (double sigma = 1e-4; sigma < 5.0; sigma *= 2.0) {
-        fracas_strength law = {
-            .distribution = law_named("lognormal"), .median = 300e6, .sigma = sigma};
+        fracas_strength law = STRENGTH("lognormal", .median = 300e6, .sigma = sigma);
         const long double s = (long double)sigma * sigma;
         assert_close(fracas_strength_deviation(&law, one),
                      (double)(300e6L * expl(0.5L * s) * sqrtl(expm1l(s))), 1e-14);
     }
-    fracas_strength uniform = {
-        .distribution = law_named("uniform"), .minimum = 100e6, .maximum = 340e6};
+    fracas_strength uniform = STRENGTH("uniform", .minimum = 100e6, .maximum = 340e6);
     assert_close(fracas_strength_deviation(&uniform, one), 240e6 / sqrt(12.0), 1e-15);
-    fracas_strength gamma = {.distribution = law_named("gamma"), .shape = 16.0, .scale = 10e6};
+    fracas_strength gamma = STRENGTH("gamma", .shape = 16.0, .scale = 10e6);
     assert_close(fracas_strength_deviation(&gamma, one), 40e6, 1e-15);
-    fracas_strength constant = {.distribution = law_named("constant"), .value = 1e8};
+    fracas_strength constant = STRENGTH("constant", .value = 1e8);
     assert_true(fracas_strength_deviation(&constant, one) == 0.0);
     for (double mu = 0.5; mu < 100.0;
          mu *= 3.0) { /* exponents 1/2 and 1: integrals over e^-z by parts, in long double */
         const long double m = mu, e = expl(-m), r1 = (1 - e) / m,
                           r2 = 2 * (1 - e * (1 + m)) / (m * m);
         const long double r4 = 4 * (6 - e * (((m + 3) * m + 6) * m + 6)) / (m * m * m * m);
-        fracas_strength flaws = {.distribution = law_named("flaws"),
-                                 .own[0] = mu,
-                                 .minimum = 100e6,
-                                 .maximum = 400e6,
-                                 .own[1] = 1.0};
+        fracas_strength flaws = STRENGTH("flaws", .own[0] = mu, .minimum = 100e6, .maximum = 400e6,
+                                         .own[1] = 1.0);
         assert_close(fracas_strength_deviation(&flaws, one), (double)(300e6L * sqrtl(r2 - r1 * r1)),
                      1e-12);
         flaws.own[1] = 0.5;
@@ -139,7 +125,7 @@ static void deviations_are_exact(void **state)
                      1e-12);
     }
     const fracas_attachment numbers = FILE_OF("s.csv", "1e8\n2e8\n4e8\n5e8\n");
-    fracas_strength file = {.distribution = law_named("file"), .file = &numbers};
+    fracas_strength file = STRENGTH("file", .file = &numbers);
     assert_close(fracas_strength_deviation(&file, one), sqrt(2.5) * 1e8,
                  1e-15); /* of 1, 2, 4, 5 about 3 */
 }
@@ -163,8 +149,7 @@ static void bits_are_golden(void **state)
 
 static void refused(const fracas_strength *law, const char *words)
 {
-    assert_int_equal(fracas_strength_check(law), FRACAS_USAGE);
-    if (!strstr(fracas_message(), words)) fail_msg("no \"%s\" in: %s", words, fracas_message());
+    FAILS(fracas_strength_check(law), FRACAS_USAGE, words);
     assert_true(isnan(fracas_strength_mean(law, one)));
 }
 
@@ -295,8 +280,7 @@ static void wrong_files_are_refused(void **state)
         {"3e8\n4e8 1\n", "m.csv:2: found `two numbers`; expected as many", true},
     };
     for (size_t k = 0; k < FRACAS_COUNT(wrong); k++) {
-        const fracas_attachment file = {
-            .path = "m.csv", .text = wrong[k].text, .size = strlen(wrong[k].text), .digest = "0"};
+        const fracas_attachment file = attached("m.csv", wrong[k].text);
         fracas_strength law = law_of_file(&file, wrong[k].steps);
         refused(&law, wrong[k].words);
     }

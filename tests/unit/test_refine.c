@@ -8,7 +8,6 @@
 #include "engine/mesh/make.h"
 #define FOLDER "fracas-refine"
 #include "tests/support/folder.h"
-#include "tests/support/test.h"
 
 #include <glob.h>
 
@@ -79,9 +78,9 @@ static void check_file(const fracas_campaign *campaign)
 {
     char path[200];
     OWN(fracas_campaign) again;
-    if (fracas_campaign_keep(campaign, folder, "fine.yaml")) fail_msg("%s", fracas_message());
+    OK(fracas_campaign_keep(campaign, folder, "fine.yaml"));
     snprintf(path, sizeof path, "%s/fine.yaml", folder);
-    if (fracas_campaign_read(path, &again)) fail_msg("%s", fracas_message());
+    OK(fracas_campaign_read(path, &again));
     assert_true(fracas_hash_equal(&again->hash, &campaign->hash));
     assert_string_equal(again->name, campaign->name);
 }
@@ -139,7 +138,7 @@ static void check_left(const char *name, fracas_refinement what, const fracas_re
 static void coarsen(const char *file, char path[200])
 {
     OWN(fracas_campaign) campaign;
-    if (fracas_campaign_read(file, &campaign)) fail_msg("%s", fracas_message());
+    OK(fracas_campaign_read(file, &campaign));
     for (size_t p = 0; p < campaign->npoints; p++) {
         campaign->point[p].spec.mesh.size *= 3;
         campaign->point[p].spec.mesh.divisions /= 10;
@@ -158,12 +157,12 @@ static void check_example(const char *example)
         coarsen(example, coarse);
         file = coarse;
     }
-    if (fracas_campaign_read(file, &plain)) fail_msg("%s", fracas_message());
+    OK(fracas_campaign_read(file, &plain));
     const bool given = !strcmp(name, "plate-akantu.yaml"); /* its mesh, from a file, is large */
     for (fracas_refinement what = FRACAS_REFINE_NOTHING; what < FRACAS_NREFINEMENTS; what++) {
         fracas_refined refined;
         if (given && what != FRACAS_REFINE_MESH) continue;
-        if (fracas_refined_create(file, 0, what, &refined)) fail_msg("%s", fracas_message());
+        OK(fracas_refined_create(file, 0, what, &refined));
         if (refined.campaign) {
             assert_true(refined.campaign->common_random_numbers);
             assert_true((refined.campaign->seed == plain->seed) == (what != FRACAS_REFINE_MESH));

@@ -5,7 +5,6 @@
 
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/director/director.h"
-#include "tests/support/test.h"
 
 static struct {
     size_t nleases, stops, fresh;

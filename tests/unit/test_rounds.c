@@ -6,7 +6,6 @@
 
 #include "campaigns/scheduler/session/rounds.h"
 #include "campaigns/scheduler/worker/segment.h"
-#include "tests/support/test.h"
 
 static const char rule[] = "sweep:\n  - loading.rate: [1e3, 1e4]\n";
 static fracas_campaign *campaign;
@@ -177,14 +176,13 @@ static void a_decision_that_does_not_follow_is_damage(void **state)
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
     commit(1, 0, 7, 0.05, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
-    sample_fails(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED,
-                 "lacks a decision on the replicas of point 1");
+    FAILS(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED,
+          "lacks a decision on the replicas of point 1");
     OK(fracas_rounds_advance(&rounds, index_, 1));
     OK(fracas_rounds_check(campaign, index_));
     tampered("UPDATE decision SET half_width = half_width * (1 + 1e-15) WHERE point = 2");
-    sample_fails(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "round 0 of point 1");
-    sample_fails(fracas_rounds_init(&again, campaign, index_), FRACAS_DAMAGED,
-                 "round 0 of point 1");
+    FAILS(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "round 0 of point 1");
+    FAILS(fracas_rounds_init(&again, campaign, index_), FRACAS_DAMAGED, "round 0 of point 1");
     fracas_rounds_clear(&again);
     tampered(
         "UPDATE realization SET status = 'planned' WHERE point = 2 AND replica = 3"); /* its segment
@@ -192,11 +190,11 @@ static void a_decision_that_does_not_follow_is_damage(void **state)
     OK(fracas_rounds_init(&again, campaign, index_)); /* nothing to compare with yet */
     assert_int_equal(again.open, 0);
     fracas_rounds_clear(&again);
-    sample_fails(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "point 1");
+    FAILS(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "point 1");
     tampered("UPDATE decision SET stop = 7 WHERE point = 2");
     size_t count;
-    sample_fails(fracas_index_decisions(index_, &campaign->point[1].hash, &decision, &count),
-                 FRACAS_DAMAGED, "`decision`");
+    FAILS(fracas_index_decisions(index_, &campaign->point[1].hash, &decision, &count),
+          FRACAS_DAMAGED, "`decision`");
 }
 
 /* Another rule takes up the realizations, not the decisions. */

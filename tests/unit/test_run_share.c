@@ -3,7 +3,6 @@
 #include "tests/support/campaign_text.h"
 
 #include "campaigns/scheduler/session/prepare.h"
-#include "tests/support/test.h"
 
 static const char rule[] =
     "replicas: {minimum: 16, maximum: 64, until: {quantity: dissipated, relative-half-width: 0.1}}";

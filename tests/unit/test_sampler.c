@@ -4,9 +4,7 @@
 #include "base/hash.h"
 #include "sampler/special/incomplete_gamma.h"
 #include "sampler/special/normal.h"
-#include "tests/support/kinds.h"
 #include "tests/support/strengths.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_errno.h>
@@ -17,12 +15,6 @@
 #include <Random123/philox.h>
 
 static const double VOLUME = 2e-9; /* m3, of every interface where not said otherwise */
-
-static void assert_close(double got, double expected, double relative)
-{
-    if (!(fabs(got - expected) <= relative * fabs(expected)))
-        fail_msg("%.17g is not %.17g to %g relative", got, expected, relative);
-}
 
 /* Philox4x64-10 as published with Random123 (tests/kat_vectors): nothing, all ones, digits of pi.
  */
@@ -87,9 +79,7 @@ static void weibull_is_gsl_in_both_tails(void **state)
 {
     static const double shapes[] = {0.1, 0.5, 1.0, 2.0, 5.0, 40.0, 1000.0};
     for (size_t k = 0; k < FRACAS_COUNT(shapes); k++) {
-        fracas_strength two = {.distribution = kind_of(&fracas_strength_section, "weibull"),
-                               .scale = 50e6,
-                               .shape = shapes[k]};
+        fracas_strength two = STRENGTH("weibull", .scale = 50e6, .shape = shapes[k]);
         fracas_strength three = two;
         three.minimum = 264e6;
         for (int i = 0; i < PROBES; i++) {
@@ -128,9 +118,7 @@ static void lognormal_is_gsl_in_both_tails(void **state)
 {
     static const double sigmas[] = {0.01, 0.2, 1.0, 10.0};
     for (size_t k = 0; k < FRACAS_COUNT(sigmas); k++) {
-        fracas_strength strength = {.distribution = kind_of(&fracas_strength_section, "lognormal"),
-                                    .median = 300e6,
-                                    .sigma = sigmas[k]};
+        fracas_strength strength = STRENGTH("lognormal", .median = 300e6, .sigma = sigmas[k]);
         for (int i = 0; i < PROBES; i++) {
             double rest, u = probe(i, &rest);
             double expected = u < 0.5 ? gsl_cdf_lognormal_Pinv(u, log(300e6), sigmas[k])
@@ -142,11 +130,8 @@ static void lognormal_is_gsl_in_both_tails(void **state)
 
 static void uniform_and_constant(void **state)
 {
-    fracas_strength uniform = {.distribution = kind_of(&fracas_strength_section, "uniform"),
-                               .minimum = 100e6,
-                               .maximum = 350e6};
-    fracas_strength constant = {.distribution = kind_of(&fracas_strength_section, "constant"),
-                                .value = 123e6};
+    fracas_strength uniform = STRENGTH("uniform", .minimum = 100e6, .maximum = 350e6);
+    fracas_strength constant = STRENGTH("constant", .value = 123e6);
     for (int i = 0; i < PROBES; i++) {
         double rest, u = probe(i, &rest);
         assert_close(quantile_of(&uniform, VOLUME, u), gsl_cdf_flat_Pinv(u, 100e6, 350e6), 1e-15);
@@ -160,16 +145,12 @@ static void uniform_and_constant(void **state)
 static void means_are_exact(void **state)
 {
     for (double shape = 0.1; shape < 1000.0; shape *= 1.07) {
-        fracas_strength weibull = {.distribution = kind_of(&fracas_strength_section, "weibull"),
-                                   .minimum = 1e6,
-                                   .scale = 50e6,
-                                   .shape = shape};
+        fracas_strength weibull = STRENGTH("weibull", .minimum = 1e6, .scale = 50e6,
+                                           .shape = shape);
         assert_close(mean_of_strength(&weibull, VOLUME),
                      1e6 + 50e6 * gsl_sf_gamma(1.0 + 1.0 / shape), 1e-14);
     }
-    fracas_strength lognormal = {.distribution = kind_of(&fracas_strength_section, "lognormal"),
-                                 .median = 300e6,
-                                 .sigma = 0.7};
+    fracas_strength lognormal = STRENGTH("lognormal", .median = 300e6, .sigma = 0.7);
     assert_close(mean_of_strength(&lognormal, VOLUME), 300e6 * exp(0.245), 1e-15 * 2);
 }
 
@@ -179,27 +160,13 @@ enum { EXAMPLES = 7 };
 static const fracas_strength *example(size_t k)
 {
     static fracas_strength strength[EXAMPLES];
-    strength[0] = (fracas_strength){.distribution = kind_of(&fracas_strength_section, "weibull"),
-                                    .minimum = 264e6,
-                                    .scale = 50e6,
-                                    .shape = 2.0};
-    strength[1] = (fracas_strength){.distribution = kind_of(&fracas_strength_section, "lognormal"),
-                                    .median = 300e6,
-                                    .sigma = 0.3};
-    strength[2] = (fracas_strength){.distribution = kind_of(&fracas_strength_section, "uniform"),
-                                    .minimum = 264e6,
-                                    .maximum = 364e6};
-    strength[3] = (fracas_strength){.distribution = kind_of(&fracas_strength_section, "constant"),
-                                    .value = 300e6};
-    strength[4] = (fracas_strength){.distribution = kind_of(&fracas_strength_section, "normal"),
-                                    .mean = 300e6,
-                                    .deviation = 120e6};
-    strength[5] = (fracas_strength){
-        .distribution = kind_of(&fracas_strength_section, "gamma"), .shape = 9.0, .scale = 30e6};
-    strength[6] = (fracas_strength){.distribution = kind_of(&fracas_strength_section, "flaws"),
-                                    .minimum = 100e6,
-                                    .maximum = 400e6,
-                                    .own = {1e9, 3.0}};
+    strength[0] = STRENGTH("weibull", .minimum = 264e6, .scale = 50e6, .shape = 2.0);
+    strength[1] = STRENGTH("lognormal", .median = 300e6, .sigma = 0.3);
+    strength[2] = STRENGTH("uniform", .minimum = 264e6, .maximum = 364e6);
+    strength[3] = STRENGTH("constant", .value = 300e6);
+    strength[4] = STRENGTH("normal", .mean = 300e6, .deviation = 120e6);
+    strength[5] = STRENGTH("gamma", .shape = 9.0, .scale = 30e6);
+    strength[6] = STRENGTH("flaws", .minimum = 100e6, .maximum = 400e6, .own = {1e9, 3.0});
     return &strength[k];
 }
 
@@ -293,12 +260,9 @@ static void corners_are_positive_and_finite(void **state)
 static void check_names_both_bounds(void **state)
 {
     for (size_t k = 0; k < EXAMPLES; k++) OK(fracas_strength_check(example(k)));
-    fracas_strength swapped = {.distribution = kind_of(&fracas_strength_section, "uniform"),
-                               .minimum = 350e6,
-                               .maximum = 100e6};
-    assert_int_equal(fracas_strength_check(&swapped), FRACAS_USAGE);
-    assert_non_null(strstr(fracas_message(), "strength.minimum is 350000000 Pa"));
-    assert_non_null(strstr(fracas_message(), "strength.maximum 100000000 Pa"));
+    fracas_strength swapped = STRENGTH("uniform", .minimum = 350e6, .maximum = 100e6);
+    FAILS(fracas_strength_check(&swapped), FRACAS_USAGE, "strength.minimum is 350000000 Pa",
+          "strength.maximum 100000000 Pa");
     swapped.minimum = swapped.maximum;
     assert_int_equal(fracas_strength_check(&swapped), FRACAS_USAGE);
 }
@@ -325,9 +289,7 @@ static void normal_tail_is_erfc(void **state)
  * z, 1e-15 relative, counts at most |z|/(k + z) < 0.4 times. */
 static void normal_far_from_zero_is_gsl(void **state)
 {
-    fracas_strength normal = {.distribution = kind_of(&fracas_strength_section, "normal"),
-                              .mean = 300e6,
-                              .deviation = 10e6};
+    fracas_strength normal = STRENGTH("normal", .mean = 300e6, .deviation = 10e6);
     for (int i = 0; i < PROBES; i++) {
         double rest, u = probe(i, &rest);
         double z = u < 0.5 ? gsl_cdf_ugaussian_Pinv(u) : gsl_cdf_ugaussian_Qinv(rest);
@@ -364,9 +326,7 @@ static void normal_inverts_its_law_in_both_tails(void **state)
     static const double ks[] = {1e-6, 0.01, 0.3, 1.0, 2.5, 4.0, 8.0, 8.3, 9.0, 20.0};
     double largest = 0.0;
     for (size_t j = 0; j < FRACAS_COUNT(ks); j++) {
-        fracas_strength normal = {.distribution = kind_of(&fracas_strength_section, "normal"),
-                                  .mean = ks[j] * 50e6,
-                                  .deviation = 50e6};
+        fracas_strength normal = STRENGTH("normal", .mean = ks[j] * 50e6, .deviation = 50e6);
         long double k = (long double)normal.mean / 50e6L, kept = 0.5L * erfcl(-k / sqrtl(2.0L));
         double before = 0.0;
         for (int i = 0; i < PROBES; i++) {
@@ -472,9 +432,7 @@ static void gamma_is_gsl_in_both_tails(void **state)
     gsl_error_handler_t *handler = gsl_set_error_handler_off();
     int compared = 0, asked = 0;
     for (size_t k = 0; k < FRACAS_COUNT(shapes); k++) {
-        fracas_strength gamma = {.distribution = kind_of(&fracas_strength_section, "gamma"),
-                                 .shape = shapes[k],
-                                 .scale = 30e6};
+        fracas_strength gamma = STRENGTH("gamma", .shape = shapes[k], .scale = 30e6);
         for (int i = 0; i < PROBES; i += 7) {
             double rest, u = probe(i, &rest);
             double expected = u < 0.5 ? gsl_cdf_gamma_Pinv(u, shapes[k], 30e6)
@@ -519,9 +477,8 @@ static void flaws_invert_their_law(void **state)
     for (size_t e = 0; e < FRACAS_COUNT(exponents); e++)
         for (size_t m = 0; m < FRACAS_COUNT(numbers); m++)
             for (int i = 0; i < PROBES; i++) {
-                fracas_strength flaws = {.distribution = kind_of(&fracas_strength_section, "flaws"),
-                                         .maximum = 400e6,
-                                         .own = {numbers[m] / VOLUME, exponents[e]}};
+                fracas_strength flaws = STRENGTH("flaws", .maximum = 400e6,
+                                                 .own = {numbers[m] / VOLUME, exponents[e]});
                 double rest, u = probe(i, &rest), sigma_c = quantile_of(&flaws, VOLUME, u);
                 double t = i < TAIL ? -log1p(-u) : -log(rest);
                 if (t >= numbers[m] * (1.0 + 1e-15)) assert_true(sigma_c == 400e6);
@@ -571,10 +528,8 @@ static void flaws_mean_is_the_integral(void **state)
             assert_int_equal(
                 gsl_integration_cquad(&f, 0.0, 1.0, 0.0, 1e-11, space, &integral, &error, NULL), 0);
             assert_close(fracas_stretched_exponential(numbers[m], exponents[e]), integral, 2e-11);
-            fracas_strength flaws = {.distribution = kind_of(&fracas_strength_section, "flaws"),
-                                     .minimum = 100e6,
-                                     .maximum = 400e6,
-                                     .own = {numbers[m] / VOLUME, exponents[e]}};
+            fracas_strength flaws = STRENGTH("flaws", .minimum = 100e6, .maximum = 400e6,
+                                             .own = {numbers[m] / VOLUME, exponents[e]});
             assert_close(mean_of_strength(&flaws, VOLUME), 100e6 + 300e6 * integral, 2e-11);
         }
     gsl_integration_cquad_workspace_free(space);
@@ -589,10 +544,9 @@ static void flaws_check_names_both_bounds(void **state)
 {
     fracas_strength swapped = *example(6);
     swapped.minimum = 500e6;
-    assert_int_equal(fracas_strength_check(&swapped), FRACAS_USAGE);
-    assert_non_null(strstr(fracas_message(),
-                           "strength.minimum is 500000000 Pa and strength.maximum 400000000 Pa"));
-    assert_non_null(strstr(fracas_message(), "the strength without a flaw, must be the larger"));
+    FAILS(fracas_strength_check(&swapped), FRACAS_USAGE,
+          "strength.minimum is 500000000 Pa and strength.maximum 400000000 Pa",
+          "the strength without a flaw, must be the larger");
 }
 
 TESTS(philox_gives_the_published_words, stream_is_the_published_first_word,

@@ -2,7 +2,6 @@
 /* The lease logic: sizes, order, the plan. What fails: test_scheduler_failures.c; what random
  * events do to it: test_scheduler_events.c. */
 #include "tests/support/leases.h"
-#include "tests/support/test.h"
 
 /* ---- sizes and order ---- */
 

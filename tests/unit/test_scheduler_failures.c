@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The lease logic where leases fail: bisecting, attempts, lost workers. */
 #include "tests/support/leases.h"
-#include "tests/support/test.h"
 
 /* A lease of `count` of one point for one worker, measured so that it is one lease. */
 static fracas_scheduler *create_large(size_t count, fracas_lease *lease)

@@ -5,9 +5,7 @@
 #include "sampler/special/exponential.h"
 #include "sampler/special/incomplete_gamma.h"
 #include "sampler/special/normal.h"
-#include "tests/support/laws.h"
 #include "tests/support/strengths.h"
-#include "tests/support/test.h"
 
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_integration.h>
@@ -15,12 +13,6 @@
 
 static const fracas_extent one = {1.0, 1.0};
 static const double VOLUME = 2e-9, AREA = 3e-6; /* of a specimen, m3 and m2 */
-
-static void assert_close(double got, double expected, double relative)
-{
-    if (!(fabs(got - expected) <= relative * fabs(expected)))
-        fail_msg("%.17g is not %.17g to %g relative", got, expected, relative);
-}
 
 static const fracas_attachment measured = FILE_OF("m.csv", "3e8\n5e8\n4e8\n2e8\n2.5e8\n");
 static const fracas_attachment table = FILE_OF("t.csv",
@@ -32,12 +24,12 @@ enum { LAWS = 8 };
 static fracas_strength example(int k, double volume)
 {
     const fracas_strength laws[LAWS] = {
-        {.distribution = law_named("weibull"), .minimum = 264e6, .scale = 50e6, .shape = 2.0},
-        {.distribution = law_named("lognormal"), .median = 300e6, .sigma = 0.3},
-        {.distribution = law_named("normal"), .mean = 300e6, .deviation = 120e6},
-        {.distribution = law_named("gamma"), .shape = 9.0, .scale = 30e6},
-        {.distribution = law_named("gamma"), .shape = 150.0, .scale = 2e6},
-        {.distribution = law_named("uniform"), .minimum = 264e6, .maximum = 364e6},
+        STRENGTH("weibull", .minimum = 264e6, .scale = 50e6, .shape = 2.0),
+        STRENGTH("lognormal", .median = 300e6, .sigma = 0.3),
+        STRENGTH("normal", .mean = 300e6, .deviation = 120e6),
+        STRENGTH("gamma", .shape = 9.0, .scale = 30e6),
+        STRENGTH("gamma", .shape = 150.0, .scale = 2e6),
+        STRENGTH("uniform", .minimum = 264e6, .maximum = 364e6),
         law_of_file(&measured, false),
         law_of_file(&table, false),
     };
@@ -94,28 +86,25 @@ static void tails_are_exact_to_1e300(void **state)
         const fracas_probability low = {tail, 1.0 - tail}, high = {1.0 - tail, tail};
         assert_close(fracas_exponential_quantile(high), -log(tail), 1e-15);
         for (double shape = 0.5; shape < 100.0; shape *= 3.0) {
-            const fracas_strength law = {
-                .distribution = law_named("weibull"), .scale = 50e6, .shape = shape};
+            const fracas_strength law = STRENGTH("weibull", .scale = 50e6, .shape = shape);
             assert_close(fracas_strength_quantile(&law, one, low),
                          gsl_cdf_weibull_Pinv(tail, 50e6, shape), 1e-12);
             assert_close(fracas_strength_quantile(&law, one, high),
                          gsl_cdf_weibull_Qinv(tail, 50e6, shape), 1e-12);
         }
-        const fracas_strength lognormal = {
-            .distribution = law_named("lognormal"), .median = 300e6, .sigma = 0.3};
+        const fracas_strength lognormal = STRENGTH("lognormal", .median = 300e6, .sigma = 0.3);
         assert_close(fracas_strength_quantile(&lognormal, one, low),
                      gsl_cdf_lognormal_Pinv(tail, log(300e6), 0.3), 1e-12);
         assert_close(fracas_strength_quantile(&lognormal, one, high),
                      gsl_cdf_lognormal_Qinv(tail, log(300e6), 0.3), 1e-12);
-        const fracas_strength normal = {.distribution = law_named("normal"),
-                                        .mean = 600e6,
-                                        .deviation = 15e6}; /* nothing is cut off */
+        const fracas_strength normal = STRENGTH("normal", .mean = 600e6,
+                                                .deviation = 15e6); /* nothing is cut off */
         assert_close(fracas_strength_quantile(&normal, one, high),
                      600e6 + gsl_cdf_gaussian_Qinv(tail, 15e6), 1e-12);
         assert_close(fracas_strength_quantile(&normal, one, low),
                      600e6 + gsl_cdf_gaussian_Pinv(tail, 15e6), 1e-12);
-        const fracas_strength gamma = {
-            .distribution = law_named("gamma"), .shape = 1.0, .scale = 30e6}; /* exponential */
+        const fracas_strength gamma = STRENGTH("gamma", .shape = 1.0,
+                                               .scale = 30e6); /* exponential */
         assert_close(fracas_strength_quantile(&gamma, one, high), -30e6 * log(tail), 1e-13);
         assert_close(fracas_strength_quantile(&gamma, one, low), -30e6 * log1p(-tail), 1e-13);
         static const double shapes[] = {2.0, 9.0, 12.0, 150.0, 1e4};
@@ -139,9 +128,8 @@ static void weibull_is_one_of_another_scale(void **state)
 {
     for (double m = 0.5; m < 200.0; m *= 2.3)
         for (double size = 1e-8; size < 1e9; size *= 7.0) {
-            const fracas_strength plain = {.distribution = law_named("weibull"),
-                                           .scale = 50e6 * pow(size, -1.0 / m),
-                                           .shape = m};
+            const fracas_strength plain = STRENGTH("weibull", .scale = 50e6 * pow(size, -1.0 / m),
+                                                   .shape = m);
             fracas_strength by_volume = plain, by_area = plain;
             by_volume.scale = by_area.scale = 50e6;
             by_volume.reference_volume = VOLUME;
@@ -283,16 +271,13 @@ static void quadrature_is_within_1e12(void **state)
                      fracas_strength_deviation(&plain, extent), 1e-12);
     }
     for (double size = 1e-6; size < 1e6; size *= 11.0) {
-        const fracas_strength law = {.distribution = law_named("gamma"),
-                                     .shape = 1.0,
-                                     .scale = 30e6,
-                                     .reference_volume = VOLUME};
+        const fracas_strength law = STRENGTH("gamma", .shape = 1.0, .scale = 30e6,
+                                             .reference_volume = VOLUME);
         const fracas_extent extent = {size * VOLUME, 1.0};
         assert_close(fracas_strength_mean(&law, extent), 30e6 / size, 1e-12);
         assert_close(fracas_strength_deviation(&law, extent), 30e6 / size, 1e-12);
     }
-    fracas_strength wide = {.distribution = law_named("lognormal"), .median = 300e6, .sigma = 5.0},
-                    same = wide;
+    fracas_strength wide = STRENGTH("lognormal", .median = 300e6, .sigma = 5.0), same = wide;
     wide.reference_volume = VOLUME;
     const fracas_extent extent = {VOLUME, 1.0};
     assert_close(fracas_strength_mean(&wide, extent), fracas_strength_mean(&same, extent), 1e-12);
@@ -305,10 +290,8 @@ static void quadrature_is_within_1e12(void **state)
  * double adds 3e-14. */
 static void moments_beyond_doubles_are_infinite(void **state)
 {
-    fracas_strength law = {.distribution = law_named("lognormal"),
-                           .median = 1.0,
-                           .sigma = 1.0,
-                           .reference_volume = VOLUME};
+    fracas_strength law = STRENGTH("lognormal", .median = 1.0, .sigma = 1.0,
+                                   .reference_volume = VOLUME);
     assert_true(fracas_strength_mean(&law, (fracas_extent){1e-4 * VOLUME, 1.0}) == INFINITY);
     assert_true(fracas_strength_deviation(&law, (fracas_extent){1e-4 * VOLUME, 1.0}) == INFINITY);
     law.sigma = 10.0;
@@ -396,8 +379,7 @@ static void bits_are_golden(void **state)
 
 static void refused(fracas_strength law, const char *words)
 {
-    assert_int_equal(fracas_strength_check(&law), FRACAS_USAGE);
-    if (!strstr(fracas_message(), words)) fail_msg("no \"%s\" in: %s", words, fracas_message());
+    FAILS(fracas_strength_check(&law), FRACAS_USAGE, words);
 }
 
 static void references_that_say_nothing_are_refused(void **state)
@@ -405,21 +387,14 @@ static void references_that_say_nothing_are_refused(void **state)
     fracas_strength both = example(0, VOLUME);
     both.reference_area = AREA;
     refused(both, "`reference_volume` and `reference_area` are both given: take out one");
-    refused((fracas_strength){.distribution = law_named("constant"),
-                              .value = 1e8,
-                              .reference_area = AREA},
+    refused(STRENGTH("constant", .value = 1e8, .reference_area = AREA),
             "`reference_area` does not go with the distribution constant, whose strengths are the "
             "same whatever");
-    refused((fracas_strength){.distribution = law_named("flaws"),
-                              .own[0] = 1e9,
-                              .maximum = 4e8,
-                              .own[1] = 3,
-                              .reference_volume = VOLUME},
-            "`reference_volume` does not go with the distribution flaws, whose strengths depend on "
-            "the volume by themselves: take it out");
-    refused((fracas_strength){.distribution = law_named("file"),
-                              .file = &measured,
-                              .reference_volume = VOLUME},
+    refused(
+        STRENGTH("flaws", .own[0] = 1e9, .maximum = 4e8, .own[1] = 3, .reference_volume = VOLUME),
+        "`reference_volume` does not go with the distribution flaws, whose strengths depend on "
+        "the volume by themselves: take it out");
+    refused(STRENGTH("file", .file = &measured, .reference_volume = VOLUME),
             "the distribution file");
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Flipped bytes of a study, and what the next run makes of them. */
 #include "tests/support/study_fixture.h"
-#include "tests/support/test.h"
 
 /* What the next run does with a study: recovers, computes what is planned, merges. *rows: what it
  * computed. */
@@ -62,8 +61,8 @@ static void a_flipped_byte_of_the_merged_file_is_merged_again(void **state)
     commit_everything(0);
     merge();
     size_t size;
-    unsigned char *bytes = sample_slurp(sample_path(study, "study.h5"), &size);
-    sample_spill(sample_path(study, "first"), bytes, size);
+    unsigned char *bytes = whole_bytes(sample_path(study, "study.h5"), &size);
+    write_bytes(sample_path(study, "first"), bytes, size);
     free(bytes);
     flip_byte(sample_path(study, "study.h5"), size / 3);
     verify_finds_as(false, 1, "study.h5: damaged");
@@ -107,11 +106,11 @@ static void a_flipped_number_of_the_index_is_not_merged(void **state)
                  "NOT NULL AND size NOT NULL LIMIT 1)",
                  flip[f]);
         execute(sql);
-        sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED,
-                     "fracas reindex");
+        FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED,
+              "fracas reindex");
         char text[8192];
         assert_true(verify(text) > 0);
-        assert_non_null(strstr(text, "fracas reindex"));
+        assert_has(text, "fracas reindex");
         execute("DELETE FROM realization");
         execute("INSERT INTO realization SELECT * FROM kept");
         assert_int_equal(sqlite3_exec(index_->db, "DROP TABLE kept", NULL, NULL, NULL), SQLITE_OK);
@@ -150,7 +149,7 @@ static void an_index_that_contradicts_itself_is_found(void **state)
         execute(sql);
         char text[8192];
         assert_true(verify_as(false, false, text) > 0);
-        if (!strstr(text, wrong[w].said)) fail_msg("no \"%s\" in:\n%s", wrong[w].said, text);
+        assert_has(text, wrong[w].said);
         execute("DELETE FROM realization");
         execute("INSERT INTO realization SELECT * FROM kept");
         assert_int_equal(sqlite3_exec(index_->db, "DROP TABLE kept", NULL, NULL, NULL), SQLITE_OK);
@@ -167,15 +166,15 @@ static void a_run_does_not_begin_with_a_damaged_index(void **state)
     sqlite3_exec(index_->db, "PRAGMA ignore_check_constraints = ON", NULL, NULL, NULL);
     execute("UPDATE realization SET status = 'fone' WHERE point = 1 AND replica = 3");
     sqlite3_exec(index_->db, "PRAGMA ignore_check_constraints = OFF", NULL, NULL, NULL);
-    sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED,
-                 "fracas reindex");
+    FAILS(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED,
+          "fracas reindex");
     execute("UPDATE realization SET status = 'done' WHERE point = 1 AND replica = 3");
     execute(
         "UPDATE point SET hash = '00000000000000000000000000000000' WHERE id = 1"); /* no point of
                                                                                        the campaign
                                                                                      */
-    sample_fails(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED,
-                 "1 of its 3 points are not in the campaign");
+    FAILS(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED,
+          "1 of its 3 points are not in the campaign");
 }
 
 /* Sampled flips of the index file: the next run gives the same study.h5, or says that the index is
@@ -191,13 +190,13 @@ static void flipped_bytes_of_the_index_make_no_wrong_study(void **state)
     size_t size;
     uint64_t random = 16;
     int refused = 0;
-    unsigned char *bytes = sample_slurp(path, &size);
+    unsigned char *bytes = whole_bytes(path, &size);
     for (int i = 0; i < 80; i++) {
         size_t at = sample_bits(&random) % size;
         unsigned char kept = bytes[at];
         int64_t rows;
         bytes[at] ^= (unsigned char)(1u << sample_bits(&random) % 8);
-        sample_spill(path, bytes, size);
+        write_bytes(path, bytes, size);
         bytes[at] = kept;
         index_ = NULL;
         fracas_err err = fracas_index_open(study, true, &index_);
@@ -214,7 +213,7 @@ static void flipped_bytes_of_the_index_make_no_wrong_study(void **state)
         unlink(sample_path(study, "index.sqlite-shm"));
     }
     assert_true(refused > 2);
-    sample_spill(path, bytes, size);
+    write_bytes(path, bytes, size);
     free(bytes);
     OK(fracas_index_open(study, false, &index_));
 }

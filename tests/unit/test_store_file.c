@@ -5,7 +5,6 @@
 
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/file/schema.h"
-#include "tests/support/test.h"
 
 #include <malloc.h>
 
@@ -38,46 +37,6 @@ static void write_meshes(fracas_writer *writer, const grid_shape *shape)
     }
 }
 
-enum { DECISIONS = 3 };
-static const fracas_decision decisions[DECISIONS] = {
-    {.point = 0,
-     .round = 0,
-     .replicas = 8,
-     .used = 7,
-     .mean = 0.1,
-     .half_width = NAN,
-     .stop = 0,
-     .quantity = 2,
-     .minimum = 8,
-     .maximum = 1000000000,
-     .relative_half_width = 0.02,
-     .confidence = 0.95},
-    {.point = 0,
-     .round = 1,
-     .replicas = 16,
-     .used = 16,
-     .mean = -1e300,
-     .half_width = 5e-324,
-     .stop = 1,
-     .quantity = 1,
-     .minimum = 8,
-     .maximum = 16,
-     .relative_half_width = 1,
-     .confidence = 0.5},
-    {.point = 2,
-     .round = 0,
-     .replicas = 9,
-     .used = 0,
-     .mean = NAN,
-     .half_width = NAN,
-     .stop = 2,
-     .quantity = 0,
-     .minimum = 9,
-     .maximum = 9,
-     .relative_half_width = 1e-9,
-     .confidence = 0.999},
-};
-
 /* What is written is read, in one piece or two; a file without any has no group, and one out of
  * range is damage. */
 static void decisions_come_back(void **state)
@@ -86,35 +45,36 @@ static void decisions_come_back(void **state)
     fracas_point_row row[SAMPLE_POINTS];
     fracas_point_table table = sample_table(row, 0);
     fracas_file_header header = sample_header();
-    for (size_t wanted = 0; wanted <= DECISIONS + 1; wanted++) { /* the last round: the wrong one */
-        fracas_decision wrong = decisions[0], *found;
+    for (size_t wanted = 0; wanted <= SAMPLE_DECISIONS + 1;
+         wanted++) { /* the last round: the wrong one */
+        fracas_decision wrong = sample_decision[0], *found;
         fracas_writer *writer;
         fracas_reader *reader;
         fracas_file_seal seal;
         size_t count;
         wrong.stop = 3;
         OK(fracas_writer_create(path, &header, &table, &writer));
-        OK(fracas_writer_decisions(writer, decisions, wanted > 1 ? 1 : 0));
-        OK(fracas_writer_decisions(writer, decisions + (wanted > 1),
-                                   wanted > DECISIONS ? 0 : wanted - (wanted > 1)));
-        if (wanted > DECISIONS) OK(fracas_writer_decisions(writer, &wrong, 1));
+        OK(fracas_writer_decisions(writer, sample_decision, wanted > 1 ? 1 : 0));
+        OK(fracas_writer_decisions(writer, sample_decision + (wanted > 1),
+                                   wanted > SAMPLE_DECISIONS ? 0 : wanted - (wanted > 1)));
+        if (wanted > SAMPLE_DECISIONS) OK(fracas_writer_decisions(writer, &wrong, 1));
         OK(fracas_writer_finish(writer, true, &seal));
         OK(fracas_reader_open(path, &reader));
-        if (wanted > DECISIONS) {
-            sample_fails(fracas_reader_decisions(reader, &found, &count), FRACAS_DAMAGED,
-                         "/decision");
+        if (wanted > SAMPLE_DECISIONS) {
+            FAILS(fracas_reader_decisions(reader, &found, &count), FRACAS_DAMAGED, "/decision");
         } else {
             OK(fracas_reader_decisions(reader, &found, &count));
             assert_int_equal(count, wanted);
             for (size_t d = 0; d < count; d++)
-                assert_true(fracas_decision_same(&found[d], &decisions[d]));
+                assert_true(fracas_decision_same(&found[d], &sample_decision[d]));
             free(found);
         }
         fracas_reader_close(reader);
     }
-    for (size_t a = 0; a < DECISIONS; a++)
-        for (size_t b = 0; b < DECISIONS; b++)
-            assert_int_equal(fracas_decision_same(&decisions[a], &decisions[b]), a == b);
+    for (size_t a = 0; a < SAMPLE_DECISIONS; a++)
+        for (size_t b = 0; b < SAMPLE_DECISIONS; b++)
+            assert_int_equal(fracas_decision_same(&sample_decision[a], &sample_decision[b]),
+                             a == b);
 }
 
 static void write_file_of(const char *path, int64_t replicas, size_t most, bool interfaces,
@@ -132,7 +92,7 @@ static void write_file_of(const char *path, int64_t replicas, size_t most, bool 
             sample_record(p, r, most, &record);
             OK(fracas_writer_append(writer, p, r, &record));
         }
-    if (shape) OK(fracas_writer_decisions(writer, decisions, DECISIONS));
+    if (shape) OK(fracas_writer_decisions(writer, sample_decision, SAMPLE_DECISIONS));
     write_meshes(writer, shape);
     OK(fracas_writer_finish(writer, true, seal));
 }
@@ -244,9 +204,8 @@ static void records_come_back_bit_by_bit(void **state)
     size_t point;
     int64_t replica;
     fracas_record_init(&record);
-    sample_fails(
-        fracas_reader_record(reader, SAMPLE_POINTS * REPLICAS, 0, &point, &replica, &record),
-        FRACAS_BUG, "row 900");
+    FAILS(fracas_reader_record(reader, SAMPLE_POINTS * REPLICAS, 0, &point, &replica, &record),
+          FRACAS_BUG, "row 900");
     fracas_reader_close(reader);
 }
 
@@ -317,7 +276,7 @@ static void seal_is_that_of_the_bytes(void **state)
     fracas_file_seal seal, again;
     size_t size;
     write_file(path, 5, MOST, true, &seal);
-    unsigned char *bytes = sample_slurp(path, &size);
+    unsigned char *bytes = whole_bytes(path, &size);
     assert_true(seal.bytes == size && seal.checksum == fracas_checksum_of(bytes, size));
     OK(fracas_disk_seal_path(path, &again));
     assert_true(again.bytes == size && again.checksum == seal.checksum);
@@ -402,19 +361,19 @@ static void contradicting_records_are_refused(void **state)
     fracas_record record;
     OK(fracas_writer_create(path, &header, &table, &writer));
     fracas_record_init(&record);
-    sample_fails(fracas_writer_append(writer, SAMPLE_POINTS, 0, &record), FRACAS_BUG, "point 3");
+    FAILS(fracas_writer_append(writer, SAMPLE_POINTS, 0, &record), FRACAS_BUG, "point 3");
     record.outcome = FRACAS_INTACT;
     record.fragments = 1; /* and no row */
-    sample_fails(fracas_writer_append(writer, 0, 0, &record), FRACAS_BUG, "contradicts");
+    FAILS(fracas_writer_append(writer, 0, 0, &record), FRACAS_BUG, "contradicts");
     record.fragments = 0;
     record.outcome = FRACAS_NOUTCOMES;
-    sample_fails(fracas_writer_append(writer, 0, 0, &record), FRACAS_BUG, "contradicts");
+    FAILS(fracas_writer_append(writer, 0, 0, &record), FRACAS_BUG, "contradicts");
     fracas_fragment fragment = {.dust = 300};
     record.outcome = FRACAS_INTACT;
     record.fragments = 1;
     record.nfragment = 1;
     record.fragment = &fragment;
-    sample_fails(fracas_writer_append(writer, 0, 0, &record), FRACAS_BUG, "/fragment/dust");
+    FAILS(fracas_writer_append(writer, 0, 0, &record), FRACAS_BUG, "/fragment/dust");
     fracas_writer_abandon(writer);
 }
 
@@ -422,13 +381,13 @@ static void other_files_are_refused(void **state)
 {
     const char *path = sample_path(folder, "a.h5");
     fracas_reader *reader;
-    sample_fails(fracas_reader_open(path, &reader), FRACAS_DAMAGED, "a.h5 is not there");
+    FAILS(fracas_reader_open(path, &reader), FRACAS_DAMAGED, "a.h5 is not there");
     assert_null(reader);
-    sample_spill(path, "", 0);
-    sample_fails(fracas_reader_open(path, &reader), FRACAS_DAMAGED, "a.h5");
-    sample_spill(path, "campaign: x\n", 12);
-    sample_fails(fracas_reader_open(path, &reader), FRACAS_DAMAGED, "a.h5");
-    sample_fails(fracas_reader_open(folder, &reader), FRACAS_ENVIRONMENT, folder);
+    write_bytes(path, "", 0);
+    FAILS(fracas_reader_open(path, &reader), FRACAS_DAMAGED, "a.h5");
+    write_bytes(path, "campaign: x\n", 12);
+    FAILS(fracas_reader_open(path, &reader), FRACAS_DAMAGED, "a.h5");
+    FAILS(fracas_reader_open(folder, &reader), FRACAS_ENVIRONMENT, folder);
 }
 
 static void records_survive_packing(void **state)
@@ -442,12 +401,12 @@ static void records_survive_packing(void **state)
         fracas_record_init(&back);
         OK(fracas_record_unpack(bytes, size, &back));
         assert_true(sample_equal(&record, &back));
-        sample_fails(fracas_record_unpack(bytes, size - 1, &back), FRACAS_BUG, "does not fit");
-        sample_fails(fracas_record_unpack(bytes, size + 1, &back), FRACAS_BUG, "does not fit");
-        sample_fails(fracas_record_unpack(bytes, 10, &back), FRACAS_BUG, "does not fit");
+        FAILS(fracas_record_unpack(bytes, size - 1, &back), FRACAS_BUG, "does not fit");
+        FAILS(fracas_record_unpack(bytes, size + 1, &back), FRACAS_BUG, "does not fit");
+        FAILS(fracas_record_unpack(bytes, 10, &back), FRACAS_BUG, "does not fit");
         ((fracas_record *)(void *)bytes)->nhistory = SIZE_MAX / sizeof(fracas_history_row) +
                                                      2; /* wraps around */
-        sample_fails(fracas_record_unpack(bytes, size, &back), FRACAS_BUG, "does not fit");
+        FAILS(fracas_record_unpack(bytes, size, &back), FRACAS_BUG, "does not fit");
     }
 }
 

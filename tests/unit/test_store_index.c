@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The index: plan, lease, commit, its modes and its file. */
 #include "tests/support/study_fixture.h"
-#include "tests/support/test.h"
 
 /* ---- planning and rows ---- */
 
@@ -19,8 +18,7 @@ static void plan_is_in_order_and_grows(void **state)
     }
     free(row);
     point_row[1].replicas = REPLICAS + 2;
-    sample_fails(fracas_index_rows(index_, &table, &row, &count), FRACAS_DAMAGED,
-                 "replica 40 of point 1");
+    FAILS(fracas_index_rows(index_, &table, &row, &count), FRACAS_DAMAGED, "replica 40 of point 1");
     OK(fracas_index_plan(index_, &table));
     OK(fracas_index_rows(index_, &table, &row, &count));
     assert_int_equal(count, ALL + 2);
@@ -39,8 +37,7 @@ static void plan_is_in_order_and_grows(void **state)
     assert_int_equal(point[0].planned, REPLICAS + 2);
     assert_int_equal(point[1].realizations, REPLICAS);
     some[1].hash = fracas_hash_of("unknown", 7);
-    sample_fails(fracas_index_count_points(index_, &one, &counts, point), FRACAS_DAMAGED,
-                 "has no point");
+    FAILS(fracas_index_count_points(index_, &one, &counts, point), FRACAS_DAMAGED, "has no point");
 }
 
 static void note_failure(void *said, const fracas_index_row *row, const char *reason)
@@ -102,8 +99,8 @@ static void first_commit_stays(void **state)
     OK(fracas_index_place(index_, &point_row[0].hash, 3, &place));
     assert_int_equal(place.status, FRACAS_DONE);
     seal.checksum++;
-    sample_fails(fracas_index_commit(index_, "a.h5", &seal, row, 3, "{}"), FRACAS_BUG,
-                 "another segment a.h5");
+    FAILS(fracas_index_commit(index_, "a.h5", &seal, row, 3, "{}"), FRACAS_BUG,
+          "another segment a.h5");
 }
 
 /* A commit of something unplanned leaves nothing behind. */
@@ -114,11 +111,10 @@ static void commits_are_whole(void **state)
     fracas_file_seal seal;
     sample_segment(study, "a.h5", &table, what, 2, MOST, &seal, row);
     row[1].replica = REPLICAS;
-    sample_fails(fracas_index_commit(index_, "a.h5", &seal, row, 2, "{}"), FRACAS_DAMAGED,
-                 "no replica 40");
+    FAILS(fracas_index_commit(index_, "a.h5", &seal, row, 2, "{}"), FRACAS_DAMAGED,
+          "no replica 40");
     row[1].replica = 1;
-    sample_fails(fracas_index_commit(index_, "a.h5", &seal, row, 2, "not json"), FRACAS_BUG,
-                 "CHECK");
+    FAILS(fracas_index_commit(index_, "a.h5", &seal, row, 2, "not json"), FRACAS_BUG, "CHECK");
     fracas_index_counts counts = count_all();
     assert_int_equal(counts.done + counts.segments, 0);
     OK(fracas_index_commit(index_, "a.h5", &seal, row, 2, "{}"));
@@ -141,8 +137,8 @@ static void index_modes_and_versions(void **state)
     bool local;
     OK(fracas_disk_is_local("/proc", &local)); /* one we do not know: taken for a network */
     assert_false(local);
-    sample_fails(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED,
-                 "fracas run");
+    FAILS(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED,
+          "fracas run");
     OK(fracas_index_open_as(sample_path(study, "segments"), true, false,
                             &other)); /* as on a network */
     OK(fracas_index_plan(other, &table));
@@ -160,12 +156,12 @@ static void index_modes_and_versions(void **state)
     fracas_index_close(third);
     assert_int_equal(sqlite3_exec(index_->db, "UPDATE meta SET value = '99'", NULL, NULL, NULL),
                      SQLITE_OK);
-    sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED, "format version 99");
-    sample_spill(sample_path(study, "segments/index.sqlite"),
-                 "no database, but long enough to be looked at", 44);
-    sample_fails(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED,
-                 "cannot open: damaged");
-    assert_non_null(strstr(fracas_message(), "reindex"));
+    FAILS(fracas_index_open(study, false, &other), FRACAS_DAMAGED, "format version 99");
+    write_bytes(sample_path(study, "segments/index.sqlite"),
+                "no database, but long enough to be looked at", 44);
+    FAILS(fracas_index_open(sample_path(study, "segments"), false, &other), FRACAS_DAMAGED,
+          "cannot open: damaged");
+    assert_has(fracas_message(), "reindex");
 }
 
 /* ---- statements ---- */
@@ -175,7 +171,7 @@ static void a_failed_lease_leaves_commits_durable(void **state)
 {
     OK(fracas_sql_script(index_, "CREATE TRIGGER no BEFORE UPDATE ON realization BEGIN SELECT "
                                  "RAISE(ABORT, 'not now'); END"));
-    sample_fails(fracas_index_lease(index_, &point_row[0].hash, 0, 3), FRACAS_BUG, "not now");
+    FAILS(fracas_index_lease(index_, &point_row[0].hash, 0, 3), FRACAS_BUG, "not now");
     assert_string_equal(first_value(index_, "PRAGMA synchronous"), "2");
 }
 
@@ -201,7 +197,7 @@ static void a_statement_is_not_started_within_itself(void **state)
     OK(fracas_sql_start(index_, text, NULL, 0, &outer));
     OK(fracas_sql_next(index_, outer, &row));
     assert_true(row);
-    sample_fails(fracas_sql_start(index_, text, NULL, 0, &inner), FRACAS_BUG, "started twice");
+    FAILS(fracas_sql_start(index_, text, NULL, 0, &inner), FRACAS_BUG, "started twice");
     assert_null(inner);
     fracas_sql_end(outer);
     OK(fracas_sql_start(index_, text, NULL, 0, &inner));
@@ -222,7 +218,7 @@ static void an_index_without_tables_is_none(void **state)
     for (int empty = 0; empty < 2; empty++) {
         unlink(path);
         assert_false(fracas_index_exists(study));
-        sample_spill(path, "", 0);
+        write_bytes(path, "", 0);
         if (!empty) { /* as a kill between the first page and the tables leaves it */
             assert_int_equal(sqlite3_open(path, &db), SQLITE_OK);
             assert_int_equal(sqlite3_exec(db, "PRAGMA journal_mode = WAL", NULL, NULL, NULL),
@@ -233,8 +229,7 @@ static void an_index_without_tables_is_none(void **state)
             assert_true(info.st_size > 0);
         }
         assert_false(fracas_index_exists(study));
-        sample_fails(fracas_index_open(study, false, &other), FRACAS_DAMAGED,
-                     "`fracas run` makes one");
+        FAILS(fracas_index_open(study, false, &other), FRACAS_DAMAGED, "`fracas run` makes one");
         OK(fracas_index_open(study, true, &index_));
         OK(fracas_index_plan(index_, &table));
         fracas_index_close(index_);
@@ -247,12 +242,10 @@ static void an_index_without_tables_is_none(void **state)
     assert_int_equal(sqlite3_exec(db, "CREATE TABLE letters(text)", NULL, NULL, NULL), SQLITE_OK);
     sqlite3_close(db);
     assert_false(fracas_index_exists(study));
-    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED,
-                 "`fracas reindex` makes it anew");
-    sample_spill(path, "no database, but long enough to be looked at", 44);
+    FAILS(fracas_index_open(study, true, &other), FRACAS_DAMAGED, "`fracas reindex` makes it anew");
+    write_bytes(path, "no database, but long enough to be looked at", 44);
     assert_false(fracas_index_exists(study));
-    sample_fails(fracas_index_open(study, true, &other), FRACAS_DAMAGED,
-                 "`fracas reindex` makes it anew");
+    FAILS(fracas_index_open(study, true, &other), FRACAS_DAMAGED, "`fracas reindex` makes it anew");
 }
 
 /* Reads the study as one who may not write it; the exit status says what went wrong. */

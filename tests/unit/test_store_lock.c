@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STUDY/lock: who is refused, who takes over, and what the file says. */
 #include "tests/support/store_sample.h"
-#include "tests/support/test.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -96,7 +95,7 @@ static fracas_lock_state state_is(const char *part)
 {
     char text[FRACAS_HOLDER_TEXT];
     fracas_lock_state state = fracas_study_lock_state(study, text);
-    if (!strstr(text, part)) fail_msg("no \"%s\" in: %s", part, text);
+    assert_has(text, part);
     return state;
 }
 
@@ -118,8 +117,8 @@ static void a_clean_release_empties_the_file(void **state)
     OK(fracas_study_lock(study, false, &lock));
     gethostname(host, sizeof host - 1);
     snprintf(pid, sizeof pid, "pid=%ld ", (long)getpid());
-    assert_non_null(strstr(lock_text(), pid));
-    assert_non_null(strstr(lock_text(), host));
+    assert_has(lock_text(), pid);
+    assert_has(lock_text(), host);
     assert_false(fracas_study_took_over(lock, over));
     fracas_study_unlock(lock);
     assert_string_equal(lock_text(), "");
@@ -152,15 +151,14 @@ static void second_run_is_refused(void **state)
     assert_int_equal(read(ready[0], &byte, 1), 1);
     assert_int_equal(byte, 'y');
     for (int force = 0; force < 2; force++) { /* it lives: force does not help */
-        sample_fails(fracas_study_lock(study, force, &lock), FRACAS_IN_USE,
-                     "another run uses this study");
+        FAILS(fracas_study_lock(study, force, &lock), FRACAS_IN_USE, "another run uses this study");
         snprintf(pid, sizeof pid, "pid %ld, since 20", (long)child);
-        assert_non_null(strstr(fracas_message(), pid));
+        assert_has(fracas_message(), pid);
         char host[257] = "";
         gethostname(host, sizeof host - 1);
-        assert_non_null(strstr(fracas_message(), host));
+        assert_has(fracas_message(), host);
         assert_int_equal(lock, -1);
-        sample_fails(fracas_study_lock_to_look(study, force, &lock), FRACAS_IN_USE, pid);
+        FAILS(fracas_study_lock_to_look(study, force, &lock), FRACAS_IN_USE, pid);
     }
     assert_int_equal(state_is(pid), FRACAS_LOCK_HELD);
     kill(child, SIGKILL);
@@ -169,12 +167,12 @@ static void second_run_is_refused(void **state)
     OK(fracas_study_lock(study, false, &lock)); /* the grandchild still lives */
     char over[FRACAS_HOLDER_TEXT];
     assert_true(fracas_study_took_over(lock, over));
-    assert_non_null(strstr(over, pid));
+    assert_has(over, pid);
     fracas_study_unlock(lock);
     assert_int_equal(write(stop[1], "x", 1), 1);
     for (int i = 0; i < 2; i++) close(ready[i]), close(stop[i]);
-    sample_fails(fracas_study_lock("/nowhere/at/all", false, &lock), FRACAS_ENVIRONMENT,
-                 "/nowhere/at/all/lock");
+    FAILS(fracas_study_lock("/nowhere/at/all", false, &lock), FRACAS_ENVIRONMENT,
+          "/nowhere/at/all/lock");
 }
 
 static void to_look_takes_nothing_over(void **state)
@@ -194,7 +192,7 @@ static void a_renamed_host_takes_over_its_own(void **state)
     gethostname(host, sizeof host - 1);
     snprintf(text, sizeof text, "%s", lock_text());
     assert_true(asprintf(&renamed, "host=elsewhere%s", text + 5 + strlen(host)) > 0);
-    sample_spill(sample_path(study, "lock"), renamed, strlen(renamed));
+    write_bytes(sample_path(study, "lock"), renamed, strlen(renamed));
     assert_int_equal(state_is("host elsewhere"), FRACAS_LOCK_LEFT);
     take(false, over);
     free(renamed);
@@ -217,8 +215,8 @@ static void a_holder_that_lives_is_not_taken_for_dead(void **state)
     }
     assert_int_equal(read(ready[0], &byte, 1), 1);
     assert_int_equal(state_is("pid"), FRACAS_LOCK_HELD);
-    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "does not keep its lock");
-    sample_fails(fracas_study_lock(study, true, &lock), FRACAS_IN_USE, "does not keep its lock");
+    FAILS(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "does not keep its lock");
+    FAILS(fracas_study_lock(study, true, &lock), FRACAS_IN_USE, "does not keep its lock");
     kill(child, SIGKILL);
     waitpid(child, NULL, 0);
     OK(fracas_study_lock(study, false, &lock));
@@ -254,7 +252,7 @@ static void a_pid_used_again_is_no_holder(void **state)
     rest = strstr(text, " since=");
     assert_true(asprintf(&other, "%.*s pid=%ld%s", (int)(pid - text), text, (long)getppid(), rest) >
                 0);
-    sample_spill(sample_path(study, "lock"), other, strlen(other));
+    write_bytes(sample_path(study, "lock"), other, strlen(other));
     take(false, over);
     free(other);
 }
@@ -267,14 +265,14 @@ static void another_hosts_lock_needs_force(void **state)
     char pid[32], over[FRACAS_HOLDER_TEXT] = "?";
     pid_t dead = die_with_it("node7", NULL, NULL);
     snprintf(pid, sizeof pid, "pid %ld", (long)dead);
-    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "host node7");
-    assert_non_null(strstr(fracas_message(), pid));
-    assert_non_null(strstr(fracas_message(), "since 20"));
-    assert_non_null(strstr(fracas_message(), "--force"));
-    sample_fails(fracas_study_lock_to_look(study, false, &lock), FRACAS_IN_USE, "host node7");
+    FAILS(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "host node7");
+    assert_has(fracas_message(), pid);
+    assert_has(fracas_message(), "since 20");
+    assert_has(fracas_message(), "--force");
+    FAILS(fracas_study_lock_to_look(study, false, &lock), FRACAS_IN_USE, "host node7");
     assert_int_equal(state_is("host node7"), FRACAS_LOCK_ELSEWHERE);
     take(true, over);
-    assert_non_null(strstr(over, "node7"));
+    assert_has(over, "node7");
     assert_string_equal(lock_text(), "");
     die_with_it("node7", NULL, NULL); /* its own, when it comes back */
     setenv("FRACAS_TEST_HOST", "node7", 1);
@@ -287,15 +285,15 @@ static void a_requeued_job_takes_over_its_own(void **state)
     char over[FRACAS_HOLDER_TEXT] = "?";
     die_with_it("node7", "1234", NULL);
     setenv("SLURM_JOB_ID", "1234", 1);
-    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE,
-                 "Slurm job 1234"); /* twice in one allocation */
+    FAILS(fracas_study_lock(study, false, &lock), FRACAS_IN_USE,
+          "Slurm job 1234"); /* twice in one allocation */
     setenv("SLURM_RESTART_COUNT", "1", 1);
     setenv("SLURM_JOB_ID", "1235", 1);
-    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "Slurm job 1234");
+    FAILS(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "Slurm job 1234");
     setenv("SLURM_JOB_ID", "1234", 1);
     take(false, over);
     die_with_it("node8", "1234", "2"); /* later than this one */
-    sample_fails(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "host node8");
+    FAILS(fracas_study_lock(study, false, &lock), FRACAS_IN_USE, "host node8");
 }
 
 /* ---- torn files ---- */
@@ -303,13 +301,13 @@ static void a_requeued_job_takes_over_its_own(void **state)
 static void torn_files_are_read(void **state)
 {
     char over[FRACAS_HOLDER_TEXT] = "?";
-    sample_spill(sample_path(study, "lock"), "host=node9 pi",
-                 13); /* a power cut; no other host has this filesystem */
+    write_bytes(sample_path(study, "lock"), "host=node9 pi",
+                13); /* a power cut; no other host has this filesystem */
     take(false, over);
     char zeros[40] = {0};
-    sample_spill(sample_path(study, "lock"), zeros, sizeof zeros);
+    write_bytes(sample_path(study, "lock"), zeros, sizeof zeros);
     take(false, over);
-    assert_non_null(strstr(over, "host unknown"));
+    assert_has(over, "host unknown");
 }
 
 TESTS_EACH(set_up, tear_down, a_clean_release_empties_the_file, second_run_is_refused,

@@ -6,7 +6,6 @@
 
 #include "analysis/analysis.h"
 #include "analysis/draw/surface_picture.h"
-#include "tests/support/test.h"
 
 enum {
     SURFACE = 1,
@@ -82,9 +81,7 @@ static int set_up_surface(void **state)
 {
     study = sample_folder();
     table = sample_table(point_row, EACH);
-    assert_int_equal(mkdir(sample_path(study, "segments"), 0777), 0);
-    OK(fracas_index_open(study, true, &index_));
-    OK(fracas_index_plan(index_, &table));
+    begin_study();
     return 0;
 }
 
@@ -115,12 +112,12 @@ static void meshes_come_back_bit_by_bit(void **state)
                         found.nborders == 0);
         fracas_stored_mesh_clear(&found);
     }
-    sample_fails(fracas_reader_mesh(reader, SAMPLE_POINTS, &found), FRACAS_BUG, "point 3");
+    FAILS(fracas_reader_mesh(reader, SAMPLE_POINTS, &found), FRACAS_BUG, "point 3");
     OK(fracas_reader_check_meshes(reader, &source));
     const grid_shape other = {.nx = 4, .ny = 3};
     const fracas_mesh_source others = {get_mesh, &other};
-    sample_fails(fracas_reader_check_meshes(reader, &others), FRACAS_DAMAGED,
-                 "mesh of point 1 is not that of the campaign");
+    FAILS(fracas_reader_check_meshes(reader, &others), FRACAS_DAMAGED,
+          "mesh of point 1 is not that of the campaign");
     fracas_reader_close(reader);
     fracas_stored_mesh_clear(&wanted);
 }
@@ -129,16 +126,11 @@ static void order_of_segments_changes_no_mesh(void **state)
 {
     commit(4, interfaces_of(&shape));
     merge_with(&source);
-    assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
-    fracas_index_close(index_);
-    sample_remove_tree(sample_path(study, "segments"));
-    unlink(sample_path(study, "index.sqlite"));
-    assert_int_equal(mkdir(sample_path(study, "segments"), 0777), 0);
-    OK(fracas_index_open(study, true, &index_));
-    OK(fracas_index_plan(index_, &table));
+    keep_first();
+    begin_study_again();
     commit(3, interfaces_of(&shape));
     merge_with(&source);
-    assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+    assert_true(study_is_the_first());
 }
 
 static fracas_err no_mesh(const void *context, size_t point, fracas_stored_mesh *mesh)
@@ -153,9 +145,9 @@ static void without_surfaces_nothing_is_added(void **state)
     static const fracas_mesh_source none = {no_mesh, NULL};
     commit(4, 9);
     merge_with(NULL);
-    assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
+    keep_first();
     merge_with(&none);
-    assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+    assert_true(study_is_the_first());
     verify_finds(0, "");
 }
 
@@ -178,10 +170,10 @@ static void faulty_meshes_are_refused(void **state)
     const fracas_mesh_source refusing = {refuse, NULL}, broken = {faulty, &shape};
     fracas_file_header header = sample_header();
     commit(4, interfaces_of(&shape) - 1);
-    sample_fails(fracas_study_merge(study, index_, &header, &table, &refusing), FRACAS_USAGE,
-                 "no such mesh");
-    sample_fails(fracas_study_merge(study, index_, &header, &table, &broken), FRACAS_BUG,
-                 "no edge of its elements");
+    FAILS(fracas_study_merge(study, index_, &header, &table, &refusing), FRACAS_USAGE,
+          "no such mesh");
+    FAILS(fracas_study_merge(study, index_, &header, &table, &broken), FRACAS_BUG,
+          "no edge of its elements");
     assert_int_equal(sample_files(study, "study.h5"), 0);
     merge_with(&source);
     verify_finds(EACH - 1,
@@ -210,7 +202,7 @@ static void faults_of_meshes(void **state)
         }
         const char *fault = fracas_stored_mesh_fault(&mesh);
         assert_non_null(fault);
-        assert_non_null(strstr(fault, wanted[k]));
+        assert_has(fault, wanted[k]);
         fracas_stored_mesh_clear(&mesh);
     }
 }
@@ -221,7 +213,7 @@ static void refused(const char *folder, fracas_picture_request request, const ch
 {
     FILE *out = fopen("/dev/null", "w");
     request.folder = sample_path(folder, "drawn");
-    sample_fails(fracas_pictures_write(folder, &request, out), FRACAS_USAGE, text);
+    FAILS(fracas_pictures_write(folder, &request, out), FRACAS_USAGE, text);
     assert_int_equal(sample_files(folder, "drawn"), 0);
     fclose(out);
 }
@@ -250,7 +242,7 @@ static void pictures_of_what_is_not_there(void **state)
     header.interfaces = false;
     OK(fracas_writer_create(sample_path(study, "study.h5"), &header, &table, &writer));
     const fracas_stored_mesh none = {0};
-    sample_fails(fracas_writer_mesh(writer, &none), FRACAS_BUG, "keeps no interfaces");
+    FAILS(fracas_writer_mesh(writer, &none), FRACAS_BUG, "keeps no interfaces");
     OK(fracas_writer_finish(writer, false, &seal));
     OK(fracas_reader_open(sample_path(study, "study.h5"), &reader));
     fracas_reader_close(reader);
@@ -262,12 +254,10 @@ static void pictures_of_what_is_not_there(void **state)
 static void pictures_and_first_times(void **state)
 {
     static const double time[] = {2e-6, 9e-5};
-    char *said;
     OWNED char *folder = strdup(sample_path(study, "drawn"));
-    size_t size;
     commit(4, interfaces_of(&shape));
     merge_with(&source);
-    FILE *out = open_memstream(&said, &size);
+    FILE *out = text_begin();
     const fracas_picture_request request = {.point = 1,
                                             .replica = 1,
                                             .count = 2,
@@ -276,24 +266,18 @@ static void pictures_and_first_times(void **state)
                                             .table = true,
                                             .folder = folder};
     OK(fracas_pictures_write(study, &request, out));
-    fclose(out);
-    assert_non_null(strstr(said, "drawn/surface-point-1-replica-1-1.svg: 2.000 us\n"));
-    assert_non_null(strstr(said, "drawn/surface-point-1-replica-1-2.svg: 90.00 us\n"));
-    assert_non_null(
-        strstr(said, "first onset: 1.000 us\nfirst break: 1.500 us\nfirst crack through: "));
+    OWNED char *said = text_end(out);
+    assert_has(said, "drawn/surface-point-1-replica-1-1.svg: 2.000 us\n");
+    assert_has(said, "drawn/surface-point-1-replica-1-2.svg: 90.00 us\n");
+    assert_has(said, "first onset: 1.000 us\nfirst break: 1.500 us\nfirst crack through: ");
     assert_int_equal(sample_files(folder, ".svg"), 2);
-    OWNED char *csv = (char *)sample_slurp(sample_path(folder, "times-point-1.csv"), &size);
-    csv[size] = '\0';
-    assert_non_null(strstr(csv, "replica,outcome,first_onset,first_break,first_through,"));
-    assert_non_null(strstr(csv, "\n1,INTACT,1e-06,1.5e-06,"));
-    assert_non_null(strstr(csv, "\n2,FAILED,,,,,,,0,0\n"));
-    assert_non_null(strstr(csv, "\n4,INTACT,4e-06,4.5e-06,"));
-    OWNED char *svg = (char *)sample_slurp(sample_path(folder, "surface-point-1-replica-1-2.svg"),
-                                           &size);
-    svg[size] = '\0';
-    assert_non_null(
-        strstr(svg, "90.00 \u00b5s: 24 fragments (dust: 24)</text>")); /* everything is broken */
-    free(said);
+    OWNED char *csv = whole_file(sample_path(folder, "times-point-1.csv"));
+    assert_has(csv, "replica,outcome,first_onset,first_break,first_through,");
+    assert_has(csv, "\n1,INTACT,1e-06,1.5e-06,");
+    assert_has(csv, "\n2,FAILED,,,,,,,0,0\n");
+    assert_has(csv, "\n4,INTACT,4e-06,4.5e-06,");
+    OWNED char *svg = whole_file(sample_path(folder, "surface-point-1-replica-1-2.svg"));
+    assert_has(svg, "90.00 \u00b5s: 24 fragments (dust: 24)</text>"); /* everything is broken */
 }
 
 /* ---- a body in space ---- */
@@ -333,13 +317,12 @@ static void bodies_are_drawn_as_asked_for(void **state)
 {
     static const fracas_view view = {225, -30};
     static const double time = 9e-6;
-    OWNED char *said, *wanted, *folder = strdup(sample_path(study, "drawn"));
-    size_t size;
+    OWNED char *folder = strdup(sample_path(study, "drawn"));
     FRACAS_CLEARED(fracas_stored_mesh) mesh = {0};
     FRACAS_CLEARED(fracas_record) record;
     FRACAS_CLEARED(fracas_surface_state) now;
     make_octant_study();
-    FILE *out = open_memstream(&said, &size);
+    FILE *out = text_begin();
     const fracas_picture_request request = {.point = SURFACE,
                                             .replica = 1,
                                             .count = 1,
@@ -349,28 +332,24 @@ static void bodies_are_drawn_as_asked_for(void **state)
                                             .explode = 0.15,
                                             .folder = folder};
     OK(fracas_pictures_write(study, &request, out));
-    fclose(out);
+    OWNED char *said = text_end(out);
     OK(get_octant(NULL, SURFACE, &mesh));
     make_record(SURFACE, 1, 18, &record);
     OK(fracas_surface_state_create(&mesh, &record, time, &now));
     const fracas_surface_picture picture = {
         "Point 1, replica 1 at 9.000 \u00b5s", FRACAS_SHOW_MESH, 800, true, &view, 0.15, thickness};
-    out = open_memstream(&wanted, &size);
+    out = text_begin();
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", out);
     OK(fracas_surface_picture_write(&mesh, &now, &picture, out));
-    fclose(out);
-    OWNED char *svg = (char *)sample_slurp(sample_path(folder, "surface-point-1-replica-1-1.svg"),
-                                           &size);
-    svg[size] = '\0';
+    OWNED char *wanted = text_end(out);
+    OWNED char *svg = whole_file(sample_path(folder, "surface-point-1-replica-1-1.svg"));
     assert_string_equal(svg, wanted);
 }
 
 /* The page of the study has `part`, or has it not. */
 static void page_has(const char *part, bool wanted)
 {
-    size_t size;
-    OWNED char *page = (char *)sample_slurp(sample_path(study, "report/index.html"), &size);
-    page[size] = '\0';
+    OWNED char *page = whole_file(sample_path(study, "report/index.html"));
     assert_int_equal(strstr(page, part) != NULL, wanted);
 }
 

@@ -5,7 +5,6 @@
 
 #include "campaigns/store/results.h"
 #include "campaigns/store/upkeep.h"
-#include "tests/support/test.h"
 
 static fracas_results *open_results(const fracas_point_table *of)
 {
@@ -189,10 +188,10 @@ static void lost_segments_are_named_once_and_left_out(void **state)
         assert_int_equal(fracas_results_notes(results), 2);
     }
     const char *one = fracas_results_note(results, 0), *two = fracas_results_note(results, 1);
-    assert_non_null(strstr(one, "segment s1.h5 is left out (`fracas verify` checks the study)"));
-    assert_non_null(strstr(one, "s1.h5 is not there"));
-    assert_non_null(strstr(two, "segment s3.h5 is left out"));
-    assert_non_null(strstr(two, "the index says"));
+    assert_has(one, "segment s1.h5 is left out (`fracas verify` checks the study)");
+    assert_has(one, "s1.h5 is not there");
+    assert_has(two, "segment s3.h5 is left out");
+    assert_has(two, "the index says");
     fracas_results_close(results);
 }
 
@@ -210,16 +209,16 @@ static void without_an_index_study_h5_must_be_of_the_campaign(void **state)
     results = open_results(&table);
     assert_false(fracas_results_partial(results));
     assert_int_equal(fracas_results_notes(results), 1);
-    assert_non_null(strstr(fracas_results_note(results, 0), "study.h5 is taken as it is"));
+    assert_has(fracas_results_note(results, 0), "study.h5 is taken as it is");
     fracas_results_close(results);
-    sample_fails(fracas_results_open(study, &other, &table, &results), FRACAS_DAMAGED,
-                 "is of another campaign than");
-    assert_non_null(strstr(fracas_message(), "fracas reindex"));
+    FAILS(fracas_results_open(study, &other, &table, &results), FRACAS_DAMAGED,
+          "is of another campaign than");
+    assert_has(fracas_message(), "fracas reindex");
     assert_int_equal(unlink(sample_path(study, "study.h5")), 0);
-    sample_fails(fracas_results_open(study, &header.campaign, &table, &results), FRACAS_DAMAGED,
-                 "and there is no");
-    sample_fails(fracas_results_open(study, NULL, NULL, &results), FRACAS_DAMAGED,
-                 "`fracas run` makes it");
+    FAILS(fracas_results_open(study, &header.campaign, &table, &results), FRACAS_DAMAGED,
+          "and there is no");
+    FAILS(fracas_results_open(study, NULL, NULL, &results), FRACAS_DAMAGED,
+          "`fracas run` makes it");
 }
 
 static void nothing_done_is_said(void **state)
@@ -227,8 +226,8 @@ static void nothing_done_is_said(void **state)
     fracas_results *results;
     fracas_file_header header = sample_header();
     OK(fracas_index_claim(index_, &header));
-    sample_fails(fracas_results_open(study, &header.campaign, &table, &results), FRACAS_INTERRUPTED,
-                 "of 120: there is nothing to report");
+    FAILS(fracas_results_open(study, &header.campaign, &table, &results), FRACAS_INTERRUPTED,
+          "of 120: there is nothing to report");
     OK(fracas_index_fail(index_, &table.point[0].hash, 0, "crashed",
                          true)); /* a FAILED one is a result */
     results = open_results(&table);
@@ -253,8 +252,8 @@ static void an_index_that_is_held_is_named(void **state)
     index_ = NULL;
     OK(fracas_index_open_as(study, true, false, &holder)); /* as on a network filesystem */
     OK(fracas_index_plan(holder, &table));
-    sample_fails(fracas_results_open(study, &header.campaign, &table, &results), FRACAS_IN_USE,
-                 "on a network filesystem nobody else can");
+    FAILS(fracas_results_open(study, &header.campaign, &table, &results), FRACAS_IN_USE,
+          "on a network filesystem nobody else can");
     fracas_index_close(holder);
 }
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A study as a whole: identity, merge, recover, verify, lock. */
 #include "tests/support/study_fixture.h"
-#include "tests/support/test.h"
 
 /* ---- what the study is of ---- */
 
@@ -28,8 +27,8 @@ static void a_study_is_of_one_program_and_campaign(void **state)
     OK(fracas_index_claim(index_, &header));
     for (int other = 0; other < OTHERS; other++) {
         header = other_header(other);
-        sample_fails(fracas_index_claim(index_, &header), FRACAS_DAMAGED, difference[other]);
-        assert_non_null(strstr(fracas_message(), "--study"));
+        FAILS(fracas_index_claim(index_, &header), FRACAS_DAMAGED, difference[other]);
+        assert_has(fracas_message(), "--study");
     }
 }
 
@@ -43,7 +42,7 @@ static void segments_of_another_are_left_and_not_merged(void **state)
         fracas_file_header header = other_header(other);
         OWNED char *report;
         OK(fracas_study_recover(study, index_, &header, &table, &report));
-        assert_non_null(strstr(report, difference[other]));
+        assert_has(report, difference[other]);
         assert_null(strstr(report, "adopted"));
         assert_int_equal(count_all().planned, ALL);
     }
@@ -51,15 +50,15 @@ static void segments_of_another_are_left_and_not_merged(void **state)
     assert_int_equal(count_all().planned, 0);
     for (int other = 0; other < OTHERS; other++) {
         fracas_file_header header = other_header(other);
-        sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED,
-                     difference[other]);
+        FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED,
+              difference[other]);
     }
     fracas_file_header header = other_header(2);
     OK(fracas_index_claim(index_,
                           &header)); /* and verify compares with what the study was begun with */
     char text[8192];
     assert_true(verify(text) > 0);
-    assert_non_null(strstr(text, "s0.h5: not of this study: history 100, not 101"));
+    assert_has(text, "s0.h5: not of this study: history 100, not 101");
 }
 
 /* ---- merge ---- */
@@ -68,17 +67,12 @@ static void order_of_segments_changes_nothing(void **state)
 {
     commit_everything(0);
     merge();
-    assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
+    keep_first();
     for (uint64_t seed = 1; seed < 4; seed++) {
-        fracas_index_close(index_);
-        sample_remove_tree(sample_path(study, "segments"));
-        unlink(sample_path(study, "index.sqlite"));
-        assert_int_equal(mkdir(sample_path(study, "segments"), 0777), 0);
-        OK(fracas_index_open(study, true, &index_));
-        OK(fracas_index_plan(index_, &table));
+        begin_study_again();
         commit_everything(seed);
         merge();
-        assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+        assert_true(study_is_the_first());
         verify_finds(0, "");
     }
 }
@@ -107,19 +101,19 @@ static void merged_is_as_if_written_in_order(void **state)
 static void merge_refuses_what_is_not_whole(void **state)
 {
     fracas_file_header header = sample_header();
-    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_INTERRUPTED,
-                 "run again");
+    FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_INTERRUPTED,
+          "run again");
     commit_everything(3);
     strcpy(header.version, "0.2.0");
-    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED,
-                 "not of this study: program_version 0.1.0, not 0.2.0");
+    FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED,
+          "not of this study: program_version 0.1.0, not 0.2.0");
     header = sample_header();
     header.seed++;
-    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, "seed");
+    FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, "seed");
     flip_byte(sample_path(study, "segments/s2.h5"), 30000);
     header = sample_header();
-    sample_fails(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_INTERRUPTED,
-                 "s2.h5: damaged");
+    FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_INTERRUPTED,
+          "s2.h5: damaged");
     assert_int_equal(sample_files(study, "study.h5"), 0);
     assert_true(count_all().planned > 0); /* already */
     assert_int_equal(access(sample_path(study, "segments/s2.damaged"), F_OK), 0);
@@ -130,21 +124,11 @@ static void merge_refuses_what_is_not_whole(void **state)
 
 /* ---- recover ---- */
 
-static int64_t number(const char *sql)
-{
-    sqlite3_stmt *statement;
-    assert_int_equal(sqlite3_prepare_v2(index_->db, sql, -1, &statement, NULL), SQLITE_OK);
-    assert_int_equal(sqlite3_step(statement), SQLITE_ROW);
-    int64_t value = sqlite3_column_int64(statement, 0);
-    sqlite3_finalize(statement);
-    return value;
-}
-
 static void orphans_are_adopted(void **state)
 {
     commit_everything(4);
     merge();
-    assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
+    keep_first();
     fracas_index_counts before = count_all();
     fracas_index_close(index_);
     unlink(sample_path(study, "index.sqlite"));
@@ -156,7 +140,7 @@ static void orphans_are_adopted(void **state)
     assert_int_equal(
         number("SELECT count(*) FROM segment WHERE provenance <> '" SAMPLE_PROVENANCE "'"), 0);
     merge();
-    assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+    assert_true(study_is_the_first());
     recover_says("");
     fracas_reader *reader;
     char *provenance;
@@ -194,10 +178,10 @@ static void half_written_files_go_and_foreign_ones_stay(void **state)
     fracas_segment_row row[2];
     fracas_file_seal seal;
     commit_segment("good.h5", what, 2);
-    sample_spill(sample_path(study, "segments/.x.h5.tmp-123"), "abc", 3);
-    sample_spill(sample_path(study, ".study.h5.tmp-99"), "abc", 3);
-    sample_spill(sample_path(study, "segments/notes.txt"), "mine", 4);
-    sample_spill(sample_path(study, "segments/torn.h5"), "\211HDF\r\n\032\n", 8);
+    write_bytes(sample_path(study, "segments/.x.h5.tmp-123"), "abc", 3);
+    write_bytes(sample_path(study, ".study.h5.tmp-99"), "abc", 3);
+    write_bytes(sample_path(study, "segments/notes.txt"), "mine", 4);
+    write_bytes(sample_path(study, "segments/torn.h5"), "\211HDF\r\n\032\n", 8);
     fracas_point_row foreign_row = {fracas_hash_of("foreign", 7), 9, sample_value[0]};
     fracas_point_table foreign = {3, sample_column, 1, &foreign_row};
     sample_segment(study, "foreign.h5", &foreign, what, 2, MOST, &seal, row);
@@ -209,12 +193,10 @@ static void half_written_files_go_and_foreign_ones_stay(void **state)
     fracas_file_header header = sample_header();
     OK(fracas_study_recover(study, index_, &header, &table, &report));
     assert_int_equal(strstr(report, "good.h5") != NULL, 0);
-    assert_non_null(strstr(report, "torn.h5"));
+    assert_has(report, "torn.h5");
     /* Sound, but of realizations that nobody asked for here: somebody may have, elsewhere. */
-    assert_non_null(
-        strstr(report, "foreign.h5, which has realizations that this campaign does not ask for"));
-    assert_non_null(
-        strstr(report, "more.h5, which has realizations that this campaign does not ask for"));
+    assert_has(report, "foreign.h5, which has realizations that this campaign does not ask for");
+    assert_has(report, "more.h5, which has realizations that this campaign does not ask for");
     assert_int_equal(sample_files(sample_path(study, "segments"), ".h5"), 3);
     assert_int_equal(sample_files(sample_path(study, "segments"), "good.h5"), 1);
     assert_int_equal(sample_files(sample_path(study, "segments"), "torn.h5"), 0);
@@ -227,7 +209,7 @@ static void lost_segments_are_planned_again(void **state)
 {
     commit_everything(6);
     merge();
-    assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
+    keep_first();
     fracas_index_counts before = count_all();
     assert_int_equal(truncate(sample_path(study, "segments/s1.h5"), 5000), 0);
     unlink(sample_path(study, "segments/s0.h5"));
@@ -241,7 +223,7 @@ static void lost_segments_are_planned_again(void **state)
     after = count_all();
     assert_int_equal(after.done, before.done);
     merge();
-    assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+    assert_true(study_is_the_first());
     verify_finds(0, "");
 }
 
@@ -331,14 +313,14 @@ static void verify_bears_a_damaged_index(void **state)
     size_t size;
     int found = 0;
     uint64_t random = 8;
-    unsigned char *bytes = sample_slurp(path, &size);
+    unsigned char *bytes = whole_bytes(path, &size);
     for (int i = 0; i < 300; i++) {
         size_t at = i < 100 ? (size_t)i : sample_bits(&random) % size;
         char text[8192] = "";
         int64_t problems;
         unsigned char kept = bytes[at];
         bytes[at] ^= (unsigned char)(1 + sample_bits(&random) % 255);
-        sample_spill(path, bytes, size);
+        write_bytes(path, bytes, size);
         bytes[at] = kept;
         OK(fracas_study_verify(
             study, &(fracas_verify_options){.full = true, .say = keep_problem, .context = text},
@@ -348,7 +330,7 @@ static void verify_bears_a_damaged_index(void **state)
         unlink(sample_path(study, "index.sqlite-shm"));
     }
     assert_true(found > 30); /* this small database is mostly free space */
-    sample_spill(path, bytes, size);
+    write_bytes(path, bytes, size);
     free(bytes);
     OK(fracas_index_open(study, false, &index_));
     verify_finds(0, "");
@@ -360,20 +342,19 @@ static void leftovers_are_noted(void **state)
     char text[8192];
     commit_everything(0);
     merge();
-    sample_spill(sample_path(study, "segments/.x.h5.tmp-123"), "abc", 3);
-    sample_spill(sample_path(study, ".study.h5.tmp-99"), "abc", 3);
-    sample_spill(sample_path(study, "segments/orphan.h5"), "abc", 3);
-    sample_spill(sample_path(study, "segments/old.damaged"), "abc", 3);
+    write_bytes(sample_path(study, "segments/.x.h5.tmp-123"), "abc", 3);
+    write_bytes(sample_path(study, ".study.h5.tmp-99"), "abc", 3);
+    write_bytes(sample_path(study, "segments/orphan.h5"), "abc", 3);
+    write_bytes(sample_path(study, "segments/old.damaged"), "abc", 3);
     static const char lock[] =
         "host=node9 pid=77 since=2026-01-31T12:00:00Z start=5 boot=b9 job=- restart=0\n";
-    sample_spill(sample_path(study, "lock"), lock, strlen(lock));
+    write_bytes(sample_path(study, "lock"), lock, strlen(lock));
     assert_int_equal(verify_as(false, true, text), 0);
     static const char *const said[] = {
         "segments/.x.h5.tmp-123: half written", "/.study.h5.tmp-99: half written",
         "orphan.h5: not in the index",          "old.damaged: set aside",
         "lock: left by another host",           "host node9, pid 77"};
-    for (size_t i = 0; i < sizeof said / sizeof *said; i++)
-        if (!strstr(text, said[i])) fail_msg("no \"%s\" in:\n%s", said[i], text);
+    for (size_t i = 0; i < sizeof said / sizeof *said; i++) assert_has(text, said[i]);
 }
 
 TESTS_EACH(set_up, tear_down, a_study_is_of_one_program_and_campaign,

@@ -2,45 +2,18 @@
 /* The pictures of docs/theory/meshes.md are those of the meshes as they are now. To write them
  * anew: FRACAS_WRITE_MESHES=docs/theory build/werror/tests/test_unit_surface_pictures */
 #include "tests/support/surface.h"
-#include "tests/support/test.h"
-
-typedef fracas_err maker(const fracas_surface_fineness *fineness, const fracas_surface **surface);
-
-static fracas_err make_rectangle(const fracas_surface_fineness *fineness,
-                                 const fracas_surface **surface)
-{
-    return fracas_surface_rectangle(1.8, 1.2, fineness, surface);
-}
-
-static fracas_err make_annulus(const fracas_surface_fineness *fineness,
-                               const fracas_surface **surface)
-{
-    return fracas_surface_annulus(0.5, 1.0, fineness, surface);
-}
-
-static fracas_err make_sphere(const fracas_surface_fineness *fineness,
-                              const fracas_surface **surface)
-{
-    return fracas_surface_sphere(1.0, fineness, surface);
-}
-
-static fracas_err make_octant(const fracas_surface_fineness *fineness,
-                              const fracas_surface **surface)
-{
-    return fracas_surface_octant(1.0, fineness, surface);
-}
 
 static const struct {
     const char *name;
-    maker *make;
+    body_shape shape; /* spheres and octants are seen from x = y = z, others from above */
+    double length[2]; /* m */
     size_t divisions;
-    double centre[2], scale;
-    bool is_round; /* seen from x = y = z, else from above */
+    double scale;
 } pictures[] = {
-    {"rectangle", make_rectangle, 6, {0.0, 0.0}, 150.0, false},
-    {"annulus", make_annulus, 4, {0.0, 0.0}, 140.0, false},
-    {"sphere", make_sphere, 4, {0.0, 0.0}, 140.0, true},
-    {"octant", make_octant, 8, {0.0, 0.0}, 165.0, true},
+    {"rectangle", SHAPE_RECTANGLE, {1.8, 1.2}, 6, 150.0},
+    {"annulus", SHAPE_ANNULUS, {0.5, 1.0}, 4, 140.0},
+    {"sphere", SHAPE_SPHERE, {1.0}, 4, 140.0},
+    {"octant", SHAPE_OCTANT, {1.0}, 8, 165.0},
 };
 
 enum { WIDTH = 300, HEIGHT = 300 };
@@ -49,15 +22,15 @@ enum { WIDTH = 300, HEIGHT = 300 };
 static void view(size_t picture, const double x[3], double p[3])
 {
     const double a = sqrt(0.5), b = sqrt(1.0 / 6.0), c = sqrt(1.0 / 3.0);
-    if (pictures[picture].is_round) {
+    if (pictures[picture].shape >= SHAPE_SPHERE) {
         p[0] = a * (x[1] - x[0]);
         p[1] = b * (2.0 * x[2] - x[0] - x[1]);
         p[2] = c * (x[0] + x[1] + x[2]);
     } else {
         memcpy(p, x, 3 * sizeof *p);
     }
-    p[0] = (p[0] - pictures[picture].centre[0]) * pictures[picture].scale + 0.5 * WIDTH;
-    p[1] = 0.5 * HEIGHT - (p[1] - pictures[picture].centre[1]) * pictures[picture].scale;
+    p[0] = p[0] * pictures[picture].scale + 0.5 * WIDTH;
+    p[1] = 0.5 * HEIGHT - p[1] * pictures[picture].scale;
 }
 
 /* Elements that face the reader, with their parabolas. */
@@ -84,10 +57,7 @@ static void draw(size_t picture, const fracas_surface *s, double right, FILE *ou
 
 static char *paint(size_t picture)
 {
-    char *text = NULL;
-    size_t size;
-    FILE *out = open_memstream(&text, &size);
-    assert_non_null(out);
+    FILE *out = text_begin();
     fprintf(
         out,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %d %d\" width=\"%d\">\n"
@@ -95,25 +65,16 @@ static char *paint(size_t picture)
         "fill=\"#fff\"/>\n"
         "<g fill=\"#e8eef6\" stroke=\"#35507a\" stroke-width=\"1\" stroke-linejoin=\"round\">\n",
         2 * WIDTH, HEIGHT, 2 * WIDTH, pictures[picture].name);
-    fracas_surface_fineness fineness = {.divisions = pictures[picture].divisions, .order = 2};
-    const fracas_surface *plain, *moved;
-    assert_int_equal(pictures[picture].make(&fineness, &plain), FRACAS_OK);
-    double(*shift)[2] = taken(plain->nvertices * sizeof *shift);
-    uint64_t x = 4;
-    for (size_t v = 0; v < plain->nvertices; v++)
-        for (int i = 0; i < 2; i++) shift[v][i] = 2.0 * next_share(&x) - 1.0;
-    fineness.amplitude = 0.3;
-    fineness.shift = (const double(*)[2])shift;
-    fineness.nshifts = plain->nvertices;
-    assert_int_equal(pictures[picture].make(&fineness, &moved), FRACAS_OK);
+    const size_t divisions = pictures[picture].divisions;
+    const double *length = pictures[picture].length;
+    OWN(a_surface) plain = surface_of(
+                       pictures[picture].shape, length,
+                       &(fracas_surface_fineness){.divisions = divisions, .order = 2}),
+                   *moved = surface_moved(pictures[picture].shape, length, divisions, 2, 4, false);
     draw(picture, plain, 0.0, out);
     draw(picture, moved, WIDTH, out);
     fputs("</g>\n</svg>\n", out);
-    assert_int_equal(fclose(out), 0);
-    fracas_surface_destroy(plain);
-    fracas_surface_destroy(moved);
-    free(shift);
-    return text;
+    return text_end(out);
 }
 
 static void test_pictures(void **state)
@@ -123,14 +84,10 @@ static void test_pictures(void **state)
         char path[400];
         snprintf(path, sizeof path, "%s/mesh-%s.svg",
                  folder ? folder : FRACAS_SOURCE_DIR "/docs/theory", pictures[i].name);
-        OWNED char *text = paint(i), *there = zeroed(1, 1 << 18);
-        FILE *file = fopen(path, folder ? "w" : "r");
-        if (!file) fail_msg("cannot open %s", path);
-        if (folder) fputs(text, file);
-        else assert_true(fread(there, 1, (1 << 18) - 1, file) > 0);
-        assert_int_equal(fclose(file), 0);
-        if (!folder && strcmp(text, there) != 0)
-            fail_msg("%s is not what the mesh looks like", path);
+        OWNED char *text = paint(i);
+        if (folder) write_bytes(path, text, strlen(text));
+        OWNED char *there = whole_file(path);
+        if (strcmp(text, there) != 0) fail_msg("%s is not what the mesh looks like", path);
     }
 }
 
