@@ -8,18 +8,14 @@
 
 static fracas_strength weibull(double minimum, double scale, double shape)
 {
-    return (fracas_strength){
-        .distribution = law_named("weibull"), .minimum = minimum, .scale = scale, .shape = shape};
+    return STRENGTH("weibull", .minimum = minimum, .scale = scale, .shape = shape);
 }
 
 /* `number` flaws in each interface, on average. */
 static fracas_strength flaws(double number)
 {
-    return (fracas_strength){.distribution = law_named("flaws"),
-                             .own[0] = number / 2e-9,
-                             .minimum = 100e6,
-                             .maximum = 400e6,
-                             .own[1] = 4.0};
+    return STRENGTH("flaws", .own[0] = number / 2e-9, .minimum = 100e6, .maximum = 400e6,
+                    .own[1] = 4.0);
 }
 
 static const double body = 2e-9; /* m3, of one interface, or of a chain of them */
@@ -52,13 +48,13 @@ static void distributions_follow_their_laws(void **state)
         weibull(264e6, 50e6, 2.0),
         weibull(0.0, 450e6, 40.0),
         weibull(0.0, 450e6, 0.5),
-        {.distribution = law_named("lognormal"), .median = 300e6, .sigma = 0.3},
-        {.distribution = law_named("uniform"), .minimum = 264e6, .maximum = 364e6},
-        {.distribution = law_named("normal"), .mean = 300e6, .deviation = 30e6},
-        {.distribution = law_named("normal"), .mean = 100e6, .deviation = 200e6},
-        {.distribution = law_named("gamma"), .shape = 0.3, .scale = 300e6},
-        {.distribution = law_named("gamma"), .shape = 12.0, .scale = 25e6},
-        {.distribution = law_named("gamma"), .shape = 2e4, .scale = 15e3},
+        STRENGTH("lognormal", .median = 300e6, .sigma = 0.3),
+        STRENGTH("uniform", .minimum = 264e6, .maximum = 364e6),
+        STRENGTH("normal", .mean = 300e6, .deviation = 30e6),
+        STRENGTH("normal", .mean = 100e6, .deviation = 200e6),
+        STRENGTH("gamma", .shape = 0.3, .scale = 300e6),
+        STRENGTH("gamma", .shape = 12.0, .scale = 25e6),
+        STRENGTH("gamma", .shape = 2e4, .scale = 15e3),
         flaws(0.7),
         flaws(3.0),
         flaws(40.0),
@@ -117,7 +113,7 @@ static void normal_moments(void **state)
         raw[1] = m * raw[0] + d * d;
         raw[2] = m * raw[1] + 2 * d * d * raw[0];
         raw[3] = m * raw[2] + 3 * d * d * raw[1];
-        fracas_strength law = {.distribution = law_named("normal"), .mean = m, .deviation = d};
+        fracas_strength law = STRENGTH("normal", .mean = m, .deviation = d);
         check_law(&law, 500 + k, raw);
     }
 }
@@ -130,7 +126,7 @@ static void gamma_moments(void **state)
         double a = shapes[k];
         double raw[4] = {t * a, t * t * a * (a + 1), t * t * t * a * (a + 1) * (a + 2),
                          t * t * t * t * a * (a + 1) * (a + 2) * (a + 3)};
-        fracas_strength law = {.distribution = law_named("gamma"), .shape = a, .scale = t};
+        fracas_strength law = STRENGTH("gamma", .shape = a, .scale = t);
         check_law(&law, 520 + k, raw);
     }
 }
