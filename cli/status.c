@@ -222,7 +222,7 @@ static fracas_err count_part(fracas_status *status)
     size_t count;
     TRY(fracas_index_part(status->index, &status->part, &status->parts));
     status->part_all = status->all.realizations;
-    status->part_left = status->all.planned + status->all.leased;
+    status->part_left = fracas_index_missing(&status->all);
     if (status->parts < 2) return FRACAS_OK;
     TRY(fracas_index_rows(status->index, &status->campaign->table, &row, &count));
     count = fracas_run_part(status->part, status->parts, row, count);

@@ -41,27 +41,28 @@ static void begin_lines(output *out, const fracas_arguments *arguments)
 }
 
 /* After the last line. */
-static void print_counts(const output *out, const fracas_upkeep *end)
+static void print_counts(const output *out, const fracas_index_counts *end)
 {
     if (!out->json) {
         printf("%s: %" PRId64 " realizations, %" PRId64 " done in %" PRId64 " segments, %" PRId64
                " failed, %" PRId64 " missing\n",
-               out->study, end->realizations, end->done, end->segments, end->failed, end->missing);
+               out->study, end->realizations, end->done, end->segments, end->failed,
+               fracas_index_missing(end));
         return;
     }
     fracas_json_close(out->json);
     fracas_json_integer(out->json, "realizations", end->realizations);
     fracas_json_integer(out->json, "done", end->done);
     fracas_json_integer(out->json, "failed", end->failed);
-    fracas_json_integer(out->json, "missing", end->missing);
+    fracas_json_integer(out->json, "missing", fracas_index_missing(end));
     fracas_json_integer(out->json, "segments", end->segments);
 }
 
 /* In words, which command goes on. */
-static void print_next(const output *out, const fracas_upkeep *end)
+static void print_next(const output *out, const fracas_index_counts *end)
 {
     if (out->json) return;
-    if (end->missing)
+    if (fracas_index_missing(end))
         printf("`fracas run %s/campaign.yaml --study %s` computes what is missing\n", out->study,
                out->study);
     else printf("`fracas merge %s` writes study.h5\n", out->study);
@@ -79,7 +80,7 @@ static fracas_err finish(output *out, fracas_err code)
 static fracas_err reindex(const fracas_arguments *arguments, const fracas_campaign *campaign)
 {
     output out;
-    fracas_upkeep end;
+    fracas_index_counts end;
     begin_lines(&out, arguments);
     fracas_err code = fracas_upkeep_reindex(out.study, campaign, &out.said, &end);
     if (!code) print_counts(&out, &end);
@@ -106,7 +107,7 @@ const fracas_command fracas_command_reindex = {
 static fracas_err merge(const fracas_arguments *arguments, const fracas_campaign *campaign)
 {
     output out;
-    fracas_upkeep end = {0};
+    fracas_index_counts end = {0};
     bool written = false;
     begin_lines(&out, arguments);
     fracas_err code = fracas_upkeep_merge(out.study, campaign, &out.said, &end, &written);
@@ -152,7 +153,7 @@ static fracas_err merge_studies(const fracas_arguments *arguments)
     const char *from = arguments->second;
     output out;
     fracas_joined joined;
-    fracas_upkeep end;
+    fracas_index_counts end;
     int64_t both;
     TRY(fracas_cli_check_study(arguments->operand));
     TRY(fracas_cli_check_study(from));

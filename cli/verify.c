@@ -60,7 +60,7 @@ static bool is_growing(const char *study)
     OWN(fracas_index) index = NULL;
     fracas_index_counts counts = {0};
     return !fracas_index_open(study, false, &index) && !fracas_index_count(index, &counts) &&
-           counts.planned + counts.leased > 0;
+           fracas_index_missing(&counts) > 0;
 }
 
 /* The campaign file of the study against study.h5, where there is one. */

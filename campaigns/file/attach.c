@@ -9,18 +9,6 @@
 
 enum { MOST_MIB = 256 };
 
-/* The path for the system: a relative one starts at the folder of the campaign file. NULL without
- * memory. */
-static const char *locate(const fracas_file *file, const char *named)
-{
-    const char *slash = strrchr(file->name, '/');
-    const size_t folder = *named != '/' && slash ? (size_t)(slash - file->name) + 1 : 0,
-                 size = folder + strlen(named) + 1;
-    char *made = fracas_memory_take(file->memory, size, 1);
-    if (made) snprintf(made, size, "%.*s%s", (int)folder, file->name, named);
-    return made;
-}
-
 /* The name of a copy in a study is the digest of its content: attachments/DIGEST. */
 static fracas_err check_copy(const fracas_attachment *read, const char *path)
 {
@@ -91,9 +79,12 @@ fracas_err fracas_attachment_read(const fracas_file *file, const char *key, cons
             *attachment = &a->attachment;
             return FRACAS_OK;
         }
-    const char *path = locate(file, node->text);
+    const char *slash = strrchr(file->name, '/');
+    const int folder = *node->text != '/' && slash ? (int)(slash - file->name) + 1 : 0;
+    OWNED char *path = NULL;
+    TRY(fracas_path(&path, "%.*s%s", folder, file->name, node->text));
     fracas_attached *made = fracas_memory_take(file->memory, 1, sizeof *made);
-    if (!path || !made) return fracas_no_memory("a file that the campaign names");
+    if (!made) return fracas_no_memory("a file that the campaign names");
     made->attachment.path = node->text; /* as long as the campaign's memory */
     fracas_err err = load(file, path, &made->attachment);
     if (err) return err == FRACAS_USAGE ? fracas_file_error_within(file, node, key) : err;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "campaigns/file/columns.h"
+#include "campaigns/file/identity.h"
 
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"

@@ -2,7 +2,6 @@
 /* From a file to a campaign. */
 #include "campaigns/campaign.h"
 
-#include "campaigns/file/columns.h"
 #include "campaigns/file/identity.h"
 #include "campaigns/file/resolve.h"
 #include "campaigns/file/sweep.h"
@@ -230,34 +229,29 @@ static fracas_err repeated(const reading *read, size_t earlier, size_t later)
         earlier + 1, later + 1, there->line, there->column);
 }
 
-typedef struct {
-    fracas_hash hash;
-    size_t point;
-} numbered_hash;
-
 static int by_hash(const void *a, const void *b)
 {
-    const numbered_hash *x = a, *y = b;
-    int order = memcmp(x->hash.byte, y->hash.byte, sizeof x->hash.byte);
-    return order ? order : (x->point > y->point) - (x->point < y->point);
+    const fracas_point *x = *(const fracas_point *const *)a, *y = *(const fracas_point *const *)b;
+    const int order = memcmp(x->hash.byte, y->hash.byte, sizeof x->hash.byte);
+    return order ? order : (x > y) - (x < y);
 }
 
 /* Refuses two points of equal hash: the first two, in plan order of the later one. */
 static fracas_err check_repeated(const reading *read, const fracas_campaign *campaign)
 {
-    OWNED numbered_hash *sorted = malloc(campaign->npoints * sizeof *sorted);
+    const fracas_point *earlier = NULL, *later = NULL;
+    OWNED const fracas_point **sorted = malloc(campaign->npoints * sizeof *sorted);
     if (!sorted) return fracas_no_memory("the points of the campaign");
-    for (size_t p = 0; p < campaign->npoints; p++)
-        sorted[p] = (numbered_hash){campaign->point[p].hash, p};
+    for (size_t p = 0; p < campaign->npoints; p++) sorted[p] = &campaign->point[p];
     qsort(sorted, campaign->npoints, sizeof *sorted, by_hash);
-    size_t earlier = 0, later = 0;
     for (size_t i = 1; i < campaign->npoints; i++) {
-        if (!fracas_hash_equal(&sorted[i].hash, &sorted[i - 1].hash)) continue;
-        if (later > 0 && sorted[i].point > later) continue;
-        earlier = sorted[i - 1].point;
-        later = sorted[i].point;
+        if (!fracas_hash_equal(&sorted[i]->hash, &sorted[i - 1]->hash)) continue;
+        if (later && sorted[i] > later) continue;
+        earlier = sorted[i - 1];
+        later = sorted[i];
     }
-    return later > 0 ? repeated(read, earlier, later) : FRACAS_OK;
+    if (!later) return FRACAS_OK;
+    return repeated(read, (size_t)(earlier - campaign->point), (size_t)(later - campaign->point));
 }
 
 static fracas_err identify(reading *read, fracas_campaign *campaign)

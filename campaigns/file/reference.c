@@ -101,22 +101,17 @@ static void write_partners(const fracas_catalog *catalog, const fracas_kind *mod
     }
 }
 
-static void write_section(const fracas_catalog *catalog, const fracas_section *section, FILE *out)
+/* The kinds of a section, and the parameters of each. */
+static void write_kinds(const fracas_catalog *catalog, const fracas_section *section, FILE *out)
 {
     const fracas_section *model = catalog->section->table;
     const char *selector = fracas_section_selector(section);
-    fprintf(out, "\n## `%s`\n\n%s.\n", section->name, section->doc);
-    if (!section->hashed)
-        fprintf(
-            out,
-            "One for the whole campaign: it cannot be swept and is not part of a point's hash.\n");
-    write_params(section->params, section->nparams, out);
-    if (section->nkinds == 0) return;
     fprintf(out, "\n| `%s:` | meaning |\n|---|---|\n", selector);
     for (size_t k = 0; k < section->nkinds; k++) {
         fprintf(out, "| `%s`", section->kinds[k]->name);
-        if (section != model) write_default(model, section, section->kinds[k], out);
-        else if (k == 0) fprintf(out, " (default)");
+        if (section == model) fprintf(out, "%s", k == 0 ? " (default)" : "");
+        else if (section != &fracas_uncertain_section)
+            write_default(model, section, section->kinds[k], out);
         fprintf(out, " | %s |\n", section->kinds[k]->doc);
     }
     for (size_t k = 0; k < section->nkinds; k++) {
@@ -127,22 +122,26 @@ static void write_section(const fracas_catalog *catalog, const fracas_section *s
     }
 }
 
-/* Types and distributions of designs. */
-static void write_designs(FILE *out)
+static void write_section(const fracas_catalog *catalog, const fracas_section *section, FILE *out)
 {
-    const fracas_section *table = &fracas_uncertain_section;
+    fprintf(out, "\n## `%s`\n\n%s.\n", section->name, section->doc);
+    if (!section->hashed)
+        fprintf(
+            out,
+            "One for the whole campaign: it cannot be swept and is not part of a point's hash.\n");
+    write_params(section->params, section->nparams, out);
+    if (section->nkinds > 0) write_kinds(catalog, section, out);
+}
+
+/* Types and distributions of designs. */
+static void write_designs(const fracas_catalog *catalog, FILE *out)
+{
     fprintf(out, "\n## Designs of the sweep\n\nAxes whose values are drawn: "
                  "[campaign-file.md](campaign-file.md#designs). A number whose unit is called its "
                  "own has that of its parameter.\n\n| `type:` | meaning |\n|---|---|\n");
     for (size_t t = 0; t < FRACAS_COUNT(fracas_design_types); t++)
         fprintf(out, "| `%s` | %s |\n", fracas_design_types[t]->name, fracas_design_types[t]->doc);
-    fprintf(out, "\n| `%s:` | meaning |\n|---|---|\n", table->selector);
-    for (size_t k = 0; k < table->nkinds; k++)
-        fprintf(out, "| `%s` | %s |\n", table->kinds[k]->name, table->kinds[k]->doc);
-    for (size_t k = 0; k < table->nkinds; k++) {
-        fprintf(out, "\nWith `%s: %s`:\n", table->selector, table->kinds[k]->name);
-        write_params(table->kinds[k]->params, table->kinds[k]->nparams, out);
-    }
+    write_kinds(catalog, &fracas_uncertain_section, out);
 }
 
 void fracas_campaign_reference(FILE *out)
@@ -153,8 +152,8 @@ void fracas_campaign_reference(FILE *out)
                  "given here; any other unit of the same dimension may follow it after a space.\n");
     OWN(fracas_campaign_memory) memory = fracas_memory_create();
     const fracas_catalog *catalog;
-    if (memory && fracas_catalog_make(memory, &catalog) == FRACAS_OK)
-        for (size_t s = 0; s < catalog->nsections; s++)
-            write_section(catalog, catalog->section[s].table, out);
-    write_designs(out);
+    if (!memory || fracas_catalog_make(memory, &catalog)) return;
+    for (size_t s = 0; s < catalog->nsections; s++)
+        write_section(catalog, catalog->section[s].table, out);
+    write_designs(catalog, out);
 }

@@ -3,7 +3,6 @@
 
 #include "base/units.h"
 #include "campaigns/file/catalog.h"
-#include "campaigns/file/columns.h"
 #include "campaigns/file/identity.h"
 #include "campaigns/plan/plan.h"
 

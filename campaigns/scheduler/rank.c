@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/rank.h"
 
+#include "base/param.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/director/director.h"
 #include "campaigns/scheduler/session/prepare.h"
@@ -381,11 +382,9 @@ static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
 static void catch_signals(void)
 {
     struct sigaction drain = {.sa_handler = ask_drain, .sa_flags = SA_RESTART};
+    static const int asking[] = {SIGUSR1, SIGUSR2, SIGTERM, SIGINT};
     sigemptyset(&drain.sa_mask);
-    sigaction(SIGUSR1, &drain, NULL);
-    sigaction(SIGUSR2, &drain, NULL);
-    sigaction(SIGTERM, &drain, NULL);
-    sigaction(SIGINT, &drain, NULL);
+    for (size_t i = 0; i < FRACAS_COUNT(asking); i++) sigaction(asking[i], &drain, NULL);
     signal(SIGPIPE, SIG_IGN); /* both become errors of write */
     signal(SIGXFSZ, SIG_IGN);
 }

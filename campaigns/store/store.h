@@ -306,6 +306,12 @@ typedef struct {
     int64_t segments, bytes; /* segments, and their bytes */
 } fracas_index_counts;
 
+/* Realizations to be computed. */
+static inline int64_t fracas_index_missing(const fracas_index_counts *counts)
+{
+    return counts->planned + counts->leased;
+}
+
 FRACAS_MUST_USE fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts);
 /* The same, and of each point of the table (table->npoints of them; segments and bytes 0), by one
  * look at every realization. */

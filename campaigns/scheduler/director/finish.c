@@ -34,7 +34,7 @@ static fracas_err check_parts(fracas_director *director, const fracas_counts *co
     fracas_index_counts counts;
     if (options->parts < 2) return FRACAS_OK;
     TRY(fracas_index_count(director->index, &counts));
-    if (counts.planned + counts.leased == 0) return FRACAS_OK;
+    if (fracas_index_missing(&counts) == 0) return FRACAS_OK;
     return fracas_fail(FRACAS_INTERRUPTED,
                        "part %d of %d is complete, %" PRId64 " realizations, %" PRId64
                        " of them FAILED; when the other parts are, `fracas merge-studies` makes "

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/launch/mpirun.h"
 
+#include "base/own.h"
 #include "base/param.h"
 #include "campaigns/scheduler/status/channel.h"
 
@@ -53,27 +54,20 @@ static _Noreturn void become_mpirun(char **arguments, pid_t parent, const int ou
     _exit(FRACAS_MPIRUN_MISSING);
 }
 
-static fracas_err make_arguments(int jobs, int argc, char **argv, char *self, char *count,
-                                 char ***arguments)
-{
-    char *const before[] = {"mpirun", "--oversubscribe", "--bind-to", "none", "-n", count, self};
-    *arguments = calloc(FRACAS_COUNT(before) + (size_t)argc + 1, sizeof **arguments);
-    if (!*arguments) return fracas_no_memory("the arguments of mpirun");
-    sprintf(count, "%d", jobs);
-    memcpy(*arguments, before, sizeof before);
-    for (int i = 1; i < argc; i++) (*arguments)[FRACAS_COUNT(before) + (size_t)i - 1] = argv[i];
-    return FRACAS_OK;
-}
-
 fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, fracas_mpirun *mpirun)
 {
-    char self[4096], count[16], **arguments;
+    char self[4096], count[16];
+    char *const before[] = {"mpirun", "--oversubscribe", "--bind-to", "none", "-n", count, self};
+    OWNED char **arguments = calloc(FRACAS_COUNT(before) + (size_t)argc + 1, sizeof *arguments);
+    if (!arguments) return fracas_no_memory("the arguments of mpirun");
+    memcpy(arguments, before, sizeof before);
+    for (int i = 1; i < argc; i++) arguments[FRACAS_COUNT(before) + (size_t)i - 1] = argv[i];
+    snprintf(count, sizeof count, "%d", jobs);
     ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
     if (n < 0)
         return fracas_fail(FRACAS_ENVIRONMENT, "cannot find this program: /proc/self/exe: %s",
                            strerror(errno));
     self[n] = '\0';
-    TRY(make_arguments(jobs, argc, argv, self, count, &arguments));
     int out[2] = {-1, -1}, errors[2] = {-1, -1};
     pid_t parent = getpid(), pid = -1;
     if (!pipe2(out, O_CLOEXEC) && !pipe2(errors, O_CLOEXEC)) pid = fork();
@@ -81,7 +75,6 @@ fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, fracas_mpirun *m
     if (pid == 0) become_mpirun(arguments, parent, out, errors);
     fracas_err err = FRACAS_OK;
     if (pid < 0) err = fracas_fail_system(reason, "cannot start mpirun");
-    free(arguments);
     if (out[1] >= 0) close(out[1]);
     if (errors[1] >= 0) close(errors[1]);
     if (err) {

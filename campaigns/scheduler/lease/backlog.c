@@ -84,11 +84,12 @@ static bool goes_first(const fracas_backlog *b, uint32_t point)
 }
 
 /* Ties: the left one, so the order does not depend on the machine. */
-static uint32_t better(const fracas_backlog *b, uint32_t left, uint32_t right)
+static uint32_t better(const fracas_backlog *b, uint32_t left, uint32_t right,
+                       double (*estimate)(const fracas_backlog *b, size_t point))
 {
     if (left == NONE || right == NONE) return left == NONE ? right : left;
     if (goes_first(b, left) != goes_first(b, right)) return goes_first(b, right) ? right : left;
-    return own_estimate(b, right) > own_estimate(b, left) ? right : left;
+    return estimate(b, right) > estimate(b, left) ? right : left;
 }
 
 static void combine(fracas_backlog *b, size_t i)
@@ -98,7 +99,7 @@ static void combine(fracas_backlog *b, size_t i)
     made->points = left->points + right->points;
     for (int kind = 0; kind < NKINDS; kind++) {
         made->work[kind] = left->work[kind] + right->work[kind];
-        made->best[kind] = better(b, left->best[kind], right->best[kind]);
+        made->best[kind] = better(b, left->best[kind], right->best[kind], own_estimate);
     }
 }
 
@@ -206,16 +207,11 @@ double fracas_backlog_work(const fracas_backlog *backlog)
 size_t fracas_backlog_longest(const fracas_backlog *backlog)
 {
     const uint32_t *best = backlog->range[1].best;
-    if (best[UNMEASURED] == NONE || best[MEASURED] == NONE) {
-        const uint32_t only = best[UNMEASURED] == NONE ? best[MEASURED] : best[UNMEASURED];
-        return only == NONE ? SIZE_MAX : only;
-    }
-    if (goes_first(backlog, best[UNMEASURED]) != goes_first(backlog, best[MEASURED]))
-        return goes_first(backlog, best[MEASURED]) ? best[MEASURED] : best[UNMEASURED];
-    const double a = fracas_backlog_estimate(backlog, best[UNMEASURED]),
-                 b = fracas_backlog_estimate(backlog, best[MEASURED]);
-    if (a == b) return best[UNMEASURED] < best[MEASURED] ? best[UNMEASURED] : best[MEASURED];
-    return a > b ? best[UNMEASURED] : best[MEASURED];
+    const bool first = best[UNMEASURED] < best[MEASURED];
+    const uint32_t longest = better(backlog, first ? best[UNMEASURED] : best[MEASURED],
+                                    first ? best[MEASURED] : best[UNMEASURED],
+                                    fracas_backlog_estimate);
+    return longest == NONE ? SIZE_MAX : longest;
 }
 
 size_t fracas_backlog_any(const fracas_backlog *backlog, uint64_t *state)

@@ -119,7 +119,7 @@ fracas_err fracas_study_settled(const char *study, fracas_index *index,
         return FRACAS_OK;
     fracas_index_counts counts;
     TRY(fracas_index_count(index, &counts));
-    *settled = counts.planned == 0 && counts.leased == 0 &&
+    *settled = fracas_index_missing(&counts) == 0 &&
                counts.realizations == (int64_t)fracas_reader_realizations(reader);
     *failed = counts.failed;
     return FRACAS_OK;

@@ -52,19 +52,10 @@ static fracas_err open_index(const char *study, fracas_index **index)
     return fracas_index_open(study, true, index);
 }
 
-static fracas_err count(fracas_index *index, fracas_upkeep *end)
-{
-    fracas_index_counts counts;
-    TRY(fracas_index_count(index, &counts));
-    *end = (fracas_upkeep){counts.realizations, counts.done, counts.failed,
-                           counts.planned + counts.leased, counts.segments};
-    return FRACAS_OK;
-}
-
 /* ---- reindex ---- */
 
 fracas_err fracas_upkeep_reindex(const char *study, const fracas_campaign *campaign,
-                                 const fracas_said *said, fracas_upkeep *end)
+                                 const fracas_said *said, fracas_index_counts *end)
 {
     FRACAS_CLEARED(holding) h = HOLDING(study);
     const fracas_file_header header = fracas_campaign_header(campaign);
@@ -72,13 +63,13 @@ fracas_err fracas_upkeep_reindex(const char *study, const fracas_campaign *campa
     TRY(fracas_study_reindex(study, &header, &campaign->table, said));
     TRY(fracas_index_open(study, true, &h.index));
     TRY(fracas_rounds_init(&h.rounds, campaign, h.index));
-    return count(h.index, end);
+    return fracas_index_count(h.index, end);
 }
 
 /* ---- merge ---- */
 
 fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaign,
-                               const fracas_said *said, fracas_upkeep *end, bool *written)
+                               const fracas_said *said, fracas_index_counts *end, bool *written)
 {
     FRACAS_CLEARED(holding) h = HOLDING(study);
     bool settled;
@@ -88,13 +79,14 @@ fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaig
     *written = false;
     TRY(fracas_study_lock(study, false, &h.lock));
     TRY(resume(&h, campaign, said));
-    TRY(count(h.index, end));
-    if (end->missing)
+    TRY(fracas_index_count(h.index, end));
+    const int64_t missing = fracas_index_missing(end);
+    if (missing)
         return fracas_fail(FRACAS_INTERRUPTED,
                            "%" PRId64 " of %" PRId64
                            " realizations of %s are not computed yet; `fracas run %s/campaign.yaml "
                            "--study %s` computes them",
-                           end->missing, end->realizations, study, study, study);
+                           missing, end->realizations, study, study, study);
     TRY(fracas_rounds_check(campaign, h.index));
     TRY(fracas_study_settled(study, h.index, campaign, &settled, &failed));
     if (settled) return fracas_failure_report(study, h.index, &campaign->table);
@@ -195,7 +187,7 @@ static fracas_err lock_both(joining *j)
     return fracas_study_lock(j->from.study, false, &j->from.lock);
 }
 
-static fracas_err join(joining *j, fracas_joined *joined, int64_t *both, fracas_upkeep *end)
+static fracas_err join(joining *j, fracas_joined *joined, int64_t *both, fracas_index_counts *end)
 {
     const fracas_file_header header = fracas_campaign_header(j->longer);
     TRY(resume(&j->from, j->theirs, j->said));
@@ -216,11 +208,11 @@ static fracas_err join(joining *j, fracas_joined *joined, int64_t *both, fracas_
     fracas_rounds_clear(&j->into.rounds);
     /* More rounds may be complete now. */
     TRY(fracas_rounds_init(&j->into.rounds, j->longer, j->into.index));
-    return count(j->into.index, end);
+    return fracas_index_count(j->into.index, end);
 }
 
 fracas_err fracas_upkeep_join(const char *into, const char *from, const fracas_said *said,
-                              fracas_joined *joined, int64_t *both, fracas_upkeep *end)
+                              fracas_joined *joined, int64_t *both, fracas_index_counts *end)
 {
     FRACAS_CLEARED(joining) j = {.into = HOLDING(into), .from = HOLDING(from), .said = said};
     *joined = (fracas_joined){0};

@@ -1,26 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Commands on a study without computation: reindex, merge, gc, retry, merge-studies. Each takes
- * the lock of the study (FRACAS_IN_USE names the holder) and reports its actions line by line. */
+ * the lock of the study (FRACAS_IN_USE names the holder) and reports its actions line by line.
+ * *end: the realizations when it ends. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_SESSION_UPKEEP_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_SESSION_UPKEEP_H
 
 #include "campaigns/campaign.h"
 #include "campaigns/store/upkeep.h"
 
-/* Realizations of a study when a command ends. */
-typedef struct {
-    int64_t realizations, done, failed, missing;
-    int64_t segments;
-} fracas_upkeep;
-
 /* fracas_study_reindex with the campaign of the study; then rules plan their replicas. */
 FRACAS_MUST_USE fracas_err fracas_upkeep_reindex(const char *study, const fracas_campaign *campaign,
-                                                 const fracas_said *said, fracas_upkeep *end);
+                                                 const fracas_said *said, fracas_index_counts *end);
 
 /* Recovers as a run does, and writes study.h5; *written is false if it was complete before.
  * FRACAS_INTERRUPTED counts missing realizations, FRACAS_SOME_FAILED failed ones. */
 FRACAS_MUST_USE fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaign,
-                                               const fracas_said *said, fracas_upkeep *end,
+                                               const fracas_said *said, fracas_index_counts *end,
                                                bool *written);
 
 /* fracas_study_collect with the files named in the campaign. */
@@ -38,6 +33,6 @@ FRACAS_MUST_USE fracas_err fracas_upkeep_retry(const char *study, const fracas_c
  * first difference and leaves `into` unchanged. `from` stays. */
 FRACAS_MUST_USE fracas_err fracas_upkeep_join(const char *into, const char *from,
                                               const fracas_said *said, fracas_joined *joined,
-                                              int64_t *both, fracas_upkeep *end);
+                                              int64_t *both, fracas_index_counts *end);
 
 #endif
