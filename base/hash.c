@@ -56,14 +56,16 @@ void fracas_hash_words(const fracas_hash *hash, uint64_t word[2])
     }
 }
 
-void fracas_hash_hex(const fracas_hash *hash, char text[FRACAS_HASH_HEX])
+fracas_hash_text fracas_hash_hex(const fracas_hash *hash)
 {
+    fracas_hash_text hex;
     static const char digit[] = "0123456789abcdef";
     for (int i = 0; i < 16; i++) {
-        text[2 * i] = digit[hash->byte[i] >> 4];
-        text[2 * i + 1] = digit[hash->byte[i] & 15];
+        hex.text[2 * i] = digit[hash->byte[i] >> 4];
+        hex.text[2 * i + 1] = digit[hash->byte[i] & 15];
     }
-    text[32] = '\0';
+    hex.text[32] = '\0';
+    return hex;
 }
 
 bool fracas_hash_parse(const char *text, fracas_hash *hash)

@@ -31,7 +31,11 @@ FRACAS_OWNER(fracas_checksum, fracas_checksum_destroy)
 bool fracas_hash_equal(const fracas_hash *a, const fracas_hash *b);
 /* word[0] = first eight bytes, word[1] = last eight, read as big-endian numbers. */
 void fracas_hash_words(const fracas_hash *hash, uint64_t word[2]);
-void fracas_hash_hex(const fracas_hash *hash, char text[FRACAS_HASH_HEX]);
+typedef struct {
+    char text[FRACAS_HASH_HEX];
+} fracas_hash_text;
+/* 32 hexadecimal digits, for `fracas_hash_hex(&hash).text` within an expression. */
+fracas_hash_text fracas_hash_hex(const fracas_hash *hash);
 /* False when `text` is not 32 hexadecimal digits. */
 bool fracas_hash_parse(const char *text, fracas_hash *hash);
 

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* `OWNED char *text = NULL;`: free(text) at the end of the scope. Set it to NULL to give it away.
  */
@@ -22,6 +23,14 @@
 
 /* `FRACAS_CLEARED(fracas_record) record = {0};`: a value, cleared by fracas_record_clear. */
 #define FRACAS_CLEARED(type) __attribute__((cleanup(type##_clear), unused)) type
+
+/* `OWN_FD fd = -1;`: a file descriptor, closed. */
+#define OWN_FD __attribute__((cleanup(fracas_own_close), unused)) int
+
+static inline void fracas_own_close(const int *fd)
+{
+    if (*fd >= 0) close(*fd);
+}
 
 static inline void fracas_own_free(void *variable)
 {

@@ -92,7 +92,7 @@ FRACAS_MUST_USE fracas_err fracas_cli_read_campaign(const char *study,
                                                     struct fracas_campaign **campaign);
 
 /* The analysis of a study by its campaign, partial or not; the campaign must outlive it. Both are
- * destroyed by the caller. */
+ * destroyed by the caller, after an error too. */
 struct fracas_analysis;
 FRACAS_MUST_USE fracas_err fracas_cli_analyse(const char *study, struct fracas_campaign **campaign,
                                               struct fracas_analysis **analysis);

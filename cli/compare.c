@@ -29,13 +29,11 @@ static fracas_err print(const fracas_arguments *arguments, const fracas_analysis
     TRY(read_common(arguments->second, &common_b));
     const fracas_compare_options how = {.by = fracas_given(arguments, "by"),
                                         .common = common_a && common_b};
-    fracas_comparison comparison;
+    FRACAS_CLEARED(fracas_comparison) comparison = {0};
     TRY(fracas_compare(a, b, &how, &comparison));
-    fracas_err err = FRACAS_OK;
-    if (fracas_given(arguments, "json")) fracas_comparison_write_json(&comparison, a, b, stdout);
-    else err = fracas_comparison_print(&comparison, a, b, stdout);
-    fracas_comparison_clear(&comparison);
-    return err;
+    if (!fracas_given(arguments, "json")) return fracas_comparison_print(&comparison, a, b, stdout);
+    fracas_comparison_write_json(&comparison, a, b, stdout);
+    return FRACAS_OK;
 }
 
 static fracas_err compare(const fracas_arguments *arguments)

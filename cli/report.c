@@ -39,10 +39,7 @@ fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign,
                               fracas_analysis **analysis)
 {
     TRY(fracas_cli_read_campaign(study, campaign));
-    fracas_err err = fracas_analysis_create(study, &(*campaign)->hash, &(*campaign)->table,
-                                            analysis);
-    if (err) fracas_campaign_destroy(*campaign), *campaign = NULL;
-    return err;
+    return fracas_analysis_create(study, &(*campaign)->hash, &(*campaign)->table, analysis);
 }
 
 /* Tells readers of the table about outdated fits, as the page does. */

@@ -83,11 +83,9 @@ static fracas_err sample(const fracas_arguments *arguments)
     TRY(fracas_arguments_integer(arguments, "replica", 0, INT_MAX, &replica));
     OWN(fracas_campaign) campaign = NULL;
     TRY(fracas_campaign_read(arguments->operand, &campaign));
-    fracas_sample drawn = {0};
-    fracas_err err = fracas_sample_draw(campaign, (size_t)point, replica, &drawn);
-    if (!err) err = show(arguments, &drawn);
-    fracas_sample_clear(&drawn);
-    return err;
+    FRACAS_CLEARED(fracas_sample) drawn = {0};
+    TRY(fracas_sample_draw(campaign, (size_t)point, replica, &drawn));
+    return show(arguments, &drawn);
 }
 
 const fracas_command fracas_command_sample = {

@@ -99,11 +99,9 @@ static fracas_err write_json(const fracas_status *status)
     fracas_json_array(&json, "points");
     fracas_err code = FRACAS_OK;
     for (size_t i = 0; i < status->campaign->npoints; i++) {
-        char hash[FRACAS_HASH_HEX];
-        fracas_hash_hex(&status->campaign->point[i].hash, hash);
         fracas_json_object(&json, NULL);
         fracas_json_integer(&json, "point", (int64_t)i);
-        fracas_json_text(&json, "hash", hash);
+        fracas_json_text(&json, "hash", fracas_hash_hex(&status->campaign->point[i].hash).text);
         write_counts(&json, &status->point[i]);
         if (!code) code = write_decisions(&json, status, i);
         fracas_json_close(&json);

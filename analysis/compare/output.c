@@ -187,12 +187,11 @@ static void write_point(fracas_json *json, const fracas_compared_point *point)
 static void write_study(fracas_json *json, const char *key, const fracas_analysis *analysis,
                         const size_t *only, size_t count)
 {
-    char hash[FRACAS_HASH_HEX], seed[24];
-    fracas_hash_hex(&analysis->header.campaign, hash);
+    char seed[24];
     FRACAS_PRINT(seed, "%" PRIu64, analysis->header.seed);
     fracas_json_object(json, key);
     fracas_json_text(json, "name", analysis->name);
-    fracas_json_text(json, "campaign", hash);
+    fracas_json_text(json, "campaign", fracas_hash_hex(&analysis->header.campaign).text);
     fracas_json_text(json, "seed", seed);
     fracas_json_text(json, "version", analysis->header.version);
     fracas_json_array(json, "unmatched");

@@ -255,14 +255,12 @@ fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t be
 
 static fracas_err find_point(const fracas_analysis *study, const fracas_hash *hash, size_t *point)
 {
-    char hex[FRACAS_HASH_HEX];
     for (*point = 0; *point < study->table->npoints; ++*point)
         if (fracas_hash_equal(&study->table->point[*point].hash, hash)) return FRACAS_OK;
-    fracas_hash_hex(hash, hex);
     return fracas_fail(
         FRACAS_DAMAGED,
         "the study %s has no point %s; it is of another campaign: remove it and run again",
-        study->name, hex);
+        study->name, fracas_hash_hex(hash).text);
 }
 
 static fracas_err note_refined(fracas_convergence *convergence, size_t before,

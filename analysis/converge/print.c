@@ -222,7 +222,8 @@ static printed print_of(const fracas_convergence *convergence, const fracas_conv
                   .verdict = fracas_number_verdict_name[row->verdict],
                   .value = row->value,
                   .half_widths = row->value.difference / row->value.a.half_width};
-    fracas_hash_hex(&convergence->study->table->point[row->point].hash, to.hash);
+    memcpy(to.hash, fracas_hash_hex(&convergence->study->table->point[row->point].hash).text,
+           FRACAS_HASH_HEX);
     return to;
 }
 

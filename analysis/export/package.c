@@ -100,10 +100,10 @@ static fracas_err put_resource(fracas_json *json, const fracas_csv_table *table,
  * have equal packages. */
 static void put_source(fracas_json *json, const fracas_analysis *analysis)
 {
-    char hash[FRACAS_HASH_HEX], text[192], seed[24];
-    fracas_hash_hex(&analysis->header.campaign, hash);
+    char text[192], seed[24];
+    const fracas_hash_text hash = fracas_hash_hex(&analysis->header.campaign);
     FRACAS_PRINT(seed, "%" PRIu64, analysis->header.seed);
-    FRACAS_PRINT(text, "fracas-%s", hash);
+    FRACAS_PRINT(text, "fracas-%s", hash.text);
     fracas_json_text(json, "profile", "tabular-data-package");
     fracas_json_text(json, "name", text);
     fracas_json_text(json, "title", "Fragments of a campaign of fracas");
@@ -113,11 +113,11 @@ static void put_source(fracas_json *json, const fracas_analysis *analysis)
     fracas_json_array(json, "sources");
     fracas_json_object(json, NULL);
     FRACAS_PRINT(text, "study.h5 of fracas %s: campaign %s, seed %s", analysis->header.version,
-                 hash, seed);
+                 hash.text, seed);
     fracas_json_text(json, "title", text);
     fracas_json_close(json);
     fracas_json_close(json);
-    fracas_json_text(json, "campaign", hash);
+    fracas_json_text(json, "campaign", hash.text);
     fracas_json_text(json, "seed", seed); /* text: of 64 bits */
     fracas_json_text(json, "program_version", analysis->header.version);
     fracas_json_boolean(json, "complete", analysis->header.complete);

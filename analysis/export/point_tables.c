@@ -64,9 +64,8 @@ static fracas_err point_rows(const fracas_csv_table *of, const fracas_analysis *
     (void)of;
     const fracas_point_table *table = analysis->table;
     for (size_t p = 0; p < table->npoints; p++) {
-        char hash[FRACAS_HASH_HEX];
-        fracas_hash_hex(&table->point[p].hash, hash);
-        fprintf(out, "%zu,%s,%" PRId64, p, hash, table->point[p].replicas);
+        fprintf(out, "%zu,%s,%" PRId64, p, fracas_hash_hex(&table->point[p].hash).text,
+                table->point[p].replicas);
         for (size_t c = 0; c < table->ncolumns; c++) {
             const fracas_value *value = &table->point[p].value[c];
             if (!table->column[c].text) {

@@ -250,13 +250,11 @@ static void write_decision(fracas_json *json, const fracas_decision *last)
 static void write_point(fracas_json *json, const fracas_analysis *analysis, size_t p,
                         const fracas_fits *fits)
 {
-    char hash[FRACAS_HASH_HEX];
     const fracas_label label = fracas_analysis_label(analysis, p);
-    fracas_hash_hex(&analysis->table->point[p].hash, hash);
     const fracas_progress progress = fracas_analysis_progress_of(analysis, p);
     fracas_json_object(json, NULL);
     fracas_json_text(json, "label", label.text);
-    fracas_json_text(json, "hash", hash);
+    fracas_json_text(json, "hash", fracas_hash_hex(&analysis->table->point[p].hash).text);
     fracas_json_integer(json, "replicas", analysis->table->point[p].replicas);
     fracas_fields_json_object(json, "progress", &fracas_progress_fields, &progress);
     write_decision(json, fracas_analysis_decision(analysis, p));
@@ -324,14 +322,13 @@ void fracas_analysis_reference(FILE *out)
 void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fits, size_t stale,
                           FILE *out)
 {
-    char hash[FRACAS_HASH_HEX], seed[24];
-    fracas_hash_hex(&analysis->header.campaign, hash);
+    char seed[24];
     FRACAS_PRINT(seed, "%" PRIu64, analysis->header.seed);
     const fracas_progress progress = fracas_analysis_progress(analysis);
     fracas_json json;
     fracas_json_begin(&json, out);
     fracas_json_text(&json, "name", analysis->name);
-    fracas_json_text(&json, "campaign", hash);
+    fracas_json_text(&json, "campaign", fracas_hash_hex(&analysis->header.campaign).text);
     fracas_json_text(&json, "seed", seed); /* text: of 64 bits */
     fracas_json_text(&json, "version", analysis->header.version);
     fracas_json_boolean(&json, "complete", analysis->header.complete);

@@ -90,10 +90,8 @@ static void put_data(rows *to, const fracas_ensemble *ensemble, const fracas_poi
 {
     const fracas_fit_sample *sample = &fits->sample;
     const fracas_hash fingerprint = fingerprint_of(ensemble);
-    char text[FRACAS_HASH_HEX];
-    fracas_hash_hex(&fingerprint, text);
     to->family = "data";
-    put_number(to, "fingerprint", "", NAN, 0, text);
+    put_number(to, "fingerprint", "", NAN, 0, fracas_hash_hex(&fingerprint).text);
     put_number(to, "realizations", "1", (double)ensemble->nrealizations, 0, "usable");
     put_whole(to, sample);
     put_number(to, "fragments", "1", (double)sample->fragments, 0, "of these");
@@ -181,7 +179,7 @@ static fracas_err fit_point(const fracas_analysis *analysis, size_t p, int64_t r
     uint64_t word[2];
     rows to = {.fits = fits, .point = (int64_t)p};
     fracas_hash_words(&analysis->table->point[p].hash, word);
-    fracas_hash_hex(&analysis->table->point[p].hash, to.hash);
+    memcpy(to.hash, fracas_hash_hex(&analysis->table->point[p].hash).text, FRACAS_HASH_HEX);
     size_t nfamilies;
     const fracas_family *const *families = fracas_point_families(analysis->point[p].surface,
                                                                  &nfamilies);
@@ -203,7 +201,7 @@ fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point, int
                            npoints - 1);
     fracas_fits *made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("the fits of a study");
-    fracas_hash_hex(&analysis->header.campaign, made->campaign);
+    memcpy(made->campaign, fracas_hash_hex(&analysis->header.campaign).text, FRACAS_HASH_HEX);
     made->realizations = (int64_t)fracas_results_realizations(analysis->results);
     fracas_err err = FRACAS_OK;
     for (size_t p = 0; p < npoints && !err; p++)
@@ -216,13 +214,11 @@ fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point, int
 /* The point of this hash, SIZE_MAX if there is none; `near` is tried first. */
 static size_t point_of(const fracas_analysis *analysis, const char *hash, size_t near)
 {
-    char own[FRACAS_HASH_HEX];
     const size_t npoints = analysis->table->npoints;
     for (size_t k = 0; k <= npoints; k++) {
         const size_t p = k ? k - 1 : near;
         if (p >= npoints) continue;
-        fracas_hash_hex(&analysis->table->point[p].hash, own);
-        if (!strcmp(own, hash)) return p;
+        if (!strcmp(fracas_hash_hex(&analysis->table->point[p].hash).text, hash)) return p;
     }
     return SIZE_MAX;
 }
@@ -232,12 +228,11 @@ static size_t point_of(const fracas_analysis *analysis, const char *hash, size_t
 static bool is_of(const fracas_fits *fits, size_t begin, size_t end,
                   const fracas_analysis *analysis, size_t p)
 {
-    char own[FRACAS_HASH_HEX];
     if (p == SIZE_MAX) return false;
     const fracas_hash fingerprint = fingerprint_of(&analysis->point[p].ensemble);
-    fracas_hash_hex(&fingerprint, own);
     for (size_t i = begin; i < end; i++)
-        if (!strcmp(fits->row[i].quantity, "fingerprint")) return !strcmp(fits->row[i].note, own);
+        if (!strcmp(fits->row[i].quantity, "fingerprint"))
+            return !strcmp(fits->row[i].note, fracas_hash_hex(&fingerprint).text);
     return false;
 }
 

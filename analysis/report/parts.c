@@ -52,11 +52,11 @@ void fracas_page_links(fracas_page *page, const char *file, bool drawn, bool csv
 
 static void put_source(fracas_page *page)
 {
-    char hash[FRACAS_HASH_HEX];
-    fracas_hash_hex(&page->analysis->header.campaign, hash);
     fracas_markup(page->out, " <span class=\"source\">%s",
                   page->source ? page->source : page->analysis->name);
-    if (!page->source) fprintf(page->out, ", campaign %.12s", hash);
+    if (!page->source)
+        fprintf(page->out, ", campaign %.12s",
+                fracas_hash_hex(&page->analysis->header.campaign).text);
     fprintf(page->out, ", fracas %s.</span>", page->analysis->header.version);
 }
 

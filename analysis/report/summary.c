@@ -120,8 +120,7 @@ static void put_campaign(const fracas_page *page)
     }
     for (size_t g = 0; g < sizeof group / sizeof *group; g++)
         put_parameters(page, group[g].term, group[g].prefix);
-    fracas_hash_hex(&header->campaign, text);
-    put_term(page->out, "campaign", text);
+    put_term(page->out, "campaign", fracas_hash_hex(&header->campaign).text);
     FRACAS_PRINT(text, "%" PRIu64, header->seed);
     put_term(page->out, "seed", text);
     FRACAS_PRINT(text, "fracas %s", header->version);

@@ -57,7 +57,7 @@ static fracas_err load_open(const fracas_file *file, const char *path, FILE *in,
     made->text = text;
     made->size = size;
     const fracas_hash digest = fracas_hash_of(text, size);
-    fracas_hash_hex(&digest, made->digest);
+    memcpy(made->digest, fracas_hash_hex(&digest).text, FRACAS_HASH_HEX);
     return check_copy(made, path);
 }
 

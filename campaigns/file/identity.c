@@ -29,10 +29,8 @@ static void write_campaign(const fracas_catalog *catalog, const fracas_campaign 
     write_values(catalog, false, &campaign->output, out);
     size_t named = fracas_point_table_find(&campaign->table, "case");
     for (size_t p = 0; p < campaign->npoints; p++) {
-        char hex[FRACAS_HASH_HEX];
-        fracas_hash_hex(&campaign->point[p].hash, hex);
         const char *name = named == SIZE_MAX ? "" : campaign->table.point[p].value[named].text;
-        fprintf(out, "point=%s replicas=", hex);
+        fprintf(out, "point=%s replicas=", fracas_hash_hex(&campaign->point[p].hash).text);
         fracas_replicas_write(&campaign->point[p], out);
         fprintf(out, "%s%s\n", *name ? " case=" : "", name);
     }

@@ -267,10 +267,8 @@ static void print_json_point(const campaign_plan *plan, size_t p, fracas_json *j
 {
     const fracas_point_row *point = &plan->table->point[p];
     const fracas_forecast *forecast = &plan->forecast[p];
-    char hex[FRACAS_HASH_HEX];
-    fracas_hash_hex(&point->hash, hex);
     fracas_json_object(json, NULL);
-    fracas_json_text(json, "hash", hex);
+    fracas_json_text(json, "hash", fracas_hash_hex(&point->hash).text);
     fracas_json_object(json, "varied");
     for (size_t v = 0; v < plan->nvaried; v++) {
         const fracas_column *column = &plan->table->column[plan->varied[v]];

@@ -103,13 +103,11 @@ static void print_extreme_json(fracas_json *json, const fracas_sample *sample, c
 static void print_json(const fracas_sample *sample, const summary *of, double law, FILE *out)
 {
     const fracas_point *point = &sample->campaign->point[sample->point];
-    char hex[FRACAS_HASH_HEX];
-    fracas_hash_hex(&point->hash, hex);
     fracas_json json;
     fracas_json_begin(&json, out);
     fracas_json_text(&json, "campaign", sample->campaign->name);
     fracas_json_integer(&json, "point", (int64_t)sample->point);
-    fracas_json_text(&json, "hash", hex);
+    fracas_json_text(&json, "hash", fracas_hash_hex(&point->hash).text);
     fracas_json_integer(&json, "replica", sample->replica);
     fracas_json_text(&json, "distribution", point->strength.distribution->name);
     fracas_json_real(&json, "distribution_mean", law);

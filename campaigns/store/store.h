@@ -268,15 +268,18 @@ FRACAS_MUST_USE fracas_err fracas_index_last_event(fracas_index *index, const ch
 
 /* ---- decisions in the index ---- */
 
-/* Status of a realization and its summary: 0, and NaN, before it is done. */
+/* Status of a realization, the place of its bytes, and its summary (0 and NaN before it is done).
+ */
 typedef struct {
     fracas_row_status status;
+    int64_t segment; /* id, 0 if it has none */
+    int64_t row;
     fracas_summary summary;
-} fracas_index_summary;
+} fracas_place;
 
 /* row[r] of the replicas 0 to count - 1 of a point. FRACAS_DAMAGED if one was never planned. */
 FRACAS_MUST_USE fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point,
-                                                  size_t count, fracas_index_summary *row);
+                                                  size_t count, fracas_place *row);
 
 /* row[r - first] = replica r of the point, r from `first` to point->replicas - 1; `p`: number of
  * the point in the table. */

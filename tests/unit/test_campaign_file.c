@@ -7,9 +7,7 @@
 
 static void check_hex(const fracas_hash *hash, const char *expected)
 {
-    char hex[FRACAS_HASH_HEX];
-    fracas_hash_hex(hash, hex);
-    assert_string_equal(hex, expected);
+    assert_string_equal(fracas_hash_hex(hash).text, expected);
 }
 
 static void test_example(void **state)

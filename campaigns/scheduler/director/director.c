@@ -259,25 +259,25 @@ static fracas_err on_computed(fracas_director *director, size_t worker,
 static fracas_err note_failed(fracas_director *director, const fracas_lease *lease, bool final,
                               const char *reason)
 {
-    char hex[FRACAS_HASH_HEX], text[1400];
+    char text[1400];
     const unsigned long long number = lease->point, count = lease->count;
     const long long replica = lease->replica[0];
     const fracas_hash *point = &director->setup.campaign->point[lease->point].hash;
-    fracas_hash_hex(point, hex);
+    const fracas_hash_text hex = fracas_hash_hex(point);
     if (count == 0) {
         snprintf(text, sizeof text, "a lease of point %llu (%s) that another worker has too: %s",
-                 number, hex, reason);
+                 number, hex.text, reason);
         return fracas_index_event(director->index, "copy failed", text);
     }
     if (count > 1) {
         snprintf(text, sizeof text,
                  "%llu realizations of point %llu (%s), replica %lld the first, are tried in two "
                  "halves: %s",
-                 count, number, hex, replica, reason);
+                 count, number, hex.text, replica, reason);
         return fracas_index_event(director->index, "lease failed", text);
     }
     snprintf(text, sizeof text, "replica %lld of point %llu (%s) FAILED %s: %s", replica, number,
-             hex, final ? "for good" : "and is tried again", reason);
+             hex.text, final ? "for good" : "and is tried again", reason);
     TRY(fracas_index_fail(director->index, point, replica, reason, final));
     if (!final) return fracas_index_event(director->index, "failed", text);
     TRY(fracas_director_announce(director, "failed", text));

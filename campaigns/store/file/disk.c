@@ -80,12 +80,10 @@ fracas_err fracas_disk_sync_folder(const char *path)
     OWNED char *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path))
                                : strdup(".");
     if (!folder) return fracas_no_memory("a file name");
-    fracas_err err = FRACAS_OK;
-    int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    OWN_FD fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     /* EINVAL: a filesystem that has no syncing of folders, and so nothing to wait for. */
-    if (fd < 0 || (fsync(fd) < 0 && errno != EINVAL)) err = fracas_disk_fail("sync folder", folder);
-    if (fd >= 0) close(fd);
-    return err;
+    return fd < 0 || (fsync(fd) < 0 && errno != EINVAL) ? fracas_disk_fail("sync folder", folder)
+                                                        : FRACAS_OK;
 }
 
 fracas_err fracas_disk_open(const char *path, int *fd)
@@ -145,11 +143,9 @@ fracas_err fracas_disk_seal(int fd, const char *path, fracas_file_seal *seal)
 
 fracas_err fracas_disk_seal_path(const char *path, fracas_file_seal *seal)
 {
-    int fd;
+    OWN_FD fd = -1;
     TRY(fracas_disk_open(path, &fd));
-    fracas_err err = fracas_disk_seal(fd, path, seal);
-    close(fd);
-    return err;
+    return fracas_disk_seal(fd, path, seal);
 }
 
 fracas_err fracas_disk_check_seal(const char *path, const fracas_file_seal *wanted)
@@ -261,12 +257,14 @@ static fracas_err check_end(int fd, const char *path, uint64_t bytes)
                                         "cut short, or overwritten");
 }
 
-static fracas_err check_open(int fd, const char *path)
+fracas_err fracas_disk_check_own_seal(const char *path)
 {
     own_seal own;
     fracas_file_seal found;
     struct stat info;
     size_t got;
+    OWN_FD fd = -1;
+    TRY(fracas_disk_open(path, &fd));
     if (fstat(fd, &info) < 0) return fracas_disk_fail("look at", path);
     const uint64_t bytes = (uint64_t)info.st_size;
     if (bytes < sizeof own) return damaged(path, "it is too short");
@@ -277,13 +275,4 @@ static fracas_err check_open(int fd, const char *path)
     TRY(seal_first(fd, path, bytes - sizeof own, &found));
     if (own.bytes == found.bytes && own.checksum == found.checksum) return FRACAS_OK;
     return damaged(path, "the seal at its end is not of its bytes");
-}
-
-fracas_err fracas_disk_check_own_seal(const char *path)
-{
-    int fd;
-    TRY(fracas_disk_open(path, &fd));
-    fracas_err err = check_open(fd, path);
-    close(fd);
-    return err;
 }

@@ -229,34 +229,24 @@ size_t fracas_stored_size(const fracas_store_column *column)
 size_t fracas_rows_store(const fracas_store_column *column, const void *rows, size_t row_size,
                          size_t count, void *stored)
 {
-    static const uint64_t canonical_nan = 0x7ff8000000000000u;
+    static const int64_t canonical_nan = 0x7ff8000000000000;
     size_t width = column->width, misfits = 0;
     int8_t *narrow = stored;
     int32_t *middle = stored;
+    int64_t *wide = stored;
     for (size_t r = 0; r < count; r++) {
         const char *row = (const char *)rows + r * row_size + column->offset;
         for (size_t w = 0; w < width; w++) {
-            int64_t integer;
+            int64_t bits, kept;
             double real;
-            memcpy(&integer, row + 8 * w, 8);
+            const size_t at = r * width + w;
+            memcpy(&bits, row + 8 * w, 8);
             memcpy(&real, row + 8 * w, 8);
-            size_t at = r * width + w;
-            switch (column->type) {
-            case FRACAS_INT8:
-                narrow[at] = (int8_t)integer;
-                misfits += narrow[at] != integer;
-                break;
-            case FRACAS_INT32:
-                middle[at] = (int32_t)integer;
-                misfits += middle[at] != integer;
-                break;
-            case FRACAS_INT64: memcpy((char *)stored + 8 * at, &integer, 8); break;
-            case FRACAS_FLOAT64:
-                memcpy((char *)stored + 8 * at, real != real ? (const void *)&canonical_nan : &real,
-                       8);
-                break;
-            case FRACAS_TEXT: break; /* only in /point, which has no structs */
-            }
+            if (column->type == FRACAS_FLOAT64 && real != real) bits = canonical_nan;
+            if (column->type == FRACAS_INT8) kept = narrow[at] = (int8_t)bits;
+            else if (column->type == FRACAS_INT32) kept = middle[at] = (int32_t)bits;
+            else kept = wide[at] = bits;
+            misfits += kept != bits;
         }
     }
     return misfits;
@@ -268,19 +258,15 @@ void fracas_rows_load(const fracas_store_column *column, const void *stored, siz
     size_t width = column->width;
     const int8_t *narrow = stored;
     const int32_t *middle = stored;
+    const int64_t *wide = stored;
     for (size_t r = 0; r < count; r++) {
         char *row = (char *)rows + r * row_size + column->offset;
         for (size_t w = 0; w < width; w++) {
-            size_t at = r * width + w;
-            int64_t integer = 0;
-            switch (column->type) {
-            case FRACAS_INT8: integer = narrow[at]; break;
-            case FRACAS_INT32: integer = middle[at]; break;
-            case FRACAS_INT64:
-            case FRACAS_FLOAT64: memcpy(&integer, (const char *)stored + 8 * at, 8); break;
-            case FRACAS_TEXT: continue;
-            }
-            memcpy(row + 8 * w, &integer, 8);
+            const size_t at = r * width + w;
+            const int64_t bits = column->type == FRACAS_INT8    ? narrow[at]
+                                 : column->type == FRACAS_INT32 ? middle[at]
+                                                                : wide[at];
+            memcpy(row + 8 * w, &bits, 8);
         }
     }
 }

@@ -21,25 +21,18 @@ static fracas_err write_column(const fracas_h5 *h5, const fracas_store_column *c
     return count ? fracas_h5_append_rows(h5, column, dataset, 0, count, stored) : FRACAS_OK;
 }
 
-static fracas_err write_hashes(const fracas_h5 *h5, const fracas_point_table *table)
+static fracas_err write_points(const fracas_h5 *h5, const fracas_point_table *table)
 {
-    size_t width = fracas_store_point_hash.width;
-    OWNED char *stored = column_memory(&fracas_store_point_hash, table->npoints);
-    if (!stored) return fracas_no_memory("the point table");
+    const size_t width = fracas_store_point_hash.width;
+    OWNED char *hashes = column_memory(&fracas_store_point_hash, table->npoints);
+    OWNED int64_t *replicas = column_memory(&fracas_store_point_replicas, table->npoints);
+    if (!hashes || !replicas) return fracas_no_memory("the point table");
     for (size_t p = 0; p < table->npoints; p++) {
-        char hex[FRACAS_HASH_HEX];
-        fracas_hash_hex(&table->point[p].hash, hex);
-        memcpy(stored + p * width, hex, width);
+        memcpy(hashes + p * width, fracas_hash_hex(&table->point[p].hash).text, width);
+        replicas[p] = table->point[p].replicas;
     }
-    return write_column(h5, &fracas_store_point_hash, table->npoints, stored);
-}
-
-static fracas_err write_replicas(const fracas_h5 *h5, const fracas_point_table *table)
-{
-    OWNED int64_t *stored = column_memory(&fracas_store_point_replicas, table->npoints);
-    if (!stored) return fracas_no_memory("the point table");
-    for (size_t p = 0; p < table->npoints; p++) stored[p] = table->point[p].replicas;
-    return write_column(h5, &fracas_store_point_replicas, table->npoints, stored);
+    TRY(write_column(h5, &fracas_store_point_hash, table->npoints, hashes));
+    return write_column(h5, &fracas_store_point_replicas, table->npoints, replicas);
 }
 
 static size_t longest_text(const fracas_point_table *table, size_t c)
@@ -79,8 +72,7 @@ fracas_err fracas_table_write(const fracas_h5 *h5, const fracas_point_table *tab
 {
     TRY(fracas_h5_create_group(h5, "/point"));
     TRY(fracas_h5_put_integer(h5, "/point", "columns", H5T_STD_I64LE, table->ncolumns));
-    TRY(write_hashes(h5, table));
-    TRY(write_replicas(h5, table));
+    TRY(write_points(h5, table));
     for (size_t c = 0; c < table->ncolumns; c++) TRY(write_values(h5, table, c));
     return FRACAS_OK;
 }

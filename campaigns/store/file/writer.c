@@ -98,10 +98,8 @@ static fracas_err put_ragged(fracas_writer *writer, const fracas_ragged *ragged,
 
 static fracas_err write_header(const fracas_h5 *h5, const fracas_file_header *header)
 {
-    char hex[FRACAS_HASH_HEX];
-    fracas_hash_hex(&header->campaign, hex);
     TRY(fracas_h5_put_integer(h5, "/", "format_version", H5T_STD_I32LE, FRACAS_FORMAT_VERSION));
-    TRY(fracas_h5_put_text(h5, "/", "campaign", hex));
+    TRY(fracas_h5_put_text(h5, "/", "campaign", fracas_hash_hex(&header->campaign).text));
     TRY(fracas_h5_put_integer(h5, "/", "seed", H5T_STD_U64LE, header->seed));
     TRY(fracas_h5_put_integer(h5, "/", "history", H5T_STD_I64LE, (uint64_t)header->history));
     TRY(fracas_h5_put_integer(h5, "/", "interfaces", H5T_STD_I8LE, header->interfaces));

@@ -75,15 +75,14 @@ static fracas_err check(const fracas_index *index, int code)
 
 static int bind(sqlite3_stmt *statement, int n, const fracas_sql_value *value)
 {
-    char hex[FRACAS_HASH_HEX];
     switch (value->type) {
     case SQLITE_INTEGER: return sqlite3_bind_int64(statement, n, value->integer);
     case SQLITE_FLOAT: return sqlite3_bind_double(statement, n, value->real); /* NaN: NULL */
     case SQLITE_TEXT: return sqlite3_bind_text(statement, n, value->text, -1, SQLITE_TRANSIENT);
     case SQLITE_BLOB:
         if (!value->hash) return sqlite3_bind_null(statement, n);
-        fracas_hash_hex(value->hash, hex);
-        return sqlite3_bind_text(statement, n, hex, -1, SQLITE_TRANSIENT);
+        return sqlite3_bind_text(statement, n, fracas_hash_hex(value->hash).text, -1,
+                                 SQLITE_TRANSIENT);
     default: return sqlite3_bind_null(statement, n);
     }
 }
@@ -119,15 +118,13 @@ fracas_err fracas_sql_start(fracas_index *index, const char *text, const fracas_
     return FRACAS_OK;
 }
 
-fracas_err fracas_sql_next(fracas_index *index, sqlite3_stmt *statement, bool *row)
+bool fracas_sql_next(fracas_index *index, sqlite3_stmt *statement, fracas_err *err)
 {
     errno = 0;
     const int code = sqlite3_step(statement);
-    *row = code == SQLITE_ROW;
-    if (*row) return FRACAS_OK;
-    fracas_err err = code == SQLITE_DONE ? FRACAS_OK : check(index, code);
-    fracas_sql_end(statement);
-    return err;
+    *err = code == SQLITE_ROW || code == SQLITE_DONE ? FRACAS_OK : check(index, code);
+    if (code != SQLITE_ROW) fracas_sql_end(statement);
+    return code == SQLITE_ROW;
 }
 
 void fracas_sql_end(sqlite3_stmt *statement)
@@ -139,35 +136,35 @@ fracas_err fracas_sql_do(fracas_index *index, const char *text, const fracas_sql
                          size_t count)
 {
     OWN(sqlite3_stmt) s = NULL;
-    bool row = true;
+    fracas_err err;
     TRY(fracas_sql_start(index, text, value, count, &s));
-    while (row) TRY(fracas_sql_next(index, s, &row));
-    return FRACAS_OK;
+    while (fracas_sql_next(index, s, &err)) continue;
+    return err;
 }
 
 fracas_err fracas_sql_numbers(fracas_index *index, const char *text, const fracas_sql_value *value,
                               size_t count, int64_t *first, int64_t *second)
 {
     OWN(sqlite3_stmt) s = NULL;
-    bool row;
+    fracas_err err;
     TRY(fracas_sql_start(index, text, value, count, &s));
-    TRY(fracas_sql_next(index, s, &row));
+    const bool row = fracas_sql_next(index, s, &err);
     *first = row ? sqlite3_column_int64(s, 0) : 0;
     if (second) *second = row ? sqlite3_column_int64(s, 1) : 0;
-    return FRACAS_OK;
+    return err;
 }
 
 fracas_err fracas_sql_text(fracas_index *index, const char *text, const fracas_sql_value *value,
                            size_t count, char **found)
 {
     OWN(sqlite3_stmt) s = NULL;
-    bool row;
+    fracas_err err;
     *found = NULL;
     TRY(fracas_sql_start(index, text, value, count, &s));
-    TRY(fracas_sql_next(index, s, &row));
-    const char *column = row ? (const char *)sqlite3_column_text(s, 0) : NULL;
+    const char *column = fracas_sql_next(index, s, &err) ? (const char *)sqlite3_column_text(s, 0)
+                                                         : NULL;
     if (column) *found = strdup(column);
-    return column && !*found ? fracas_no_memory("a text of the index") : FRACAS_OK;
+    return column && !*found ? fracas_no_memory("a text of the index") : err;
 }
 
 fracas_err fracas_sql_script(fracas_index *index, const char *text)
@@ -213,13 +210,6 @@ static fracas_err pragma(fracas_index *index, const char *text, const char *want
                        text, found ? found : "", wanted);
 }
 
-static fracas_err set_memory(fracas_index *index)
-{
-    sqlite3_busy_timeout(index->db, 5000);
-    return pragma(index, "PRAGMA cache_size = -65536",
-                  NULL); /* 64 MiB: a commit may touch pages all over the table */
-}
-
 static fracas_err set_durability(fracas_index *index)
 {
     if (!index->local) TRY(pragma(index, "PRAGMA locking_mode = EXCLUSIVE", "exclusive"));
@@ -250,12 +240,6 @@ static void print_creation(FILE *out)
     fracas_index_print_schema(out);
     fprintf(out, "INSERT OR IGNORE INTO meta VALUES ('format_version', '%d'); COMMIT",
             FRACAS_FORMAT_VERSION);
-}
-
-static fracas_err create_tables(fracas_index *index)
-{
-    TRY(run_printed(index, print_creation, "create its tables"));
-    return fracas_disk_sync_folder(index->path);
 }
 
 static fracas_err check_version(fracas_index *index)
@@ -351,7 +335,9 @@ static fracas_err open_database(fracas_index *index, const char *study, bool cre
 {
     int64_t all, meta;
     TRY(connect_to(index, study, create));
-    TRY(set_memory(index));
+    sqlite3_busy_timeout(index->db, 5000);
+    /* 64 MiB: a commit may touch pages all over the table */
+    TRY(pragma(index, "PRAGMA cache_size = -65536", NULL));
     if (!index->reading) TRY(set_durability(index));
     TRY(count_tables(index, &all, &meta));
     if (!all && !create)
@@ -359,7 +345,10 @@ static fracas_err open_database(fracas_index *index, const char *study, bool cre
                            index->path);
     if (all && !meta)
         return fracas_fail(FRACAS_DAMAGED, "%s is no index of fracas; %s", index->path, remedy);
-    if (create) TRY(create_tables(index));
+    if (create) {
+        TRY(run_printed(index, print_creation, "create its tables"));
+        TRY(fracas_disk_sync_folder(index->path));
+    }
     TRY(check_version(index));
     TRY(run_printed(index, fracas_index_print_check, "read its tables"));
     index->opened = true;

@@ -73,9 +73,8 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_sql_start(fracas_index *index, const char *text,
                                             const fracas_sql_value *value, size_t count,
                                             sqlite3_stmt **statement);
-/* Steps it: *row says whether a row is there to be read. It ends without one, and after an error.
- */
-FRACAS_MUST_USE fracas_err fracas_sql_next(fracas_index *index, sqlite3_stmt *statement, bool *row);
+/* Steps it: true if a row is there to be read. It ends without one, and after an error. */
+bool fracas_sql_next(fracas_index *index, sqlite3_stmt *statement, fracas_err *err);
 /* Ends it before its last row; NULL is allowed. */
 void fracas_sql_end(sqlite3_stmt *statement);
 FRACAS_OWNER(sqlite3_stmt, fracas_sql_end)
@@ -125,15 +124,6 @@ FRACAS_MUST_USE fracas_err fracas_index_points(fracas_index *index, int64_t *poi
 /* Plans the missing replicas of a point, within a transaction. */
 FRACAS_MUST_USE fracas_err fracas_index_plan_point(fracas_index *index,
                                                    const fracas_point_row *point);
-
-/* Status of a realization, the place of its bytes, and its summary (0 and NaN before it is done).
- */
-typedef struct {
-    fracas_row_status status;
-    int64_t segment; /* id, 0 if it has none */
-    int64_t row;
-    fracas_summary summary;
-} fracas_place;
 
 /* The place in a row with FRACAS_PLACE_COLUMNS from column `first` on. */
 fracas_place fracas_place_read(sqlite3_stmt *row, int first);

@@ -62,9 +62,8 @@ static fracas_err need_point(fracas_index *index, const fracas_hash *point, int6
 {
     TRY(fracas_index_find_point(index, point, id));
     if (*id) return FRACAS_OK;
-    char hex[FRACAS_HASH_HEX];
-    fracas_hash_hex(point, hex);
-    return fracas_fail(FRACAS_DAMAGED, "%s has no point %s; %s", index->path, hex, remedy);
+    return fracas_fail(FRACAS_DAMAGED, "%s has no point %s; %s", index->path,
+                       fracas_hash_hex(point).text, remedy);
 }
 
 /* ---- planning ---- */
@@ -102,7 +101,7 @@ fracas_err fracas_index_rows_from(fracas_index *index, const fracas_point_row *p
                                   int64_t first, fracas_index_row *row)
 {
     int64_t id, found = first;
-    bool more = true;
+    fracas_err err;
     OWN(sqlite3_stmt) s = NULL;
     TRY(need_point(index, &point->hash, &id));
     TRY(fracas_sql_start(
@@ -110,13 +109,12 @@ fracas_err fracas_index_rows_from(fracas_index *index, const fracas_point_row *p
         "SELECT replica, status, attempts FROM realization WHERE point = ?1 AND replica >= ?3 AND "
         "replica < ?2 ORDER BY replica",
         SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(point->replicas), SQL_INTEGER(first)), &s));
-    for (;; found++) {
-        TRY(fracas_sql_next(index, s, &more));
-        if (!more || sqlite3_column_int64(s, 0) != found)
-            break; /* else first, first + 1 ... below point->replicas */
+    for (; fracas_sql_next(index, s, &err); found++) {
+        if (sqlite3_column_int64(s, 0) != found) break; /* it must be first, first + 1 ... */
         row[found - first] = (fracas_index_row){p, found, status_of(s, 1),
                                                 sqlite3_column_int64(s, 2)};
     }
+    TRY(err);
     if (found == point->replicas) return FRACAS_OK;
     return fracas_fail(
         FRACAS_DAMAGED,
@@ -149,7 +147,7 @@ fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *
 {
     for (size_t p = 0; p < table->npoints; p++) {
         int64_t id;
-        bool more = true;
+        fracas_err err;
         OWN(sqlite3_stmt) s = NULL;
         TRY(need_point(index, &table->point[p].hash, &id));
         TRY(fracas_sql_start(index,
@@ -157,13 +155,12 @@ fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *
                              "realization WHERE point = ?1 AND status IN ('failed', 'quarantined') "
                              "ORDER BY replica",
                              SQL_VALUES(SQL_INTEGER(id)), &s));
-        for (;;) {
-            TRY(fracas_sql_next(index, s, &more));
-            if (!more) break;
+        while (fracas_sql_next(index, s, &err)) {
             fracas_index_row row = {p, sqlite3_column_int64(s, 0), status_of(s, 1),
                                     sqlite3_column_int64(s, 2)};
             say(context, &row, (const char *)sqlite3_column_text(s, 3));
         }
+        TRY(err);
     }
     return FRACAS_OK;
 }
@@ -172,23 +169,21 @@ fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int
                               fracas_place *place)
 {
     int64_t id;
-    bool found;
+    fracas_err err;
     OWN(sqlite3_stmt) s = NULL;
     TRY(need_point(index, point, &id));
     TRY(fracas_sql_start(
         index, "SELECT " FRACAS_PLACE_COLUMNS " FROM realization WHERE point = ?1 AND replica = ?2",
         SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(replica)), &s));
-    TRY(fracas_sql_next(index, s, &found));
-    if (found) {
+    if (fracas_sql_next(index, s, &err)) {
         *place = fracas_place_read(s, 0);
         return FRACAS_OK;
     }
-    char hex[FRACAS_HASH_HEX];
-    fracas_hash_hex(point, hex);
+    TRY(err);
     return fracas_fail(FRACAS_DAMAGED,
                        "%s has no replica %" PRId64
                        " of point %s; `fracas reindex` makes it anew from the segments",
-                       index->path, replica, hex);
+                       index->path, replica, fracas_hash_hex(point).text);
 }
 
 fracas_err fracas_index_each_by_segment(fracas_index *index,
@@ -198,21 +193,20 @@ fracas_err fracas_index_each_by_segment(fracas_index *index,
                                         void *context)
 {
     OWN(sqlite3_stmt) s = NULL;
-    bool more;
+    fracas_err err;
     TRY(fracas_sql_start(index,
                          "SELECT hash, replica, " FRACAS_PLACE_COLUMNS
                          " FROM realization r JOIN point p ON p.id = r.point WHERE segment IS NOT "
                          "NULL OR status = 'done' ORDER BY segment, row",
                          NULL, 0, &s));
-    for (;;) {
-        TRY(fracas_sql_next(index, s, &more));
-        if (!more) return FRACAS_OK;
+    while (fracas_sql_next(index, s, &err)) {
         fracas_hash point;
         const char *hex = (const char *)sqlite3_column_text(s, 0);
         const bool valid = hex && fracas_hash_parse(hex, &point);
         const fracas_place place = fracas_place_read(s, 2);
         TRY(visit(context, valid ? &point : NULL, sqlite3_column_int64(s, 1), &place));
     }
+    return err;
 }
 
 /* The last update changed this realization, or it is done already and stays; FRACAS_DAMAGED if it
@@ -336,11 +330,9 @@ static fracas_err load_segments(fracas_index *index, const char *select,
 {
     OWN(sqlite3_stmt) s = NULL;
     size_t room = 0;
+    fracas_err err;
     TRY(fracas_sql_start(index, select, NULL, 0, &s));
-    for (;;) {
-        bool more;
-        TRY(fracas_sql_next(index, s, &more));
-        if (!more) return FRACAS_OK;
+    while (fracas_sql_next(index, s, &err)) {
         TRY(fracas_grow(&known->segment, sizeof *known->segment, known->count, &room,
                         "the list of segments"));
         const char *name = (const char *)sqlite3_column_text(s, 1),
@@ -356,6 +348,7 @@ static fracas_err load_segments(fracas_index *index, const char *select,
         *new = (fracas_known_segment){sqlite3_column_int64(s, 0), strdup(name), seal, rows};
         if (!new->name) return fracas_no_memory("the list of segments");
     }
+    return err;
 }
 
 #define SELECT_SEGMENTS "SELECT id, name, bytes, checksum, rows FROM segment ORDER BY "
@@ -452,23 +445,21 @@ static fracas_err count_all(fracas_index *index, fracas_index_counts *counts,
                             fracas_index_counts **each, int64_t most)
 {
     OWN(sqlite3_stmt) s = NULL;
+    fracas_err err;
     *counts = (fracas_index_counts){0};
     TRY(fracas_index_points(index, &counts->points));
     TRY(fracas_sql_numbers(index, "SELECT count(*), coalesce(sum(bytes), 0) FROM segment", NULL, 0,
                            &counts->segments, &counts->bytes));
-    TRY(fracas_sql_start(index, "SELECT status, outcome, point FROM realization", NULL, 0, &s));
-    for (;;) {
-        bool more;
-        TRY(fracas_sql_next(index, s, &more));
-        if (!more) return FRACAS_OK;
+    TRY(fracas_sql_start(index, "SELECT status, coalesce(outcome, -1), point FROM realization",
+                         NULL, 0, &s));
+    while (fracas_sql_next(index, s, &err)) {
         const fracas_row_status status = status_of(s, 0);
-        const int64_t outcome = sqlite3_column_type(s, 1) == SQLITE_NULL
-                                    ? -1
-                                    : sqlite3_column_int64(s, 1);
+        const int64_t outcome = sqlite3_column_int64(s, 1);
         add_to(counts, status, outcome);
         const int64_t id = each ? sqlite3_column_int64(s, 2) : 0;
         if (id > 0 && id <= most && each[id - 1]) add_to(each[id - 1], status, outcome);
     }
+    return err;
 }
 
 fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts)
@@ -496,23 +487,19 @@ fracas_err fracas_index_count_points(fracas_index *index, const fracas_point_tab
 /* ---- decisions on the number of replicas, and the summaries they rest on ---- */
 
 fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point, size_t count,
-                                  fracas_index_summary *row)
+                                  fracas_place *row)
 {
     int64_t id;
     size_t found = 0;
+    fracas_err err;
     OWN(sqlite3_stmt) s = NULL;
     TRY(need_point(index, point, &id));
     TRY(fracas_sql_start(index,
-                         "SELECT replica, " FRACAS_PLACE_COLUMNS
+                         "SELECT " FRACAS_PLACE_COLUMNS
                          " FROM realization WHERE point = ?1 AND replica < ?2 ORDER BY replica",
                          SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER((int64_t)count)), &s));
-    for (;; found++) {
-        bool more;
-        TRY(fracas_sql_next(index, s, &more));
-        if (!more || found == count) break;
-        const fracas_place place = fracas_place_read(s, 1);
-        row[found] = (fracas_index_summary){place.status, place.summary};
-    }
+    while (found < count && fracas_sql_next(index, s, &err)) row[found++] = fracas_place_read(s, 0);
+    if (found < count) TRY(err);
     if (found == count) return FRACAS_OK;
     return fracas_fail(FRACAS_DAMAGED, "%s: %zu of the first %zu replicas of a point are there; %s",
                        index->path, found, count, remedy);
@@ -523,6 +510,7 @@ fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point,
 {
     int64_t id;
     size_t room = 0;
+    fracas_err err;
     OWN(sqlite3_stmt) s = NULL;
     OWNED fracas_decision *found = NULL;
     *decision = NULL;
@@ -533,10 +521,8 @@ fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point,
         "SELECT 0, round, replicas, replicas - failed, mean, half_width, stop, quantity, minimum, "
         "maximum, relative_half_width, confidence FROM decision WHERE point = ?1 ORDER BY round",
         SQL_VALUES(SQL_INTEGER(id)), &s));
-    for (bool more;; ++*count) {
+    for (; fracas_sql_next(index, s, &err); ++*count) {
         int c = 0;
-        TRY(fracas_sql_next(index, s, &more));
-        if (!more) break;
         TRY(fracas_grow(&found, sizeof *found, *count, &room, "the decisions of a point"));
 #define READ_NEXT(key, type, stored, meaning) found[*count].key = READ_##type(s, c++);
         FRACAS_EACH_DECISION(READ_NEXT)
@@ -544,6 +530,7 @@ fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point,
             return fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `decision` is damaged; %s",
                                index->path, remedy);
     }
+    TRY(err);
     *decision = found;
     found = NULL;
     return FRACAS_OK;

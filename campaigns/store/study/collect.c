@@ -134,18 +134,17 @@ static fate judge_segment(const collection *c, const char *name, const char **wh
 static fracas_err list_needless(collection *c)
 {
     OWN(sqlite3_stmt) s = NULL;
-    bool row;
+    fracas_err err;
     c->needless = calloc(c->known.count + 1, sizeof *c->needless);
     if (!c->needless) return fracas_no_memory("the list of segments");
     TRY(fracas_sql_start(c->index, "SELECT name FROM segment WHERE " NEEDLESS, NULL, 0, &s));
-    for (;;) {
-        TRY(fracas_sql_next(c->index, s, &row));
-        if (!row) return FRACAS_OK;
+    while (fracas_sql_next(c->index, s, &err)) {
         const char *name = (const char *)sqlite3_column_text(s, 0);
         const fracas_known_segment *known = name ? fracas_segment_of_name(&c->known, name) : NULL;
         if (known) c->needless[known - c->known.segment] = true;
         c->nneedless += known != NULL;
     }
+    return err;
 }
 
 /* Before their files go: killed in between, they are found and known again; the other way round

@@ -48,14 +48,13 @@ static fracas_err compare(void *context, fracas_visit *visit)
                                &c->record));
     c->both++;
     if (fracas_record_same(&c->record, &result->record)) return FRACAS_OK;
-    char hex[FRACAS_HASH_HEX];
-    fracas_hash_hex(point, hex);
     return fracas_fail(FRACAS_DAMAGED,
                        "replica %" PRId64
                        " of point %zu (%s) is not the same in %s and %s: one of them was computed "
                        "by another build of the program, or on a faulty machine; compute it again "
                        "in both (docs/how-to/two-machines.md)",
-                       result->replica, result->point, hex, c->into, c->from);
+                       result->replica, result->point, fracas_hash_hex(point).text, c->into,
+                       c->from);
 }
 
 fracas_err fracas_study_compare(const char *into, fracas_index *into_index, const char *from,
@@ -67,8 +66,8 @@ fracas_err fracas_study_compare(const char *into, fracas_index *into_index, cons
     OWN(fracas_segments) theirs = NULL;
     fracas_identity identity;
     fracas_identity_of(header, &identity);
-    TRY(fracas_segments_create(into, into_index, &identity, &ours));
-    TRY(fracas_segments_create(from, from_index, &identity, &theirs));
+    TRY(fracas_segments_create(into, into_index, &identity, false, &ours));
+    TRY(fracas_segments_create(from, from_index, &identity, false, &theirs));
     c.segments = ours;
     const fracas_want want = {
         .table = table, .parts = FRACAS_READ_ALL, .visit = compare, .context = &c};
@@ -104,41 +103,42 @@ static fracas_err copy_bytes(int from, int to, const char *path)
     return FRACAS_OK;
 }
 
-/* Whole under a temporary name, of the right checksum, synced, renamed. */
-static fracas_err copy_to(int from, const fracas_file_seal *seal, const char *path)
+/* A copy of the right checksum, synced. */
+static fracas_err copy_to(int from, const fracas_file_seal *seal, const char *temporary,
+                          const char *path)
 {
-    OWNED char *temporary = NULL;
     fracas_file_seal copied;
-    TRY(fracas_disk_temporary(path, &temporary));
-    int to = open(temporary, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    fracas_err err = to < 0 ? fracas_disk_fail("create", temporary) : copy_bytes(from, to, path);
-    if (!err) err = fracas_disk_seal(to, path, &copied);
-    if (!err && (copied.bytes != seal->bytes || copied.checksum != seal->checksum))
-        err = fracas_fail(FRACAS_ENVIRONMENT,
-                          "the copy of a segment to %s came out as %" PRIu64
-                          " bytes of checksum %016" PRIx64 ", not %" PRIu64 " of %016" PRIx64
-                          "; look after the disk, then run again",
-                          path, copied.bytes, copied.checksum, seal->bytes, seal->checksum);
-    if (!err && fsync(to) < 0) err = fracas_disk_fail("sync", path);
-    if (to >= 0) close(to);
-    if (!err && rename(temporary, path) < 0) err = fracas_disk_fail("rename to", path);
-    if (err) unlink(temporary);
-    return err;
+    OWN_FD to = open(temporary, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (to < 0) return fracas_disk_fail("create", temporary);
+    TRY(copy_bytes(from, to, path));
+    TRY(fracas_disk_seal(to, path, &copied));
+    if (copied.bytes != seal->bytes || copied.checksum != seal->checksum)
+        return fracas_fail(FRACAS_ENVIRONMENT,
+                           "the copy of a segment to %s came out as %" PRIu64
+                           " bytes of checksum %016" PRIx64 ", not %" PRIu64 " of %016" PRIx64
+                           "; look after the disk, then run again",
+                           path, copied.bytes, copied.checksum, seal->bytes, seal->checksum);
+    return fsync(to) < 0 ? fracas_disk_fail("sync", path) : FRACAS_OK;
 }
 
-/* A link where both lie on one filesystem, else a copy. */
+/* A link where both lie on one filesystem, else a copy, whole under a temporary name first. */
 static fracas_err bring(const char *theirs, const fracas_file_seal *seal, const char *ours)
 {
-    int from = open(theirs, O_RDONLY | O_CLOEXEC);
+    OWNED char *temporary = NULL;
+    OWN_FD from = open(theirs, O_RDONLY | O_CLOEXEC);
     if (from < 0) return fracas_disk_fail("open", theirs);
     /* It may have come here by a copy that nobody has synced. */
-    fracas_err err = fsync(from) == 0 || errno == EROFS || errno == EINVAL
-                         ? FRACAS_OK
-                         : fracas_disk_fail("sync", theirs);
-    if (!err && link(theirs, ours) < 0)
-        err = errno == EEXIST ? fracas_disk_fail("link to", ours) : copy_to(from, seal, ours);
-    close(from);
-    return err ? err : fracas_disk_sync_folder(ours);
+    if (fsync(from) < 0 && errno != EROFS && errno != EINVAL)
+        return fracas_disk_fail("sync", theirs);
+    if (link(theirs, ours) < 0) {
+        if (errno == EEXIST) return fracas_disk_fail("link to", ours);
+        TRY(fracas_disk_temporary(ours, &temporary));
+        fracas_err err = copy_to(from, seal, temporary, ours);
+        if (!err && rename(temporary, ours) < 0) err = fracas_disk_fail("rename to", ours);
+        if (err) unlink(temporary);
+        TRY(err);
+    }
+    return fracas_disk_sync_folder(ours);
 }
 
 /* Its name in `into`: the same, or another beside a different segment; *there: its bytes are there

@@ -19,12 +19,10 @@ static fracas_err append(void *context, fracas_visit *visit)
     const fracas_result *result = &visit->result;
     const fracas_row_status status = visit->place.status;
     if (status == FRACAS_PLANNED || status == FRACAS_LEASED) {
-        char hex[FRACAS_HASH_HEX];
-        fracas_hash_hex(&m->table->point[result->point].hash, hex);
-        return fracas_fail(FRACAS_INTERRUPTED,
-                           "replica %" PRId64
-                           " of point %s is not computed yet; run again to go on",
-                           result->replica, hex);
+        return fracas_fail(
+            FRACAS_INTERRUPTED,
+            "replica %" PRId64 " of point %s is not computed yet; run again to go on",
+            result->replica, fracas_hash_hex(&m->table->point[result->point].hash).text);
     }
     if (status != FRACAS_DONE) m->complete = false;
     return fracas_writer_append(m->writer, result->point, result->replica, &result->record);
@@ -88,7 +86,7 @@ static fracas_err merge(const char *study, fracas_index *index, const fracas_fil
     fracas_file_seal seal;
     fracas_identity_of(header, &identity);
     TRY(fracas_disk_join(study, "study.h5", &path));
-    TRY(fracas_segments_create(study, index, &identity, &segments));
+    TRY(fracas_segments_create(study, index, &identity, false, &segments));
     TRY(fracas_writer_create(path, header, table, &writer));
     merging m = {.table = table, .writer = writer, .complete = true};
     const fracas_want want = {

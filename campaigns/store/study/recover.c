@@ -11,15 +11,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static fracas_err remove_file(const char *path)
-{
-    return unlink(path) == 0 || errno == ENOENT ? FRACAS_OK : fracas_disk_fail("remove", path);
-}
-
 static fracas_err remove_temporary(void *report, const char *path, const char *name)
 {
     if (!fracas_disk_is_temporary(name)) return FRACAS_OK;
-    TRY(remove_file(path));
+    if (unlink(path) < 0 && errno != ENOENT) return fracas_disk_fail("remove", path);
     fprintf(report, "removed %s, half written\n", path);
     return FRACAS_OK;
 }

@@ -208,10 +208,8 @@ static fracas_err fill(reindexing *r, const fracas_file_header *header)
 
 static fracas_err sync_file(const char *path)
 {
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
-    fracas_err err = fd >= 0 && fsync(fd) == 0 ? FRACAS_OK : fracas_disk_fail("sync", path);
-    if (fd >= 0) close(fd);
-    return err;
+    OWN_FD fd = open(path, O_RDONLY | O_CLOEXEC);
+    return fd >= 0 && fsync(fd) == 0 ? FRACAS_OK : fracas_disk_fail("sync", path);
 }
 
 static fracas_err make(reindexing *r, const fracas_file_header *header)

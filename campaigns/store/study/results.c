@@ -118,16 +118,14 @@ static fracas_err read_rows(fracas_results *results, fracas_index *index, size_t
     fracas_point_row *point = &results->point[p];
     const int64_t most = point->most ? point->most : point->replicas;
     int64_t given = 0;
+    fracas_err err;
     OWN(sqlite3_stmt) s = NULL;
     TRY(fracas_sql_start(index,
                          "SELECT replica, " FRACAS_PLACE_COLUMNS
                          " FROM realization WHERE point = (SELECT id FROM point WHERE hash = ?1) "
                          "ORDER BY replica",
                          SQL_VALUES(SQL_HASH(&point->hash)), &s));
-    for (;;) {
-        bool more;
-        TRY(fracas_sql_next(index, s, &more));
-        if (!more) break;
+    while (fracas_sql_next(index, s, &err)) {
         const int64_t replica = sqlite3_column_int64(s, 0);
         if (replica < 0 || replica >= most) continue;
         given++;
@@ -136,7 +134,7 @@ static fracas_err read_rows(fracas_results *results, fracas_index *index, size_t
             TRY(add_row(results, p, replica, &place));
     }
     if (point->most && given) point->replicas = given;
-    return FRACAS_OK;
+    return err;
 }
 
 static fracas_err read_decisions(fracas_results *results, fracas_index *index)
@@ -181,9 +179,7 @@ static fracas_err read_index(const char *study, fracas_index *index, const fraca
     read_header(&identity, campaign, &results->header);
     for (size_t p = 0; p < results->table.npoints; p++) TRY(read_rows(results, index, p));
     TRY(read_decisions(results, index));
-    TRY(fracas_segments_create(study, index, &identity, &results->segments));
-    fracas_segments_only_records(results->segments);
-    return FRACAS_OK;
+    return fracas_segments_create(study, index, &identity, true, &results->segments);
 }
 
 /* ---- opening ---- */
@@ -330,7 +326,7 @@ static fracas_err next_row(void *context, fracas_visit *visit, bool *more)
     return FRACAS_OK;
 }
 
-static fracas_err lose_row(void *context, const fracas_result *result)
+static fracas_err lose_row(void *context, fracas_result *result)
 {
     const walk *w = context;
     return lose(w->results, &w->results->row[result->row]);

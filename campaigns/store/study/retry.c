@@ -28,13 +28,12 @@ static fracas_err run(fracas_index *index, const char *text, const fracas_hash *
 static fracas_err retry(fracas_index *index, const fracas_hash *point, int64_t *rows)
 {
     int64_t decisions;
-    char text[128], hex[FRACAS_HASH_HEX] = "";
+    char text[128];
     TRY(run(index, undecide, point, &decisions));
     TRY(run(index, plan_again, point, rows));
     if (!*rows) return FRACAS_OK;
-    if (point) fracas_hash_hex(point, hex);
     snprintf(text, sizeof text, "%" PRId64 " failed realizations%s%s are planned again", *rows,
-             point ? " of point " : "", hex);
+             point ? " of point " : "", point ? fracas_hash_hex(point).text : "");
     return fracas_index_event(index, "retried", text);
 }
 

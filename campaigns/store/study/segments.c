@@ -23,13 +23,15 @@ struct fracas_segments {
 };
 
 fracas_err fracas_segments_create(const char *study, fracas_index *index,
-                                  const fracas_identity *identity, fracas_segments **segments)
+                                  const fracas_identity *identity, bool only_records,
+                                  fracas_segments **segments)
 {
     OWN(fracas_segments) new = calloc(1, sizeof *new);
     *segments = NULL;
     if (!new) return fracas_no_memory("the segments");
     new->study = study;
     new->identity = *identity;
+    new->only_records = only_records;
     new->history = strtoull(identity->value[2], NULL, 10) + 4;
     TRY(fracas_index_segments_by_id(index, &new->known));
     new->index_path = strdup(index->path);
@@ -119,16 +121,6 @@ static fracas_err open_segment(fracas_segments *segments, size_t s)
                               path);
 }
 
-fracas_reader *fracas_segments_reader(const fracas_segments *segments)
-{
-    return segments->reader;
-}
-
-void fracas_segments_only_records(fracas_segments *segments)
-{
-    segments->only_records = true;
-}
-
 static fracas_err open_with(fracas_segments *segments, int64_t id, unsigned parts)
 {
     size_t s = find(segments, id);
@@ -147,9 +139,11 @@ static fracas_err open_with(fracas_segments *segments, int64_t id, unsigned part
     return open_segment(segments, s);
 }
 
-fracas_err fracas_segments_open(fracas_segments *segments, int64_t id)
+fracas_err fracas_segments_open(fracas_segments *segments, int64_t id, fracas_reader **reader)
 {
-    return open_with(segments, id, FRACAS_READ_ALL);
+    TRY(open_with(segments, id, FRACAS_READ_ALL));
+    *reader = segments->reader;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place *place,
@@ -178,12 +172,10 @@ fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place 
                            " is another realization than the index says; %s",
                            name, place->row, reindex);
     if (fracas_place_fits(place, record, parts & FRACAS_READ_FRAGMENTS)) return FRACAS_OK;
-    char hex[FRACAS_HASH_HEX];
-    fracas_hash_hex(point, hex);
     return fracas_fail(FRACAS_DAMAGED,
                        "%s: replica %" PRId64
                        " of point %s: its row differs from its record in segment %s; %s",
-                       segments->index_path, replica, hex, name, reindex);
+                       segments->index_path, replica, fracas_hash_hex(point).text, name, reindex);
 }
 
 fracas_err fracas_segments_check_failed(const fracas_segments *segments, const fracas_place *place,

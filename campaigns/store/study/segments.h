@@ -11,15 +11,13 @@
 typedef struct fracas_segments fracas_segments;
 
 /* A segment of another identity is FRACAS_DAMAGED. `study` must outlive it; the index may be closed
- * after. */
+ * after. With `only_records` segments are opened for their records alone
+ * (fracas_reader_open_records), with the parts asked for. */
 FRACAS_MUST_USE fracas_err fracas_segments_create(const char *study, fracas_index *index,
                                                   const fracas_identity *identity,
-                                                  fracas_segments **segments);
+                                                  bool only_records, fracas_segments **segments);
 void fracas_segments_destroy(fracas_segments *segments); /* NULL is allowed */
 FRACAS_OWNER(fracas_segments, fracas_segments_destroy)
-/* From now on segments are opened for their records alone (fracas_reader_open_records), with the
- * parts asked for. */
-void fracas_segments_only_records(fracas_segments *segments);
 
 /* Forgets lost segments: a missing one, and one of another size or (with `seals`, which reads every
  * byte) checksum than in the index, which is set aside as NAME.damaged. *rows: realizations planned
@@ -27,11 +25,11 @@ void fracas_segments_only_records(fracas_segments *segments);
 FRACAS_MUST_USE fracas_err fracas_segments_sweep(const char *study, fracas_index *index, bool seals,
                                                  FILE *report, int64_t *rows);
 
-/* Opens a segment by its id and closes the one before. The first time, its bytes are compared with
- * the seal in the index. FRACAS_DAMAGED names it, with a remedy when it is found first. */
-FRACAS_MUST_USE fracas_err fracas_segments_open(fracas_segments *segments, int64_t id);
-/* The reader of the open one. */
-fracas_reader *fracas_segments_reader(const fracas_segments *segments);
+/* Opens a segment by its id and closes the one before; *reader belongs to the segments. The first
+ * time, its bytes are compared with the seal in the index. FRACAS_DAMAGED names it, with a remedy
+ * when it is found first. */
+FRACAS_MUST_USE fracas_err fracas_segments_open(fracas_segments *segments, int64_t id,
+                                                fracas_reader **reader);
 /* True after fracas_segments_open has found it damaged. */
 bool fracas_segments_is_bad(const fracas_segments *segments, int64_t id);
 
@@ -73,7 +71,7 @@ typedef struct {
     unsigned parts;
     fracas_err (*next)(void *source, fracas_visit *visit, bool *more);
     void *source;
-    fracas_err (*damaged)(void *context, const fracas_result *result);
+    fracas_err (*damaged)(void *context, fracas_result *result);
     fracas_err (*visit)(void *context, fracas_visit *visit);
     void *context;
 } fracas_want;

@@ -55,14 +55,14 @@ static fracas_err found(verification *v, const char *format, ...)
 static fracas_err check_database(verification *v, const char *pragma)
 {
     OWN(sqlite3_stmt) s = NULL;
+    fracas_err err;
     TRY(fracas_sql_start(v->index, pragma, NULL, 0, &s));
-    for (bool more;;) {
-        TRY(fracas_sql_next(v->index, s, &more));
-        if (!more) return FRACAS_OK;
+    while (fracas_sql_next(v->index, s, &err)) {
         const char *text = (const char *)sqlite3_column_text(s, 0);
         if (text && strcmp(text, "ok") != 0)
             TRY(found(v, "%s: %s: %s; " REINDEX, v->index->path, pragma, text));
     }
+    return err;
 }
 
 /* Rows that no run leaves in the index, each counted by a query. */
@@ -165,14 +165,8 @@ static fracas_err note_leftovers(verification *v)
 
 /* ---- segments against the index ---- */
 
-static fracas_err read_on(void *context, fracas_result *result)
-{
-    (void)context, (void)result;
-    return FRACAS_OK;
-}
-
-/* Its damage was reported with its segment or its row. */
-static fracas_err pass_damaged(void *context, const fracas_result *result)
+/* For a record that only had to be read, and a damaged one that is reported with its segment. */
+static fracas_err pass(void *context, fracas_result *result)
 {
     (void)context, (void)result;
     return FRACAS_OK;
@@ -180,10 +174,10 @@ static fracas_err pass_damaged(void *context, const fracas_result *result)
 
 static fracas_err check_segment(verification *v, int64_t id)
 {
-    TRY(fracas_segments_open(v->segments, id));
-    if (!v->options->full) return FRACAS_OK;
+    fracas_reader *reader;
+    TRY(fracas_segments_open(v->segments, id, &reader));
     /* also rows that the index has from another segment */
-    return fracas_reader_each(fracas_segments_reader(v->segments), FRACAS_READ_ALL, read_on, NULL);
+    return v->options->full ? fracas_reader_each(reader, FRACAS_READ_ALL, pass, NULL) : FRACAS_OK;
 }
 
 static fracas_err check_segments(verification *v)
@@ -265,7 +259,7 @@ static fracas_err check_merged_rows(verification *v)
             v->study, fracas_reader_realizations(v->merged), planned);
     const fracas_want want = {.table = table,
                               .parts = FRACAS_READ_ALL,
-                              .damaged = pass_damaged,
+                              .damaged = pass,
                               .visit = check_merged_row,
                               .context = v};
     return fracas_study_each_planned(v->segments, v->index, &want);
@@ -379,7 +373,7 @@ static fracas_err verify(verification *v)
     TRY(fracas_index_identity(v->index, &v->identity));
     TRY(problem(v, open_merged(v)));
     if (v->merged) TRY(check_merged_header(v));
-    TRY(fracas_segments_create(v->study, v->index, &v->identity, &v->segments));
+    TRY(fracas_segments_create(v->study, v->index, &v->identity, false, &v->segments));
     TRY(problem(v, check_segments(v)));
     if (full) TRY(problem(v, fracas_index_each_by_segment(v->index, check_row, v)));
     if (full && v->merged) TRY(problem(v, check_merged_rows(v)));
