@@ -20,13 +20,14 @@ static void fail_each_of(fracas_err (*work)(const void *context), const void *co
         assert_int_equal(held, before);
         if (!has_failed) {
             assert_int_equal(err, FRACAS_OK);
-            assert_true(k > 10); /* it did allocate */
+            assert_true(k > 3); /* it did allocate */
             return;
         }
         /* glibc's qsort does without memory of its own when there is none. */
         if (err != FRACAS_ENVIRONMENT && err != FRACAS_OK)
             fail_msg("allocation %ld: %d %s", k, err, fracas_message());
-        if (err && !strstr(fracas_message(), "no memory for"))
+        if (err && !strstr(fracas_message(), "no memory for") &&
+            !strstr(fracas_message(), strerror(ENOMEM)))
             fail_msg("allocation %ld: %s", k, fracas_message());
     }
 }
