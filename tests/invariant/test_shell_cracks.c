@@ -85,31 +85,6 @@ static void a_lane_is_its_run_alone(void **unused)
 
 /* ---- momenta ---- */
 
-/* Sums over nodes: M v, X x M v with X at the start, and of their sizes. */
-typedef struct {
-    double momentum[3], moment[3], size, turned;
-} shell_sums;
-
-static shell_sums sums_of(const fracas_batch *batch)
-{
-    shell_sums s = {.size = 0};
-    for (size_t e = 0; e < batch->model->elements; e++)
-        for (size_t k = 0; k < SHELL_NODES; k++) {
-            const double *x = node_at(batch->model, e, k),
-                         m = mass_of(batch->model, SHELL_UNKNOWNS * e + 3 * k);
-            double p[3], moment[3];
-            for (size_t i = 0; i < 3; i++) p[i] = m * *value_at(batch, e, SURFACE_V, 3 * k + i);
-            cross3(x, p, moment);
-            for (int i = 0; i < 3; i++) {
-                s.momentum[i] += p[i];
-                s.moment[i] += moment[i];
-                s.size += fabs(p[i]);
-                s.turned += fabs(moment[i]);
-            }
-        }
-    return s;
-}
-
 /* Every force is a derivative by the displacements of strains, bending strains, jumps and turns,
  * whatever the tractions and the openings that the flux carries: a translation and a small rotation
  * of the body as it was at the start change none of these, on a curved surface with edges as on a
@@ -131,33 +106,7 @@ static void momenta_are_kept_to_round_off(void **unused)
         const double spin[3] = {0.5 * spec.loading.rate, -0.7 * spec.loading.rate,
                                 spec.loading.rate},
                      drift[3] = {20, -35, 50};
-        for (size_t e = 0; e < model->elements; e++)
-            for (size_t k = 0; k < SHELL_NODES; k++) {
-                double turned[3];
-                cross3(spin, node_at(model, e, k), turned);
-                for (size_t i = 0; i < 3; i++)
-                    *value_at(batch, e, SURFACE_V, 3 * k + i) += drift[i] + turned[i];
-            }
-        const shell_sums before = sums_of(batch);
-        double worst = 0, turn = 0;
-        for (size_t running = 1; running > 0;) {
-            OK(fracas_batch_step(batch, &record, &running));
-            const shell_sums now = sums_of(batch);
-            for (int i = 0; i < 3; i++) {
-                worst = fmax(worst, fabs(now.momentum[i] - before.momentum[i]) / before.size);
-                turn = fmax(turn, fabs(now.moment[i] - before.moment[i]) / before.turned);
-            }
-        }
-        const shell_sums after = sums_of(batch);
-        print_message("variant %d: %zu elements, %lld steps, %lld fragments, momentum within %.1e, "
-                      "moment of momentum within %.1e\n",
-                      v, model->elements, (long long)record.steps, (long long)record.fragments,
-                      worst, turn);
-        assert_true(record.fragments > 3 && worst < 1e-12 && turn < 1e-12);
-        for (int i = 0; i < 3; i++) { /* there is some, and the record has it */
-            assert_true(fabs(after.moment[i]) > 1e-3 * after.turned);
-            assert_true(fabs(record.momentum[i] - before.momentum[i]) < 1e-11 * before.size);
-        }
+        check_momenta(batch, drift, spin, &record);
     }
 }
 

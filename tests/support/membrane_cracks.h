@@ -27,9 +27,9 @@ static inline void hold_edges(fracas_spec *spec, const fracas_kind *kind)
 }
 
 /* Sums of some elements over nodes k, l, without the harvest: mass, M_kl x_l, M_kl v_l, x_k x M_kl
- * v_l, with x at the start (at) or displaced (moved); sum of |M_kl v_l|. */
+ * v_l, with x displaced; sum of |M_kl v_l|. */
 typedef struct {
-    double mass, centre[2], momentum[2], moment_at, moment_moved, scale;
+    double mass, centre[2], momentum[2], moment_moved, scale;
     int64_t elements;
 } membrane_sums;
 
@@ -52,7 +52,6 @@ static inline void add_sums(const fracas_batch *batch, size_t e, membrane_sums *
         }
         for (size_t l = 0; l < model->surface->corners; l++)
             sums->mass += mass_between(model, e, k, l);
-        sums->moment_at += x[0] * p[1] - x[1] * p[0];
         sums->moment_moved += moved[0] * p[1] - moved[1] * p[0];
     }
     sums->elements++;

@@ -5,6 +5,21 @@
 
 #include "base/isa.h"
 
+#include <math.h>
+
+/* sqrt(max(0, n)^2 + (t/beta_c)^2)  (cohesive.10) */
+static inline double effective_of(const double traction[2], double beta_c)
+{
+    return hypot(fmax(0, traction[0]), traction[1] / beta_c);
+}
+
+/* What is held against the strength  (cohesive.11) */
+static inline double judged_of(const double traction[2], double beta_c, double mu_c)
+{
+    return traction[0] >= 0 ? effective_of(traction, beta_c)
+                            : fmax(0, fabs(traction[1]) - mu_c * fabs(traction[0])) / beta_c;
+}
+
 typedef enum { PLANE_NITSCHE, PLANE_STANDARD, PLANE_PAPER } plane_test_law;
 
 typedef struct {

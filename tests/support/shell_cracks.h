@@ -68,18 +68,6 @@ static inline void look_at(fracas_batch *batch, const double *u, shell_answer *a
 
 /* ---- kinematics, from the nodes ---- */
 
-static inline double dot3(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static inline void cross3(const double a[3], const double b[3], double c[3])
-{
-    const double r[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                         a[0] * b[1] - a[1] * b[0]};
-    memcpy(c, r, sizeof r);
-}
-
 static inline double unit3(double a[3])
 {
     const double length = sqrt(dot3(a, a));

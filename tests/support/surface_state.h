@@ -230,4 +230,81 @@ static inline void check_first_step(fracas_model *model, int width, double stren
     clear_run(&run);
 }
 
+/* ---- momenta ---- */
+
+static inline double dot3(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void cross3(const double a[3], const double b[3], double c[3])
+{
+    const double r[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                         a[0] * b[1] - a[1] * b[0]};
+    memcpy(c, r, sizeof r);
+}
+
+/* Sums over nodes: M v, X x M v with X at the start, and of their sizes. */
+typedef struct {
+    double momentum[3], moment[3], size, turned;
+} surface_momenta;
+
+static inline surface_momenta momenta_of(const fracas_batch *batch)
+{
+    const size_t n = unknowns_of(batch->model),
+                 dimension = (size_t)tables_of(batch->model)->body->dimension;
+    OWNED double *v = vector_of(n), *p = vector_of(n);
+    surface_momenta s = {.size = 0};
+    for (size_t i = 0; i < n; i++) v[i] = *value_of(batch, i, SURFACE_V);
+    multiply_mass(batch->model, v, p);
+    for (size_t at = 0; at < n; at += dimension) {
+        double here[3] = {0}, moment[3];
+        memcpy(here, p + at, dimension * sizeof *p);
+        cross3(place_of(batch->model, at), here, moment);
+        for (int i = 0; i < 3; i++) {
+            s.momentum[i] += here[i];
+            s.moment[i] += moment[i];
+            s.size += fabs(here[i]);
+            s.turned += fabs(moment[i]);
+        }
+    }
+    return s;
+}
+
+/* Runs a batch that has begun to its end, with this drift [m/s] and spin [1/s] on top of its
+ * velocities: both momenta stay what they are then, to 1e-12 of their sums of sizes, there is some
+ * of each spin, and the record has the momentum. Returns it as it started. */
+static inline surface_momenta check_momenta(fracas_batch *batch, const double drift[3],
+                                            const double spin[3], fracas_record *record)
+{
+    const size_t dimension = (size_t)tables_of(batch->model)->body->dimension;
+    for (size_t at = 0; at < unknowns_of(batch->model); at += dimension) {
+        double turned[3];
+        cross3(spin, place_of(batch->model, at), turned);
+        for (size_t i = 0; i < dimension; i++)
+            *value_of(batch, at + i, SURFACE_V) += drift[i] + turned[i];
+    }
+    const surface_momenta before = momenta_of(batch);
+    surface_momenta now = before;
+    double worst = 0, turn = 0;
+    for (size_t running = 1; running > 0;) {
+        OK(fracas_batch_step(batch, record, &running));
+        now = momenta_of(batch);
+        for (int i = 0; i < 3; i++) {
+            worst = fmax(worst, fabs(now.momentum[i] - before.momentum[i]) / before.size);
+            turn = fmax(turn, fabs(now.moment[i] - before.moment[i]) / before.turned);
+        }
+    }
+    print_message("%zu elements, %lld steps, %lld fragments, momentum within %.1e, moment of "
+                  "momentum within %.1e\n",
+                  batch->model->elements, (long long)record->steps, (long long)record->fragments,
+                  worst, turn);
+    assert_true(record->fragments > 3 && worst < 1e-12 && turn < 1e-12);
+    for (int i = 0; i < 3; i++) {
+        assert_true(spin[i] == 0 || fabs(now.moment[i]) > 1e-3 * now.turned);
+        assert_true(fabs(record->momentum[i] - before.momentum[i]) < 1e-12 * before.size);
+    }
+    return before;
+}
+
 #endif

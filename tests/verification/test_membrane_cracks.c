@@ -2,6 +2,7 @@
 /* Cracks of a membrane through the batch: when interfaces crack and break, what that dissipates,
  * and what is said of fragments. */
 #include "tests/support/membrane_cracks.h"
+#include "tests/support/plane_point.h"
 #include "tests/support/test.h"
 
 enum { MOST = 8 };
@@ -11,19 +12,6 @@ static const fracas_kind *const schemes[] = {&fracas_integrator_central_differen
 static const fracas_kind *const laws[] = {&fracas_law_nitsche.kind,
                                           &fracas_law_camacho_ortiz_standard.kind,
                                           &fracas_law_camacho_ortiz.kind};
-
-/* sqrt(max(0, n)^2 + (t/beta_c)^2)  (cohesive.10) */
-static double effective_of(const double traction[2], double beta_c)
-{
-    return hypot(fmax(0, traction[0]), traction[1] / beta_c);
-}
-
-/* What is held against the strength  (cohesive.11) */
-static double judged_of(const double traction[2], const fracas_cohesive *law)
-{
-    if (traction[0] >= 0) return effective_of(traction, law->coupling);
-    return fmax(0, fabs(traction[1]) - law->friction * fabs(traction[0])) / law->coupling;
-}
 
 /* Unit normal of interface i from its first element outward, from its nodes: straight edges. */
 static void normal_of(const fracas_model *model, size_t i, double normal[2])
@@ -54,7 +42,7 @@ static double growth_of(const fracas_model *model, size_t i)
     hooke(&model->spec.material, by, stress);
     normal_of(model, i, normal);
     resolve(normal, (double[2]){stress[0] * normal[0], stress[1] * normal[1]}, traction);
-    return judged_of(traction, &model->spec.cohesive);
+    return judged_of(traction, model->spec.cohesive.coupling, model->spec.cohesive.friction);
 }
 
 /* A different interface, or Gauss point, is the weakest in each lane. What it is judged by grows as
@@ -180,11 +168,12 @@ static fate fate_of(const fracas_model *model, const rates *r, int g, double str
                             r->mean[g][1] + k_t * r->jump[g][1]};
     const bool by_mean = law->onset == &fracas_onset_mean,
                nitsche = law->law == &fracas_law_nitsche.kind;
-    const double judged = judged_of(by_mean ? r->mean[g] : flux, law);
+    const double judged = judged_of(by_mean ? r->mean[g] : flux, beta_c, law->friction);
     fate f = {.onset = strength / judged};
     const double seen = f.seen = (floor(f.onset / dt) + 1) * dt;
     if (nitsche)
-        f.peak = by_mean ? fmax(strength, (judged_of(flux, law) - judged) * seen + strength)
+        f.peak = by_mean ? fmax(strength,
+                                (judged_of(flux, beta_c, law->friction) - judged) * seen + strength)
                          : strength;
     else f.peak = judged * seen;
     const double delta_c = law->critical_opening > 0 ? law->critical_opening

@@ -296,8 +296,7 @@ static void extrinsic_onset_is_continuous(void **unused)
         plane_step(&w, on);
         if (!w.out.cracked) continue;
         const double p = w.memory.peak, friction = t_n < 0 ? -kind.mu_c * t_n : 0;
-        const double expected = t_n >= 0 ? hypot(t_n, t_t / kind.beta_c)
-                                         : (fabs(t_t) - friction) / kind.beta_c;
+        const double expected = judged_of((const double[2]){t_n, t_t}, kind.beta_c, kind.mu_c);
         assert_true(fabs(p / expected - 1) < 1e-12);
         assert_true(fabs(w.out.t_n - t_n) < 1e-12 * kind.sigma_c * 10 &&
                     fabs(w.out.t_t - t_t) < 1e-12 * kind.sigma_c * 100);
@@ -330,8 +329,7 @@ static void onset_is_at_the_strength(void **unused)
                                            i / 6 % 2);
         const double t_n = 300e6 * (random_share(&seed) - 0.5),
                      t_t = 600e6 * (random_share(&seed) - 0.5) * kind.beta_c;
-        const double value = t_n >= 0 ? hypot(t_n, t_t / kind.beta_c)
-                                      : fmax(0, (fabs(t_t) - kind.mu_c * fabs(t_n)) / kind.beta_c);
+        const double value = judged_of((const double[2]){t_n, t_t}, kind.beta_c, kind.mu_c);
         const double part = random_share(&seed),
                      other = kind.onset_mean
                                  ? 0

@@ -24,17 +24,6 @@ typedef struct {
     int by_mean;
 } layer_law;
 
-static double effective_of(const double t[2], double beta_c)
-{
-    return hypot(fmax(0, t[0]), t[1] / beta_c);
-}
-
-/* What is held against the strength  (cohesive.11) */
-static double judged_of(const double t[2], double beta_c, double mu_c)
-{
-    return t[0] >= 0 ? effective_of(t, beta_c) : fmax(0, fabs(t[1]) - mu_c * fabs(t[0])) / beta_c;
-}
-
 /* Energies of a traction that the law gave: of the flux s, stored in the opening q - s. */
 static void energies_of(const layer_law *law, const double m[2], const double q[2], layer_answer *a)
 {
