@@ -191,27 +191,12 @@ static fracas_spec ledger_spec(int which)
     return spec;
 }
 
-/* Largest residual, and what was created, of 4 lanes by what they dissipate; *work by the same. */
-static double residual_of(int which, double safety, double *created, double *work, int64_t *broken)
+static ledger_figures ledger_of(int which, double safety)
 {
     fracas_spec spec = ledger_spec(which);
     spec.time.safety = which == RUBBING ? safety / 5 : safety; /* cohesive.md */
     OWN(fracas_model) model = distorted_model(spec, DISTORTION, 3);
-    fracas_record record[4];
-    double residual = 0;
-    run_replicas(model, 0, 4, 0.3, (fracas_batch_options){.width = 4, .isa = FRACAS_ISA_BEST},
-                 record);
-    *created = *work = 0;
-    *broken = 0;
-    for (int l = 0; l < 4; l++) {
-        assert_int_equal(record[l].outcome, FRACAS_FRAGMENTED);
-        residual = fmax(residual, record[l].residual / record[l].dissipated);
-        *created = fmax(*created, fabs(record[l].created) / record[l].dissipated);
-        *work = fmax(*work, record[l].work / record[l].dissipated);
-        *broken += record[l].broken;
-        fracas_record_clear(&record[l]);
-    }
-    return residual;
+    return break_up(model, 0, 4, 0.3, NULL);
 }
 
 /* Between events the residual is that of central difference with forces that bend (onsets,
@@ -224,30 +209,22 @@ static double residual_of(int which, double safety, double *created, double *wor
 static void ledgers_close_to_second_order(void **unused)
 {
     for (int which = 0; which < LEDGERS; which++) {
-        double residual[3], created, work;
-        int64_t broken;
-        for (int half = 0; half < 3; half++)
-            residual[half] = residual_of(which, 0.5 / (1 << half), &created, &work, &broken);
+        ledger_figures at[3];
+        for (int half = 0; half < 3; half++) at[half] = ledger_of(which, 0.5 / (1 << half));
         print_message(
             "%-28s %lld broken, residual/dissipated %.2e %.2e %.2e, created %.2e, work %.2f\n",
-            ledger_name[which], (long long)broken, residual[0], residual[1], residual[2], created,
-            work);
-        assert_true(broken > 100);
+            ledger_name[which], (long long)at[2].broken, at[0].residual, at[1].residual,
+            at[2].residual, at[2].created, at[2].work);
+        assert_true(at[2].broken > 100);
         assert_true((which >= HELD_MOVING) ==
-                    (work > 1)); /* what holds the edges, or turns the plate, does work */
+                    (at[2].work > 1)); /* what holds the edges, or turns the plate, does work */
         const bool smooth = which == FREE || which == FREE_FRICTION || which == HELD_MOVING ||
                             which == SLIDING || which == RUBBING;
-        for (int half = 0; half < 3; half++) {
-            const double safety = 0.5 / (1 << half);
-            if (smooth)
-                assert_true(residual[half] <
-                            1e-3 * (safety / 0.25) *
-                                (safety / 0.25)); /* 1e-3 at the step of campaigns */
-            else
-                assert_true(residual[half] <
-                            1e-3 * (safety / 0.25) * (safety / 0.25) + safety * created);
+        for (int half = 0; half < 3; half++) { /* 1e-3 at the step of campaigns */
+            const double safety = 0.5 / (1 << half), square = (safety / 0.25) * (safety / 0.25);
+            assert_true(at[half].residual < 1e-3 * square + (smooth ? 0 : safety * at[2].created));
         }
-        if (smooth) assert_true(residual[2] < residual[0] / (2.5 * 2.5));
+        if (smooth) assert_true(at[2].residual < at[0].residual / (2.5 * 2.5));
     }
 }
 

@@ -112,31 +112,19 @@ static void momenta_are_kept_to_round_off(void **unused)
 
 /* ---- the ledger ---- */
 
-/* Largest residual by what is dissipated, at this share of the critical step, of some replicas;
- * what was created by the same. */
-static double residual_of(fracas_spec spec, double distortion, double safety, double *created,
-                          int64_t *broken)
+static void check_bending(const fracas_model *model, const fracas_record *record)
+{
+    assert_true((record->dissipated_bending > 0) ==
+                (model->spec.geometry.shape == &fracas_shape_sphere));
+    assert_true(record->dissipated_bending < record->dissipated);
+}
+
+/* At this share of the critical step. */
+static ledger_figures ledger_of(fracas_spec spec, double distortion, double safety)
 {
     spec.time.safety = safety;
     OWN(fracas_model) model = distorted_model(spec, distortion, 3);
-    fracas_record record[4];
-    double residual = 0;
-    run_replicas(model, 4, 3, 0.3, (fracas_batch_options){.width = 4, .isa = FRACAS_ISA_BEST},
-                 record);
-    *created = 0;
-    *broken = 0;
-    for (int l = 0; l < 3; l++) {
-        assert_true(record[l].outcome != FRACAS_ENERGY_DRIFT &&
-                    record[l].outcome != FRACAS_NONFINITE);
-        residual = fmax(residual, record[l].residual / record[l].dissipated);
-        *created = fmax(*created, fabs(record[l].created) / record[l].dissipated);
-        *broken += record[l].broken;
-        assert_true((record[l].dissipated_bending > 0) ==
-                    (spec.geometry.shape == &fracas_shape_sphere));
-        assert_true(record[l].dissipated_bending < record[l].dissipated);
-        fracas_record_clear(&record[l]);
-    }
-    return residual;
+    return break_up(model, 4, 3, 0.3, check_bending);
 }
 
 /* As of membranes (tests/invariant/test_membrane.c): the square of the step, and at most its share
@@ -146,35 +134,35 @@ static double residual_of(fracas_spec spec, double distortion, double safety, do
 static void ledgers_close(void **unused)
 {
     for (int v = 0; v < VARIANTS; v++) {
-        double residual[3], created;
-        int64_t broken;
+        ledger_figures at[3];
         for (int half = 0; half < 3; half++) {
             const double safety = 0.5 / (1 << half);
-            residual[half] = residual_of(spec_of(&variants[v]), distortion_of(&variants[v]), safety,
-                                         &created, &broken);
-            assert_true(broken > 10 && residual[half] < 1e-3 * (safety / 0.25) * (safety / 0.25) +
-                                                            safety * created);
+            at[half] = ledger_of(spec_of(&variants[v]), distortion_of(&variants[v]), safety);
+            assert_true(at[half].broken > 10 &&
+                        at[half].residual <
+                            1e-3 * (safety / 0.25) * (safety / 0.25) + safety * at[half].created);
         }
         print_message("variant %d: %lld broken, residual/dissipated %.2e %.2e %.2e, created %.2e\n",
-                      v, (long long)broken, residual[0], residual[1], residual[2], created);
-        assert_true(residual[2] < 0.5 * residual[0]);
+                      v, (long long)at[2].broken, at[0].residual, at[1].residual, at[2].residual,
+                      at[2].created);
+        assert_true(at[2].residual < 0.5 * at[0].residual);
     }
-    double residual[3], created[3];
+    ledger_figures at[3];
     for (int finer = 0; finer < 3; finer++) {
         fracas_spec spec = spec_of(&variants[1]);
-        int64_t broken;
         spec.time.integrator = &fracas_integrator_central_difference;
         spec.cohesive.onset = &fracas_onset_mean;
         spec.mesh.divisions = 6 << finer;
         spec.loading.rate = 5e4;
         spec.time.end = 1e-7;
         spec.geometry.thickness = 1e-4;
-        residual[finer] = residual_of(spec, 0.1, 0.25, &created[finer], &broken);
+        at[finer] = ledger_of(spec, 0.1, 0.25);
         print_message("octant of %d: %lld broken, residual/dissipated %.2e, created %.2e\n",
-                      36 << 2 * finer, (long long)broken, residual[finer], created[finer]);
-        assert_true(broken > 10 && created[finer] > 0 && residual[finer] < 1e-3);
-        assert_true(finer == 0 || (created[finer] < 0.1 * created[finer - 1] &&
-                                   residual[finer] < 0.1 * residual[finer - 1]));
+                      36 << 2 * finer, (long long)at[finer].broken, at[finer].residual,
+                      at[finer].created);
+        assert_true(at[finer].broken > 10 && at[finer].created > 0 && at[finer].residual < 1e-3);
+        assert_true(finer == 0 || (at[finer].created < 0.1 * at[finer - 1].created &&
+                                   at[finer].residual < 0.1 * at[finer - 1].residual));
     }
 }
 

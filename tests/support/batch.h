@@ -139,4 +139,34 @@ static inline void run_replicas(const fracas_model *model, uint64_t first, size_
     OK(fracas_batch_run(batch, record));
 }
 
+/* The ledgers of replicas that break up: the largest residual, created energy and work by what is
+ * dissipated; the mean number of fragments, the sum of broken interfaces. */
+typedef struct {
+    double residual, created, work, fragments;
+    int64_t broken;
+} ledger_figures;
+
+/* Replicas first .. first + count - 1, 8 at most; `look`, unless NULL, sees each record. */
+static inline ledger_figures
+break_up(const fracas_model *model, uint64_t first, size_t count, double scatter,
+         void (*look)(const fracas_model *model, const fracas_record *record))
+{
+    ledger_figures f = {.residual = 0};
+    fracas_record record[8];
+    run_replicas(model, first, count, scatter, (fracas_batch_options){.isa = FRACAS_ISA_BEST},
+                 record);
+    for (size_t l = 0; l < count; l++) {
+        const fracas_record *r = &record[l];
+        assert_int_equal(r->outcome, FRACAS_FRAGMENTED);
+        f.residual = fmax(f.residual, r->residual / r->dissipated);
+        f.created = fmax(f.created, fabs(r->created) / r->dissipated);
+        f.work = fmax(f.work, r->work / r->dissipated);
+        f.fragments += (double)r->fragments / (double)count;
+        f.broken += r->broken;
+        if (look) look(model, r);
+        fracas_record_clear(&record[l]);
+    }
+    return f;
+}
+
 #endif
