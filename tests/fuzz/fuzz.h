@@ -3,12 +3,9 @@
 #ifndef FRACAS_TESTS_FUZZ_H
 #define FRACAS_TESTS_FUZZ_H
 
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
+#include "tests/support/test.h"
+
 #include <signal.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/time.h>
 #include <unistd.h>
 
@@ -16,6 +13,9 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 #define FUZZ_DEMAND(condition, text) fuzz_demand((condition), __FILE__, __LINE__, (text))
+
+/* The call succeeds. */
+#define FUZZ_OK(call) FUZZ_DEMAND((call) == FRACAS_OK, fracas_message())
 
 static inline void fuzz_demand(int holds, const char *file, int line, const char *text)
 {
@@ -58,12 +58,6 @@ static inline void fuzz_folder(char path[64])
     FUZZ_DEMAND(mkdtemp(path) != NULL, "a folder");
     snprintf(fuzz_made, sizeof fuzz_made, "%s", path);
     atexit(fuzz_remove);
-}
-
-static inline void fuzz_write(const char *path, const void *bytes, size_t size)
-{
-    FILE *out = fopen(path, "wb");
-    FUZZ_DEMAND(out && fwrite(bytes, 1, size, out) == size && fclose(out) == 0, path);
 }
 
 #endif

@@ -14,8 +14,6 @@
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 
-#include <signal.h>
-
 /* HDF5 1.10 forgets an object header whose checksum is wrong; it is no leak of ours. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
@@ -43,7 +41,7 @@ static void write_meshes(fracas_writer *writer)
     for (size_t p = 0; p < SAMPLE_POINTS; p++) {
         fracas_stored_mesh mesh = {0};
         if (p == 1) grid_make(&shape, &mesh);
-        FUZZ_DEMAND(fracas_writer_mesh(writer, &mesh) == FRACAS_OK, fracas_message());
+        FUZZ_OK(fracas_writer_mesh(writer, &mesh));
         fracas_stored_mesh_clear(&mesh);
     }
 }
@@ -57,8 +55,7 @@ static void write_base(int which)
     fracas_writer *writer;
     fracas_file_seal seal;
     header.interfaces = which != 1;
-    FUZZ_DEMAND(fracas_writer_create(path, &header, &table, &writer) == FRACAS_OK,
-                fracas_message());
+    FUZZ_OK(fracas_writer_create(path, &header, &table, &writer));
     for (size_t i = 0; which != 3 && i < SAMPLE_POINTS * REPLICAS; i++) {
         fracas_record record;
         sample_record(i / REPLICAS, (int64_t)(i % REPLICAS), MOST, &record);
@@ -68,11 +65,10 @@ static void write_base(int which)
         fracas_record_clear(&record);
     }
     if (which == 2) {
-        FUZZ_DEMAND(fracas_writer_decisions(writer, sample_decision, SAMPLE_DECISIONS) == FRACAS_OK,
-                    fracas_message());
+        FUZZ_OK(fracas_writer_decisions(writer, sample_decision, SAMPLE_DECISIONS));
         write_meshes(writer);
     }
-    FUZZ_DEMAND(fracas_writer_finish(writer, true, &seal) == FRACAS_OK, fracas_message());
+    FUZZ_OK(fracas_writer_finish(writer, true, &seal));
     base[which].bytes = whole_bytes(path, &base[which].size);
 }
 
@@ -277,7 +273,7 @@ static void by_bytes(script *s)
         for (uint64_t b = at; b < at + length % 64 && b < size && s->left > 0; b++)
             bytes[b] = (unsigned char)take(s, 1);
     }
-    fuzz_write(path, bytes, size);
+    write_bytes(path, bytes, size);
     free(bytes);
 }
 
@@ -304,9 +300,7 @@ static fracas_err read_records(fracas_reader *reader, fracas_writer *writer)
         void *packed = malloc(fracas_record_packed_size(&record));
         fracas_record_pack(&record, packed); /* touches every row */
         free(packed);
-        if (writer)
-            FUZZ_DEMAND(fracas_writer_append(writer, point, replica, &record) == FRACAS_OK,
-                        fracas_message());
+        if (writer) FUZZ_OK(fracas_writer_append(writer, point, replica, &record));
     }
     fracas_record_clear(&record);
     return err;
@@ -366,7 +360,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     script s = {data, size};
     const uint64_t how = take(&s, 1);
     const image *of = &base[how % NBASES];
-    fuzz_write(path, of->bytes, of->size);
+    write_bytes(path, of->bytes, of->size);
     if (how & 0x80) by_bytes(&s);
     else by_hdf5(&s, 1 + (how >> 2) % MOST_OPERATIONS);
     read_all(how & 0x40);

@@ -98,6 +98,13 @@ static inline void commit_everything(uint64_t seed)
     }
 }
 
+static inline void sql(const char *text)
+{
+    char *message = NULL;
+    if (sqlite3_exec(index_->db, text, NULL, NULL, &message) != SQLITE_OK)
+        fail_msg("%s: %s", text, message);
+}
+
 /* The number that a query of the index finds. */
 static inline int64_t number(const char *query)
 {

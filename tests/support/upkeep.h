@@ -25,13 +25,6 @@ static inline void says(const char *part)
     assert_has(said_text, part);
 }
 
-static inline void sql(const char *text)
-{
-    char *message = NULL;
-    if (sqlite3_exec(index_->db, text, NULL, NULL, &message) != SQLITE_OK)
-        fail_msg("%s: %s", text, message);
-}
-
 static inline void open_again(void)
 {
     fracas_index_close(index_);

@@ -61,19 +61,10 @@ static void make_table(const truth *of, made_table *made)
     for (size_t p = 0; p < NPOINTS; p++) {
         bool other = of->materials && p >= 2;
         double rate = of->materials ? (p % 2 ? 1e5 : 1e4) : 1e3 * pow(10, (double)p);
-        double real[NCOLUMNS] = {100,
-                                 NAN,
-                                 100,
-                                 50e-3 / (double)of->elements[p],
-                                 50e-3,
-                                 rate,
-                                 300e6,
-                                 50e-3,
-                                 rate,
-                                 2750,
-                                 other ? 70e9 : 275e9,
-                                 (double)of->elements[p],
-                                 5e-3 / rate};
+        const double elements = (double)of->elements[p], lattice = 50e-3 / elements,
+                     young = other ? 70e9 : 275e9, end = 5e-3 / rate;
+        const double real[NCOLUMNS] = {100,   NAN,  100,  lattice, 50e-3,    rate, 300e6,
+                                       50e-3, rate, 2750, young,   elements, end};
         for (size_t c = 0; c < NCOLUMNS; c++)
             made->value[p][c] = (fracas_value){.real = real[c],
                                                .text = column[c].text ? "nitsche" : ""};

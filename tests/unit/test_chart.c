@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Charts: what their CSV says, what their drawings have, and drawings as PDF. */
+#define FOLDER "fracas-chart"
+#include "tests/support/folder.h"
+
 #include "analysis/draw/chart.h"
 #include "analysis/report/page.h"
 #include "base/param.h"
@@ -184,21 +187,6 @@ static void an_axis_may_have_names(void **state)
 
 /* ---- PDF ---- */
 
-static char folder[256];
-
-static int make_folder(void **state)
-{
-    snprintf(folder, sizeof folder, "%s/chart-XXXXXX", FRACAS_BINARY_DIR);
-    return mkdtemp(folder) ? 0 : -1;
-}
-
-static int remove_folder(void **state)
-{
-    char command[sizeof folder + 16];
-    snprintf(command, sizeof command, "rm -rf '%s'", folder);
-    return system(command);
-}
-
 static void put_file(const char *name, const char *text)
 {
     char path[512];
@@ -240,13 +228,5 @@ static void drawings_become_pdf(void **state)
     OK(fracas_pdf_write(folder, NULL, 0));
 }
 
-int fracas_test(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_csv_has_what_is_drawn),
-        cmocka_unit_test(drawings_have_marks_bands_and_keys),
-        cmocka_unit_test(an_axis_may_have_names),
-        cmocka_unit_test_setup_teardown(drawings_become_pdf, make_folder, remove_folder),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS_ALL(make_folder, remove_folder, the_csv_has_what_is_drawn, drawings_have_marks_bands_and_keys,
+          an_axis_may_have_names, drawings_become_pdf)

@@ -53,14 +53,9 @@ static void make_table(made_table *made, int64_t replicas)
     for (size_t p = 0; p < NPOINTS; p++) {
         const bool surface = p == 2;
         const double rate = pow(10, 3 + (double)p);
-        const double real[NCOLUMNS] = {surface ? 0 : 20e-6,
-                                       surface ? NAN : 20e-3,
-                                       rate,
-                                       surface,
-                                       rate,
-                                       surface ? NAN : 1000,
-                                       NAN,
-                                       1e-6};
+        const double lattice = surface ? 0 : 20e-6, length = surface ? NAN : 20e-3,
+                     elements = surface ? NAN : 1000;
+        const double real[NCOLUMNS] = {lattice, length, rate, surface, rate, elements, NAN, 1e-6};
         for (size_t c = 0; c < NCOLUMNS; c++)
             made->value[p][c] = (fracas_value){.real = real[c],
                                                .text = c == 6 ? surface ? "shell" : "bar" : ""};

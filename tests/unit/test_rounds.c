@@ -10,6 +10,7 @@
 static const char rule[] = "sweep:\n  - loading.rate: [1e3, 1e4]\n";
 static fracas_campaign *campaign;
 static fracas_rounds rounds;
+static fracas_decision *decision;
 
 static fracas_campaign *make(const char *replicas)
 {
@@ -37,6 +38,8 @@ static int end(void **state)
 {
     fracas_rounds_clear(&rounds);
     fracas_campaign_destroy(campaign);
+    free(decision);
+    decision = NULL;
     return tear_down(state);
 }
 
@@ -61,10 +64,12 @@ static void commit(size_t p, int64_t first, int64_t last, double spread, int64_t
     OK(fracas_index_commit(index_, name, &seal, row, (size_t)(last - first + 1), "{}"));
 }
 
-static void look(size_t p, fracas_decision **decision, size_t wanted)
+/* The decisions about a point, until others are looked at. */
+static void look(size_t p, size_t wanted)
 {
     size_t count;
-    OK(fracas_index_decisions(index_, &campaign->point[p].hash, decision, &count));
+    free(decision);
+    OK(fracas_index_decisions(index_, &campaign->point[p].hash, &decision, &count));
     assert_int_equal(count, wanted);
 }
 
@@ -80,23 +85,20 @@ static int64_t rows_of(size_t p)
  * of 0.5 0.447; at 24 0.216. */
 static void rounds_go_on_until_they_are_narrow(void **state)
 {
-    fracas_decision *decision;
     assert_int_equal(rounds.open, 2);
     commit(0, 0, 6, 0.05, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
     assert_int_equal(rounds.open, 2); /* one is missing */
-    look(0, &decision, 0);
-    free(decision);
+    look(0, 0);
     commit(0, 7, 7, 0.05, FRACAS_TIME_LIMIT);
     OK(fracas_rounds_advance(&rounds, index_, 0));
     assert_int_equal(rounds.open, 1);
     assert_int_equal(rounds.point[0].replicas, 8);
-    look(0, &decision, 1);
+    look(0, 1);
     assert_int_equal(decision[0].stop, FRACAS_PRECISE);
     assert_int_equal(decision[0].used, 8);
     assert_true(fabs(decision[0].mean - 1) < 1e-15);
     assert_true(fabs(decision[0].half_width - 2.3646242515927849 * 0.05 / sqrt(7)) < 1e-13);
-    free(decision);
     commit(1, 0, 7, 0.5, FRACAS_INTACT);
     OK(fracas_rounds_advance(&rounds, index_, 1));
     assert_int_equal(rounds.point[1].replicas, 16);
@@ -107,11 +109,10 @@ static void rounds_go_on_until_they_are_narrow(void **state)
     commit(1, 16, 23, 0.5, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 1));
     assert_int_equal(rounds.open, 0);
-    look(1, &decision, 3);
+    look(1, 3);
     assert_int_equal(decision[0].stop, FRACAS_GO_ON);
     assert_int_equal(decision[1].replicas, 16);
     assert_int_equal(decision[2].stop, FRACAS_AT_MAXIMUM);
-    free(decision);
     OK(fracas_rounds_check(campaign, index_));
     FRACAS_CLEARED(fracas_rounds) again;
     OK(fracas_rounds_init(&again, campaign, index_));
@@ -123,27 +124,23 @@ static void rounds_go_on_until_they_are_narrow(void **state)
 /* Three that ended badly and one without a record are in the round, but not in the mean. */
 static void what_failed_does_not_count(void **state)
 {
-    fracas_decision *decision;
     commit(0, 0, 3, 0.05, FRACAS_FRAGMENTED);
     commit(0, 4, 4, 7, FRACAS_NONFINITE);
     commit(0, 5, 5, 7, FRACAS_ENERGY_DRIFT);
     commit(0, 6, 6, 7, FRACAS_FAILED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
-    look(0, &decision, 0);
-    free(decision);
+    look(0, 0);
     OK(fracas_index_fail(index_, &campaign->point[0].hash, 7, "signal 11", true));
     OK(fracas_rounds_advance(&rounds, index_, 0));
-    look(0, &decision, 1);
+    look(0, 1);
     assert_int_equal(decision[0].used, 4);
     assert_true(fabs(decision[0].mean - 1) < 1e-15);
-    free(decision);
 }
 
 /* Later rounds may be there first, as after the loss of the index: they wait until it is their
  * turn, and what is too much goes. */
 static void rounds_that_are_there_already_are_decided_at_once(void **state)
 {
-    OWNED fracas_decision *decision;
     fracas_point_row all = campaign->table.point[1];
     all.replicas = 24;
     OK(fracas_index_plan_point(index_, &all));
@@ -152,7 +149,7 @@ static void rounds_that_are_there_already_are_decided_at_once(void **state)
     assert_int_equal(rounds.point[1].replicas, 8);
     commit(1, 0, 7, 0.2, FRACAS_FRAGMENTED); /* 0.18 at 8, 0.11 at 16, 0.086 at 24 */
     OK(fracas_rounds_advance(&rounds, index_, 1));
-    look(1, &decision, 3);
+    look(1, 3);
     assert_int_equal(decision[2].stop, FRACAS_PRECISE);
     all = campaign->table.point[0];
     all.replicas = 24;
@@ -163,16 +160,9 @@ static void rounds_that_are_there_already_are_decided_at_once(void **state)
     assert_int_equal(rows_of(0), 8); /* it has stopped: the others are not asked for */
 }
 
-static void tampered(const char *sql)
-{
-    if (sqlite3_exec(index_->db, sql, NULL, NULL, NULL) != SQLITE_OK)
-        fail_msg("%s", sqlite3_errmsg(index_->db));
-}
-
 static void a_decision_that_does_not_follow_is_damage(void **state)
 {
     fracas_rounds again;
-    fracas_decision *decision;
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
     commit(1, 0, 7, 0.05, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
@@ -180,27 +170,26 @@ static void a_decision_that_does_not_follow_is_damage(void **state)
           "lacks a decision on the replicas of point 1");
     OK(fracas_rounds_advance(&rounds, index_, 1));
     OK(fracas_rounds_check(campaign, index_));
-    tampered("UPDATE decision SET half_width = half_width * (1 + 1e-15) WHERE point = 2");
+    sql("UPDATE decision SET half_width = half_width * (1 + 1e-15) WHERE point = 2");
     FAILS(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "round 0 of point 1");
     FAILS(fracas_rounds_init(&again, campaign, index_), FRACAS_DAMAGED, "round 0 of point 1");
     fracas_rounds_clear(&again);
-    tampered(
-        "UPDATE realization SET status = 'planned' WHERE point = 2 AND replica = 3"); /* its segment
+    sql("UPDATE realization SET status = 'planned' WHERE point = 2 AND replica = 3"); /* its segment
                                                                                          was lost */
     OK(fracas_rounds_init(&again, campaign, index_)); /* nothing to compare with yet */
     assert_int_equal(again.open, 0);
     fracas_rounds_clear(&again);
     FAILS(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "point 1");
-    tampered("UPDATE decision SET stop = 7 WHERE point = 2");
+    sql("UPDATE decision SET stop = 7 WHERE point = 2");
+    fracas_decision *none;
     size_t count;
-    FAILS(fracas_index_decisions(index_, &campaign->point[1].hash, &decision, &count),
-          FRACAS_DAMAGED, "`decision`");
+    FAILS(fracas_index_decisions(index_, &campaign->point[1].hash, &none, &count), FRACAS_DAMAGED,
+          "`decision`");
 }
 
 /* Another rule takes up the realizations, not the decisions. */
 static void a_stronger_rule_decides_again(void **state)
 {
-    OWNED fracas_decision *decision;
     FRACAS_CLEARED(fracas_rounds) again;
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
     OK(fracas_rounds_advance(&rounds, index_, 0));
@@ -209,7 +198,7 @@ static void a_stronger_rule_decides_again(void **state)
     OK(fracas_index_plan(index_, &now->table));
     OK(fracas_rounds_init(&again, now, index_));
     assert_int_equal(again.point[0].replicas, 16);
-    look(0, &decision, 1);
+    look(0, 1);
     assert_int_equal(decision[0].stop, FRACAS_GO_ON);
     assert_int_equal(decision[0].maximum, 100);
 }
@@ -256,14 +245,13 @@ static void a_rule_looks_at_its_quantity(void **state)
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
     for (int q = 0; q < 3; q++) {
         char text[200];
-        OWNED fracas_decision *decision;
         FRACAS_CLEARED(fracas_rounds) again;
         snprintf(text, sizeof text,
                  "{minimum: 8, maximum: 24, until: {quantity: %s, relative-half-width: 0.2}}",
                  quantity[q]);
         OWN(fracas_campaign) now = make(text);
         OK(fracas_rounds_init(&again, now, index_));
-        look(0, &decision, 1);
+        look(0, 1);
         assert_int_equal(decision[0].quantity, q);
         assert_true(fabs(decision[0].mean / mean[q] - 1) < 1e-15);
     }
@@ -273,71 +261,51 @@ static void a_rule_looks_at_its_quantity(void **state)
  * is known. */
 static void a_mean_of_nothing_is_known(void **state)
 {
-    fracas_decision *decision;
     commit(0, 0, 7, 0.05, FRACAS_INTACT);
-    tampered("UPDATE realization SET dissipated = 0 WHERE point = 1");
+    sql("UPDATE realization SET dissipated = 0 WHERE point = 1");
     commit(1, 0, 7, 0.05, FRACAS_ENERGY_DRIFT);
     for (size_t p = 0; p < 2; p++) OK(fracas_rounds_advance(&rounds, index_, p));
-    look(0, &decision, 1);
+    look(0, 1);
     assert_int_equal(decision[0].stop, FRACAS_PRECISE);
     assert_true(fracas_decision_relative(&decision[0]) == 0);
-    free(decision);
-    look(1, &decision, 1);
+    look(1, 1);
     assert_int_equal(decision[0].stop, FRACAS_GO_ON);
     assert_true(isnan(fracas_decision_relative(&decision[0])));
-    free(decision);
     const fracas_decision negative = {.mean = -4, .half_width = 1};
     assert_true(fracas_decision_relative(&negative) == 0.25);
-    tampered("CREATE TABLE said(n INTEGER CHECK (n = 1))");
-    tampered("INSERT INTO said SELECT count(*) FROM decision WHERE relative = 0 AND reason LIKE '% "
-             "0 +- 0, 0 % of it%'");
+    sql("CREATE TABLE said(n INTEGER CHECK (n = 1))");
+    sql("INSERT INTO said SELECT count(*) FROM decision WHERE relative = 0 AND reason LIKE '% "
+        "0 +- 0, 0 % of it%'");
 }
 
 /* All points of a segment in one transaction: a decision that cannot be kept takes the others with
  * it. */
 static void points_of_a_segment_are_decided_together(void **state)
 {
-    fracas_decision *decision;
     const fracas_segment_row heard[] = {{.point = campaign->point[0].hash},
                                         {.point = campaign->point[0].hash, .replica = 1},
                                         {.point = campaign->point[1].hash}};
     commit(0, 0, 7, 0.05, FRACAS_FRAGMENTED);
     commit(1, 0, 7, 0.5, FRACAS_FRAGMENTED);
-    tampered("CREATE TRIGGER refuse BEFORE INSERT ON decision WHEN NEW.point = 2 BEGIN SELECT "
-             "raise(ABORT, 'no'); END");
+    sql("CREATE TRIGGER refuse BEFORE INSERT ON decision WHEN NEW.point = 2 BEGIN SELECT "
+        "raise(ABORT, 'no'); END");
     assert_int_not_equal(fracas_rounds_commit(&rounds, index_, heard, 3), FRACAS_OK);
     assert_true(sqlite3_get_autocommit(index_->db));
-    look(0, &decision, 0);
-    free(decision);
-    tampered("DROP TRIGGER refuse");
+    look(0, 0);
+    sql("DROP TRIGGER refuse");
     FRACAS_CLEARED(fracas_rounds) again;
     OK(fracas_rounds_init(&again, campaign, index_));
-    look(0, &decision, 1);
-    free(decision);
+    look(0, 1);
     assert_int_equal(again.point[1].replicas, 16);
     commit(1, 8, 15, 0.5, FRACAS_FRAGMENTED);
     OK(fracas_rounds_commit(&again, index_, heard, 3)); /* the first point has stopped */
-    look(1, &decision, 2);
-    free(decision);
+    look(1, 2);
     assert_int_equal(again.point[0].replicas, 8);
     assert_int_equal(again.point[1].replicas, 24);
 }
 
-#define ROUND(name) cmocka_unit_test_setup_teardown(name, begin, end)
-
-int fracas_test(void)
-{
-    const struct CMUnitTest tests[] = {
-        ROUND(rounds_go_on_until_they_are_narrow),
-        ROUND(what_failed_does_not_count),
-        ROUND(rounds_that_are_there_already_are_decided_at_once),
-        ROUND(a_decision_that_does_not_follow_is_damage),
-        ROUND(a_stronger_rule_decides_again),
-        cmocka_unit_test(mean_size_by_hand),
-        ROUND(a_larger_maximum_goes_on),
-        ROUND(a_rule_looks_at_its_quantity),
-        ROUND(a_mean_of_nothing_is_known),
-        ROUND(points_of_a_segment_are_decided_together),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+TESTS_EACH(begin, end, rounds_go_on_until_they_are_narrow, what_failed_does_not_count,
+           rounds_that_are_there_already_are_decided_at_once,
+           a_decision_that_does_not_follow_is_damage, a_stronger_rule_decides_again,
+           mean_size_by_hand, a_larger_maximum_goes_on, a_rule_looks_at_its_quantity,
+           a_mean_of_nothing_is_known, points_of_a_segment_are_decided_together)

@@ -28,7 +28,7 @@ static void a_flipped_byte_of_a_segment_is_computed_again(void **state)
 {
     commit_everything(11);
     merge();
-    assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
+    keep_first();
     merge();
     uint64_t random = 12;
     for (int i = 0; i < 16; i++) {
@@ -48,7 +48,7 @@ static void a_flipped_byte_of_a_segment_is_computed_again(void **state)
         const int64_t most = one->rows;
         OK(run_again(&rows));
         assert_true(rows > 0 && rows <= most);
-        assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+        assert_true(study_is_the_first());
         OK(fracas_study_sound(study, index_, &sound));
         assert_true(sound);
     }
@@ -69,14 +69,14 @@ static void a_flipped_byte_of_the_merged_file_is_merged_again(void **state)
     recover_says("study.h5: damaged");
     assert_false(is_sealed());
     merge();
-    assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "first")));
+    assert_true(study_is_the_first());
 }
 
-static void execute(const char *sql)
+/* A statement that changes something. */
+static void execute(const char *text)
 {
-    if (sqlite3_exec(index_->db, sql, NULL, NULL, NULL) != SQLITE_OK)
-        fail_msg("%s: %s", sql, sqlite3_errmsg(index_->db));
-    if (sqlite3_changes(index_->db) == 0) fail_msg("%s: changes nothing", sql);
+    sql(text);
+    if (sqlite3_changes(index_->db) == 0) fail_msg("%s: changes nothing", text);
 }
 
 /* A flipped bit of a number, which SQLite cannot see: study.h5 is not made of it, and full
@@ -98,14 +98,14 @@ static void a_flipped_number_of_the_index_is_not_merged(void **state)
     merge();
     fracas_file_header header = sample_header();
     for (size_t f = 0; f < sizeof flip / sizeof *flip; f++) {
-        char sql[512];
+        char statement[512];
         execute("CREATE TABLE kept AS SELECT * FROM realization");
-        snprintf(sql, sizeof sql,
+        snprintf(statement, sizeof statement,
                  "UPDATE realization SET %s WHERE (point, replica) IN (SELECT point, replica FROM "
                  "realization WHERE status = 'done' AND outcome = 0 AND segment < 6 AND dissipated "
                  "NOT NULL AND size NOT NULL LIMIT 1)",
                  flip[f]);
-        execute(sql);
+        execute(statement);
         FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED,
               "fracas reindex");
         char text[8192];
@@ -113,7 +113,7 @@ static void a_flipped_number_of_the_index_is_not_merged(void **state)
         assert_has(text, "fracas reindex");
         execute("DELETE FROM realization");
         execute("INSERT INTO realization SELECT * FROM kept");
-        assert_int_equal(sqlite3_exec(index_->db, "DROP TABLE kept", NULL, NULL, NULL), SQLITE_OK);
+        sql("DROP TABLE kept");
     }
     merge();
     verify_finds(0, "");
@@ -139,20 +139,20 @@ static void an_index_that_contradicts_itself_is_found(void **state)
     commit_everything(14);
     merge();
     for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
-        char sql[512];
+        char statement[512];
         const char *at = strstr(wrong[w].flip, "rowid_");
         if (at)
-            snprintf(sql, sizeof sql, "%.*s%s%s LIMIT 1)", (int)(at - wrong[w].flip), wrong[w].flip,
-                     pick, at + 6);
-        else snprintf(sql, sizeof sql, "%s", wrong[w].flip);
+            snprintf(statement, sizeof statement, "%.*s%s%s LIMIT 1)", (int)(at - wrong[w].flip),
+                     wrong[w].flip, pick, at + 6);
+        else snprintf(statement, sizeof statement, "%s", wrong[w].flip);
         execute("CREATE TABLE kept AS SELECT * FROM realization");
-        execute(sql);
+        execute(statement);
         char text[8192];
         assert_true(verify_as(false, false, text) > 0);
         assert_has(text, wrong[w].said);
         execute("DELETE FROM realization");
         execute("INSERT INTO realization SELECT * FROM kept");
-        assert_int_equal(sqlite3_exec(index_->db, "DROP TABLE kept", NULL, NULL, NULL), SQLITE_OK);
+        sql("DROP TABLE kept");
     }
     verify_finds_as(false, 0, "");
 }
@@ -163,9 +163,9 @@ static void a_run_does_not_begin_with_a_damaged_index(void **state)
     fracas_file_header header = sample_header();
     char *report;
     commit_everything(0);
-    sqlite3_exec(index_->db, "PRAGMA ignore_check_constraints = ON", NULL, NULL, NULL);
+    sql("PRAGMA ignore_check_constraints = ON");
     execute("UPDATE realization SET status = 'fone' WHERE point = 1 AND replica = 3");
-    sqlite3_exec(index_->db, "PRAGMA ignore_check_constraints = OFF", NULL, NULL, NULL);
+    sql("PRAGMA ignore_check_constraints = OFF");
     FAILS(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_DAMAGED,
           "fracas reindex");
     execute("UPDATE realization SET status = 'done' WHERE point = 1 AND replica = 3");
@@ -183,7 +183,7 @@ static void flipped_bytes_of_the_index_make_no_wrong_study(void **state)
 {
     commit_everything(15);
     merge();
-    assert_int_equal(rename(sample_path(study, "study.h5"), sample_path(study, "first")), 0);
+    keep_first();
     fracas_index_close(index_);
     char path[512];
     snprintf(path, sizeof path, "%s/index.sqlite", study);

@@ -154,8 +154,7 @@ static void index_modes_and_versions(void **state)
     fracas_index_close(other);
     OK(fracas_index_open(study, false, &third)); /* two at a time on a local filesystem */
     fracas_index_close(third);
-    assert_int_equal(sqlite3_exec(index_->db, "UPDATE meta SET value = '99'", NULL, NULL, NULL),
-                     SQLITE_OK);
+    sql("UPDATE meta SET value = '99'");
     FAILS(fracas_index_open(study, false, &other), FRACAS_DAMAGED, "format version 99");
     write_bytes(sample_path(study, "segments/index.sqlite"),
                 "no database, but long enough to be looked at", 44);

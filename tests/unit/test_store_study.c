@@ -77,23 +77,38 @@ static void order_of_segments_changes_nothing(void **state)
     }
 }
 
+/* Writes every record in order, as `change` leaves it. */
+static void write_whole(const char *name, void (*change)(size_t i, fracas_record *record),
+                        fracas_file_seal *seal)
+{
+    fracas_file_header header = sample_header();
+    fracas_writer *writer;
+    OK(fracas_writer_create(sample_path(study, name), &header, &table, &writer));
+    for (size_t i = 0; i < ALL; i++) {
+        FRACAS_CLEARED(fracas_record) record;
+        sample_record(i / REPLICAS, (int64_t)(i % REPLICAS), MOST, &record);
+        change(i, &record);
+        OK(fracas_writer_append(writer, i / REPLICAS, (int64_t)(i % REPLICAS), &record));
+    }
+    OK(fracas_writer_finish(writer, false, seal));
+}
+
+static void unchanged(size_t i, fracas_record *record) {}
+
+static void of_another_run(size_t i, fracas_record *record)
+{
+    if (i == 77) record->end_time = 1.5;
+    if (i == 78 && record->nhistory) record->history[0].work = 2.5;
+}
+
 /* The merged file is what one writer would have written; failed rows are empty and make it
  * incomplete. */
 static void merged_is_as_if_written_in_order(void **state)
 {
     commit_everything(9);
     merge();
-    fracas_file_header header = sample_header();
-    fracas_writer *writer;
     fracas_file_seal seal;
-    fracas_record record;
-    OK(fracas_writer_create(sample_path(study, "direct.h5"), &header, &table, &writer));
-    for (size_t i = 0; i < ALL; i++) {
-        sample_record(i / REPLICAS, (int64_t)(i % REPLICAS), MOST, &record);
-        OK(fracas_writer_append(writer, i / REPLICAS, (int64_t)(i % REPLICAS), &record));
-        fracas_record_clear(&record);
-    }
-    OK(fracas_writer_finish(writer, false, &seal));
+    write_whole("direct.h5", unchanged, &seal);
     assert_true(count_all().failed > 0);
     assert_true(sample_same_file(sample_path(study, "study.h5"), sample_path(study, "direct.h5")));
 }
@@ -240,12 +255,8 @@ static void verify_names_what_is_wrong(void **state)
     verify_finds(1, "s1.h5: damaged");
     flip_byte(sample_path(study, "segments/s1.h5"), 50001);
     verify_finds(0, "");
-    assert_int_equal(
-        sqlite3_exec(index_->db,
-                     "UPDATE realization SET steps = steps - 1 WHERE point = 1 AND replica = "
-                     "(SELECT min(replica) FROM realization WHERE point = 1 AND status = 'done')",
-                     NULL, NULL, NULL),
-        SQLITE_OK);
+    sql("UPDATE realization SET steps = steps - 1 WHERE point = 1 AND replica = "
+        "(SELECT min(replica) FROM realization WHERE point = 1 AND status = 'done')");
     verify_finds(1, "differs from its record");
 }
 
@@ -285,18 +296,8 @@ static void verify_compares_every_record(void **state)
 {
     commit_everything(0);
     merge();
-    fracas_file_header header = sample_header();
-    fracas_writer *writer;
     fracas_file_seal seal;
-    OK(fracas_writer_create(sample_path(study, "study.h5"), &header, &table, &writer));
-    for (size_t i = 0; i < ALL; i++) {
-        FRACAS_CLEARED(fracas_record) record;
-        sample_record(i / REPLICAS, (int64_t)(i % REPLICAS), MOST, &record);
-        if (i == 77) record.end_time = 1.5;
-        if (i == 78 && record.nhistory) record.history[0].work = 2.5;
-        OK(fracas_writer_append(writer, i / REPLICAS, (int64_t)(i % REPLICAS), &record));
-    }
-    OK(fracas_writer_finish(writer, false, &seal));
+    write_whole("study.h5", of_another_run, &seal);
     OK(fracas_index_seal_study(index_, &seal)); /* as if a merge had written it */
     verify_finds(2, "row 77 differs");
 }

@@ -42,11 +42,14 @@ static void make_quadratic(sample *s)
     s->arrays.nnodes = 12;
 }
 
-static void expect(const sample *s, const char *message)
+/* The sample is refused, and made anew. */
+static void expect(sample *s, const char *message)
 {
     OWN(a_surface) surface = NULL;
     FAILS(fracas_surface_assemble(&s->arrays, &surface), FRACAS_USAGE, message);
     assert_null(surface);
+    if (s->arrays.order == 2) make_quadratic(s);
+    else make_sample(s);
 }
 
 static size_t place_of(const fracas_surface *surface, int64_t given)
@@ -109,33 +112,25 @@ static void test_refused_elements(void **state)
     make_sample(&s);
     s.element[7] = 5;
     expect(&s, "element 2 names node 5, but there are 5");
-    make_sample(&s);
     s.element[5] = 2;
     expect(&s, "element 1 names node 2 twice");
-    make_sample(&s);
     s.arrays.nnodes = 6;
     expect(&s, "node 5 belongs to no element");
-    make_sample(&s);
     s.node[3][1] = NAN;
     expect(&s, "node 3 has the y coordinate nan m");
     s.node[3][1] = 1e51;
     expect(&s, "node 3 has the y coordinate 1e+51 m");
-    make_sample(&s);
     s.node[4][0] = 1.0;
     s.node[4][1] = 0.5; /* between nodes 1 and 2 */
     expect(&s, "element 2 is degenerate: its area is 0 m2, the mean 0.333333 m2");
-    make_sample(&s);
     s.node[4][0] = 1.0;
     s.node[4][1] = 1e-10;
     expect(&s, "element 2 is degenerate: its edge 0 is 1e-10 m long");
-    make_sample(&s);
     for (size_t n = 0; n < 5; n++)
         for (int i = 0; i < 3; i++) s.node[n][i] = 1.0; /* all in one place */
     expect(&s, "element 0 is degenerate");
-    make_sample(&s);
     s.arrays.order = 3;
     expect(&s, "order 1 or 2, not 3");
-    s.arrays.order = 1;
     s.arrays.nelements = 0;
     expect(&s, "not 0");
 }
@@ -149,15 +144,12 @@ static void test_refused_neighbours(void **state)
     expect(&s, "elements 2 and 3 have the same vertices");
     /* The first triangle turned round is at odds with both its neighbours, each of which is so with
      * one. */
-    make_sample(&s);
     memcpy(s.element, (uint32_t[]){0, 2, 1}, 3 * sizeof *s.element);
     expect(&s, "element 0 is inverted: it goes round against 2 of its neighbours");
     /* Node 4 moved into the square: element 2 goes back over element 0. */
-    make_sample(&s);
     s.node[4][0] = 0.5;
     expect(&s, "is inverted: it is folded back on 1 of its neighbours by more than 120 degrees");
     /* Folded up by 90 degrees is a surface. */
-    make_sample(&s);
     s.node[4][0] = 1.0;
     s.node[4][2] = 1.0;
     OWN(a_surface) surface = NULL;
@@ -170,7 +162,6 @@ static void test_refused_neighbours(void **state)
     s.arrays.nnodes = 6;
     expect(&s, "the edge between nodes 1 and 2 is shared by elements 0, 2 and 3");
     /* A band with half a turn has no outside. */
-    make_sample(&s);
     for (size_t n = 0; n < 5; n++) {
         s.node[n][0] = cos(1.0 + 2.1 * (double)n);
         s.node[n][1] = sin(1.0 + 2.1 * (double)n);
@@ -193,13 +184,11 @@ static void test_refused_middles(void **state)
     s.arrays.nnodes = 13;
     expect(&s, "elements 0 and 2 have different nodes, 6 and 12, in the middle of the edge between "
                "nodes 1 and 2");
-    make_quadratic(&s);
     s.element[11] = 5; /* the node of edge 0-1 for edge 3-0 too */
     memcpy(s.node[9], s.node[11], sizeof s.node[9]);
     s.element[16] = 9;
     s.arrays.nnodes = 11;
     expect(&s, "node 5 in the middle of an edge of element 1 has another place in element 0");
-    make_quadratic(&s);
     s.element[11] = 4; /* a vertex of element 2 */
     memcpy(s.node[9], s.node[11], sizeof s.node[9]);
     s.element[16] = 9;
@@ -217,6 +206,16 @@ static void test_refused_middles(void **state)
         }
         OK(fracas_surface_assemble(&s.arrays, &surface));
     }
+}
+
+/* One element of order 2 with these nodes. */
+static fracas_err assemble_one(const double (*node)[3])
+{
+    const uint32_t element[6] = {0, 1, 2, 3, 4, 5};
+    const fracas_surface_arrays arrays = {
+        .order = 2, .nnodes = 6, .nelements = 1, .node = node, .element = element};
+    OWN(a_surface) surface = NULL;
+    return fracas_surface_assemble(&arrays, &surface);
 }
 
 /* The Jacobian of one random element is positive on a fine grid when it is accepted, and not when
@@ -246,14 +245,7 @@ static void test_jacobian(void **state)
                     }
                 least = fmin(least, d[0][0] * d[1][1] - d[0][1] * d[1][0]);
             }
-        const uint32_t element[6] = {0, 1, 2, 3, 4, 5};
-        const fracas_surface_arrays arrays = {.order = 2,
-                                              .nnodes = 6,
-                                              .nelements = 1,
-                                              .node = (const double(*)[3])node,
-                                              .element = element};
-        OWN(a_surface) surface = NULL;
-        const fracas_err err = fracas_surface_assemble(&arrays, &surface);
+        const fracas_err err = assemble_one((const double(*)[3])node);
         accepted += !err;
         refused += err != FRACAS_OK;
         /* A quadratic form with second derivatives below 16 lies at most 16 (1/60)^2/2 under its
@@ -290,14 +282,7 @@ static void test_squared(void **state)
         if (side[0] + side[1] + side[2] < 1e-3 || gap < 1e-3 || fabs(flat) < 1e-3)
             continue; /* clockwise, or hard to tell */
         const bool is_inside = side[0] > 0.0 && side[1] > 0.0 && side[2] > 0.0;
-        const uint32_t element[6] = {0, 1, 2, 3, 4, 5};
-        const fracas_surface_arrays arrays = {.order = 2,
-                                              .nnodes = 6,
-                                              .nelements = 1,
-                                              .node = (const double(*)[3])node,
-                                              .element = element};
-        OWN(a_surface) surface = NULL;
-        const fracas_err err = fracas_surface_assemble(&arrays, &surface);
+        const fracas_err err = assemble_one((const double(*)[3])node);
         const bool is_good = flat > 0.0 && !is_inside;
         if (is_good ? err != FRACAS_OK : err != FRACAS_USAGE)
             fail_msg("try %d: %d, inside %d, flat %g", t, err, is_inside, flat);
@@ -315,13 +300,10 @@ static void test_refused_tags(void **state)
     s.tag[0].node[1] = 3;
     s.tag[0].node[0] = 1;
     expect(&s, "tag 7 is for nodes 1 and 3, between which no triangle has an edge");
-    make_sample(&s);
     s.tag[1] = (fracas_surface_tag){.node = {1, 0}, .tag = 8};
     expect(&s, "the edge between nodes 1 and 0 has the tags 7 and 8");
-    make_sample(&s);
     s.tag[2].node[1] = 5;
     expect(&s, "tag 9 is for node 5, but there are 5");
-    make_sample(&s);
     s.tag[1] = (fracas_surface_tag){.node = {1, 0}, .tag = 7}; /* the same twice: harmless */
     OWN(a_surface) surface = NULL;
     OK(fracas_surface_assemble(&s.arrays, &surface));
@@ -336,7 +318,6 @@ static void test_names(void **state)
     s.arrays.element_number = elements;
     s.element[7] = s.element[6];
     expect(&s, "element 60 names node 101 twice");
-    make_sample(&s);
     s.arrays.node_number = nodes;
     s.arrays.element_number = elements;
     OWN(a_surface) surface = NULL;
