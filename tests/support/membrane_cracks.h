@@ -89,7 +89,6 @@ static inline int64_t label_fragments(const fracas_model *model, const fracas_in
 
 static inline bool is_not_broken(const fracas_interface_row *row, double unused)
 {
-    (void)unused;
     return row->damage < 1;
 }
 

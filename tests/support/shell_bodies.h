@@ -12,7 +12,6 @@ static const char *const body_name[BODIES]
 
 static inline void saddle_map(const void *unused, double s, double t, double x[3])
 {
-    (void)unused;
     x[0] = s + 0.1 * sin(2 * t);
     x[1] = t - 0.1 * s * s;
     x[2] = 0.4 * s * s - 0.3 * t * t + 0.3 * s * t;

@@ -226,7 +226,6 @@ static void make_fragments(size_t p, uint64_t *state, fracas_record *record)
  * FRAGMENTED. Replicas 3 and 4 of point 2 drift. */
 static void make_record(const void *context, size_t p, int64_t replica, fracas_record *record)
 {
-    (void)context;
     fracas_record_init(record);
     uint64_t state = 1000 * p + (uint64_t)replica + 77;
     record->outcome = p == 0 ? (replica == REPLICAS - 1 ? FRACAS_TIME_LIMIT : FRACAS_INTACT)

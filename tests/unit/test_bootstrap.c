@@ -84,7 +84,6 @@ static void options_are_heard(void **state)
 /* The value of the second realization, once, or nothing where it was not drawn. */
 static void second(void *context, const uint32_t *weight, double *value)
 {
-    (void)context;
     value[0] = weight[1] ? 3 : NAN;
     value[1] = 8;
 }

@@ -61,7 +61,7 @@ static void test_plate(void **state)
         "time.end=1e-07\ntime.integrator=central-difference\ntime.mass=lumped\ntime.safety=0."
         "25\ntime.spectral_radius=0.95\n"
         "time.stop=time\n";
-    fracas_campaign *campaign = read_membrane("", "");
+    OWN(fracas_campaign) campaign = read_membrane("", "");
     const fracas_hash hash = fracas_hash_of(text, strlen(text));
     assert_true(fracas_hash_equal(&campaign->point[0].hash, &hash));
     assert_true(at(campaign, 0, "derived.strain_rate")->real == 1e4);
@@ -72,11 +72,9 @@ static void test_plate(void **state)
     assert_int_equal(fracas_model_elements(model), 2 * 8 * 4);
     assert_int_equal(fracas_model_interfaces(model),
                      8 * 3 + 4 * 7 + 8 * 4); /* lines between squares, diagonals */
-    fracas_campaign_destroy(campaign);
-    campaign = read_membrane("loading: {rate: 1e4 1/s}",
-                             "loading: {type: centrifugal, speed: 1e3 rad/s, ramp: 1 us}");
-    assert_true(isnan(at(campaign, 0, "derived.strain_rate")->real));
-    fracas_campaign_destroy(campaign);
+    OWN(fracas_campaign) spun = read_membrane(
+        "loading: {rate: 1e4 1/s}", "loading: {type: centrifugal, speed: 1e3 rad/s, ramp: 1 us}");
+    assert_true(isnan(at(spun, 0, "derived.strain_rate")->real));
 }
 
 static void test_annulus(void **state)
@@ -291,14 +289,13 @@ static void test_perturbed(void **state)
 {
     static const char mesh[] =
         "  divisions: 4\n  amplitude: 0.3\nsweep:\n  - loading.rate: [1e4, 2e4]\n";
-    fracas_campaign *campaign = read_membrane("  divisions: 4\n", mesh);
     OWNED char *text = replace(membrane_campaign, "  divisions: 4\n", mesh),
                *reseeded = replace(text, "seed: 7", "seed: 8");
-    fracas_campaign *again = read_text(text), *other = read_text(reseeded),
-                    *regular = read_membrane("", "");
-    fracas_model *first = model_of(campaign, 0), *same = model_of(again, 0),
-                 *second = model_of(campaign, 1), *seeded = model_of(other, 0),
-                 *plain = model_of(regular, 0);
+    OWN(fracas_campaign) campaign = read_text(text), *again = read_text(text),
+                         *other = read_text(reseeded), *regular = read_membrane("", "");
+    OWN(fracas_model) first = model_of(campaign, 0), *same = model_of(again, 0),
+                      *second = model_of(campaign, 1), *seeded = model_of(other, 0),
+                      *plain = model_of(regular, 0);
     assert_int_equal(count_moved(first, plain), 7 * 3);
     assert_int_equal(count_moved(first, same), 0);
     assert_int_equal(count_moved(first, second), 7 * 3);
@@ -308,10 +305,6 @@ static void test_perturbed(void **state)
     assert_int_equal(count, 2 * 9 * 5);
     OK(fracas_mesh_noise_count(&regular->point[0].spec, &count));
     assert_int_equal(count, 0);
-    fracas_model *const models[] = {first, same, second, seeded, plain};
-    for (size_t m = 0; m < FRACAS_COUNT(models); m++) fracas_model_destroy(models[m]);
-    fracas_campaign *const campaigns[] = {campaign, again, other, regular};
-    for (size_t c = 0; c < FRACAS_COUNT(campaigns); c++) fracas_campaign_destroy(campaigns[c]);
 }
 
 /* ---- plans ---- */
@@ -357,8 +350,8 @@ static void test_plan(void **state)
     static const char lines[] = "warning: point 0: interfaces are equally strong and the mesh is "
                                 "regular, so that cracks follow its lines";
     static const char strength[] = "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}";
-    fracas_campaign *campaign = read_membrane(strength,
-                                              "strength: {distribution: constant, value: 300 MPa}");
+    OWN(fracas_campaign) campaign = read_membrane(
+        strength, "strength: {distribution: constant, value: 300 MPa}");
     fracas_forecast forecast;
     OK(fracas_forecast_make(campaign, 0, &forecast));
     assert_int_equal(forecast.elements, 64);
@@ -368,30 +361,22 @@ static void test_plan(void **state)
              1) < 1e-12);
     assert_true(fabs(forecast.bound / (370e9 * 1e4 * 1e-7 / 0.75) - 1) < 1e-12);
     assert_true(fabs(forecast.step_stress / (370e9 * 1e4 * forecast.time_step) - 1) < 1e-12);
-    char *text = plan_text(campaign, 1, false);
+    OWNED char *text = plan_text(campaign, 1, false), *json = plan_text(campaign, 1, true);
     assert_has(text, lines);
     assert_has(text, "a crack's softening is not resolved: raise mesh.divisions to 19");
     assert_null(strstr(text, "until time.end the stress stays"));
-    free(text);
-    text = plan_text(campaign, 1, true);
-    assert_has(text, "\"elements\": 64");
-    free(text);
-    fracas_campaign_destroy(campaign);
+    assert_has(json, "\"elements\": 64");
     OWNED char *constant = replace(membrane_campaign, strength,
                                    "strength: {distribution: constant, value: 300 MPa}");
     OWNED char *moved = replace(constant, "  divisions: 4\n", "  size: 1 mm\n  amplitude: 0.2\n");
-    campaign = read_text(moved);
-    text = plan_text(campaign, 1, false);
-    assert_null(strstr(text, "follow its lines"));
-    assert_has(text, "lower mesh.size to ");
-    free(text);
-    fracas_campaign_destroy(campaign);
-    campaign = read_membrane("rate: 1e4 1/s", "rate: 1e3 1/s"); /* 49 MPa */
-    text = plan_text(campaign, 1, false);
-    assert_null(strstr(text, "follow its lines")); /* of scattered strength */
-    assert_has(text, "until time.end the stress stays below 49.3 MPa");
-    free(text);
-    fracas_campaign_destroy(campaign);
+    OWN(fracas_campaign) irregular = read_text(moved);
+    OWNED char *of_irregular = plan_text(irregular, 1, false);
+    assert_null(strstr(of_irregular, "follow its lines"));
+    assert_has(of_irregular, "lower mesh.size to ");
+    OWN(fracas_campaign) slow = read_membrane("rate: 1e4 1/s", "rate: 1e3 1/s"); /* 49 MPa */
+    OWNED char *of_slow = plan_text(slow, 1, false);
+    assert_null(strstr(of_slow, "follow its lines")); /* of scattered strength */
+    assert_has(of_slow, "until time.end the stress stays below 49.3 MPa");
 }
 
 /* Rows of interfaces take what they take, 6 x 84 more numbers than there are none. */

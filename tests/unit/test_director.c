@@ -27,7 +27,6 @@ static struct {
 
 static fracas_err note(void *context, size_t to, const fracas_packet *message)
 {
-    (void)context;
     if (message->kind == FRACAS_PACKET_FLUSH) worker[to].flushes++;
     if (message->kind == FRACAS_PACKET_STOP) {
         worker[to].stops++;
@@ -52,10 +51,22 @@ static fracas_run_options options;
 static fracas_channel channel;
 static fracas_director *director;
 
+/* Ends the run that was prepared last, if there is one. */
+static int end(void **state)
+{
+    if (!study) return 0;
+    fracas_director_destroy(director);
+    fracas_campaign_destroy(campaign);
+    sample_remove(study);
+    study = NULL;
+    return 0;
+}
+
 /* Of the plain campaign, in place of its three replicas and sweep: for `WORKERS` workers in a study
  * of its own. */
 static void prepare(const char *replicas, const char *sweep)
 {
+    end(NULL);
     OWNED char *counted = replace(plain_campaign, "replicas: 3", replicas),
                *text = replace(counted, "", sweep);
     campaign = read_text(text);
@@ -81,13 +92,6 @@ static void begin(double deadline)
     OK(fracas_director_create(&setup, &director, &result));
 }
 
-static void end(void)
-{
-    fracas_director_destroy(director);
-    fracas_campaign_destroy(campaign);
-    sample_remove(study);
-}
-
 static void hear(size_t from, fracas_packet_kind kind, const void *body, size_t size)
 {
     OWNED fracas_packet *message;
@@ -99,6 +103,12 @@ static void ready(void)
 {
     for (size_t w = 0; w < WORKERS; w++)
         hear(w, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
+}
+
+static void begin_ready(double deadline)
+{
+    begin(deadline);
+    ready();
 }
 
 /* The worker has computed the lease that it was given as number `i`. */
@@ -142,9 +152,7 @@ static void pass(double seconds)
 static void assert_result(fracas_err code, const char *part)
 {
     assert_true(fracas_director_over(director));
-    const fracas_err err = fracas_director_finish(director);
-    if (err != code || !strstr(fracas_message(), part))
-        fail_msg("%d, not %d: %s", err, code, fracas_message());
+    FAILS(fracas_director_finish(director), code, part);
 }
 
 /* study.h5 is begun, and lacks the segments that this test did not write. */
@@ -160,6 +168,19 @@ static void say_ended(size_t from)
     hear(from, FRACAS_PACKET_ENDED, NULL, 0);
 }
 
+static void assert_leases(size_t first, size_t second)
+{
+    assert_int_equal(worker[0].nleases, first);
+    assert_int_equal(worker[1].nleases, second);
+}
+
+/* Worker 0 was told to stop so often, the last time at once (`kill`). */
+static void assert_stops(size_t stops, int kill)
+{
+    assert_int_equal(worker[0].stops, stops);
+    assert_int_equal(worker[0].kill, kill);
+}
+
 /* ---- rounds ---- */
 
 /* Two points of 16 realizations each. When the second worker has nothing left to do, both are asked
@@ -170,11 +191,9 @@ static void nobody_waits_for_records_of_one_that_computes(void **state)
     prepare("replicas: {minimum: 16, maximum: 64, until: {quantity: dissipated, "
             "relative-half-width: 0.1}}",
             "sweep:\n  - loading.rate: [1e3, 1e4]\n");
-    begin(0);
-    ready();
-    assert_int_equal(worker[0].nleases, 2); /* the first took one ahead */
-    assert_int_equal(worker[1].nleases, 1);
-    computed(0, 0, 8); /* so long that leases are one batch */
+    begin_ready(0);
+    assert_leases(2, 1); /* the first took one ahead */
+    computed(0, 0, 8);   /* so long that leases are one batch */
     assert_int_equal(worker[0].flushes + worker[1].flushes, 0); /* everyone has something to do */
     computed(1, 0, 8);
     assert_int_equal(worker[1].nleases, 2);
@@ -185,7 +204,6 @@ static void nobody_waits_for_records_of_one_that_computes(void **state)
     assert_int_equal(worker[1].flushes, 1);
     computed(0, 1, 8);
     assert_int_equal(worker[0].flushes, 1); /* once until its segment comes */
-    end();
 }
 
 /* A point whose replicas a rule decides goes before a longer one with a number of them. */
@@ -194,11 +212,9 @@ static void what_rounds_wait_for_goes_first(void **state)
     prepare("replicas: 40", "sweep:\n  - cases:\n      - {name: long, time: {end: 900 ns}}\n      "
                             "- {name: ruled, replicas: {minimum: 16, maximum: 64, until: "
                             "{quantity: dissipated, relative-half-width: 0.1}}}\n");
-    begin(0);
-    ready();
+    begin_ready(0);
     for (size_t w = 0; w < WORKERS; w++) assert_int_equal(worker[w].lease[0].point, w == 0 ? 1 : 0);
     assert_int_equal(worker[0].lease[1].point, 1);
-    end();
 }
 
 /* ---- time ---- */
@@ -207,10 +223,8 @@ static void what_rounds_wait_for_goes_first(void **state)
 static void half_done(double deadline)
 {
     prepare("replicas: 16", "");
-    begin(deadline);
-    ready();
-    assert_int_equal(worker[0].nleases, 1);
-    assert_int_equal(worker[1].nleases, 1);
+    begin_ready(deadline);
+    assert_leases(1, 1);
     computed(1, 0, 1);
     segment(1, 0, 0, 1000);
 }
@@ -226,7 +240,6 @@ static void an_overdue_lease_is_offered_when_time_passes(void **state)
     assert_int_equal(worker[1].lease[1].id, worker[0].lease[0].id);
     pass(100);
     assert_int_equal(worker[1].nleases, 2); /* it is at work */
-    end();
 }
 
 static void a_look_at_the_time_is_rare(void **state)
@@ -236,14 +249,12 @@ static void a_look_at_the_time_is_rare(void **state)
     time_ += 11;
     fracas_director_tick(director);
     assert_int_equal(worker[1].nleases, 2);
-    end();
     half_done(0);
     pass(9.9);
     pass(0.2); /* overdue, but looked at 0.2 s ago */
     assert_int_equal(worker[1].nleases, 1);
     pass(0.1);
     assert_int_equal(worker[1].nleases, 2);
-    end();
 }
 
 /* Everything is there, but worker 0 hangs in a lease that was computed by the other. */
@@ -257,8 +268,7 @@ static void a_worker_that_is_not_needed_is_given_up(void **state)
         1); /* nobody stops before everything is durable: should this one die now ... */
     assert_int_equal(worker[0].stops + worker[1].stops, 0);
     segment(1, 1, 1, 1000);
-    assert_int_equal(worker[0].stops, 1);
-    assert_int_equal(worker[0].kill, 1); /* what it does is not needed */
+    assert_stops(1, 1); /* what it does is not needed */
     say_ended(1);
     pass(9.9);
     assert_false(fracas_director_over(director));
@@ -267,7 +277,6 @@ static void a_worker_that_is_not_needed_is_given_up(void **state)
     say_ended(0); /* too late to be of any effect */
     hear(0, FRACAS_PACKET_TROUBLE, &(fracas_trouble){.code = FRACAS_BUG}, sizeof(fracas_trouble));
     assert_merged();
-    end();
 }
 
 /* Worker 0 has computed everything that is missing, and hangs before it is on disk: the other one
@@ -284,7 +293,6 @@ static void what_stays_in_memory_is_computed_again(void **state)
     computed(1, 1, 1);
     segment(1, 1, 1, 1000);
     assert_int_equal(worker[0].stops, 1);
-    end();
 }
 
 /* A worker that never came up. */
@@ -298,7 +306,6 @@ static void a_worker_that_does_not_start_is_given_up(void **state)
     say_ended(1);
     pass(10.5);
     assert_true(fracas_director_over(director));
-    end();
 }
 
 /* ---- the deadline ---- */
@@ -308,8 +315,7 @@ static void a_worker_that_does_not_start_is_given_up(void **state)
 static void no_lease_is_given_that_does_not_end_in_time(void **state)
 {
     prepare("replicas: 160", "");
-    begin(1000 + 6.5);
-    ready();
+    begin_ready(1000 + 6.5);
     for (size_t i = 0; worker[0].stops == 0; i++) {
         assert_true(i < 10);
         time_ += 1;
@@ -318,8 +324,7 @@ static void no_lease_is_given_that_does_not_end_in_time(void **state)
         pass(0);
     }
     assert_true(time_ == 1004); /* a fifth lease would end at 1005, later than 1004.5 */
-    assert_int_equal(worker[0].nleases, 4);
-    assert_int_equal(worker[1].nleases, 4);
+    assert_leases(4, 4);
     assert_int_equal(worker[0].kill, 0);
     for (size_t w = 0; w < WORKERS; w++) {
         segment(w, 0, 3, 1000);
@@ -327,7 +332,6 @@ static void no_lease_is_given_that_does_not_end_in_time(void **state)
     }
     assert_result(FRACAS_INTERRUPTED,
                   "the walltime is nearly over: 64 of 160 realizations are done");
-    end();
 }
 
 /* A segment took 0.5 s to be committed, so two workers need 1 s more than the 2 s before the
@@ -345,7 +349,6 @@ static void commits_take_time_as_well(void **state)
     fracas_director_tick(director);
     assert_int_equal(worker[0].stops + worker[1].stops, 2);
     assert_int_equal(worker[1].kill, 1);
-    end();
 }
 
 /* What runs 2 s before the deadline is killed; who does not answer until the deadline is left
@@ -359,34 +362,29 @@ static void what_runs_at_the_deadline_is_killed(void **state)
     pass(48.9);
     assert_int_equal(worker[0].stops, 0);
     pass(0.3); /* 1.8 s are left */
-    assert_int_equal(worker[0].stops, 1);
-    assert_int_equal(worker[0].kill, 1);
+    assert_stops(1, 1);
     say_ended(1);
     pass(1.5);
     assert_false(fracas_director_over(director));
     pass(0.4);
     assert_result(FRACAS_INTERRUPTED, "the walltime is nearly over: 8 of 16 realizations are done");
-    end();
 }
 
 static void what_drains_at_the_deadline_is_killed(void **state)
 {
     half_done(1000 + 60);
     fracas_director_drain(director);
-    assert_int_equal(worker[0].stops, 1);
-    assert_int_equal(worker[0].kill, 0);
+    assert_stops(1, 0);
     pass(30);
     assert_int_equal(worker[0].stops, 1);
     pass(29);
-    assert_int_equal(worker[0].stops, 2);
-    assert_int_equal(worker[0].kill, 1);
+    assert_stops(2, 1);
     pass(0.5);
     assert_int_equal(worker[0].stops, 2); /* once is enough */
     say_ended(0);
     say_ended(1);
     assert_result(FRACAS_INTERRUPTED,
                   "interrupted: 8 of 16 realizations are done"); /* which came first */
-    end();
 }
 
 /* Segments of 1 GB in all: 20 s to merge. */
@@ -403,10 +401,8 @@ static void a_merge_that_would_not_end_is_not_begun(void **state)
     everything(1000 + 19);
     assert_result(FRACAS_INTERRUPTED,
                   "all 16 realizations are done and kept, only study.h5 is missing");
-    end();
     everything(1000 + 21);
     assert_merged();
-    end();
 }
 
 /* ---- parts ---- */
@@ -416,8 +412,7 @@ static void a_part_is_every_so_many_th(void **state)
     prepare("replicas: 3", "sweep:\n  - loading.rate: [1e3, 1e4, 2e4]\n");
     options.part = 2;
     options.parts = 4; /* of 9: the second and the sixth */
-    begin(0);
-    ready();
+    begin_ready(0);
     assert_int_equal(worker[0].nleases + worker[1].nleases, 2);
     bool found[3][3] = {{false}};
     for (size_t w = 0; w < WORKERS; w++) {
@@ -430,7 +425,6 @@ static void a_part_is_every_so_many_th(void **state)
     assert_true(found[0][1] && found[1][2]);
     assert_result(FRACAS_INTERRUPTED, "part 2 of 4 is complete, 2 realizations, 0 of them FAILED; "
                                       "when the other parts are, `fracas merge-studies`");
-    end();
 }
 
 /* A part that has everything is the study. */
@@ -439,13 +433,11 @@ static void the_only_part_is_merged(void **state)
     prepare("replicas: 1", "");
     options.part = 1;
     options.parts = 2;
-    begin(0);
-    ready();
+    begin_ready(0);
     computed(0, 0, 1);
     segment(0, 0, 0, 1000);
     for (size_t w = 0; w < WORKERS; w++) say_ended(w);
     assert_merged();
-    end();
 }
 
 /* ---- failures ---- */
@@ -476,13 +468,13 @@ static void points_with_failures_are_named(void **state)
           "FAILED: 1 of point 0, 1 of point 1, 1 of point 2, 1 of point 3, 1 of "
           "point 4, and of 2 points more (which and why: fracas status");
     fracas_index_close(index);
-    end();
 }
 
-TESTS(nobody_waits_for_records_of_one_that_computes, what_rounds_wait_for_goes_first,
-      an_overdue_lease_is_offered_when_time_passes, a_look_at_the_time_is_rare,
-      a_worker_that_is_not_needed_is_given_up, what_stays_in_memory_is_computed_again,
-      a_worker_that_does_not_start_is_given_up, no_lease_is_given_that_does_not_end_in_time,
-      commits_take_time_as_well, what_runs_at_the_deadline_is_killed,
-      what_drains_at_the_deadline_is_killed, a_merge_that_would_not_end_is_not_begun,
-      a_part_is_every_so_many_th, the_only_part_is_merged, points_with_failures_are_named)
+TESTS_EACH(NULL, end, nobody_waits_for_records_of_one_that_computes,
+           what_rounds_wait_for_goes_first, an_overdue_lease_is_offered_when_time_passes,
+           a_look_at_the_time_is_rare, a_worker_that_is_not_needed_is_given_up,
+           what_stays_in_memory_is_computed_again, a_worker_that_does_not_start_is_given_up,
+           no_lease_is_given_that_does_not_end_in_time, commits_take_time_as_well,
+           what_runs_at_the_deadline_is_killed, what_drains_at_the_deadline_is_killed,
+           a_merge_that_would_not_end_is_not_begun, a_part_is_every_so_many_th,
+           the_only_part_is_merged, points_with_failures_are_named)

@@ -71,7 +71,6 @@ static void make_record(const void *context, size_t point, int64_t replica, frac
 {
     gsl_rng *random = gsl_rng_alloc(gsl_rng_mt19937);
     gsl_rng_set(random, (unsigned long)(1 + 1000 * point) + (unsigned long)replica);
-    (void)context;
     if (point == 3) fracas_record_init(record);
     else synthetic_realization(&law[point], random, record);
     record->outcome = point == 3 ? FRACAS_NONFINITE : FRACAS_FRAGMENTED;

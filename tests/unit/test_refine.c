@@ -179,7 +179,6 @@ static void check_example(const char *example)
 static void every_example(void **state)
 {
     glob_t files;
-    (void)state;
     assert_int_equal(glob(FRACAS_SOURCE_DIR "/campaigns/examples/*.yaml", 0, NULL, &files), 0);
     assert_true(files.gl_pathc > 15);
     for (size_t i = 0; i < files.gl_pathc; i++) check_example(files.gl_pathv[i]);

@@ -18,7 +18,6 @@ static fracas_run_options options;
 
 static fracas_err note(void *context, size_t to, const fracas_packet *message)
 {
-    (void)context;
     if (message->kind == FRACAS_PACKET_STOP) worker[to].stops++;
     if (message->kind == FRACAS_PACKET_FRESH) worker[to].fresh++;
     if (message->kind != FRACAS_PACKET_LEASE) return FRACAS_OK;

@@ -1,18 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The lease logic under everything that can happen to it: copies of overdue leases, losses, and
  * random courses of events. */
-#include "campaigns/scheduler/lease/scheduler.h"
-#include "tests/support/test.h"
+#include "tests/support/leases.h"
 
 #include <malloc.h>
 #include <time.h>
-
-static bool next(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease)
-{
-    bool given;
-    OK(fracas_scheduler_next(scheduler, worker, now, lease, &given));
-    return given;
-}
 
 /* A lease, or (*copy) one that is overdue. */
 static bool any_or_copy(fracas_scheduler *scheduler, size_t worker, double now, fracas_lease *lease,
@@ -51,13 +43,11 @@ static const double flat[] = {1, 1, 1, 1, 1};
  * they are durable. */
 static fracas_scheduler *create_late(fracas_lease *first, fracas_lease *second)
 {
-    fracas_index_row row[24];
-    for (size_t i = 0; i < 24; i++) row[i] = (fracas_index_row){.replica = (int64_t)i};
+    OWNED fracas_index_row *row = rows(1, 24);
     const fracas_scheduler_options options = {
         .cost = flat, .npoints = 1, .workers = 3, .width = 8, .seconds = 1, .memory = 5};
-    fracas_scheduler *scheduler;
+    fracas_scheduler *scheduler = create_with(row, 24, &options);
     fracas_lease other;
-    OK(fracas_scheduler_create(row, 24, &options, &scheduler));
     assert_true(next(scheduler, 0, 0, first) && next(scheduler, 1, 0, second));
     assert_int_equal(first->count, 8);
     assert_int_equal(second->count, 8);
@@ -67,8 +57,8 @@ static fracas_scheduler *create_late(fracas_lease *first, fracas_lease *second)
     return scheduler;
 }
 
-static void assert_counts(const fracas_scheduler *scheduler, int64_t done, int64_t memory,
-                          int64_t duplicates)
+static void assert_done(const fracas_scheduler *scheduler, int64_t done, int64_t memory,
+                        int64_t duplicates)
 {
     const fracas_counts count = fracas_scheduler_count(scheduler);
     assert_int_equal(count.total, 24);
@@ -82,7 +72,7 @@ static void an_overdue_lease_goes_to_an_idle_worker(void **state)
 {
     fracas_lease first, second, copy;
     OWN(fracas_scheduler) scheduler = create_late(&first, &second);
-    assert_counts(scheduler, 8, 0, 0);
+    assert_done(scheduler, 8, 0, 0);
     assert_false(any(scheduler, 2, 9, &copy));
     assert_false(any(scheduler, 2, 32, &copy)); /* 4 times 8 s */
     assert_false(any(scheduler, 0, 33, &copy)); /* which is not idle */
@@ -94,18 +84,18 @@ static void an_overdue_lease_goes_to_an_idle_worker(void **state)
     assert_false(any(scheduler, 2, 999, &copy)); /* it has enough */
     OK(fracas_scheduler_computed(scheduler, 2, first.id, 41, 8));
     fracas_scheduler_durable(scheduler, 2);
-    assert_counts(scheduler, 16, 0, 0);
+    assert_done(scheduler, 16, 0, 0);
     copy_of(scheduler, 2, 41, 1, &copy); /* the other one; the one before is not needed any more */
     assert_int_equal(copy.id, second.id);
     OK(fracas_scheduler_computed(scheduler, 2, copy.id, 49, 8));
     assert_true(fracas_scheduler_computed_all(scheduler)); /* though two workers are at it */
     assert_false(any(scheduler, 2, 999, &copy));
     fracas_scheduler_durable(scheduler, 2);
-    assert_counts(scheduler, 24, 0, 0);
+    assert_done(scheduler, 24, 0, 0);
     /* What they computed is there twice. */
     OK(fracas_scheduler_computed(scheduler, 0, first.id, 1000, 1000));
     fracas_scheduler_durable(scheduler, 0);
-    assert_counts(scheduler, 24, 0, 8);
+    assert_done(scheduler, 24, 0, 8);
 }
 
 /* 10 s at least; of a lease ahead from when it was given, and from when it began when the one
@@ -113,12 +103,10 @@ static void an_overdue_lease_goes_to_an_idle_worker(void **state)
 static void short_leases_are_overdue_after_10_s(void **state)
 {
     enum { ROWS = 72 };
-    fracas_index_row row[ROWS];
-    for (size_t i = 0; i < ROWS; i++) row[i] = (fracas_index_row){.replica = (int64_t)i};
+    OWNED fracas_index_row *row = rows(1, ROWS);
     const fracas_scheduler_options options = {.cost = flat, .npoints = 1, .workers = 2, .width = 8};
-    OWN(fracas_scheduler) scheduler;
+    OWN(fracas_scheduler) scheduler = create_with(row, ROWS, &options);
     fracas_lease first, ahead, other;
-    OK(fracas_scheduler_create(row, ROWS, &options, &scheduler));
     assert_true(next(scheduler, 0, 0, &first) && next(scheduler, 0, 0, &ahead));
     for (size_t i = 16; i < ROWS; i += other.count) {
         assert_true(next(scheduler, 1, 0, &other));
@@ -156,9 +144,9 @@ static void a_lease_that_stays_in_memory_is_overdue(void **state)
     OK(fracas_scheduler_computed(scheduler, 2, first.id, 60, 8));
     assert_false(any(scheduler, 1, 9999, &copy));
     fracas_scheduler_durable(scheduler, 2);
-    assert_counts(scheduler, 24, 0, 0);
+    assert_done(scheduler, 24, 0, 0);
     fracas_scheduler_durable(scheduler, 0);
-    assert_counts(scheduler, 24, 0, 8);
+    assert_done(scheduler, 24, 0, 8);
 }
 
 /* Where the original and the copy of a lease may be lost, and in what order. */
@@ -201,7 +189,7 @@ static void a_loss_at_any_stage_loses_nothing(void **state)
                 memory[who] = false;
             }
             const bool there = memory[0] || memory[1];
-            assert_counts(scheduler, done ? 24 : 16, !done && there ? 8 : 0, duplicates);
+            assert_done(scheduler, done ? 24 : 16, !done && there ? 8 : 0, duplicates);
             assert_int_equal(fracas_scheduler_computed_all(scheduler), done || there);
             if (!done && !there && !held[0] && !held[1]) { /* it waits again, once */
                 assert_true(next(scheduler, 1, 70, &copy));
@@ -228,7 +216,7 @@ static void a_copy_that_fails_is_forgotten(void **state)
         OK(fracas_scheduler_failed(scheduler, 0, first.id, 61, 0, 8, &fault, &final));
         assert_int_equal(fault.count, 0);
         assert_false(final);
-        assert_counts(scheduler, stage > 1 ? 16 : 8, stage == 1 ? 16 : 8, 0);
+        assert_done(scheduler, stage > 1 ? 16 : 8, stage == 1 ? 16 : 8, 0);
         assert_int_equal(fracas_scheduler_computed_all(scheduler), stage > 0);
         if (stage == 0) { /* and when the other fails as well, it is bisected */
             OK(fracas_scheduler_failed(scheduler, 2, first.id, 61, 0, 8, &fault, &final));
@@ -242,7 +230,7 @@ static void a_copy_that_fails_is_forgotten(void **state)
 
 /* ---- any course of events ---- */
 
-enum { POINTS = 5, REPLICAS = 61, ROWS = POINTS * REPLICAS, WORKERS = 4, SEEDS = 60 };
+enum { PLACES = 5, REPLICAS = 61, ROWS = PLACES * REPLICAS, WORKERS = 4, SEEDS = 60 };
 
 /* What must be true of every realization, kept apart from the scheduler. */
 typedef struct {
@@ -412,14 +400,14 @@ static void check(const world *w)
 
 static void any_course_of_events(void **state)
 {
-    static const double cost[POINTS] = {1, 3, 2, 5, 4};
+    static const double costs[PLACES] = {1, 3, 2, 5, 4};
     int64_t failed = 0, duplicates = 0;
     for (unsigned seed = 1; seed <= SEEDS; seed++) {
         OWNED world *w = zeroed(1, sizeof *w);
         w->dice = seed;
         w->width = seed % 3 ? 8 : 3;
-        const fracas_scheduler_options options = {.cost = cost,
-                                                  .npoints = POINTS,
+        const fracas_scheduler_options options = {.cost = costs,
+                                                  .npoints = PLACES,
                                                   .workers = WORKERS,
                                                   .width = w->width,
                                                   .memory = 2,
@@ -455,14 +443,14 @@ static void any_course_of_events(void **state)
  * allocated at most. */
 static double run_million(size_t npoints, size_t *bytes)
 {
-    enum { MILLION = 1000000, MANY = 64 };
+    enum { MILLION = 1000000, CROWD = 64 };
     OWNED fracas_index_row *row = taken(MILLION * sizeof *row);
-    OWNED double *cost = taken(npoints * sizeof *cost);
+    OWNED double *costs = taken(npoints * sizeof *costs);
     for (size_t i = 0; i < MILLION; i++)
         row[i] = (fracas_index_row){.point = i * npoints / MILLION, .replica = (int64_t)i};
-    for (size_t p = 0; p < npoints; p++) cost[p] = 1 + (double)(p * 7919 % npoints);
+    for (size_t p = 0; p < npoints; p++) costs[p] = 1 + (double)(p * 7919 % npoints);
     const fracas_scheduler_options options = {
-        .cost = cost, .npoints = npoints, .workers = MANY, .width = 8, .seconds = 1};
+        .cost = costs, .npoints = npoints, .workers = CROWD, .width = 8, .seconds = 1};
     struct timespec a, b;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &a);
     const struct mallinfo2 before = mallinfo2();
@@ -471,8 +459,8 @@ static double run_million(size_t npoints, size_t *bytes)
     OK(fracas_scheduler_create(row, MILLION, &options, &scheduler));
     *bytes = 0;
     for (size_t turn = 0; !fracas_scheduler_computed_all(scheduler); turn++) {
-        assert_true(next(scheduler, turn % MANY, (double)turn, &lease));
-        OK(fracas_scheduler_computed(scheduler, turn % MANY, lease.id, (double)turn,
+        assert_true(next(scheduler, turn % CROWD, (double)turn, &lease));
+        OK(fracas_scheduler_computed(scheduler, turn % CROWD, lease.id, (double)turn,
                                      1e-4 * (double)lease.count));
         if (turn % 1000 ==
             0) { /* the memory of a worker is at its largest: nothing is durable yet */
@@ -481,7 +469,7 @@ static double run_million(size_t npoints, size_t *bytes)
             if (used > *bytes) *bytes = used;
         }
     }
-    for (size_t worker = 0; worker < MANY; worker++) fracas_scheduler_durable(scheduler, worker);
+    for (size_t worker = 0; worker < CROWD; worker++) fracas_scheduler_durable(scheduler, worker);
     assert_int_equal(fracas_scheduler_count(scheduler).done, MILLION);
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &b);
     return (double)(b.tv_sec - a.tv_sec) + 1e-9 * (double)(b.tv_nsec - a.tv_nsec);

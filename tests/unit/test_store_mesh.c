@@ -135,7 +135,6 @@ static void order_of_segments_changes_no_mesh(void **state)
 
 static fracas_err no_mesh(const void *context, size_t point, fracas_stored_mesh *mesh)
 {
-    (void)context, (void)point, (void)mesh;
     return FRACAS_OK;
 }
 
@@ -153,7 +152,6 @@ static void without_surfaces_nothing_is_added(void **state)
 
 static fracas_err refuse(const void *context, size_t point, fracas_stored_mesh *mesh)
 {
-    (void)context, (void)mesh;
     return point == 2 ? fracas_fail(FRACAS_USAGE, "no such mesh") : FRACAS_OK;
 }
 
@@ -286,7 +284,6 @@ static const double thickness = 0.02;
 
 static fracas_err get_octant(const void *context, size_t point, fracas_stored_mesh *mesh)
 {
-    (void)context;
     const fracas_surface_fineness fineness = {.divisions = 4, .order = 2};
     const fracas_surface *surface;
     if (point != SURFACE) return FRACAS_OK;

@@ -217,7 +217,6 @@ static char found_text[8192];
 
 static void keep_found(void *context, const fracas_collected *item)
 {
-    (void)context;
     char line[1024];
     snprintf(line, sizeof line, "%s %s %d", item->removed ? "-" : "=", strrchr(item->path, '/') + 1,
              (int)item->bytes);
