@@ -156,10 +156,8 @@ void fracas_convergence_conclude(const fracas_convergence *convergence,
                                  fracas_convergence_line *line, void *context)
 {
     char text[800];
-    for (size_t i = 0; i < convergence->nrows; i++) {
-        const fracas_convergence_row *row = &convergence->row[i];
-        if (i > 0 && strcmp(row->refinement, row[-1].refinement) == 0) continue;
-        format_counts(convergence, row->refinement, text, sizeof text);
+    for (size_t l = 0; l < convergence->nlevels; l++) {
+        format_counts(convergence, convergence->level[l], text, sizeof text);
         line(context, text);
     }
     for (size_t i = 0; i < convergence->nleft; i++) {

@@ -71,16 +71,6 @@ const char *fracas_axis_name(const fracas_axis *axis, double value)
 
 /* ---- CSV ---- */
 
-static void put_field(const char *text, FILE *out)
-{
-    putc('"', out);
-    for (; *text; text++) {
-        if (*text == '"') putc('"', out);
-        putc(*text, out);
-    }
-    putc('"', out);
-}
-
 static void put_label(const fracas_chart *chart, bool of_y, FILE *out)
 {
     char text[FRACAS_MAX_PANELS * (sizeof chart->panel->x.label + 4)] = "";
@@ -92,7 +82,7 @@ static void put_label(const fracas_chart *chart, bool of_y, FILE *out)
         strcat(text, label);
         before = label;
     }
-    put_field(text, out);
+    fracas_csv_text(text, out);
 }
 
 static void put_x(const fracas_axis *axis, double x, FILE *out)
@@ -103,7 +93,7 @@ static void put_x(const fracas_axis *axis, double x, FILE *out)
         return;
     }
     putc(',', out);
-    put_field(name, out);
+    fracas_csv_text(name, out);
 }
 
 static void put_series(const fracas_panel *panel, size_t number, const fracas_series *series,
@@ -113,7 +103,7 @@ static void put_series(const fracas_panel *panel, size_t number, const fracas_se
     for (size_t i = 0; i < series->n; i++) {
         if (!fracas_panel_shows(panel, series, i)) continue;
         fprintf(out, "%zu,", number);
-        put_field(series->name, out);
+        fracas_csv_text(series->name, out);
         fprintf(out, ",%s", kind[series->kind]);
         put_x(&panel->x, series->x[i], out);
         fracas_csv_real(series->y[i], out);

@@ -113,9 +113,9 @@ static void summarise(double *found, size_t most, const double *left_out, size_t
                  : found[b] == interval->value ? 0.5
                                                : 0; /* ties on a lattice */
     }
-    interval->bias = sum / (double)count;
+    const double bias = sum / (double)count;
     for (size_t b = 0; b < count; b++) {
-        const double d = found[b] - interval->value - interval->bias;
+        const double d = found[b] - interval->value - bias;
         squares += d * d;
     }
     interval->standard_error = sqrt(squares / (double)(count - 1));
@@ -137,19 +137,17 @@ static void jackknife(resampling *r, double *value, fracas_jackknifed *found)
     for (size_t i = 0; i < r->n; i++) r->weight[i] = 1;
     r->statistic(r->context, r->weight, value);
     for (size_t v = 0; v < r->nvalues; v++)
-        found[v] = (fracas_jackknifed){value[v], NAN, NAN, r->groups};
+        found[v] = (fracas_jackknifed){value[v], NAN, r->groups};
     if (r->n < 2) return;
     const double g = (double)r->groups;
     leave_out(r, value);
     for (size_t v = 0; v < r->nvalues; v++) {
-        double sum = 0, squares = 0;
+        double squares = 0;
         for (size_t k = 0; k < r->groups; k++) {
             const double d = r->left_out[v * r->groups + k] - found[v].value;
-            sum += d;
             squares += d * d;
         }
         found[v].standard_error = sqrt((g - 1) / g * squares);
-        found[v].bias = (g - 1) / g * sum;
     }
 }
 
@@ -160,10 +158,9 @@ static void student(const resampling *r, const fracas_bootstrap_options *options
     const double t = r->n > 1 ? gsl_cdf_tdist_Pinv(upper_share(options), (double)(r->n - 1)) : NAN;
     for (size_t v = 0; v < r->nvalues; v++) {
         const double half = t * found[v].standard_error;
-        interval[v] = (fracas_interval){
-            found[v].value,        found[v].value - half,
-            found[v].value + half, found[v].standard_error,
-            found[v].bias,         isfinite(half) ? (int64_t)r->groups : 0};
+        interval[v] = (fracas_interval){found[v].value, found[v].value - half,
+                                        found[v].value + half, found[v].standard_error,
+                                        isfinite(half) ? (int64_t)r->groups : 0};
     }
 }
 
@@ -206,8 +203,7 @@ fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_resampled *statisti
     FRACAS_TAKE(&r.room, found, nvalues);
     if (n >= FRACAS_BOOTSTRAP_LEAST)
         r.most = options->resamples > 0 ? (size_t)options->resamples : RESAMPLES;
-    for (size_t v = 0; v < nvalues; v++)
-        interval[v] = (fracas_interval){NAN, NAN, NAN, NAN, NAN, 0};
+    for (size_t v = 0; v < nvalues; v++) interval[v] = (fracas_interval){NAN, NAN, NAN, NAN, 0};
     fracas_err err = make_room(&r, &value);
     if (!err && n) {
         jackknife(&r, value, found);
@@ -229,7 +225,7 @@ fracas_err fracas_jackknife(size_t n, size_t nvalues, fracas_resampled *statisti
                     .context = context,
                     .groups = n < GROUPS ? n : GROUPS};
     double *value;
-    for (size_t v = 0; v < nvalues; v++) found[v] = (fracas_jackknifed){NAN, NAN, NAN, 0};
+    for (size_t v = 0; v < nvalues; v++) found[v] = (fracas_jackknifed){NAN, NAN, 0};
     fracas_err err = make_room(&r, &value);
     if (!err && n) jackknife(&r, value, found);
     fracas_room_clear(&r.room);

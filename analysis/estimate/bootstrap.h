@@ -29,7 +29,6 @@ typedef struct {
     double value;          /* for the realizations as they are */
     double low, high;      /* NaN where there is no interval */
     double standard_error; /* deviation over resamples; of few realizations by fracas_jackknife */
-    double bias;           /* mean over resamples - value */
     int64_t resamples;     /* resamples with a value */
 } fracas_interval;
 
@@ -65,7 +64,6 @@ FRACAS_MUST_USE fracas_err fracas_bootstrap(size_t n, size_t nvalues, fracas_res
 typedef struct {
     double value;          /* for the realizations as they are */
     double standard_error; /* NaN for n < 2 */
-    double bias;           /* (g - 1) (mean of the values without a group - value) */
     size_t groups;         /* g, groups left out in turn: n of them, 200 at most */
 } fracas_jackknifed;
 

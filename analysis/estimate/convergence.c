@@ -79,8 +79,6 @@ static fracas_err compare_halves(const fracas_ensemble *ensemble,
     TRY(run_part(ensemble, 0, n / 2, first));
     TRY(run_part(ensemble, n / 2, n, second));
     for (int h = 0; h < FRACAS_NHEADLINES; h++) {
-        convergence->half[h] = first[h].value;
-        convergence->rest[h] = second[h].value;
         convergence->alike[h] = fracas_parts_alike(&first[h], &second[h]);
     }
     return FRACAS_OK;
@@ -109,8 +107,7 @@ fracas_err fracas_replica_convergence_of(const fracas_ensemble *ensemble, uint64
 {
     const size_t n = ensemble->nrealizations;
     *convergence = (fracas_replica_convergence){0};
-    for (int h = 0; h < FRACAS_NHEADLINES; h++)
-        convergence->half[h] = convergence->rest[h] = convergence->alike[h] = NAN;
+    for (int h = 0; h < FRACAS_NHEADLINES; h++) convergence->alike[h] = NAN;
     if (n == 0) return FRACAS_OK;
     size_t rows = 1;
     for (size_t first = FRACAS_CONVERGENCE_FIRST; first < n; first *= 2) rows++;

@@ -47,8 +47,6 @@ extern const fracas_fields fracas_running_fields;
 typedef struct {
     size_t count;
     fracas_running *row; /* after FRACAS_CONVERGENCE_FIRST 2^k realizations, and after all */
-    double half[FRACAS_NHEADLINES],
-        rest[FRACAS_NHEADLINES];          /* of half of the realizations, and of the others */
     double alike[FRACAS_NHEADLINES];      /* p-value of the difference of halves; NaN: unknown */
     int64_t converged[FRACAS_NHEADLINES]; /* 1, or 0 */
     int64_t unconverged;                  /* existing numbers without convergence */

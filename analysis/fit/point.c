@@ -5,7 +5,7 @@
 #include <gsl/gsl_errno.h>
 #include <math.h>
 
-static const fracas_interval NO_INTERVAL = {NAN, NAN, NAN, NAN, NAN, 0};
+static const fracas_interval NO_INTERVAL = {NAN, NAN, NAN, NAN, 0};
 
 /* (fits.13) */
 static void criteria(const fracas_family *family, const fracas_fit_sample *sample,

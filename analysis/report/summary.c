@@ -19,22 +19,15 @@ static void put_term(FILE *out, const char *term, const char *value)
     fracas_markup(out, "%s</dd>\n", value);
 }
 
-/* True if the list "a, b" has this item. */
-static bool listed(const char *list, const char *item)
-{
-    const size_t length = strlen(item);
-    for (const char *at = list; at; at = (at = strstr(at, ", ")) ? at + 2 : NULL)
-        if (!strncmp(at, item, length) && (at[length] == '\0' || at[length] == ',')) return true;
-    return false;
-}
-
 /* "nitsche, tied": the words of a column, each once; "" where no point has one. */
 static void words_of(const fracas_point_table *table, size_t c, char *text, size_t size)
 {
     text[0] = '\0';
     for (size_t p = 0; p < table->npoints; p++) {
         const char *word = table->point[p].value[c].text;
-        if (*word && !listed(text, word)) fracas_append(text, size, ", ", "%s", word);
+        size_t first = 0;
+        while (strcmp(table->point[first].value[c].text, word) != 0) first++;
+        if (*word && first == p) fracas_append(text, size, ", ", "%s", word);
     }
 }
 

@@ -117,11 +117,10 @@ static double search(fitter *of, double best[NPARAMETERS])
 static void summarise(double *found, size_t count, double best, double sign,
                       fracas_interval *interval)
 {
-    *interval = (fracas_interval){sign * exp(best), NAN, NAN, NAN, NAN, (int64_t)count};
+    *interval = (fracas_interval){sign * exp(best), NAN, NAN, NAN, (int64_t)count};
     if (count < 20) return;
     for (size_t b = 0; b < count; b++) found[b] = sign * exp(found[b]);
     gsl_sort(found, 1, count);
-    interval->bias = fracas_quantile(found, count, 0.5) - interval->value; /* some draws run away */
     interval->standard_error =
         (fracas_quantile(found, count, 0.8413) - fracas_quantile(found, count, 0.1587)) / 2;
     interval->low = fracas_quantile(found, count, 0.025);
@@ -264,14 +263,14 @@ static fracas_err fit_taken(const fracas_size_series *series, int64_t resamples,
 static fracas_interval scaled(const fracas_interval *interval, double factor)
 {
     return (fracas_interval){interval->value * factor, interval->low * factor,
-                             interval->high * factor,  interval->standard_error * factor,
-                             interval->bias * factor,  interval->resamples};
+                             interval->high * factor, interval->standard_error * factor,
+                             interval->resamples};
 }
 
 static fracas_err fit_series(const fracas_size_series *series, int64_t resamples, uint64_t seed,
                              fracas_size_crossover *crossover)
 {
-    const fracas_interval none = {NAN, NAN, NAN, NAN, NAN, 0};
+    const fracas_interval none = {NAN, NAN, NAN, NAN, 0};
     *crossover = (fracas_size_crossover){.scales = series->scales,
                                          .size = none,
                                          .rate = none,

@@ -118,7 +118,7 @@ enum { FRACAS_CROSSOVER_RATES = 5 }; /* two more than the form has constants */
 
 /* s = s_q/(1 + (edot/edot_c)^k): s_q at low rates, exponent 0, and s_q (edot/edot_c)^(-k) at high
  * ones. Some draws run away, so intervals have quantiles alone: standard_error is half the width
- * between the quantiles 0.1587 and 0.8413, bias the median less the value. */
+ * between the quantiles 0.1587 and 0.8413. */
 typedef struct {
     char name[128];                                   /* for the series */
     char reason[160];                                 /* why there is no fit; "": there is one */

@@ -106,21 +106,19 @@ fracas_slope fracas_slope_of(const double *x, const double *y, const fracas_mean
 
 typedef struct {
     const fracas_analysis *analysis;
-    const fracas_columns *others; /* columns that make series */
-    double *x, *y;                /* a value a point */
+    size_t *series; /* for each point that came apart: its series; SIZE_MAX: it did not */
+    double *x, *y;  /* a value a point */
     fracas_mean *mean;
     fracas_mean_error *error;
 } fitter;
 
-/* The line through the points of the series of `first`, all of them if `first` is SIZE_MAX. */
-static fracas_slope fit_series(const fitter *of, size_t first)
+/* The line through the points of a series, of all of them if it is SIZE_MAX. */
+static fracas_slope fit_series(const fitter *of, size_t series)
 {
     size_t n = 0;
     for (size_t p = 0; p < of->analysis->table->npoints; p++) {
-        if (first != SIZE_MAX && !fracas_columns_same(of->analysis->table, of->others, p, first))
-            continue;
         const fracas_point_statistics *statistics = &of->analysis->point[p];
-        if (!fracas_size_counts(of->analysis, p) || fracas_size_whole(of->analysis, p)) continue;
+        if (of->series[p] == SIZE_MAX || (series != SIZE_MAX && of->series[p] != series)) continue;
         of->x[n] = log(statistics->rate);
         of->y[n] = log(statistics->size.mean);
         of->mean[n++] = (fracas_mean){statistics->size.n,
@@ -130,48 +128,41 @@ static fracas_slope fit_series(const fitter *of, size_t first)
     return fracas_slope_of(of->x, of->y, of->error, n);
 }
 
-static bool begins_series(const fitter *of, size_t p)
+static void add_slope(const fitter *of, size_t series, const char *name, fracas_size_slope *list,
+                      size_t *count)
 {
-    for (size_t q = 0; q < p; q++)
-        if (fracas_columns_same(of->analysis->table, of->others, p, q)) return false;
-    return true;
-}
-
-static void fit_all(const fitter *of, fracas_size_slope *list, size_t *count)
-{
-    size_t npoints = of->analysis->table->npoints, series = 0;
-    fracas_slope all = fit_series(of, SIZE_MAX);
-    if (!isfinite(all.slope)) return;
-    list[(*count)++] = (fracas_size_slope){"all points", all, FRACAS_SLOPE_MOTT,
-                                           FRACAS_SLOPE_GRADY};
-    for (size_t p = 0; p < npoints; p++) series += begins_series(of, p);
-    for (size_t p = 0; p < npoints && series > 1; p++) {
-        if (!begins_series(of, p)) continue;
-        fracas_size_slope *next = &list[*count];
-        *next = (fracas_size_slope){"", fit_series(of, p), FRACAS_SLOPE_MOTT, FRACAS_SLOPE_GRADY};
-        if (!isfinite(next->slope.slope)) continue;
-        fracas_columns_label(of->analysis->table, of->others, p, next->name, sizeof next->name);
-        (*count)++;
-    }
+    fracas_size_slope *next = &list[*count];
+    *next = (fracas_size_slope){"", fit_series(of, series), FRACAS_SLOPE_MOTT, FRACAS_SLOPE_GRADY};
+    FRACAS_PRINT(next->name, "%s", name);
+    *count += isfinite(next->slope.slope);
 }
 
 fracas_err fracas_size_slopes(const fracas_analysis *analysis, fracas_size_slope **list,
                               size_t *count)
 {
-    size_t npoints = analysis->table->npoints;
+    const size_t npoints = analysis->table->npoints;
+    FRACAS_CLEARED(fracas_room) room = {0};
+    fitter of = {.analysis = analysis};
+    fracas_size_series *series;
+    size_t nseries;
     *count = 0;
     *list = NULL;
-    FRACAS_CLEARED(fracas_columns) others = {0};
-    TRY(fracas_columns_without_rate(analysis->table, &analysis->shown, &others));
-    FRACAS_CLEARED(fracas_room) room = {0};
-    fitter of = {.analysis = analysis, .others = &others};
+    FRACAS_TAKE(&room, of.series, npoints);
     FRACAS_TAKE(&room, of.x, npoints);
     FRACAS_TAKE(&room, of.y, npoints);
     FRACAS_TAKE(&room, of.mean, npoints);
     FRACAS_TAKE(&room, of.error, npoints);
     TRY(fracas_room_check(&room, "the slopes of the study"));
-    *list = calloc(npoints + 2, sizeof **list);
-    if (!*list) return fracas_no_memory("the slopes of the study");
-    fit_all(&of, *list, count);
-    return FRACAS_OK;
+    TRY(fracas_size_series_create(analysis, &series, &nseries));
+    *list = calloc(nseries + 1, sizeof **list);
+    for (size_t p = 0; p < npoints; p++) of.series[p] = SIZE_MAX;
+    for (size_t s = 0; s < nseries; s++)
+        for (const fracas_size_point *at = series[s].point; at < series[s].point + series[s].n;
+             at++)
+            if (!at->whole) of.series[at->point] = s;
+    if (*list) add_slope(&of, SIZE_MAX, "all points", *list, count);
+    for (size_t s = 0; s < nseries && nseries > 1 && *count > 0; s++)
+        add_slope(&of, s, series[s].name, *list, count);
+    fracas_size_series_free(series, nseries);
+    return *list ? FRACAS_OK : fracas_no_memory("the slopes of the study");
 }

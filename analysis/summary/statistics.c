@@ -283,7 +283,6 @@ static fracas_interval over(const fracas_interval *interval, double scale)
     scaled.low /= scale;
     scaled.high /= scale;
     scaled.standard_error /= scale;
-    scaled.bias /= scale;
     return scaled;
 }
 

@@ -58,8 +58,6 @@ static void interval_of_a_published_example(void **state)
                 fabs(wide[1].high - longer[1].high) < 1e-2); /* equal resamples */
     /* Of a resample the variance is (1 - 1/n) of it in the mean, and the mean's standard error
      * sqrt(variance/n): each known to 1/sqrt(2 x 20000). */
-    assert_true(fabs(interval[1].bias + 171.5 / 26) <
-                4.9 * interval[1].standard_error / sqrt(20000));
     assert_true(fabs(interval[0].standard_error / sqrt(interval[1].value / 26) - 1) <
                 4.9 / sqrt(40000));
 }
@@ -103,7 +101,7 @@ static void intervals_of_what_is_not_always_there(void **state)
     OK(fracas_bootstrap(8, 2, second, NULL, &options, interval));
     assert_true(fabs((double)interval[0].resamples / 1e4 - (1 - 0.3436)) < 4.9 * 0.0047);
     assert_true(interval[0].low == 3 && interval[0].high == 3 && interval[1].low == 8 &&
-                interval[1].high == 8 && interval[1].bias == 0);
+                interval[1].high == 8);
     OK(fracas_bootstrap(0, 2, second, NULL, &options, interval));
     assert_true(isnan(interval[0].value) && isnan(interval[0].low) && interval[0].resamples == 0);
 }
@@ -122,17 +120,15 @@ static void intervals_of_few_are_students(void **state)
     const double error = sqrt(38.8 / 4 / 5);
     assert_true(s.calls == 6 && interval[0].resamples == 5);
     assert_true(fabs(interval[0].value - 4.2) < 1e-14 &&
-                fabs(interval[0].standard_error - error) < 1e-14 && fabs(interval[0].bias) < 1e-14);
+                fabs(interval[0].standard_error - error) < 1e-14);
     assert_true(fabs(interval[0].low - (4.2 - 2.776445 * error)) < 1e-6 &&
                 fabs(interval[0].high - (4.2 + 2.776445 * error)) < 1e-6);
-    double squares = 0, sum = 0;
+    double squares = 0;
     for (int i = 0; i < 5; i++) {
         const double d = 1.94 - 5.0 / 16 * (x[i] - 4.2) * (x[i] - 4.2);
-        sum += d;
         squares += d * d;
     }
-    assert_true(fabs(interval[1].standard_error - sqrt(0.8 * squares)) < 1e-13 &&
-                fabs(interval[1].bias - 0.8 * sum) < 1e-13);
+    assert_true(fabs(interval[1].standard_error - sqrt(0.8 * squares)) < 1e-13);
     OK(fracas_bootstrap(5, 2, moments, &s, &(fracas_bootstrap_options){.confidence = 0.9},
                         interval));
     assert_true(fabs(interval[0].high - (4.2 + 2.131847 * error)) < 1e-6);

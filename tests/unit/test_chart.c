@@ -95,17 +95,16 @@ static char *written(void (*write)(const fracas_chart *chart, FILE *out))
 static void the_csv_has_what_is_drawn(void **state)
 {
     OWNED char *text = written(fracas_chart_csv);
-    assert_string_equal(text,
-                        "panel,series,kind,\"rate [1/s]\",\"size [mm] | energy [J]\",low,high\n"
-                        "1,\"\",curve,1,1,,\n"
-                        "1,\"\",curve,10,10,,\n"
-                        "1,\"a \"\"quoted\"\", <name>\",mark,1,2,-1,3\n"
-                        "1,\"a \"\"quoted\"\", <name>\",mark,2,2,,\n"
-                        "2,\"band\",band,0,2,1,4\n"
-                        "2,\"band\",band,1,2,1,4\n"
-                        "2,\"band\",band,2,2,,4\n"
-                        "2,\"band\",band,3,2,1,4\n"
-                        "2,\"band\",band,4,2,1,4\n");
+    assert_string_equal(text, "panel,series,kind,rate [1/s],size [mm] | energy [J],low,high\n"
+                              "1,,curve,1,1,,\n"
+                              "1,,curve,10,10,,\n"
+                              "1,\"a \"\"quoted\"\", <name>\",mark,1,2,-1,3\n"
+                              "1,\"a \"\"quoted\"\", <name>\",mark,2,2,,\n"
+                              "2,band,band,0,2,1,4\n"
+                              "2,band,band,1,2,1,4\n"
+                              "2,band,band,2,2,,4\n"
+                              "2,band,band,3,2,1,4\n"
+                              "2,band,band,4,2,1,4\n");
 }
 
 static void write_page(const fracas_chart *chart, FILE *out)
@@ -159,14 +158,14 @@ static void an_axis_may_have_names(void **state)
 {
     OWNED char *page = written_of(make_names, write_page),
                *table = written_of(make_names, fracas_chart_csv);
-    assert_string_equal(table, "panel,series,kind,\"refined\",\"change [%]\",low,high\n"
-                               "1,\"as it is\",box,\"mesh\",0,-1,1\n"
-                               "1,\"as it is\",box,\"<beta>\",0,,1\n"
-                               "1,\"as it is\",box,\"<beta>\",0,-1,1\n"
-                               "1,\"a point\",mark,\"mesh\",2,0,3\n"
-                               "1,\"a point\",mark,\"<beta>\",0.5,0,3\n"
-                               "1,\"\",curve,\"mesh\",2,,\n"
-                               "1,\"\",curve,\"<beta>\",2,,\n");
+    assert_string_equal(table, "panel,series,kind,refined,change [%],low,high\n"
+                               "1,as it is,box,mesh,0,-1,1\n"
+                               "1,as it is,box,<beta>,0,,1\n"
+                               "1,as it is,box,<beta>,0,-1,1\n"
+                               "1,a point,mark,mesh,2,0,3\n"
+                               "1,a point,mark,<beta>,0.5,0,3\n"
+                               "1,,curve,mesh,2,,\n"
+                               "1,,curve,<beta>,2,,\n");
     assert_int_equal(count_of(page, "class=\"mark\""), 1);
     assert_int_equal(count_of(page, "class=\"mark open\""), 1);
     assert_int_equal(count_of(page, "class=\"area\""),
