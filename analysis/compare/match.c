@@ -104,11 +104,19 @@ static fracas_err match_values(const fracas_point_table *a, const fracas_point_t
     return FRACAS_OK;
 }
 
-static fracas_err match(const fracas_point_table *a, const fracas_point_table *b, char *by,
-                        const char **path, bool *taken, size_t *partner, char *how, size_t size)
+fracas_err fracas_match_points(const fracas_point_table *a, const fracas_point_table *b,
+                               const char *by, size_t *partner, char *how, size_t size)
 {
+    FRACAS_CLEARED(fracas_room) room = {0};
+    char *names = NULL;
+    const char **path;
+    bool *taken;
     size_t count = 0, left = 0;
-    if (by) TRY(columns_named(a, b, by, path, &count));
+    FRACAS_TAKE(&room, path, a->ncolumns + (by ? strlen(by) : 0));
+    FRACAS_TAKE(&room, taken, b->npoints);
+    if (by && FRACAS_TAKE(&room, names, strlen(by))) memcpy(names, by, strlen(by));
+    TRY(fracas_room_check(&room, "the points"));
+    if (by) TRY(columns_named(a, b, names, path, &count));
     for (size_t p = 0; p < a->npoints; p++) partner[p] = SIZE_MAX;
     match_hashes(a, b, partner, taken);
     for (size_t p = 0; p < a->npoints; p++) left += partner[p] == SIZE_MAX;
@@ -121,20 +129,6 @@ static fracas_err match(const fracas_point_table *a, const fracas_point_table *b
     partner[0] = 0;
     snprintf(how, size, "being the only ones");
     return FRACAS_OK;
-}
-
-fracas_err fracas_match_points(const fracas_point_table *a, const fracas_point_table *b,
-                               const char *by, size_t *partner, char *how, size_t size)
-{
-    FRACAS_CLEARED(fracas_room) room = {0};
-    char *names = NULL;
-    const char **path;
-    bool *taken;
-    FRACAS_TAKE(&room, path, a->ncolumns + (by ? strlen(by) : 0));
-    FRACAS_TAKE(&room, taken, b->npoints);
-    if (by && FRACAS_TAKE(&room, names, strlen(by))) memcpy(names, by, strlen(by));
-    TRY(fracas_room_check(&room, "the points"));
-    return match(a, b, names, path, taken, partner, how, size);
 }
 
 static void show(const fracas_value *value, char text[64])

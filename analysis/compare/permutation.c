@@ -181,33 +181,6 @@ static fracas_err draw(permuter *p, int64_t permutations, uint64_t seed)
 }
 
 /* (compare.7) */
-static fracas_err test(permuter *p, int64_t permutations, uint64_t seed, fracas_permuted *result,
-                       int64_t *count, bool *exact)
-{
-    const fracas_two_samples *of = p->of;
-    const double all = of->paired ? exp2((double)of->na)
-                                  : exp(gsl_sf_lnchoose((unsigned)p->n, (unsigned)of->na));
-    standardise(p);
-    add_up(p, true, &p->all);
-    for (size_t i = 0; i < p->n; i++) p->in_a[i] = i < of->na;
-    evaluate(p);
-    memcpy(p->observed, p->statistic, (of->nvalues + 1) * sizeof *p->observed);
-    *exact = all < (double)permutations + 1.5;
-    if (*exact) {
-        TRY(enumerate(p, count));
-    } else {
-        TRY(draw(p, permutations, seed));
-        *count = permutations + 1;
-        for (size_t v = 0; v <= of->nvalues; v++) p->reached[v]++; /* the observed one */
-    }
-    for (size_t v = 0; v <= of->nvalues; v++) {
-        const double observed = p->observed[v];
-        result[v] = (fracas_permuted){.p = isnan(observed) ? NAN : p->reached[v] / (double)*count,
-                                      .distance = v == of->nvalues ? observed : NAN};
-    }
-    return FRACAS_OK;
-}
-
 fracas_err fracas_permutation_test(const fracas_two_samples *samples, int64_t permutations,
                                    uint64_t seed, fracas_permuted *result, int64_t *count,
                                    bool *exact)
@@ -227,5 +200,23 @@ fracas_err fracas_permutation_test(const fracas_two_samples *samples, int64_t pe
     FRACAS_TAKE(&room, p.observed, nv);
     FRACAS_TAKE(&room, p.reached, nv);
     TRY(fracas_room_check(&room, "a permutation test"));
-    return test(&p, permutations, seed, result, count, exact);
+    standardise(&p);
+    add_up(&p, true, &p.all);
+    for (size_t i = 0; i < n; i++) p.in_a[i] = i < samples->na;
+    evaluate(&p);
+    memcpy(p.observed, p.statistic, (nv + 1) * sizeof *p.observed);
+    const double all = samples->paired ? exp2((double)samples->na)
+                                       : exp(gsl_sf_lnchoose((unsigned)n, (unsigned)samples->na));
+    *exact = all < (double)permutations + 1.5;
+    if (*exact) {
+        TRY(enumerate(&p, count));
+    } else {
+        TRY(draw(&p, permutations, seed));
+        *count = permutations + 1;
+        for (size_t v = 0; v <= nv; v++) p.reached[v]++; /* the observed one */
+    }
+    for (size_t v = 0; v <= nv; v++)
+        if (!isnan(p.observed[v])) result[v].p = p.reached[v] / (double)*count;
+    result[nv].distance = p.observed[nv];
+    return FRACAS_OK;
 }

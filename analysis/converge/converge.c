@@ -209,26 +209,31 @@ static fracas_err add_row(fracas_convergence *convergence, const fracas_converge
     return FRACAS_OK;
 }
 
-static fracas_err compare_point(fracas_convergence *convergence, size_t p,
-                                const fracas_ensemble *after, const fracas_refinement_map *map,
-                                two_samples *samples)
+fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t p,
+                                      const fracas_ensemble *after,
+                                      const fracas_refinement_map *map)
 {
     const fracas_ensemble *before = &convergence->study->point[p].ensemble;
     const bool lost = before->nrealizations == 0 || after->nrealizations == 0,
                paired = map->paired && !lost;
     double count[2] = {NAN, NAN}; /* without dust it is the count again */
+    two_samples samples;
+    FRACAS_CLEARED(fracas_room) room = {0};
+    FRACAS_TAKE(&room, samples.value[0], before->nrealizations);
+    FRACAS_TAKE(&room, samples.value[1], before->nrealizations + after->nrealizations);
+    TRY(fracas_room_check(&room, "the realizations of two points"));
     for (size_t v = 0; v < FRACAS_FIRST_VALUES; v++) {
         fracas_convergence_row row = {.refinement = map->name,
                                       .point = p,
                                       .number = &fracas_compared_quantities[v],
                                       .paired = map->paired};
-        gather(before, after, row.number, paired, samples);
+        gather(before, after, row.number, paired, &samples);
         if (paired)
-            fracas_difference_of_pairs(samples->value[0], samples->value[1], samples->n[0], 1,
+            fracas_difference_of_pairs(samples.value[0], samples.value[1], samples.n[0], 1,
                                        &row.value);
         else
-            fracas_difference_of(samples->value[0], samples->n[0], samples->value[1], samples->n[1],
-                                 1, &row.value);
+            fracas_difference_of(samples.value[0], samples.n[0], samples.value[1], samples.n[1], 1,
+                                 &row.value);
         put_parts(&row.value);
         const bool counted = row.number->offset == offsetof(fracas_replica_values, count_large) &&
                              is_same(row.value.a.mean, count[0]) &&
@@ -239,18 +244,6 @@ static fracas_err compare_point(fracas_convergence *convergence, size_t p,
         if (!counted && !is_idle(&row, lost)) TRY(add_row(convergence, &row));
     }
     return FRACAS_OK;
-}
-
-fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t before,
-                                      const fracas_ensemble *b, const fracas_refinement_map *map)
-{
-    const fracas_ensemble *a = &convergence->study->point[before].ensemble;
-    two_samples samples;
-    FRACAS_CLEARED(fracas_room) room = {0};
-    FRACAS_TAKE(&room, samples.value[0], a->nrealizations);
-    FRACAS_TAKE(&room, samples.value[1], a->nrealizations + b->nrealizations);
-    TRY(fracas_room_check(&room, "the realizations of two points"));
-    return compare_point(convergence, before, b, map, &samples);
 }
 
 static fracas_err find_point(const fracas_analysis *study, const fracas_hash *hash, size_t *point)

@@ -325,39 +325,37 @@ static fracas_err put_facets(const shaping *s)
     return FRACAS_OK;
 }
 
-static fracas_err shape(shaping *s)
+static void shaping_clear(shaping *s)
 {
-    const fracas_stored_mesh *mesh = s->mesh;
-    FRACAS_TAKE(&s->room, s->turned, mesh->nnodes);
-    FRACAS_TAKE(&s->room, s->normal, mesh->nnodes);
-    FRACAS_TAKE(&s->room, s->shift, s->ngroups);
-    FRACAS_TAKE(&s->room, s->corner, mesh->nelements);
-    FRACAS_TAKE(&s->room, s->across, mesh->nelements);
-    TRY(fracas_room_check(&s->room, "a picture"));
-    for (size_t n = 0; n < mesh->nnodes; n++)
-        fracas_view_turn(s->picture->view, mesh->node[n].position, s->turned[n]);
-    find_normals(s);
-    find_across(s);
-    TRY(find_shifts(s));
-    find_room(s);
-    TRY(place_nodes(s));
-    return put_facets(s);
+    fracas_room_clear(&s->room);
 }
 
 fracas_err fracas_facets_create(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
                                 const fracas_surface_picture *picture, fracas_facets *facets)
 {
     const bool apart = picture->explode > 0;
-    shaping s = {.mesh = mesh,
-                 .state = state,
-                 .picture = picture,
-                 .to = facets,
-                 .apart = apart,
-                 .ngroups = apart ? state->nfragments : 1};
+    FRACAS_CLEARED(shaping)
+    s = {.mesh = mesh,
+         .state = state,
+         .picture = picture,
+         .to = facets,
+         .apart = apart,
+         .ngroups = apart ? state->nfragments : 1};
     *facets = (fracas_facets){0};
-    const fracas_err err = shape(&s);
-    fracas_room_clear(&s.room);
-    return err;
+    FRACAS_TAKE(&s.room, s.turned, mesh->nnodes);
+    FRACAS_TAKE(&s.room, s.normal, mesh->nnodes);
+    FRACAS_TAKE(&s.room, s.shift, s.ngroups);
+    FRACAS_TAKE(&s.room, s.corner, mesh->nelements);
+    FRACAS_TAKE(&s.room, s.across, mesh->nelements);
+    TRY(fracas_room_check(&s.room, "a picture"));
+    for (size_t n = 0; n < mesh->nnodes; n++)
+        fracas_view_turn(picture->view, mesh->node[n].position, s.turned[n]);
+    find_normals(&s);
+    find_across(&s);
+    TRY(find_shifts(&s));
+    find_room(&s);
+    TRY(place_nodes(&s));
+    return put_facets(&s);
 }
 
 void fracas_facets_clear(fracas_facets *facets)

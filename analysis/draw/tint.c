@@ -8,7 +8,6 @@
 enum { NONE = 255 };
 
 typedef struct {
-    fracas_room room;
     size_t *first, *side; /* by fragment; 2 interface + side */
     uint32_t *order;      /* fragments, the largest first */
 } neighbours;
@@ -28,15 +27,15 @@ static int larger_first(const void *a, const void *b, void *state)
 }
 
 static fracas_err list_neighbours(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
-                                  neighbours *of)
+                                  fracas_room *room, neighbours *of)
 {
     size_t *parted; /* fragments on both sides of each interface */
-    FRACAS_TAKE(&of->room, parted, 2 * mesh->ninterfaces);
-    FRACAS_TAKE(&of->room, of->order, state->nfragments);
-    TRY(fracas_room_check(&of->room, "the tints of a picture"));
+    FRACAS_TAKE(room, parted, 2 * mesh->ninterfaces);
+    FRACAS_TAKE(room, of->order, state->nfragments);
+    TRY(fracas_room_check(room, "the tints of a picture"));
     for (size_t k = 0; k < 2 * mesh->ninterfaces; k++)
         parted[k] = fragment_at(mesh, state, k / 2, k % 2);
-    TRY(fracas_room_groups(&of->room, parted, 2 * mesh->ninterfaces, state->nfragments, &of->first,
+    TRY(fracas_room_groups(room, parted, 2 * mesh->ninterfaces, state->nfragments, &of->first,
                            &of->side));
     for (size_t f = 0; f < state->nfragments; f++) of->order[f] = (uint32_t)f;
     qsort_r(of->order, state->nfragments, sizeof *of->order, larger_first,
@@ -61,20 +60,20 @@ static uint8_t best_tint(const fracas_stored_mesh *mesh, const fracas_surface_st
 fracas_err fracas_tint_fragments(const fracas_stored_mesh *mesh, const fracas_surface_state *state,
                                  uint8_t **tint)
 {
-    neighbours of = {0};
+    FRACAS_CLEARED(fracas_room) room = {0};
+    neighbours of;
     size_t drawn[FRACAS_TINTS] = {0}; /* elements in each tint */
+    *tint = NULL;
+    TRY(list_neighbours(mesh, state, &room, &of));
     *tint = malloc(state->nfragments + 1);
-    fracas_err err = *tint ? list_neighbours(mesh, state, &of)
-                           : fracas_no_memory("the tints of a picture");
-    for (size_t f = 0; !err && f < state->nfragments; f++)
+    if (!*tint) return fracas_no_memory("the tints of a picture");
+    for (size_t f = 0; f < state->nfragments; f++)
         (*tint)[f] = state->elements[f] <= FRACAS_SURFACE_DUST ? FRACAS_TINT_DUST : NONE;
-    for (size_t k = 0; !err && k < state->nfragments; k++) {
+    for (size_t k = 0; k < state->nfragments; k++) {
         const uint32_t f = of.order[k];
         if ((*tint)[f] == FRACAS_TINT_DUST) continue;
         (*tint)[f] = best_tint(mesh, state, &of, f, *tint, drawn);
         drawn[(*tint)[f]] += state->elements[f];
     }
-    fracas_room_clear(&of.room);
-    if (err) free(*tint), *tint = NULL;
-    return err;
+    return FRACAS_OK;
 }

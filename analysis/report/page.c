@@ -28,7 +28,8 @@ static fracas_err write_section(fracas_page *page, const fracas_page_entry *sect
     return err;
 }
 
-static void put_head(const char *title, const char *lead, FILE *out)
+static void put_page(const char *title, const char *lead, const fracas_page_entry *section,
+                     size_t count, const contents *of, FILE *out)
 {
     fracas_markup(out,
                   "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
@@ -42,12 +43,6 @@ static void put_head(const char *title, const char *lead, FILE *out)
         out,
         "</style>\n</head>\n<body>\n<header>\n<h1>%s</h1>\n<p class=\"lead\">%s</p>\n</header>\n",
         title, lead);
-}
-
-static void put_page(const char *title, const char *lead, const fracas_page_entry *section,
-                     size_t count, const contents *of, FILE *out)
-{
-    put_head(title, lead, out);
     fputs("<nav aria-label=\"Contents\"><ul>\n", out);
     for (size_t i = 0; i < count; i++)
         if (of->size[i] > 0)
@@ -135,24 +130,18 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
     return fracas_output_close(&output, FRACAS_OK);
 }
 
-static fracas_err write_page(const fracas_analysis *analysis, const char *folder,
-                             const fracas_fits *fits, size_t stale)
-{
-    fracas_page page = {.analysis = analysis, .folder = folder, .fits = fits, .stale = stale};
-    char lead[512];
-    say_what(analysis, lead, sizeof lead);
-    return fracas_page_write(&page, analysis->name, lead, sections, FRACAS_COUNT(sections));
-}
-
 fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study)
 {
     OWNED char *folder = NULL;
     OWN(fracas_fits) fits = NULL;
     size_t stale = 0;
+    char lead[512];
     TRY(fracas_disk_join(study, "report", &folder));
     TRY(fracas_output_folder(folder));
     TRY(fracas_fits_read(study, &fits));
     if (fits) fracas_fits_keep(fits, analysis, &stale);
     TRY(write_tables(analysis, folder, fits, stale));
-    return write_page(analysis, folder, fits, stale);
+    say_what(analysis, lead, sizeof lead);
+    fracas_page page = {.analysis = analysis, .folder = folder, .fits = fits, .stale = stale};
+    return fracas_page_write(&page, analysis->name, lead, sections, FRACAS_COUNT(sections));
 }

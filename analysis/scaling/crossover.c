@@ -196,24 +196,6 @@ static fracas_err resample(fitter *of, const double best[NPARAMETERS], int64_t r
     return FRACAS_OK;
 }
 
-static fracas_err fit(fitter *of, int64_t resamples, uint64_t seed,
-                      fracas_size_crossover *crossover)
-{
-    double best[NPARAMETERS] = {0};
-    const double chi2 = search(of, best);
-    if (!isfinite(chi2)) {
-        FRACAS_PRINT(crossover->reason, "the least squares did not converge");
-        return FRACAS_OK;
-    }
-    if (!(best[RATE] > of->x[0] && best[RATE] < of->x[of->n - 1])) {
-        FRACAS_PRINT(crossover->reason, "no bend: the fitted crossover is %s rates",
-                     best[RATE] <= of->x[0] ? "below all" : "above all");
-        return FRACAS_OK;
-    }
-    TRY(judge(of, best, chi2, crossover));
-    return resample(of, best, resamples, seed, crossover);
-}
-
 /* Takes the points that came apart and have a known standard error; returns the number of their
  * rates. */
 static size_t take(const fracas_size_series *series, fitter *of)
@@ -240,9 +222,12 @@ static size_t take(const fracas_size_series *series, fitter *of)
     return rates;
 }
 
-static fracas_err fit_taken(const fracas_size_series *series, int64_t resamples, uint64_t seed,
-                            fitter *of, fracas_size_crossover *crossover)
+FRACAS_OWNER(gsl_multifit_nlinear_workspace, gsl_multifit_nlinear_free)
+
+static fracas_err fit(const fracas_size_series *series, int64_t resamples, uint64_t seed,
+                      fitter *of, fracas_size_crossover *crossover)
 {
+    double best[NPARAMETERS] = {0};
     const size_t rates = take(series, of);
     crossover->n = (int64_t)of->n;
     if (rates < FRACAS_CROSSOVER_RATES) {
@@ -253,11 +238,21 @@ static fracas_err fit_taken(const fracas_size_series *series, int64_t resamples,
     const gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
     of->problem = (gsl_multifit_nlinear_fdf){
         .f = residuals, .df = jacobian, .n = of->n, .p = NPARAMETERS, .params = of};
-    of->solver = gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &how, of->n, NPARAMETERS);
-    if (!of->solver) return fracas_no_memory("a crossover");
-    const fracas_err err = fit(of, resamples, seed, crossover);
-    gsl_multifit_nlinear_free(of->solver);
-    return err;
+    OWN(gsl_multifit_nlinear_workspace) solver = of->solver = gsl_multifit_nlinear_alloc(
+        gsl_multifit_nlinear_trust, &how, of->n, NPARAMETERS);
+    if (!solver) return fracas_no_memory("a crossover");
+    const double chi2 = search(of, best);
+    if (!isfinite(chi2)) {
+        FRACAS_PRINT(crossover->reason, "the least squares did not converge");
+        return FRACAS_OK;
+    }
+    if (!(best[RATE] > of->x[0] && best[RATE] < of->x[of->n - 1])) {
+        FRACAS_PRINT(crossover->reason, "no bend: the fitted crossover is %s rates",
+                     best[RATE] <= of->x[0] ? "below all" : "above all");
+        return FRACAS_OK;
+    }
+    TRY(judge(of, best, chi2, crossover));
+    return resample(of, best, resamples, seed, crossover);
 }
 
 static fracas_interval scaled(const fracas_interval *interval, double factor)
@@ -289,7 +284,7 @@ static fracas_err fit_series(const fracas_size_series *series, int64_t resamples
     FRACAS_TAKE(&room, of.mean, series->n);
     FRACAS_TAKE(&room, of.known, series->n);
     TRY(fracas_room_check(&room, "a crossover"));
-    TRY(fit_taken(series, resamples, seed, &of, crossover));
+    TRY(fit(series, resamples, seed, &of, crossover));
     crossover->rate_normalised = scaled(&crossover->rate, 1 / series->scales.rate);
     crossover->size_normalised = scaled(&crossover->size, 1 / series->scales.size);
     crossover->low_exponent = *crossover->reason ? NAN : 0;
