@@ -98,7 +98,7 @@ static fracas_err gather(const fracas_ensemble *a, const fracas_ensemble *b, boo
 static fracas_err make_cuts(gathered *of)
 {
     size_t n = 0, distinct = 0;
-    double *size = malloc((of->a->nfragments + of->b->nfragments + 1) * sizeof *size);
+    OWNED double *size = malloc((of->a->nfragments + of->b->nfragments + 1) * sizeof *size);
     if (!size) return fracas_no_memory("the fragments of two points");
     for (size_t i = 0; i < of->na + of->nb; i++) {
         const fracas_ensemble *from = i < of->na ? of->a : of->b;
@@ -115,7 +115,6 @@ static fracas_err make_cuts(gathered *of)
     of->ncuts = distinct < most ? distinct : most;
     for (size_t c = 0; c < of->ncuts; c++)
         of->cut[c] = size[distinct <= most ? c : c * (distinct - 1) / (most - 1)] * (1 + 1e-9);
-    free(size);
     return FRACAS_OK;
 }
 
@@ -230,14 +229,12 @@ fracas_err fracas_compare(const fracas_analysis *a, const fracas_analysis *b,
     *comparison = (fracas_comparison){0};
     OWNED size_t *partner = malloc((a->table->npoints + 1) * sizeof *partner);
     if (!partner) return fracas_no_memory("the points of two studies");
-    fracas_err err = fracas_match_points(a->table, b->table, options->by, partner, comparison->how,
-                                         sizeof comparison->how);
-    if (!err) err = list_points(a, b, partner, comparison);
-    for (size_t i = 0; i < comparison->npoints && !err; i++)
-        err = compare_points(a, b, options, &comparison->point[i]);
-    if (!err) err = correct(comparison);
-    if (err) fracas_comparison_clear(comparison);
-    return err;
+    TRY(fracas_match_points(a->table, b->table, options->by, partner, comparison->how,
+                            sizeof comparison->how));
+    TRY(list_points(a, b, partner, comparison));
+    for (size_t i = 0; i < comparison->npoints; i++)
+        TRY(compare_points(a, b, options, &comparison->point[i]));
+    return correct(comparison);
 }
 
 void fracas_comparison_clear(fracas_comparison *comparison)

@@ -66,7 +66,7 @@ typedef struct {
  * (compare.5); p (compare.6) to (compare.9), corrected over the points for each number by itself
  * (compare.10). Realizations are paired by their replica where seeds are equal, and hashes are or
  * both have common random numbers. FRACAS_USAGE if points cannot be matched. *comparison is cleared
- * by the caller. */
+ * by the caller, after an error too. */
 FRACAS_MUST_USE fracas_err fracas_compare(const fracas_analysis *a, const fracas_analysis *b,
                                           const fracas_compare_options *options,
                                           fracas_comparison *comparison);

@@ -2,6 +2,7 @@
 #include "analysis/data/columns.h"
 
 #include "analysis/data/format.h"
+#include "base/own.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -100,15 +101,11 @@ static void select_columns(const fracas_point_table *table, size_t *class, size_
 
 fracas_err fracas_columns_create(const fracas_point_table *table, fracas_columns *columns)
 {
-    *columns = (fracas_columns){0};
-    columns->column = malloc((table->ncolumns + 1) * sizeof *columns->column);
-    size_t *class = calloc(2 * table->npoints + 1, sizeof *class); /* all of class 0 */
-    if (columns->column && class) select_columns(table, class, class + table->npoints, columns);
-    bool made = columns->column && class;
-    free(class);
-    if (made) return FRACAS_OK;
-    fracas_columns_clear(columns);
-    return fracas_no_memory("the columns of the table");
+    OWNED size_t *class = calloc(2 * table->npoints + 1, sizeof *class); /* all of class 0 */
+    *columns = (fracas_columns){.column = malloc((table->ncolumns + 1) * sizeof *columns->column)};
+    if (!columns->column || !class) return fracas_no_memory("the columns of the table");
+    select_columns(table, class, class + table->npoints, columns);
+    return FRACAS_OK;
 }
 
 fracas_err fracas_columns_without_rate(const fracas_point_table *table,

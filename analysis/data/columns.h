@@ -21,7 +21,8 @@ bool fracas_columns_surface(const fracas_point_table *table, size_t point);
 /* Columns in the order loading.rate, geometry.radius, case, loading, material, cohesive, strength,
  * geometry, model, mesh, time. Each is kept if it separates points equal in the columns before it;
  * of a zipped sweep only the first. Derived columns are never among them. If all points are equal:
- * the first column that makes the strain rate, if there is one. */
+ * the first column that makes the strain rate, if there is one. Cleared by the caller, after an
+ * error too. */
 FRACAS_MUST_USE fracas_err fracas_columns_create(const fracas_point_table *table,
                                                  fracas_columns *columns);
 void fracas_columns_clear(fracas_columns *columns);

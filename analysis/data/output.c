@@ -20,20 +20,15 @@ fracas_err fracas_output_folder(const char *folder)
 fracas_err fracas_output_open(const char *folder, const char *name, fracas_output_file *output)
 {
     *output = (fracas_output_file){0};
-    if (asprintf(&output->path, "%s/%s", folder, name) < 0) output->path = NULL;
-    if (asprintf(&output->temporary, "%s/.%s.%ld", folder, name, (long)getpid()) < 0)
-        output->temporary = NULL;
-    fracas_err err = FRACAS_OK;
-    if (!output->path || !output->temporary) {
-        err = fracas_no_memory("a path");
-    } else {
+    fracas_err err = fracas_path(&output->path, "%s/%s", folder, name);
+    if (!err) err = fracas_path(&output->temporary, "%s/.%s.%ld", folder, name, (long)getpid());
+    if (!err) {
         output->file = fopen(output->temporary, "w");
-        if (!output->file) err = fracas_fail_system(errno, "cannot write %s", output->temporary);
+        if (output->file) return FRACAS_OK;
+        err = fracas_fail_system(errno, "cannot write %s", output->temporary);
     }
-    if (!err) return FRACAS_OK;
     free(output->path);
     free(output->temporary);
-    *output = (fracas_output_file){0};
     return err;
 }
 

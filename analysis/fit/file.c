@@ -40,7 +40,7 @@ static void write_all(const fracas_fits *fits, FILE *out)
 fracas_err fracas_fits_write(const fracas_fits *fits, const char *study)
 {
     fracas_output_file output;
-    char *path;
+    OWNED char *path = NULL;
     TRY(fracas_output_open(study, FRACAS_FITS_FILE, &output));
     write_all(fits, output.file);
     fracas_err err = FRACAS_OK;
@@ -48,9 +48,7 @@ fracas_err fracas_fits_write(const fracas_fits *fits, const char *study)
         err = fracas_fail_system(errno, "cannot write %s/" FRACAS_FITS_FILE, study);
     TRY(fracas_output_close(&output, err));
     TRY(fracas_disk_join(study, FRACAS_FITS_FILE, &path));
-    err = fracas_disk_sync_folder(path);
-    free(path);
-    return err;
+    return fracas_disk_sync_folder(path);
 }
 
 /* Splits a line at its commas, FIELDS of them exactly; takes the line feed away. */
@@ -129,18 +127,16 @@ static fracas_err read_lines(FILE *in, const char *path, fracas_fits *fits)
 
 fracas_err fracas_fits_read(const char *study, fracas_fits **fits)
 {
-    char *path;
+    OWNED char *path = NULL;
     *fits = NULL;
     TRY(fracas_disk_join(study, FRACAS_FITS_FILE, &path));
-    FILE *in = fopen(path, "r");
-    fracas_err err = FRACAS_OK;
-    fracas_fits *found = in ? calloc(1, sizeof *found) : NULL;
-    if (!in && errno != ENOENT) err = fracas_fail_system(errno, "cannot read %s", path);
-    if (in && !found) err = fracas_no_memory("the fits of a study");
-    if (found) err = read_lines(in, path, found);
-    if (in) fclose(in);
-    free(path);
-    if (err) fracas_fits_destroy(found);
-    else *fits = found;
-    return err;
+    OWN(FILE) in = fopen(path, "r");
+    if (!in && errno == ENOENT) return FRACAS_OK;
+    if (!in) return fracas_fail_system(errno, "cannot read %s", path);
+    OWN(fracas_fits) found = calloc(1, sizeof *found);
+    if (!found) return fracas_no_memory("the fits of a study");
+    TRY(read_lines(in, path, found));
+    *fits = found;
+    found = NULL;
+    return FRACAS_OK;
 }

@@ -175,7 +175,7 @@ static void put_comparison(rows *to, const fracas_point_fits *fits)
 static fracas_err fit_point(const fracas_analysis *analysis, size_t p, int64_t resamples,
                             fracas_fits *fits)
 {
-    fracas_point_fits found;
+    FRACAS_CLEARED(fracas_point_fits) found;
     uint64_t word[2];
     rows to = {.fits = fits, .point = (int64_t)p};
     fracas_hash_words(&analysis->table->point[p].hash, word);
@@ -188,7 +188,6 @@ static fracas_err fit_point(const fracas_analysis *analysis, size_t p, int64_t r
     put_data(&to, &analysis->point[p].ensemble, &found);
     for (size_t f = 0; f < nfamilies; f++) put_family(&to, f, &found);
     put_comparison(&to, &found);
-    fracas_point_fits_clear(&found);
     return to.err;
 }
 
@@ -199,16 +198,15 @@ fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point, int
     if (point != SIZE_MAX && point >= npoints)
         return fracas_fail(FRACAS_USAGE, "point %zu: the study has points 0 to %zu", point,
                            npoints - 1);
-    fracas_fits *made = calloc(1, sizeof *made);
+    OWN(fracas_fits) made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("the fits of a study");
     memcpy(made->campaign, fracas_hash_hex(&analysis->header.campaign).text, FRACAS_HASH_HEX);
     made->realizations = (int64_t)fracas_results_realizations(analysis->results);
-    fracas_err err = FRACAS_OK;
-    for (size_t p = 0; p < npoints && !err; p++)
-        if (point == SIZE_MAX || p == point) err = fit_point(analysis, p, resamples, made);
-    if (err) fracas_fits_destroy(made);
-    else *fits = made;
-    return err;
+    for (size_t p = 0; p < npoints; p++)
+        if (point == SIZE_MAX || p == point) TRY(fit_point(analysis, p, resamples, made));
+    *fits = made;
+    made = NULL;
+    return FRACAS_OK;
 }
 
 /* The point of this hash, SIZE_MAX if there is none; `near` is tried first. */

@@ -139,7 +139,6 @@ fracas_err fracas_point_fits_of(const fracas_ensemble *ensemble,
     rank_all(fits);
     fracas_err err = fits->sample.total > 0 ? judge(fits, resamples, seed) : FRACAS_OK;
     gsl_set_error_handler(before);
-    if (err) fracas_point_fits_clear(fits);
     return err;
 }
 

@@ -108,7 +108,7 @@ typedef struct {
 const fracas_family *const *fracas_point_families(bool surface, size_t *nfamilies);
 
 /* Fits at most FRACAS_NFAMILIES families, which must outlive *fits. Equal seeds give equal fits.
- * Cleared by the caller. */
+ * Cleared by the caller, after an error too. */
 FRACAS_MUST_USE fracas_err fracas_point_fits_of(const fracas_ensemble *ensemble,
                                                 const fracas_family *const *families,
                                                 size_t nfamilies, int64_t resamples, uint64_t seed,

@@ -135,17 +135,13 @@ fracas_err fracas_fit_sample_create(const fracas_ensemble *ensemble, fracas_fit_
     *sample = (fracas_fit_sample){.fragments = ensemble->nfragments,
                                   .lattice = ensemble->lattice,
                                   .cut = fracas_ensemble_cut(ensemble)};
-    fracas_err err = make_room(ensemble, sample);
-    if (!err) {
-        count_up(ensemble, sample, &smallest, &largest);
-        add_up(ensemble, sample, smallest);
-        if (sample->total > 0) {
-            make_cells(sample, smallest, largest);
-            sort_into_cells(ensemble, sample);
-        }
-    }
-    if (err) fracas_fit_sample_clear(sample);
-    return err;
+    TRY(make_room(ensemble, sample));
+    count_up(ensemble, sample, &smallest, &largest);
+    add_up(ensemble, sample, smallest);
+    if (!(sample->total > 0)) return FRACAS_OK;
+    make_cells(sample, smallest, largest);
+    sort_into_cells(ensemble, sample);
+    return FRACAS_OK;
 }
 
 void fracas_fit_sample_count(const fracas_fit_sample *sample, const uint32_t *weight, double *count)

@@ -35,7 +35,8 @@ typedef struct {
 
 /* A fragment alone in its realization is the body itself, made by no distribution of sizes: it is
  * not counted, nor is its realization (docs/theory/fits.md). Cells of about equal width in log
- * size, none narrower than two neighbouring sizes of a lattice are apart. Cleared by the caller. */
+ * size, none narrower than two neighbouring sizes of a lattice are apart. Cleared by the caller,
+ * after an error too. */
 FRACAS_MUST_USE fracas_err fracas_fit_sample_create(const fracas_ensemble *ensemble,
                                                     fracas_fit_sample *sample);
 void fracas_fit_sample_clear(fracas_fit_sample *sample);

@@ -24,12 +24,11 @@ const fracas_fields fracas_progress_fields = FRACAS_FIELDS(progress_fields);
 /* The last part of the folder's real path: "." has a name, too. */
 static fracas_err name_of(const char *study, char **name)
 {
-    char *path = realpath(study, NULL);
+    OWNED char *path = realpath(study, NULL);
     if (!path)
         return fracas_fail(FRACAS_DAMAGED, "%s: %s; name the folder of a study", study,
                            strerror(errno));
     *name = strdup(basename(path));
-    free(path);
     return *name ? FRACAS_OK : fracas_no_memory("the name of the study");
 }
 
