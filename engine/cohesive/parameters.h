@@ -16,16 +16,20 @@
                   .fallback = otherwise, .minimum = least, .maximum = most, .minimum_open = open, \
                   .offset = offsetof(fracas_cohesive, key), .only = models)
 
-/* Parameters of laws for surfaces, whose interfaces slide, too. */
+/* Parameters of laws for surfaces, whose interfaces slide, too ... */
 #define FRACAS_SURFACE_LAW                                                                         \
     FRACAS_LAW_REAL(fracture_energy, "J/m2", 0, 0, INFINITY, false, fracas_surface_models,         \
                     "fracture energy G_c, the same at every interface; or give critical_opening"), \
         FRACAS_LAW_REAL(critical_opening, "m", 0, 0, INFINITY, false, fracas_surface_models,       \
                         "opening delta_c at which an interface is broken, the same at every one: " \
                         "its G_c is strength delta_c/2; or give fracture_energy"),                 \
-        FRACAS_LAW_REAL(beta, "1", 5, 1.3, 1e4, false, fracas_membrane_models,                     \
-                        "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element " \
-                        "by its edge; 1.3 or more, 2.3 with quadratic triangles"),                 \
+        FRACAS_SURFACE_INTERFACE
+
+/* ... without those that say when it is broken. */
+#define FRACAS_SURFACE_INTERFACE                                                                   \
+    FRACAS_LAW_REAL(beta, "1", 5, 1.3, 1e4, false, fracas_membrane_models,                         \
+                    "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element "     \
+                    "by its edge; 1.3 or more, 2.3 with quadratic triangles"),                     \
         FRACAS_LAW_REAL(beta, "1", 5, 2.3, 1e4, false, fracas_shell_models,                        \
                         "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element " \
                         "by its edge"),                                                            \

@@ -47,7 +47,7 @@ void LANES_UNIT(plane_call)(const plane_case *const *kind, const plane_at *in, p
     const int friction = kinds->mu_c > 0;
     plane_result r;
     if (kinds->law == PLANE_NITSCHE) {
-        nitsche_state s = {NITSCHE(TAKE)};
+        series_state s = {NITSCHE(TAKE)};
         r = plane_nitsche(&at, &input, friction, &s);
         NITSCHE(GIVE)
     } else {
