@@ -8,6 +8,17 @@
 #include "base/lanes.h"
 #include "engine/cohesive/kernels.h"
 
+/* A batch of `n` realizations of the spec; the batch and its model end with their scope. */
+static fracas_batch *batch_of(const fracas_spec *spec, size_t n, fracas_batch_options options,
+                              fracas_model **model)
+{
+    fracas_batch *batch;
+    options.isa = FRACAS_ISA_BEST;
+    OK(fracas_model_create(spec, model));
+    OK(fracas_batch_create(*model, n, &options, &batch));
+    return batch;
+}
+
 /* Fragments of a lane with so many broken interfaces. */
 static int64_t count_broken(const fracas_model *model, int64_t broken)
 {
@@ -138,10 +149,7 @@ static void a_fragment_across_the_end_is_in_one_piece(void **unused)
     fracas_spec spec = bar_reference(10, 1e4, 1);
     spec.geometry.length = 10 * 1e-4;
     OWN(fracas_model) model;
-    OWN(fracas_batch) batch;
-    OK(fracas_model_create(&spec, &model));
-    const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-    OK(fracas_batch_create(model, 1, &options, &batch));
+    OWN(fracas_batch) batch = batch_of(&spec, 1, (fracas_batch_options){.width = 1}, &model);
     for (size_t i = 0; i < 10; i++) bar_set_strength(batch, 0, i, 300e6);
     OK(fracas_batch_begin(batch));
     batch->step.state[2 * 7 + 4] = batch->step.state[6 * 7 + 4] =
@@ -199,11 +207,8 @@ static void fragments_are_sums_over_their_elements(void **unused)
         fracas_spec spec = bar_reference(N, 1e4, 1);
         spec.geometry.ends = periodic ? &fracas_ends_periodic : &fracas_ends_held;
         spec.geometry.length = N * 1e-4;
-        fracas_model *model;
-        fracas_batch *batch;
-        OK(fracas_model_create(&spec, &model));
-        const fracas_batch_options options = {.width = 1, .isa = FRACAS_ISA_BEST};
-        OK(fracas_batch_create(model, 1, &options, &batch));
+        OWN(fracas_model) model;
+        OWN(fracas_batch) batch = batch_of(&spec, 1, (fracas_batch_options){.width = 1}, &model);
         for (size_t i = 0; i < model->interfaces; i++) bar_set_strength(batch, 0, i, 300e6);
         OK(fracas_batch_begin(batch));
         batch->step.time[0] = 2e-5;
@@ -218,8 +223,7 @@ static void fragments_are_sums_over_their_elements(void **unused)
             if (e < model->interfaces && at[4] >= 1) broken++, last = e;
             momentum += 0.5 * 2750 * 1e-6 * 1e-4 * (at[2] + at[3]);
         }
-        fracas_record record;
-        fracas_record_init(&record);
+        RECORD(record);
         record.fragments_dust = 0;
         OK(model->formulation->harvest(model, &batch->step, 0, &record));
         assert_int_equal(record.nfragment, count_broken(model, (int64_t)broken));
@@ -248,9 +252,6 @@ static void fragments_are_sums_over_their_elements(void **unused)
             first = (first + (size_t)expected.elements) % N;
         }
         assert_int_equal(record.fragments_dust, dust);
-        fracas_record_clear(&record);
-        fracas_batch_destroy(batch);
-        fracas_model_destroy(model);
     }
 }
 
@@ -313,10 +314,7 @@ static void a_run_that_gains_energy_ends_as_drift(void **unused)
         spec.geometry.length = 5e-3;
         spec.time.safety = unstable ? 1 : 0.25;
         OWN(fracas_model) model;
-        OWN(fracas_batch) batch;
-        OK(fracas_model_create(&spec, &model));
-        const fracas_batch_options options = {.history = 10, .isa = FRACAS_ISA_BEST};
-        OK(fracas_batch_create(model, 1, &options, &batch));
+        OWN(fracas_batch) batch = batch_of(&spec, 1, (fracas_batch_options){.history = 10}, &model);
         bar_draw(batch, 0, 1.0 / 300, 1);
         RECORD(record);
         OK(fracas_batch_run(batch, &record));
@@ -343,10 +341,8 @@ static void events_are_counted_and_timed_inside_their_steps(void **unused)
         spec.cohesive.law = laws[law];
         spec.time.safety = 0.1;
         OWN(fracas_model) model;
-        OWN(fracas_batch) batch;
-        OK(fracas_model_create(&spec, &model));
-        const fracas_batch_options options = {.interfaces = true, .isa = FRACAS_ISA_BEST};
-        OK(fracas_batch_create(model, 1, &options, &batch));
+        OWN(fracas_batch) batch = batch_of(&spec, 1, (fracas_batch_options){.interfaces = true},
+                                           &model);
         bar_draw(batch, 0, 0.02, 1);
         RECORD(record);
         OK(fracas_batch_run(batch, &record));

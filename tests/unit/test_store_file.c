@@ -77,9 +77,10 @@ static void decisions_come_back(void **state)
                              a == b);
 }
 
-static void write_file_of(const char *path, int64_t replicas, size_t most, bool interfaces,
-                          const grid_shape *shape, fracas_file_seal *seal)
+static fracas_file_seal write_file_of(const char *path, int64_t replicas, size_t most,
+                                      bool interfaces, const grid_shape *shape)
 {
+    fracas_file_seal seal;
     fracas_point_row row[SAMPLE_POINTS];
     fracas_point_table table = sample_table(row, replicas);
     fracas_file_header header = sample_header();
@@ -94,13 +95,36 @@ static void write_file_of(const char *path, int64_t replicas, size_t most, bool 
         }
     if (shape) OK(fracas_writer_decisions(writer, sample_decision, SAMPLE_DECISIONS));
     write_meshes(writer, shape);
-    OK(fracas_writer_finish(writer, true, seal));
+    OK(fracas_writer_finish(writer, true, &seal));
+    return seal;
 }
 
-static void write_file(const char *path, int64_t replicas, size_t most, bool interfaces,
-                       fracas_file_seal *seal)
+static fracas_file_seal write_file(const char *path, int64_t replicas, size_t most)
 {
-    write_file_of(path, replicas, most, interfaces, NULL, seal);
+    return write_file_of(path, replicas, most, true, NULL);
+}
+
+static fracas_reader *reader_of(const char *path)
+{
+    fracas_reader *reader;
+    OK(fracas_reader_open(path, &reader));
+    return reader;
+}
+
+/* A file with so many replicas of each point, read again. */
+static fracas_reader *written(int64_t replicas, size_t most)
+{
+    const char *path = sample_path(folder, "a.h5");
+    write_file(path, replicas, most);
+    return reader_of(path);
+}
+
+/* What it is, and a value as the digits of its 64 bits. */
+static void tell_bits(const char *what, double value)
+{
+    uint64_t bits;
+    memcpy(&bits, &value, 8);
+    printf("%s %016llx", what, (unsigned long long)bits);
 }
 
 /* A line for each element, interface, border and node. */
@@ -123,10 +147,9 @@ static void tell_mesh(const fracas_stored_mesh *mesh)
                (long long)of->node[1], (long long)of->node[2], (long long)of->tag);
     }
     for (size_t n = 0; n < mesh->nnodes; n++) {
-        uint64_t bits[3];
-        memcpy(bits, mesh->node[n].position, sizeof bits);
-        printf("node %016llx %016llx %016llx\n", (unsigned long long)bits[0],
-               (unsigned long long)bits[1], (unsigned long long)bits[2]);
+        printf("node");
+        for (int i = 0; i < 3; i++) tell_bits("", mesh->node[n].position[i]);
+        printf("\n");
     }
 }
 
@@ -136,32 +159,25 @@ static void write_and_tell(const char *path)
 {
     enum { SOME = 5, ROWS = 7 };
     static const grid_shape shape = {.nx = 3, .ny = 2, .rolled = true, .middles = true};
-    fracas_file_seal seal;
     FRACAS_CLEARED(fracas_stored_mesh) mesh;
-    write_file_of(path, SOME, ROWS, true, &shape, &seal);
+    write_file_of(path, SOME, ROWS, true, &shape);
     for (size_t i = 0; i < SAMPLE_POINTS * SOME; i++) {
         FRACAS_CLEARED(fracas_record) r;
-        uint64_t bits;
         sample_record(i / SOME, (int64_t)(i % SOME), ROWS, &r);
         sample_make_canonical(&r);
-        memcpy(&bits, &r.end_time, 8);
-        printf("%zu %zu %d %lld %lld %016llx", i / SOME, i % SOME, (int)r.outcome,
-               (long long)r.fragments, (long long)r.steps, (unsigned long long)bits);
+        printf("%zu %zu %d %lld %lld", i / SOME, i % SOME, (int)r.outcome, (long long)r.fragments,
+               (long long)r.steps);
+        tell_bits("", r.end_time);
         for (size_t f = 0; f < r.nfragment; f++) {
-            memcpy(&bits, &r.fragment[f].velocity[2], 8);
-            printf(" f %lld %d %016llx", (long long)r.fragment[f].elements, (int)r.fragment[f].dust,
-                   (unsigned long long)bits);
-            memcpy(&bits, &r.fragment[f].spin[1], 8);
-            printf(" %016llx", (unsigned long long)bits);
+            printf(" f %lld %d", (long long)r.fragment[f].elements, (int)r.fragment[f].dust);
+            tell_bits("", r.fragment[f].velocity[2]);
+            tell_bits("", r.fragment[f].spin[1]);
         }
         for (size_t h = 0; h < r.nhistory; h++) {
-            memcpy(&bits, &r.history[h].residual, 8);
-            printf(" h %lld %016llx", (long long)r.history[h].broken, (unsigned long long)bits);
+            printf(" h %lld", (long long)r.history[h].broken);
+            tell_bits("", r.history[h].residual);
         }
-        for (size_t k = 0; k < r.ninterface; k++) {
-            memcpy(&bits, &r.interface[k].damage, 8);
-            printf(" i %016llx", (unsigned long long)bits);
-        }
+        for (size_t k = 0; k < r.ninterface; k++) tell_bits(" i", r.interface[k].damage);
         printf("\n");
     }
     grid_make(&shape, &mesh);
@@ -186,36 +202,33 @@ static void check_row(fracas_reader *reader, size_t row, int64_t replicas, size_
     assert_true(sample_equal(&wanted, &found));
 }
 
+static void check_all(fracas_reader *reader, int64_t replicas, size_t most)
+{
+    const size_t rows = SAMPLE_POINTS * (size_t)replicas;
+    assert_int_equal(fracas_reader_realizations(reader), rows);
+    for (size_t row = 0; row < rows; row++) check_row(reader, row, replicas, most, FRACAS_READ_ALL);
+}
+
 static void records_come_back_bit_by_bit(void **state)
 {
-    const char *path = sample_path(folder, "a.h5");
-    fracas_file_seal seal;
-    fracas_reader *reader;
-    write_file(path, REPLICAS, MOST, true, &seal);
-    OK(fracas_reader_open(path, &reader));
-    assert_int_equal(fracas_reader_realizations(reader), SAMPLE_POINTS * REPLICAS);
-    for (size_t row = 0; row < SAMPLE_POINTS * REPLICAS; row++)
-        check_row(reader, row, REPLICAS, MOST, FRACAS_READ_ALL);
+    OWN(fracas_reader) reader = written(REPLICAS, MOST);
+    check_all(reader, REPLICAS, MOST);
     uint64_t random = 5; /* any order, any parts */
     for (int i = 0; i < 200; i++)
         check_row(reader, sample_bits(&random) % (SAMPLE_POINTS * REPLICAS), REPLICAS, MOST,
                   (unsigned)sample_bits(&random) & FRACAS_READ_ALL);
-    fracas_record record;
+    RECORD(record);
     size_t point;
     int64_t replica;
-    fracas_record_init(&record);
     FAILS(fracas_reader_record(reader, SAMPLE_POINTS * REPLICAS, 0, &point, &replica, &record),
           FRACAS_BUG, "row 900");
-    fracas_reader_close(reader);
 }
 
 static void header_and_points_come_back(void **state)
 {
     const char *path = sample_path(folder, "a.h5");
-    fracas_file_seal seal;
-    fracas_reader *reader;
-    write_file(path, 2, 3, false, &seal);
-    OK(fracas_reader_open(path, &reader));
+    write_file_of(path, 2, 3, false, NULL);
+    OWN(fracas_reader) reader = reader_of(path);
     fracas_file_header wanted = sample_header();
     const fracas_file_header *header = fracas_reader_header(reader);
     assert_true(fracas_hash_equal(&header->campaign, &wanted.campaign));
@@ -245,27 +258,23 @@ static void header_and_points_come_back(void **state)
         }
     }
     assert_true(signbit(table->point[2].value[2].real) != 0);
-    fracas_reader_close(reader);
 }
 
 /* The second file is written with another heap and beside another open file. */
 static void same_calls_give_same_bytes(void **state)
 {
-    fracas_file_seal first, second, third;
     char *a = sample_path(folder, "a.h5"), *b = sample_path(folder, "b.h5"),
          *c = sample_path(folder, "c.h5");
-    write_file(a, 77, MOST, true, &first);
+    const fracas_file_seal first = write_file(a, 77, MOST);
     void *holes[64];
     for (size_t i = 0; i < 64; i++) holes[i] = memset(malloc(1000 * i + 1), 0xa5, 1000 * i + 1);
     for (size_t i = 0; i < 64; i += 2) free(holes[i]);
-    fracas_reader *reader;
-    OK(fracas_reader_open(a, &reader));
-    write_file(b, 77, MOST, true, &second);
-    fracas_reader_close(reader);
+    OWN(fracas_reader) reader = reader_of(a);
+    const fracas_file_seal second = write_file(b, 77, MOST);
     for (size_t i = 1; i < 64; i += 2) free(holes[i]);
     assert_true(sample_same_file(a, b));
     assert_true(first.bytes == second.bytes && first.checksum == second.checksum);
-    write_file(c, 77, MOST - 1, true, &third); /* other records: other bytes */
+    const fracas_file_seal third = write_file(c, 77, MOST - 1); /* other records: other bytes */
     assert_false(sample_same_file(a, c));
     assert_true(first.checksum != third.checksum);
 }
@@ -273,14 +282,13 @@ static void same_calls_give_same_bytes(void **state)
 static void seal_is_that_of_the_bytes(void **state)
 {
     const char *path = sample_path(folder, "a.h5");
-    fracas_file_seal seal, again;
+    const fracas_file_seal seal = write_file(path, 5, MOST);
+    fracas_file_seal again;
     size_t size;
-    write_file(path, 5, MOST, true, &seal);
-    unsigned char *bytes = whole_bytes(path, &size);
+    OWNED unsigned char *bytes = whole_bytes(path, &size);
     assert_true(seal.bytes == size && seal.checksum == fracas_checksum_of(bytes, size));
     OK(fracas_disk_seal_path(path, &again));
     assert_true(again.bytes == size && again.checksum == seal.checksum);
-    free(bytes);
 }
 
 /* No record at all, and none with rows. */
@@ -290,31 +298,22 @@ static void empty_files_are_files(void **state)
     fracas_point_table none = {0, NULL, 0, NULL};
     fracas_file_header header = sample_header();
     fracas_writer *writer;
-    fracas_reader *reader;
     fracas_file_seal seal;
     OK(fracas_writer_create(path, &header, &none, &writer));
     OK(fracas_writer_finish(writer, false, &seal));
-    OK(fracas_reader_open(path, &reader));
+    OWN(fracas_reader) reader = reader_of(path);
     assert_int_equal(fracas_reader_realizations(reader), 0);
     assert_int_equal(fracas_reader_points(reader)->npoints, 0);
     assert_false(fracas_reader_header(reader)->complete);
-    fracas_reader_close(reader);
-    write_file(path, 4, 0, true, &seal);
-    OK(fracas_reader_open(path, &reader));
-    for (size_t row = 0; row < 12; row++) check_row(reader, row, 4, 0, FRACAS_READ_ALL);
-    fracas_reader_close(reader);
+    OWN(fracas_reader) without_rows = written(4, 0);
+    check_all(without_rows, 4, 0);
 }
 
 /* One realization larger than several blocks of the reader and chunks of the writer. */
 static void large_records_are_cut_and_joined(void **state)
 {
-    const char *path = sample_path(folder, "a.h5");
-    fracas_file_seal seal;
-    fracas_reader *reader;
-    write_file(path, 3, 20000, true, &seal);
-    OK(fracas_reader_open(path, &reader));
+    OWN(fracas_reader) reader = written(3, 20000);
     for (size_t row = 9; row-- > 0;) check_row(reader, row, 3, 20000, FRACAS_READ_ALL);
-    fracas_reader_close(reader);
 }
 
 /* Lists, spaces and types of HDF5 that nobody closes stay reachable, so no leak checker sees them;
@@ -322,14 +321,10 @@ static void large_records_are_cut_and_joined(void **state)
  * kilobytes that malloc keeps for itself. */
 static void nothing_is_left_open(void **state)
 {
-    const char *path = sample_path(folder, "a.h5");
     size_t used = 0;
     for (int round = 0; round < 30; round++) {
-        fracas_file_seal seal;
-        fracas_reader *reader;
-        write_file(path, 4, MOST, true, &seal);
-        OK(fracas_reader_open(path, &reader));
-        for (size_t row = 0; row < 12; row++) check_row(reader, row, 4, MOST, FRACAS_READ_ALL);
+        fracas_reader *reader = written(4, MOST);
+        check_all(reader, 4, MOST);
         fracas_reader_close(reader);
         if (round == 9) used = mallinfo2().uordblks;
     }
