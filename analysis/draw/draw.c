@@ -41,12 +41,6 @@ static bool shown(double value, const fracas_axis *axis)
     return isfinite(value) && (!axis->log || value > 0);
 }
 
-static bool ranges(const fracas_series *series)
-{
-    return series->kind == FRACAS_MARKS || series->kind == FRACAS_BAND ||
-           series->kind == FRACAS_BOXES;
-}
-
 static void widen(double value, const fracas_axis *axis, double *least, double *greatest)
 {
     if (!shown(value, axis)) return;
@@ -75,7 +69,7 @@ static void fit(frame *f)
             widen(series->x[i], &f->panel.x, &x[0], &x[1]); /* of all panels */
             if (!fracas_panel_shows(&f->panel, series, i)) continue;
             widen(series->y[i], &f->panel.y, &y[0], &y[1]);
-            if (!ranges(series)) continue;
+            if (!series->low) continue;
             widen(series->low[i], &f->panel.y, &y[0], &y[1]);
             widen(series->high[i], &f->panel.y, &y[0], &y[1]);
         }

@@ -208,13 +208,6 @@ static void write_statistics(fracas_json *json, const fracas_point_statistics *s
     fracas_json_close(json);
 }
 
-static void write_reasons(fracas_json *json, const fracas_point_statistics *statistics)
-{
-    fracas_json_object(json, "reasons");
-    if (statistics->without_mott) fracas_json_text(json, "law.mott", statistics->without_mott);
-    fracas_json_close(json);
-}
-
 /* The last decision on the replicas of a point, for print. */
 typedef struct {
     const char *quantity;
@@ -260,7 +253,10 @@ static void write_point(fracas_json *json, const fracas_analysis *analysis, size
     write_decision(json, fracas_analysis_decision(analysis, p));
     write_parameters(json, analysis->table, p);
     write_statistics(json, &analysis->point[p]);
-    write_reasons(json, &analysis->point[p]);
+    fracas_json_object(json, "reasons");
+    if (analysis->point[p].without_mott)
+        fracas_json_text(json, "law.mott", analysis->point[p].without_mott);
+    fracas_json_close(json);
     put_convergence(json, analysis, p);
     put_energies(json, analysis, p);
     put_fits(json, p, fits);

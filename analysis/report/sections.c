@@ -147,20 +147,15 @@ static void put_decisions(const fracas_page *page)
     if (any) fputs("</ul>\n", page->out);
 }
 
-static void put_beside(const fracas_page *page)
-{
-    char text[768];
-    if (!fracas_result_table_beside(page->analysis, text, sizeof text)) return;
-    fracas_markup(page->out, "<p id=\"beside\">%s</p>\n", text);
-}
-
 fracas_err fracas_section_results(fracas_page *page)
 {
+    char beside[768];
     fracas_result_table table = {0};
     const fracas_err built = fracas_result_table_create(page->analysis, true, &table);
     TRY(fracas_page_table(page, "results", "Results, a line a point", true, &table,
                           fracas_result_table_legend(page->analysis), built));
-    put_beside(page);
+    if (fracas_result_table_beside(page->analysis, beside, sizeof beside))
+        fracas_markup(page->out, "<p id=\"beside\">%s</p>\n", beside);
     put_decisions(page);
     return FRACAS_OK;
 }
