@@ -38,7 +38,7 @@ typedef struct fracas_attached {
 #define FRACAS_ATTACHMENTS "attachments" /* folder beside a written campaign file */
 
 typedef struct fracas_campaign {
-    char *name;
+    const char *name;
     uint64_t seed;
     bool common_random_numbers; /* replica r draws the same at every point */
     fracas_output output;       /* the same for all points */

@@ -31,11 +31,11 @@ static fracas_err read_kind(const fracas_file *file, const fracas_node *map, con
                             const fracas_kind *const *kinds, size_t count, const fracas_kind **kind)
 {
     const fracas_node *node;
-    char remedy[300];
-    size_t used = (size_t)snprintf(remedy, sizeof remedy, "%s can be: ", key);
-    for (size_t k = 0; k < count && used < sizeof remedy; k++)
-        used += (size_t)snprintf(remedy + used, sizeof remedy - used, "%s%s", k ? ", " : "",
-                                 kinds[k]->name);
+    fracas_words words;
+    char remedy[500];
+    fracas_words_init(&words, key);
+    for (size_t k = 0; k < count; k++) fracas_words_add(&words, kinds[k]->name);
+    snprintf(remedy, sizeof remedy, "%s can be: %s", key, words.list);
     TRY(need(file, map, key, remedy, &node));
     return fracas_setting_kind(file, key, node, kinds, count, kind);
 }

@@ -3,7 +3,6 @@
 
 #include <stdint.h>
 #include <stdlib.h>
-#include <string.h>
 
 typedef struct block {
     struct block *next;
@@ -49,11 +48,4 @@ void *fracas_memory_take(fracas_campaign_memory *memory, size_t count, size_t si
     void *piece = (char *)in_use->bytes + in_use->used;
     in_use->used += need;
     return piece;
-}
-
-char *fracas_memory_copy(fracas_campaign_memory *memory, const char *text, size_t length)
-{
-    char *copy = fracas_memory_take(memory, length + 1, 1);
-    if (copy) memcpy(copy, text, length);
-    return copy;
 }

@@ -18,7 +18,4 @@ FRACAS_OWNER(fracas_campaign_memory, fracas_memory_destroy)
  * product overflows). Freed with `memory`. */
 void *fracas_memory_take(fracas_campaign_memory *memory, size_t count, size_t size);
 
-/* A copy of `length` bytes of `text`, with an end. NULL without memory. */
-char *fracas_memory_copy(fracas_campaign_memory *memory, const char *text, size_t length);
-
 #endif

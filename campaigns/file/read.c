@@ -89,12 +89,9 @@ static fracas_err read_heading(reading *read, fracas_campaign *campaign)
     for (node = file->root->first; node; node = node->next)
         if (!is_own_key(node->key->text) && !fracas_catalog_section(file->catalog, node->key->text))
             return unknown_section(file, node->key);
-    const char *name;
     TRY(need(file, "name",
              "give the campaign a name, which becomes its folder, as `name: bar-rates`", &node));
-    TRY(fracas_setting_name(file, node, &name));
-    campaign->name = fracas_memory_copy(file->memory, name, strlen(name));
-    if (!campaign->name) return fracas_no_memory("the campaign's name");
+    TRY(fracas_setting_name(file, node, &campaign->name));
     TRY(need(file, "seed", "give the seed of its random numbers, a whole number, as `seed: 1`",
              &node));
     TRY(read_seed(file, node, &campaign->seed));

@@ -43,13 +43,6 @@ fracas_err fracas_setting_kind(const fracas_file *file, const char *key, const f
     return FRACAS_OK;
 }
 
-static fracas_err read_attachment(const fracas_file *file, const fracas_leaf *leaf,
-                                  const fracas_node *node, const fracas_attachment **attachment)
-{
-    TRY(want_scalar(file, leaf->key, node, "the path of a file"));
-    return fracas_attachment_read(file, leaf->key, node, attachment);
-}
-
 static fracas_err read_boolean(const fracas_file *file, const char *key, const fracas_node *node,
                                double *value)
 {
@@ -100,7 +93,9 @@ fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
     case FRACAS_INTEGER: return read_integer(file, leaf->key, node, &setting->value);
     case FRACAS_CHOICE:
         return read_name(file, leaf->key, node, param->choices, param->nchoices, &setting->value);
-    case FRACAS_ATTACHMENT: return read_attachment(file, leaf, node, &setting->attachment);
+    case FRACAS_ATTACHMENT:
+        TRY(want_scalar(file, leaf->key, node, "the path of a file"));
+        return fracas_attachment_read(file, leaf->key, node, &setting->attachment);
     case FRACAS_REAL: break;
     }
     return read_real(file, leaf, node, &setting->value);

@@ -157,8 +157,11 @@ static fracas_err read_scalar(reading *reader, const yaml_event_t *event, fracas
             return fail_at(reader, event->start_mark,
                            "a text with a line break or control character; write it on one line");
     TRY(make_node(reader, event->start_mark, FRACAS_SCALAR, node));
-    (*node)->text = fracas_memory_copy(reader->memory, (const char *)text, length);
-    return (*node)->text ? FRACAS_OK : fracas_no_memory("the campaign file");
+    char *copy = fracas_memory_take(reader->memory, length + 1, 1);
+    if (!copy) return fracas_no_memory("the campaign file");
+    memcpy(copy, text, length);
+    (*node)->text = copy;
+    return FRACAS_OK;
 }
 
 /* With anchors and aliases a small file could stand for a huge one; tags could change values. */

@@ -143,13 +143,6 @@ static double surface_stress_bound(const fracas_spec *spec, double t)
            fmax(1.0, 1.0 / spec->cohesive.coupling);
 }
 
-/* Upper bound of the stress in the uncracked body until time.end [Pa]. */
-static double stress_bound(const fracas_spec *spec)
-{
-    return fracas_spec_is_surface(spec) ? surface_stress_bound(spec, spec->time.end)
-                                        : chain_stress_bound(spec, spec->time.end);
-}
-
 /* Forecasts of rings alone. A compressed ring without bending stiffness folds, starting from
  * round-off; held radial velocities keep it round. */
 static void describe_ring(const fracas_spec *spec, fracas_forecast *forecast)
@@ -211,7 +204,8 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->lines = forecast->uniform && fracas_spacing_of(spec)->rows &&
                       spec->mesh.amplitude == 0;
     forecast->mean = mean;
-    forecast->bound = stress_bound(spec);
+    forecast->bound = fracas_spec_is_surface(spec) ? surface_stress_bound(spec, spec->time.end)
+                                                   : chain_stress_bound(spec, spec->time.end);
     forecast->spread = fracas_model_surface(model) && !fracas_law_of(spec)->flux
                            ? factor.most * strength_at(point, extent.mean, 0.99) -
                                  factor.least * strength_at(point, extent.mean, 0.01)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Predicted cost and stresses of each point. */
+/* Predicted cost and stresses of each point, and warnings by them before its run. */
 #ifndef FRACAS_CAMPAIGNS_PLAN_FORECAST_H
 #define FRACAS_CAMPAIGNS_PLAN_FORECAST_H
 
@@ -38,5 +38,12 @@ FRACAS_MUST_USE fracas_err fracas_forecast_make(const fracas_campaign *campaign,
 /* Forecasts of all points, timed. */
 FRACAS_MUST_USE fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs,
                                                fracas_forecast *forecast);
+
+/* Writes a warning; false, with any text, if it does not apply. */
+typedef bool fracas_plan_warning(const fracas_point *point, const fracas_forecast *forecast,
+                                 char *text, size_t size);
+
+enum { FRACAS_PLAN_WARNINGS = 15 };
+extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];
 
 #endif

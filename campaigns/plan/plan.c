@@ -5,7 +5,6 @@
 #include "base/own.h"
 #include "base/units.h"
 #include "campaigns/plan/forecast.h"
-#include "campaigns/plan/warnings.h"
 #include "engine/mesh/make.h"
 
 #include <errno.h>

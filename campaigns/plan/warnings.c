@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "campaigns/plan/warnings.h"
+#include "campaigns/plan/forecast.h"
 
 #include "engine/loading/loading.h"
 #include "engine/mesh/make.h"

@@ -38,10 +38,3 @@ void *fracas_memory_take(fracas_campaign_memory *memory, size_t count, size_t si
     memory->first = taken;
     return taken->bytes;
 }
-
-char *fracas_memory_copy(fracas_campaign_memory *memory, const char *text, size_t length)
-{
-    char *copy = fracas_memory_take(memory, length + 1, 1);
-    if (copy) memcpy(copy, text, length);
-    return copy;
-}

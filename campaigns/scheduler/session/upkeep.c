@@ -23,11 +23,6 @@ typedef struct {
     fracas_rounds rounds;
 } holding;
 
-#define HOLDING(of)               \
-    {                             \
-        .study = (of), .lock = -1 \
-    }
-
 static void holding_clear(holding *h)
 {
     fracas_rounds_clear(&h->rounds);
@@ -57,7 +52,7 @@ static fracas_err open_index(const char *study, fracas_index **index)
 fracas_err fracas_upkeep_reindex(const char *study, const fracas_campaign *campaign,
                                  const fracas_said *said, fracas_index_counts *end)
 {
-    FRACAS_CLEARED(holding) h = HOLDING(study);
+    FRACAS_CLEARED(holding) h = {.study = study, .lock = -1};
     const fracas_file_header header = fracas_campaign_header(campaign);
     TRY(fracas_study_lock(study, false, &h.lock));
     TRY(fracas_study_reindex(study, &header, &campaign->table, said));
@@ -71,7 +66,7 @@ fracas_err fracas_upkeep_reindex(const char *study, const fracas_campaign *campa
 fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaign,
                                const fracas_said *said, fracas_index_counts *end, bool *written)
 {
-    FRACAS_CLEARED(holding) h = HOLDING(study);
+    FRACAS_CLEARED(holding) h = {.study = study, .lock = -1};
     bool settled;
     int64_t failed;
     const fracas_file_header header = fracas_campaign_header(campaign);
@@ -102,7 +97,7 @@ fracas_err fracas_upkeep_collect(const char *study, const fracas_campaign *campa
                                  void (*found)(void *context, const fracas_collected *item),
                                  void *context, uint64_t *freed)
 {
-    FRACAS_CLEARED(holding) h = HOLDING(study);
+    FRACAS_CLEARED(holding) h = {.study = study, .lock = -1};
     fracas_collect_options options = {.dry = dry, .found = found, .context = context};
     for (const fracas_attached *a = campaign->attached; a; a = a->next) options.nattachments++;
     OWNED const char **digest = calloc(options.nattachments + 1, sizeof *digest);
@@ -121,7 +116,7 @@ fracas_err fracas_upkeep_collect(const char *study, const fracas_campaign *campa
 fracas_err fracas_upkeep_retry(const char *study, const fracas_campaign *campaign, int64_t point,
                                int64_t *rows)
 {
-    FRACAS_CLEARED(holding) h = HOLDING(study);
+    FRACAS_CLEARED(holding) h = {.study = study, .lock = -1};
     const fracas_file_header header = fracas_campaign_header(campaign);
     if (point >= (int64_t)campaign->npoints)
         return fracas_fail(FRACAS_USAGE, "--point %" PRId64 ": %s has the points 0 to %zu", point,
@@ -214,7 +209,8 @@ static fracas_err join(joining *j, fracas_joined *joined, int64_t *both, fracas_
 fracas_err fracas_upkeep_join(const char *into, const char *from, const fracas_said *said,
                               fracas_joined *joined, int64_t *both, fracas_index_counts *end)
 {
-    FRACAS_CLEARED(joining) j = {.into = HOLDING(into), .from = HOLDING(from), .said = said};
+    FRACAS_CLEARED(joining)
+    j = {.into = {.study = into, .lock = -1}, .from = {.study = from, .lock = -1}, .said = said};
     *joined = (fracas_joined){0};
     *both = 0;
     TRY(choose_longer(&j));
