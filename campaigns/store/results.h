@@ -49,9 +49,7 @@ FRACAS_MUST_USE fracas_err fracas_results_record(fracas_results *results, size_t
  * are read by segment, as many ahead as fit some 128 MiB; one whose segment is missing or damaged
  * is left out, counted by fracas_results_missing, and the segment is named in a note. */
 FRACAS_MUST_USE fracas_err fracas_results_walk(fracas_results *results, unsigned parts,
-                                               fracas_err (*visit)(void *context,
-                                                                   fracas_result *result),
-                                               void *context);
+                                               fracas_result_visit *visit, void *context);
 
 /* Done realizations of a point without a readable record so far. */
 int64_t fracas_results_missing(const fracas_results *results, size_t point);

@@ -141,17 +141,14 @@ typedef struct {
 } fracas_result;
 
 /* Visits every realization of the file in the order of its rows, with these parts of its record. */
+typedef fracas_err fracas_result_visit(void *context, fracas_result *result);
 FRACAS_MUST_USE fracas_err fracas_reader_each(fracas_reader *reader, unsigned parts,
-                                              fracas_err (*visit)(void *context,
-                                                                  fracas_result *result),
-                                              void *context);
+                                              fracas_result_visit *visit, void *context);
 
-/* The text of fracas_writer_provenance, NULL if the file has none; *provenance freed by the caller.
- */
+/* The text of fracas_writer_provenance, NULL if the file has none; freed by the caller. */
 FRACAS_MUST_USE fracas_err fracas_reader_provenance(const fracas_reader *reader, char **provenance);
 
-/* Every decision of the file in its order, none if it has no group /decision; *decision freed by
- * the caller with free(). */
+/* Every decision of the file in its order, none without a group /decision; freed by the caller. */
 FRACAS_MUST_USE fracas_err fracas_reader_decisions(fracas_reader *reader,
                                                    fracas_decision **decision, size_t *count);
 
@@ -234,7 +231,7 @@ FRACAS_MUST_USE fracas_err fracas_index_part(fracas_index *index, int *part, int
 /* Adds the missing points and realizations of the table (status planned). Turns leased rows back to
  * planned: the caller has the lock, so their holder is gone. */
 FRACAS_MUST_USE fracas_err fracas_index_plan(fracas_index *index, const fracas_point_table *table);
-/* Every realization of the table in plan order; *row freed by the caller with free(). */
+/* Every realization of the table in plan order; *row freed by the caller. */
 FRACAS_MUST_USE fracas_err fracas_index_rows(fracas_index *index, const fracas_point_table *table,
                                              fracas_index_row **row, size_t *count);
 /* One transaction, durable on return: the segment and its rows, which become done (or failed for
@@ -261,15 +258,13 @@ FRACAS_MUST_USE fracas_err fracas_index_fail(fracas_index *index, const fracas_h
 /* Appends to the table `event` (time of day, kind, text). */
 FRACAS_MUST_USE fracas_err fracas_index_event(fracas_index *index, const char *kind,
                                               const char *text);
-/* The text of the latest event of a kind, NULL if there is none; freed by the caller with free().
- */
+/* The text of the latest event of a kind, NULL if there is none; freed by the caller. */
 FRACAS_MUST_USE fracas_err fracas_index_last_event(fracas_index *index, const char *kind,
                                                    char **text);
 
 /* ---- decisions in the index ---- */
 
-/* Status of a realization, the place of its bytes, and its summary (0 and NaN before it is done).
- */
+/* Status of a realization, place of its bytes, and its summary (0 and NaN before it is done). */
 typedef struct {
     fracas_row_status status;
     int64_t segment; /* id, 0 if it has none */
@@ -287,8 +282,7 @@ FRACAS_MUST_USE fracas_err fracas_index_rows_from(fracas_index *index,
                                                   const fracas_point_row *point, size_t p,
                                                   int64_t first, fracas_index_row *row);
 
-/* The recorded decisions of a point by round, `point` left 0; *decision freed by the caller with
- * free(). */
+/* The recorded decisions of a point by round, `point` left 0; freed by the caller. */
 FRACAS_MUST_USE fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point,
                                                   fracas_decision **decision, size_t *count);
 
@@ -329,8 +323,7 @@ FRACAS_MUST_USE fracas_err fracas_index_count_points(fracas_index *index,
  * into it who has it: host, pid, time, kernel, Slurm job. FRACAS_IN_USE names the holder's host and
  * pid. A lock left by a dead process of this host, or of this Slurm job before its requeue, is
  * taken over. A lock left by another host is refused unless `force`: its holder may live there,
- * with a filesystem that does not share locks. A lock whose holder is known to live is never taken.
- */
+ * with a filesystem that does not share locks. A holder known to live keeps it. */
 FRACAS_MUST_USE fracas_err fracas_study_lock(const char *study, bool force, int *lock);
 /* The same without a line in the file, to read a study while nobody else changes it; released by
  * close(). */
@@ -392,10 +385,10 @@ FRACAS_MUST_USE fracas_err fracas_study_sound(const char *study, fracas_index *i
 
 typedef struct {
     bool full; /* every dataset and every row, too */
-    void (*say)(void *context,
-                const char *problem); /* called with each problem, its place and its remedy */
-    void (*note)(void *context,
-                 const char *text); /* the same for leftovers, which are no damage; may be NULL */
+    /* Called with each problem, its place and its remedy; `note`, which may be NULL, with
+     * leftovers, which are no damage. */
+    void (*say)(void *context, const char *problem);
+    void (*note)(void *context, const char *text);
     void *context;
 } fracas_verify_options;
 
@@ -404,8 +397,7 @@ typedef struct {
  * quick_check of SQLite, and its rows against each other; the decisions in study.h5 against the
  * recorded ones. Full, in addition: every dataset of every segment, the index against the segments
  * row by row, integrity_check, study.h5 against the segments record by record, and the number of
- * interfaces in its meshes. Notes: a lock, temporary files, unknown segments, segments set aside.
- */
+ * interfaces in its meshes. Notes: a lock, temporary files, segments unknown or set aside. */
 FRACAS_MUST_USE fracas_err fracas_study_verify(const char *study,
                                                const fracas_verify_options *options,
                                                int64_t *problems);

@@ -2,8 +2,7 @@
 /* Upkeep of a study: index made anew, needless files removed, two studies joined, failures retried.
  *
  * The caller holds the lock of every study, and has opened its index. After a death at any moment
- * the study is as before or as after, or the same command goes on.
- */
+ * the study is as before or as after, or the same command goes on. */
 #ifndef FRACAS_CAMPAIGNS_STORE_UPKEEP_H
 #define FRACAS_CAMPAIGNS_STORE_UPKEEP_H
 

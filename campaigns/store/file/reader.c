@@ -334,8 +334,7 @@ fracas_err fracas_reader_record(fracas_reader *reader, size_t row, unsigned part
     return err;
 }
 
-fracas_err fracas_reader_each(fracas_reader *reader, unsigned parts,
-                              fracas_err (*visit)(void *context, fracas_result *result),
+fracas_err fracas_reader_each(fracas_reader *reader, unsigned parts, fracas_result_visit *visit,
                               void *context)
 {
     fracas_result result = {0};

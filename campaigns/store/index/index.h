@@ -134,11 +134,10 @@ bool fracas_place_fits(const fracas_place *place, const fracas_record *record, b
 
 /* Visits the realizations of every segment by its id, in the order of their rows; *point is NULL
  * where the index has no valid hash. */
-FRACAS_MUST_USE fracas_err
-fracas_index_each_by_segment(fracas_index *index,
-                             fracas_err (*visit)(void *context, const fracas_hash *point,
-                                                 int64_t replica, const fracas_place *place),
-                             void *context);
+typedef fracas_err fracas_place_visit(void *context, const fracas_hash *point, int64_t replica,
+                                      const fracas_place *place);
+FRACAS_MUST_USE fracas_err fracas_index_each_by_segment(fracas_index *index,
+                                                        fracas_place_visit *visit, void *context);
 
 /* FRACAS_DAMAGED if the index has no such realization. */
 FRACAS_MUST_USE fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point,

@@ -186,10 +186,7 @@ fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int
                        index->path, replica, fracas_hash_hex(point).text);
 }
 
-fracas_err fracas_index_each_by_segment(fracas_index *index,
-                                        fracas_err (*visit)(void *context, const fracas_hash *point,
-                                                            int64_t replica,
-                                                            const fracas_place *place),
+fracas_err fracas_index_each_by_segment(fracas_index *index, fracas_place_visit *visit,
                                         void *context)
 {
     OWN(sqlite3_stmt) s = NULL;

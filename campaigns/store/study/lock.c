@@ -273,11 +273,10 @@ fracas_lock_state fracas_study_lock_state(const char *study, char text[FRACAS_HO
     *text = '\0';
     if (fracas_disk_join(study, "lock", &path)) return state;
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    OWN_FD fd = open(path, O_RDONLY | O_CLOEXEC);
     if (fd < 0) return state;
     bool held = fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK,
          named = read_holder(fd, &h);
-    close(fd);
     if (held && lock.l_pid > 0 && h.pid != lock.l_pid) h = (holder){.pid = lock.l_pid};
     if (held || named) describe(&h, text);
     if (held || (named && lives(&h, &self))) state = FRACAS_LOCK_HELD;

@@ -306,8 +306,7 @@ static fracas_err adopt_orphans(const char *folder, const fracas_point_table *ta
 /* ---- the index itself ---- */
 
 /* Checks the index before anything is computed by it. A large index, where this would take long, is
- * believed here: damage shows at its use, at the latest when the merge compares rows with records.
- */
+ * believed here: damage shows at its use, at the latest when the merge compares records. */
 static fracas_err check_index(fracas_index *index, const fracas_point_table *table)
 {
     enum { MOST = 32 << 20 }; /* bytes: about a second */

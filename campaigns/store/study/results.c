@@ -309,7 +309,7 @@ fracas_err fracas_results_record(fracas_results *results, size_t row, unsigned p
 
 typedef struct {
     fracas_results *results;
-    fracas_err (*visit)(void *context, fracas_result *result);
+    fracas_result_visit *visit;
     void *context;
 } walk;
 
@@ -338,8 +338,7 @@ static fracas_err visit_row(void *context, fracas_visit *visit)
     return visit->damaged ? FRACAS_OK : w->visit(w->context, &visit->result);
 }
 
-fracas_err fracas_results_walk(fracas_results *results, unsigned parts,
-                               fracas_err (*visit)(void *context, fracas_result *result),
+fracas_err fracas_results_walk(fracas_results *results, unsigned parts, fracas_result_visit *visit,
                                void *context)
 {
     walk w = {results, visit, context};

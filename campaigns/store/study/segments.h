@@ -71,7 +71,7 @@ typedef struct {
     unsigned parts;
     fracas_err (*next)(void *source, fracas_visit *visit, bool *more);
     void *source;
-    fracas_err (*damaged)(void *context, fracas_result *result);
+    fracas_result_visit *damaged;
     fracas_err (*visit)(void *context, fracas_visit *visit);
     void *context;
 } fracas_want;

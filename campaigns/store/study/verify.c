@@ -272,8 +272,7 @@ static bool same_rule(const fracas_decision *a, const fracas_decision *b)
 }
 
 /* Decisions of one point: study.h5 from *next on against the index. Decisions in the index by
- * another rule are of an extended campaign: study.h5 is sound then, but older.
- */
+ * another rule are of an extended campaign: study.h5 is sound then, but older. */
 static fracas_err check_decisions_of(verification *v, size_t p, const fracas_decision *merged,
                                      size_t nmerged, size_t *next)
 {
