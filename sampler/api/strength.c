@@ -2,6 +2,7 @@
 /* The registry of distributions, and their common functions. */
 #include "sampler/distribution/distribution.h"
 
+#include "base/own.h"
 #include "sampler/distribution/given.h"
 #include "sampler/distribution/size.h"
 #include "sampler/field/covariance.h"
@@ -123,6 +124,7 @@ fracas_err fracas_strength_init(const fracas_strength *given, fracas_strength *r
 {
     const fracas_distribution *distribution = fracas_distribution_of(given);
     *ready = *given;
+    ready->ready = false;
     TRY(check_reference(given));
     if (distribution->init) TRY(distribution->init(ready));
     ready->ready = true;
@@ -131,13 +133,13 @@ fracas_err fracas_strength_init(const fracas_strength *given, fracas_strength *r
 
 void fracas_strength_clear(fracas_strength *ready)
 {
-    const fracas_distribution *distribution = fracas_distribution_of(ready);
-    if (distribution->clear) distribution->clear(ready);
+    if (ready->ready && fracas_distribution_of(ready)->clear)
+        fracas_distribution_of(ready)->clear(ready);
 }
 
 fracas_err fracas_strength_check(const fracas_strength *strength)
 {
-    fracas_strength ready;
+    FRACAS_CLEARED(fracas_strength) ready = {0};
     if (fracas_strength_is_given(strength) && fracas_strength_is_per_point(strength))
         return fracas_fail(FRACAS_USAGE,
                            "strength.per is gauss-point, but the distribution `%s` gives one "
@@ -145,9 +147,7 @@ fracas_err fracas_strength_check(const fracas_strength *strength)
                            strength->distribution->name);
     TRY(fracas_covariance_check(strength));
     TRY(fracas_grading_check(strength));
-    TRY(fracas_strength_init(strength, &ready));
-    fracas_strength_clear(&ready);
-    return FRACAS_OK;
+    return fracas_strength_init(strength, &ready);
 }
 
 /* Strengths from a file, which may be long, need nothing to be ready. */
@@ -160,11 +160,9 @@ double fracas_strength_quantile(const fracas_strength *strength, fracas_extent e
                                 fracas_probability p)
 {
     if (!is_ready(strength)) {
-        fracas_strength ready;
+        FRACAS_CLEARED(fracas_strength) ready = {0};
         if (fracas_strength_init(strength, &ready)) return NAN;
-        const double quantile = fracas_strength_quantile(&ready, extent, p);
-        fracas_strength_clear(&ready);
-        return quantile;
+        return fracas_strength_quantile(&ready, extent, p);
     }
     if (has_reference(strength))
         return fracas_size_quantile(strength, fracas_size_of(strength, extent), p);
@@ -174,11 +172,9 @@ double fracas_strength_quantile(const fracas_strength *strength, fracas_extent e
 static fracas_moments moments_of(const fracas_strength *strength, fracas_extent extent)
 {
     if (!is_ready(strength)) {
-        fracas_strength ready;
+        FRACAS_CLEARED(fracas_strength) ready = {0};
         if (fracas_strength_init(strength, &ready)) return (fracas_moments){NAN, NAN};
-        const fracas_moments moments = moments_of(&ready, extent);
-        fracas_strength_clear(&ready);
-        return moments;
+        return moments_of(&ready, extent);
     }
     if (has_reference(strength))
         return fracas_size_moments(strength, fracas_size_of(strength, extent));
@@ -198,13 +194,11 @@ double fracas_strength_deviation(const fracas_strength *strength, fracas_extent 
 /* (scaling-laws.8), (scaling-laws.9) */
 double fracas_strength_modulus(const fracas_strength *strength, fracas_extent extent)
 {
-    fracas_strength ready;
+    FRACAS_CLEARED(fracas_strength) ready = {0};
     const fracas_distribution *distribution = fracas_distribution_of(strength);
     if (!distribution->tail || fracas_strength_init(strength, &ready)) return NAN;
     const double mean = fracas_strength_mean(&ready, extent), above = mean - ready.minimum;
-    const double tail = distribution->tail(&ready, extent);
-    fracas_strength_clear(&ready);
-    return above > 0 ? tail * mean / above : NAN;
+    return above > 0 ? distribution->tail(&ready, extent) * mean / above : NAN;
 }
 
 bool fracas_strength_has_size_effect(const fracas_strength *strength)

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/design/design.h"
 
+#include "base/own.h"
 #include "sampler/design/correlation.h"
 #include "sampler/stream.h"
 
 #include <gsl/gsl_qrng.h>
 #include <stdbool.h>
-#include <stdlib.h>
 
 typedef struct {
     fracas_kind kind; /* first: a design names its type by this */
@@ -66,7 +66,7 @@ static int by_u(const void *a, const void *b)
 FRACAS_MUST_USE static fracas_err stratify(const fracas_design *design, fracas_probability *p)
 {
     const size_t n = design->points;
-    ranked *order = malloc(n * sizeof *order);
+    OWNED ranked *order = malloc(n * sizeof *order);
     if (!order) return fracas_no_memory("the points of a design");
     for (size_t j = 0; j < design->parameters; j++) {
         const fracas_stream stream = stream_of(design, j, JITTER);
@@ -79,7 +79,6 @@ FRACAS_MUST_USE static fracas_err stratify(const fracas_design *design, fracas_p
                 ((double)rank + v) / (double)n, ((double)(n - 1 - rank) + (1.0 - v)) / (double)n};
         }
     }
-    free(order);
     return FRACAS_OK;
 }
 
@@ -105,7 +104,7 @@ FRACAS_MUST_USE static fracas_err sobol_fill(const fracas_design *design, fracas
 {
     const unsigned d = (unsigned)design->parameters;
     double x[40] = {0.0}, s[40]; /* gsl_qrng_sobol has no more */
-    void *state = malloc(gsl_qrng_sobol->state_size(d));
+    OWNED void *state = malloc(gsl_qrng_sobol->state_size(d));
     if (!state) return fracas_no_memory("a Sobol sequence");
     gsl_qrng_sobol->init_state(state, d);
     for (size_t j = 0; j < d; j++) {
@@ -116,7 +115,6 @@ FRACAS_MUST_USE static fracas_err sobol_fill(const fracas_design *design, fracas
         if (i > 0) gsl_qrng_sobol->get(state, d, x);
         shift(x, s, d, p + i * d);
     }
-    free(state);
     return FRACAS_OK;
 }
 
@@ -140,17 +138,15 @@ size_t fracas_design_most_parameters(const fracas_kind *type)
 FRACAS_MUST_USE static fracas_err correlate(const fracas_design *design, fracas_probability *p)
 {
     const size_t d = design->parameters;
-    double *room = malloc((d + 1) * d * sizeof *room), *factor = room + d, rest;
+    OWNED double *room = malloc((d + 1) * d * sizeof *room);
+    double *factor = room + d, rest;
     size_t at;
     if (!room) return fracas_no_memory("the correlation of a design");
-    const bool good = fracas_correlation_factor(d, design->correlation, factor, &at, &rest);
-    for (size_t i = 0; i < design->points && good; i++)
-        fracas_correlate(d, factor, room, p + i * d);
-    free(room);
-    return good ? FRACAS_OK
-                : fracas_fail(
-                      FRACAS_BUG,
-                      "a design whose correlation is not positive definite at parameter %zu", at);
+    if (!fracas_correlation_factor(d, design->correlation, factor, &at, &rest))
+        return fracas_fail(
+            FRACAS_BUG, "a design whose correlation is not positive definite at parameter %zu", at);
+    for (size_t i = 0; i < design->points; i++) fracas_correlate(d, factor, room, p + i * d);
+    return FRACAS_OK;
 }
 
 fracas_err fracas_design_fill(const fracas_design *design, fracas_probability *p)

@@ -7,6 +7,7 @@
 
 typedef struct {
     fracas_kind kind; /* first: an uncertain parameter names its distribution by this */
+    const fracas_distribution *strength; /* a distribution of strengths, used here too; or */
     double (*quantile)(const fracas_uncertain *uncertain, fracas_probability p);
     fracas_err (*check)(const fracas_uncertain *uncertain); /* may be NULL */
 } uncertain_kind;
@@ -34,21 +35,6 @@ static double strength_quantile(const fracas_distribution *distribution,
     strength.scale = uncertain->scale;
     strength.shape = uncertain->shape;
     return fracas_strength_quantile(&strength, (fracas_extent){1.0, 1.0}, p);
-}
-
-static double lognormal_quantile(const fracas_uncertain *uncertain, fracas_probability p)
-{
-    return strength_quantile(&fracas_lognormal, uncertain, p);
-}
-
-static double weibull_quantile(const fracas_uncertain *uncertain, fracas_probability p)
-{
-    return strength_quantile(&fracas_weibull, uncertain, p);
-}
-
-static double gamma_quantile(const fracas_uncertain *uncertain, fracas_probability p)
-{
-    return strength_quantile(&fracas_gamma_distribution, uncertain, p);
 }
 
 /* ---- between two bounds ---- */
@@ -161,21 +147,19 @@ static const fracas_param gamma_params[] = {
            1e6, false),
 };
 
-#define KIND(name, text, doc, params, quantile, check) \
-    static const uncertain_kind name = {               \
-        {text, doc, params, FRACAS_COUNT(params), NULL, 0}, quantile, check}
-KIND(uniform, "uniform", "all values between two bounds equally likely", between, uniform_quantile,
-     check_bounds);
-KIND(log_uniform, "log-uniform", "logarithm uniform between two bounds", log_between,
+#define KIND(name, text, doc, params, ...) \
+    static const uncertain_kind name = {{text, doc, FRACAS_PARAMS(params)}, __VA_ARGS__}
+KIND(uniform, "uniform", "all values between two bounds equally likely", between, NULL,
+     uniform_quantile, check_bounds);
+KIND(log_uniform, "log-uniform", "logarithm uniform between two bounds", log_between, NULL,
      log_uniform_quantile, check_bounds);
-KIND(normal, "normal", "normal; of both signs, unless it is cut", normal_params, normal_quantile,
-     normal_check);
+KIND(normal, "normal", "normal; of both signs, unless it is cut", normal_params, NULL,
+     normal_quantile, normal_check);
 KIND(lognormal, "lognormal", "logarithm normal: median exp(sigma z)", lognormal_params,
-     lognormal_quantile, NULL);
-KIND(weibull, "weibull", "Weibull, with two or three parameters", weibull_params, weibull_quantile,
-     NULL);
+     &fracas_lognormal);
+KIND(weibull, "weibull", "Weibull, with two or three parameters", weibull_params, &fracas_weibull);
 KIND(gamma_kind, "gamma", "gamma: mean shape scale, variance shape scale^2", gamma_params,
-     gamma_quantile, NULL);
+     &fracas_gamma_distribution);
 
 static const fracas_kind *const distributions[] = {&uniform.kind, &log_uniform.kind,
                                                    &normal.kind,  &lognormal.kind,
@@ -201,5 +185,7 @@ fracas_err fracas_uncertain_check(const fracas_uncertain *uncertain)
 
 double fracas_uncertain_quantile(const fracas_uncertain *uncertain, fracas_probability p)
 {
-    return kind_of(uncertain)->quantile(uncertain, p);
+    const uncertain_kind *kind = kind_of(uncertain);
+    return kind->strength ? strength_quantile(kind->strength, uncertain, p)
+                          : kind->quantile(uncertain, p);
 }

@@ -44,6 +44,11 @@ typedef struct {
     const char *scatter_remedy; /* fracas_strength_scatter_remedy; NULL: none */
 } fracas_distribution;
 
+/* The parameter `file`. */
+#define FRACAS_STRENGTH_FILE(text)                                                     \
+    FRACAS_BRACES(.name = "file", .type = FRACAS_ATTACHMENT, .unit = "1", .doc = text, \
+                  .fallback = FRACAS_REQUIRED, .offset = offsetof(fracas_strength, file))
+
 const fracas_distribution *fracas_distribution_of(const fracas_strength *strength);
 
 #define FRACAS_DISTRIBUTION(name) extern const fracas_distribution name;

@@ -6,7 +6,6 @@
 #include "base/units.h"
 #include "sampler/distribution/lines.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -29,13 +28,6 @@ typedef struct {
     double strength, below; /* below: NaN of a line with one */
 } row;
 
-static fracas_err refuse(const fracas_lines *lines, const char *found, const char *expected)
-{
-    return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": found %s%s%s; expected %s", lines->file->path,
-                       lines->line, *found ? "`" : "no text there", found, *found ? "`" : "",
-                       expected);
-}
-
 /* The next line; *found is false at the end of the file. */
 FRACAS_MUST_USE static fracas_err next_row(fracas_lines *lines, row *next, bool *found)
 {
@@ -45,17 +37,20 @@ FRACAS_MUST_USE static fracas_err next_row(fracas_lines *lines, row *next, bool 
     fracas_lines_field(lines, field);
     if (fracas_number_read(field, &next->strength) ||
         !(next->strength > 0.0 && next->strength < INFINITY))
-        return refuse(lines, field, "a strength in Pa, a number greater than 0, without a unit");
+        return fracas_lines_refuse(lines, field,
+                                   "a strength in Pa, a number greater than 0, without a unit");
     next->below = NAN;
     if (lines->start == lines->stop) return FRACAS_OK;
     fracas_lines_field(lines, field);
     if (fracas_number_read(field, &next->below) || !(next->below >= 0.0 && next->below <= 1.0))
-        return refuse(lines, field,
-                      "a probability from 0 to 1, of strengths up to the one before it, or a "
-                      "strength in Pa alone, without a unit");
+        return fracas_lines_refuse(
+            lines, field,
+            "a probability from 0 to 1, of strengths up to the one before it, or a "
+            "strength in Pa alone, without a unit");
     if (lines->start == lines->stop) return FRACAS_OK;
     fracas_lines_field(lines, field);
-    return refuse(lines, field, "the end of the line: a strength, or a strength and a probability");
+    return fracas_lines_refuse(lines, field,
+                               "the end of the line: a strength, or a strength and a probability");
 }
 
 static int ascending(const void *a, const void *b)
@@ -89,21 +84,21 @@ static fracas_err check_row(const fracas_strength *strength, const struct fracas
     const bool is_pair = !isnan(next->below);
     if (k == 0 && is_pair && strength->interpolation != &steps && next->below > 0.0) {
         snprintf(found, sizeof found, "%.15g", next->below);
-        return refuse(
+        return fracas_lines_refuse(
             lines, found,
             "the probability 0: the table begins with the strength that nothing is below");
     }
     if (k == 0) return FRACAS_OK;
     if (isnan(table->below[k - 1]) != !is_pair)
-        return refuse(lines, is_pair ? "two numbers" : "one number",
-                      "as many as on the lines before");
+        return fracas_lines_refuse(lines, is_pair ? "two numbers" : "one number",
+                                   "as many as on the lines before");
     if (!is_pair || (next->strength > table->strength[k - 1] && next->below >= table->below[k - 1]))
         return FRACAS_OK;
     const bool weaker = !(next->strength > table->strength[k - 1]);
     snprintf(found, sizeof found, "%.15g", weaker ? next->strength : next->below);
-    return refuse(lines, found,
-                  weaker ? "a strength above that of the line before"
-                         : "a probability not below that of the line before");
+    return fracas_lines_refuse(lines, found,
+                               weaker ? "a strength above that of the line before"
+                                      : "a probability not below that of the line before");
 }
 
 FRACAS_MUST_USE static fracas_err read_rows(const fracas_strength *strength,
@@ -130,31 +125,27 @@ FRACAS_MUST_USE static fracas_err read_rows(const fracas_strength *strength,
                        strength->file->path, last);
 }
 
-static void table_free(struct fracas_table *table)
+static void empirical_clear(fracas_strength *strength)
 {
-    free(table->strength);
-    free(table->below);
-    free(table);
+    if (!strength->table) return;
+    free(strength->table->strength);
+    free(strength->table->below);
+    free(strength->table);
+    strength->table = NULL;
 }
 
 FRACAS_MUST_USE static fracas_err empirical_init(fracas_strength *strength)
 {
     size_t most = 1; /* lines */
     for (size_t c = 0; c < strength->file->size; c++) most += strength->file->text[c] == '\n';
-    struct fracas_table *table = calloc(1, sizeof *table);
-    if (!table) return fracas_no_memory("the strengths of a file");
-    table->strength = malloc(most * sizeof *table->strength);
-    table->below = malloc(most * sizeof *table->below);
-    fracas_err err = table->strength && table->below ? read_rows(strength, table)
-                                                     : fracas_no_memory("the strengths of a file");
-    if (err) table_free(table);
-    else strength->table = table;
+    struct fracas_table *table = strength->table = calloc(1, sizeof *table);
+    if (table) table->strength = malloc(most * sizeof *table->strength);
+    if (table) table->below = malloc(most * sizeof *table->below);
+    fracas_err err = table && table->strength && table->below
+                         ? read_rows(strength, table)
+                         : fracas_no_memory("the strengths of a file");
+    if (err) empirical_clear(strength);
     return err;
-}
-
-static void empirical_clear(fracas_strength *strength)
-{
-    table_free(strength->table);
 }
 
 /* ---- the distribution ---- */
@@ -260,14 +251,10 @@ static fracas_moments empirical_moments(const fracas_strength *strength, fracas_
 }
 
 static const fracas_param params[] = {
-    {.name = "file",
-     .type = FRACAS_ATTACHMENT,
-     .unit = "1",
-     .doc = "text with one number a line, measured strengths in Pa in any order, or two, a "
-            "strength in Pa and the probability of strengths up to it; headings in the first line, "
-            "empty lines and lines that start with # are skipped",
-     .fallback = FRACAS_REQUIRED,
-     .offset = offsetof(fracas_strength, file)},
+    FRACAS_STRENGTH_FILE(
+        "text with one number a line, measured strengths in Pa in any order, or two, a "
+        "strength in Pa and the probability of strengths up to it; headings in the first line, "
+        "empty lines and lines that start with # are skipped"),
     {
         FRACAS_ONE_OF("interpolation", interpolations, offsetof(fracas_strength, interpolation),
                       "what lies between two strengths of the file"),

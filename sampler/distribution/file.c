@@ -5,8 +5,6 @@
 #include "base/units.h"
 #include "sampler/distribution/given.h"
 
-#include <inttypes.h>
-
 /* The next strength; *found is false at the end of the file. */
 FRACAS_MUST_USE static fracas_err next_strength(fracas_lines *lines, double *value, bool *found)
 {
@@ -16,12 +14,9 @@ FRACAS_MUST_USE static fracas_err next_strength(fracas_lines *lines, double *val
     if (*found && lines->first && fracas_lines_is_heading(field))
         return next_strength(lines, value, found);
     if (!*found || (!fracas_number_read(field, value) && *value > 0.0)) return FRACAS_OK;
-    return fracas_fail(
-        FRACAS_USAGE,
-        "%s:%" PRId64
-        ": found %s%s%s; expected a strength in Pa, a number greater than 0 at the end of the "
-        "line, after a comma or a blank if it is not alone, without a unit",
-        lines->file->path, lines->line, *field ? "`" : "no text there", field, *field ? "`" : "");
+    return fracas_lines_refuse(lines, field,
+                               "a strength in Pa, a number greater than 0 at the end of the line, "
+                               "after a comma or a blank if it is not alone, without a unit");
 }
 
 FRACAS_MUST_USE static fracas_err file_fill(const fracas_strength *strength, size_t n,
@@ -38,14 +33,9 @@ FRACAS_MUST_USE static fracas_err file_fill(const fracas_strength *strength, siz
 }
 
 static const fracas_param params[] = {
-    {.name = "file",
-     .type = FRACAS_ATTACHMENT,
-     .unit = "1",
-     .doc =
-         "text with a strength in Pa at the end of each line, for one interface after the other; "
-         "headings in the first line, empty lines and lines that start with # are skipped",
-     .fallback = FRACAS_REQUIRED,
-     .offset = offsetof(fracas_strength, file)},
+    FRACAS_STRENGTH_FILE(
+        "text with a strength in Pa at the end of each line, for one interface after the other; "
+        "headings in the first line, empty lines and lines that start with # are skipped"),
 };
 const fracas_distribution fracas_file_distribution = {
     .kind = {.name = "file",

@@ -26,23 +26,6 @@ static fracas_moments gamma_moments(const fracas_strength *strength, fracas_exte
                             strength->scale * sqrt(strength->shape)};
 }
 
-/* (distributions.6) */
-FRACAS_MUST_USE static fracas_err gamma_init(fracas_strength *strength)
-{
-    bool by_moments;
-    const char *name = strength->distribution->name;
-    TRY(fracas_pairs_choose(
-        name, (fracas_pair_key[]){{"shape", strength->shape}, {"scale", strength->scale}},
-        (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
-        &by_moments));
-    if (!by_moments) return FRACAS_OK;
-    const double ratio = strength->deviation / strength->mean;
-    TRY(fracas_pairs_check(name, "deviation/mean", ratio, 1e-3, sqrt(10.0)));
-    strength->shape = 1.0 / (ratio * ratio);
-    strength->scale = strength->deviation * ratio;
-    return FRACAS_OK;
-}
-
 static const fracas_param params[] = {
     {"shape", FRACAS_REAL, "1", "shape k: the coefficient of variation is 1/sqrt(k)",
      FRACAS_REQUIRED, 0.1, 1e6, false, offsetof(fracas_strength, shape), .optional = true},
@@ -50,6 +33,20 @@ static const fracas_param params[] = {
      true, offsetof(fracas_strength, scale), .optional = true},
     FRACAS_STRENGTH_MOMENTS("shape and scale"),
 };
+
+/* (distributions.6) */
+FRACAS_MUST_USE static fracas_err gamma_init(fracas_strength *strength)
+{
+    bool by_moments;
+    TRY(fracas_pairs_choose(strength, params, &by_moments));
+    if (!by_moments) return FRACAS_OK;
+    const double ratio = strength->deviation / strength->mean;
+    TRY(fracas_pairs_check(strength, "deviation/mean", ratio, 1e-3, sqrt(10.0)));
+    strength->shape = 1.0 / (ratio * ratio);
+    strength->scale = strength->deviation * ratio;
+    return FRACAS_OK;
+}
+
 const fracas_distribution fracas_gamma_distribution = {
     .kind = {.name = "gamma",
              .doc = "gamma: mean shape scale, variance shape scale^2",

@@ -65,6 +65,13 @@ void fracas_lines_field(fracas_lines *lines, char field[FRACAS_FIELD])
     lines->start = stop;
 }
 
+fracas_err fracas_lines_refuse(const fracas_lines *lines, const char *found, const char *expected)
+{
+    return fracas_fail(FRACAS_USAGE, "%s:%" PRId64 ": found %s%s%s; expected %s", lines->file->path,
+                       lines->line, *found ? "`" : "no text there", found, *found ? "`" : "",
+                       expected);
+}
+
 fracas_err fracas_lines_number(fracas_lines *lines, const char *name, const char *form,
                                double *value)
 {

@@ -31,6 +31,9 @@ bool fracas_lines_next_row(fracas_lines *lines);
  * none, or if it holds bytes that no text has. */
 void fracas_lines_last_field(const fracas_lines *lines, char field[FRACAS_FIELD]);
 void fracas_lines_field(fracas_lines *lines, char field[FRACAS_FIELD]);
+/* FRACAS_USAGE: "FILE:LINE: found `found`; expected ...". */
+FRACAS_MUST_USE fracas_err fracas_lines_refuse(const fracas_lines *lines, const char *found,
+                                               const char *expected);
 /* The next field as a number. FRACAS_USAGE if it is none: "... as `name`; a line begins with
  * `form`". */
 FRACAS_MUST_USE fracas_err fracas_lines_number(fracas_lines *lines, const char *name,

@@ -27,23 +27,6 @@ static fracas_moments lognormal_moments(const fracas_strength *strength, fracas_
     return (fracas_moments){mean, mean * sqrt(fracas_expm1(strength->sigma * strength->sigma))};
 }
 
-/* (distributions.5) */
-FRACAS_MUST_USE static fracas_err lognormal_init(fracas_strength *strength)
-{
-    bool by_moments;
-    const char *name = strength->distribution->name;
-    TRY(fracas_pairs_choose(
-        name, (fracas_pair_key[]){{"median", strength->median}, {"sigma", strength->sigma}},
-        (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
-        &by_moments));
-    if (!by_moments) return FRACAS_OK;
-    const double ratio = strength->deviation / strength->mean;
-    TRY(fracas_pairs_check(name, "deviation/mean", ratio, 1e-9, 1e9));
-    strength->sigma = sqrt(fracas_log1p(ratio * ratio));
-    strength->median = strength->mean / sqrt(1.0 + ratio * ratio);
-    return FRACAS_OK;
-}
-
 static const fracas_param params[] = {
     {"median", FRACAS_REAL, "Pa", "median strength", FRACAS_REQUIRED, 0, INFINITY, true,
      offsetof(fracas_strength, median), .optional = true},
@@ -51,6 +34,20 @@ static const fracas_param params[] = {
      FRACAS_REQUIRED, 0, 10, true, offsetof(fracas_strength, sigma), .optional = true},
     FRACAS_STRENGTH_MOMENTS("median and sigma"),
 };
+
+/* (distributions.5) */
+FRACAS_MUST_USE static fracas_err lognormal_init(fracas_strength *strength)
+{
+    bool by_moments;
+    TRY(fracas_pairs_choose(strength, params, &by_moments));
+    if (!by_moments) return FRACAS_OK;
+    const double ratio = strength->deviation / strength->mean;
+    TRY(fracas_pairs_check(strength, "deviation/mean", ratio, 1e-9, 1e9));
+    strength->sigma = sqrt(fracas_log1p(ratio * ratio));
+    strength->median = strength->mean / sqrt(1.0 + ratio * ratio);
+    return FRACAS_OK;
+}
+
 const fracas_distribution fracas_lognormal = {
     .kind = {.name = "lognormal",
              .doc = "logarithm normally distributed: median exp(sigma z)",

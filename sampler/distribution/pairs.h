@@ -27,21 +27,15 @@
         .offset = offsetof(fracas_strength, deviation), .optional = true                 \
     }
 
-/* A key of `strength` whose value is positive where it is given. */
-typedef struct {
-    const char *key;
-    double value; /* 0 or NaN where it is not given */
-} fracas_pair_key;
-
-/* *by_moments = whether the second pair is given and not the first. FRACAS_USAGE unless exactly one
- * pair is given whole. */
-FRACAS_MUST_USE fracas_err fracas_pairs_choose(const char *distribution,
-                                               const fracas_pair_key own[2],
-                                               const fracas_pair_key moments[2], bool *by_moments);
+/* The distribution's own two parameters, and its two moments, which are positive where they are
+ * given. *by_moments = whether the second pair is given and not the first. FRACAS_USAGE unless
+ * exactly one pair is given whole. */
+FRACAS_MUST_USE fracas_err fracas_pairs_choose(const fracas_strength *strength,
+                                               const fracas_param pairs[4], bool *by_moments);
 
 /* FRACAS_USAGE unless least <= ratio <= most; the message calls the ratio `name`, as
  * "deviation/mean". */
-FRACAS_MUST_USE fracas_err fracas_pairs_check(const char *distribution, const char *name,
+FRACAS_MUST_USE fracas_err fracas_pairs_check(const fracas_strength *strength, const char *name,
                                               double ratio, double least, double most);
 
 #endif

@@ -5,8 +5,9 @@
 #include "sampler/distribution/distribution.h"
 #include "sampler/distribution/given.h"
 
+#include "base/own.h"
+
 #include <inttypes.h>
-#include <stdlib.h>
 
 #define NEAR 1e-3 /* by the interfaces' spacing: a line so near to an interface lies on it */
 #define NONE UINT32_MAX
@@ -209,23 +210,16 @@ FRACAS_MUST_USE static fracas_err positions_fill(const fracas_strength *strength
                                                  const double (*position)[3], size_t stride,
                                                  double *sigma_c)
 {
-    grid g = {.file = strength->file};
-    if (n == 0) return FRACAS_OK; /* a single triangle */
-    fracas_err err = match_all(&g, n, position, stride, sigma_c);
-    grid_clear(&g);
-    return err;
+    FRACAS_CLEARED(grid) g = {.file = strength->file};
+    return n ? match_all(&g, n, position, stride, sigma_c) : FRACAS_OK; /* 0: a single triangle */
 }
 
 static const fracas_param params[] = {
-    {.name = "file",
-     .type = FRACAS_ATTACHMENT,
-     .unit = "1",
-     .doc = "text whose lines begin with x [m], y [m] and a strength [Pa], in any order, one at "
-            "each interface: at the middle between the ends of its edge; lines at no interface, "
-            "what follows on a line, headings in the first line, empty lines and lines that start "
-            "with # are skipped",
-     .fallback = FRACAS_REQUIRED,
-     .offset = offsetof(fracas_strength, file)},
+    FRACAS_STRENGTH_FILE(
+        "text whose lines begin with x [m], y [m] and a strength [Pa], in any order, one at "
+        "each interface: at the middle between the ends of its edge; lines at no interface, "
+        "what follows on a line, headings in the first line, empty lines and lines that start "
+        "with # are skipped"),
 };
 const fracas_distribution fracas_positions = {
     .kind = {.name = "positions",

@@ -85,30 +85,6 @@ static fracas_moments normal_moments(const fracas_strength *strength, fracas_ext
     return (fracas_moments){mean, strength->deviation * kept_deviation(k)};
 }
 
-/* (distributions.9) The ratio of the moments falls as k grows, and is below 1/k. */
-FRACAS_MUST_USE static fracas_err normal_init(fracas_strength *strength)
-{
-    bool by_moments;
-    const char *name = strength->distribution->name;
-    TRY(fracas_pairs_choose(
-        name, (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
-        (fracas_pair_key[]){{"kept_mean", strength->own[KEPT_MEAN]},
-                            {"kept_deviation", strength->own[KEPT_DEVIATION]}},
-        &by_moments));
-    if (!by_moments) return FRACAS_OK;
-    const double ratio = strength->own[KEPT_DEVIATION] / strength->own[KEPT_MEAN];
-    TRY(fracas_pairs_check(name, "kept_deviation/kept_mean", ratio, 1e-9, 0.7555));
-    double least = 0.0, most = 1.0 / ratio, k;
-    while ((k = 0.5 * (least + most)) > least && k < most) {
-        if (kept_deviation(k) > ratio * (k + normal_density(k) / fracas_normal_upper(-k)))
-            least = k;
-        else most = k;
-    }
-    strength->deviation = strength->own[KEPT_DEVIATION] / kept_deviation(k);
-    strength->mean = k * strength->deviation;
-    return FRACAS_OK;
-}
-
 static const fracas_param params[] = {
     {"mean", FRACAS_REAL, "Pa", "mean before strengths below 0 are cut off", FRACAS_REQUIRED, 0,
      INFINITY, true, offsetof(fracas_strength, mean), .optional = true},
@@ -124,6 +100,26 @@ static const fracas_param params[] = {
      FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_strength, own[KEPT_DEVIATION]),
      .optional = true},
 };
+
+/* (distributions.9) The ratio of the moments falls as k grows, and is below 1/k. */
+FRACAS_MUST_USE static fracas_err normal_init(fracas_strength *strength)
+{
+    bool by_moments;
+    TRY(fracas_pairs_choose(strength, params, &by_moments));
+    if (!by_moments) return FRACAS_OK;
+    const double ratio = strength->own[KEPT_DEVIATION] / strength->own[KEPT_MEAN];
+    TRY(fracas_pairs_check(strength, "kept_deviation/kept_mean", ratio, 1e-9, 0.7555));
+    double least = 0.0, most = 1.0 / ratio, k;
+    while ((k = 0.5 * (least + most)) > least && k < most) {
+        if (kept_deviation(k) > ratio * (k + normal_density(k) / fracas_normal_upper(-k)))
+            least = k;
+        else most = k;
+    }
+    strength->deviation = strength->own[KEPT_DEVIATION] / kept_deviation(k);
+    strength->mean = k * strength->deviation;
+    return FRACAS_OK;
+}
+
 const fracas_distribution fracas_normal = {
     .kind = {.name = "normal",
              .doc = "normal, cut off at 0: strengths are positive",

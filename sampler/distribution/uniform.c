@@ -27,18 +27,22 @@ static fracas_moments uniform_weakest(const fracas_strength *strength, double si
     return (fracas_moments){strength->minimum + above, above * sqrt(size / (size + 2.0))};
 }
 
+static const fracas_param params[] = {
+    {"minimum", FRACAS_REAL, "Pa", "smallest strength", FRACAS_REQUIRED, 0, INFINITY, true,
+     offsetof(fracas_strength, minimum), .optional = true},
+    {"maximum", FRACAS_REAL, "Pa", "largest strength", FRACAS_REQUIRED, 0, INFINITY, true,
+     offsetof(fracas_strength, maximum), .optional = true},
+    FRACAS_STRENGTH_MOMENTS("minimum and maximum"),
+};
+
 /* (distributions.7) */
 FRACAS_MUST_USE static fracas_err uniform_init(fracas_strength *strength)
 {
     bool by_moments;
-    const char *name = strength->distribution->name;
-    TRY(fracas_pairs_choose(
-        name, (fracas_pair_key[]){{"minimum", strength->minimum}, {"maximum", strength->maximum}},
-        (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
-        &by_moments));
+    TRY(fracas_pairs_choose(strength, params, &by_moments));
     if (by_moments) {
-        TRY(fracas_pairs_check(name, "deviation/mean", strength->deviation / strength->mean, 1e-9,
-                               0.5773));
+        TRY(fracas_pairs_check(strength, "deviation/mean", strength->deviation / strength->mean,
+                               1e-9, 0.5773));
         strength->minimum = strength->mean - sqrt(3.0) * strength->deviation;
         strength->maximum = strength->mean + sqrt(3.0) * strength->deviation;
     }
@@ -50,13 +54,6 @@ FRACAS_MUST_USE static fracas_err uniform_init(fracas_strength *strength)
         strength->minimum, strength->maximum);
 }
 
-static const fracas_param params[] = {
-    {"minimum", FRACAS_REAL, "Pa", "smallest strength", FRACAS_REQUIRED, 0, INFINITY, true,
-     offsetof(fracas_strength, minimum), .optional = true},
-    {"maximum", FRACAS_REAL, "Pa", "largest strength", FRACAS_REQUIRED, 0, INFINITY, true,
-     offsetof(fracas_strength, maximum), .optional = true},
-    FRACAS_STRENGTH_MOMENTS("minimum and maximum"),
-};
 const fracas_distribution fracas_uniform = {
     .kind = {.name = "uniform",
              .doc = "every strength between two bounds equally likely",

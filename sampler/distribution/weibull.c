@@ -46,33 +46,6 @@ static fracas_moments weibull_weakest(const fracas_strength *strength, double si
     return weibull_moments(&weakest, (fracas_extent){0});
 }
 
-/* (distributions.4) */
-FRACAS_MUST_USE static fracas_err weibull_init(fracas_strength *strength)
-{
-    bool by_moments;
-    const char *name = strength->distribution->name;
-    TRY(fracas_pairs_choose(
-        name, (fracas_pair_key[]){{"scale", strength->scale}, {"shape", strength->shape}},
-        (fracas_pair_key[]){{"mean", strength->mean}, {"deviation", strength->deviation}},
-        &by_moments));
-    if (!by_moments) return FRACAS_OK;
-    const double above = strength->mean - strength->minimum;
-    if (!(above > 0.0))
-        return fracas_fail(FRACAS_USAGE,
-                           "strength.mean is %.15g Pa and strength.minimum %.15g Pa; the mean is "
-                           "above the minimum: raise it, or lower the minimum",
-                           strength->mean, strength->minimum);
-    const double least = 1.0 / largest_shape, most = 1.0 / smallest_shape,
-                 ratio = strength->deviation / above;
-    TRY(fracas_pairs_check(name, "deviation/(mean - minimum)", ratio,
-                           sqrt(fracas_weibull_variation(least)),
-                           sqrt(fracas_weibull_variation(most))));
-    const double x = fracas_weibull_shape_inverse(ratio * ratio, least, most);
-    strength->shape = 1.0 / x;
-    strength->scale = above / fracas_gamma(1.0 + x);
-    return FRACAS_OK;
-}
-
 static const fracas_param params[] = {
     {"minimum", FRACAS_REAL, "Pa", "strength that every interface has at least", 0, 0, INFINITY,
      false, offsetof(fracas_strength, minimum)},
@@ -83,6 +56,30 @@ static const fracas_param params[] = {
      1000, false, offsetof(fracas_strength, shape), .optional = true},
     FRACAS_STRENGTH_MOMENTS("scale and shape"),
 };
+
+/* (distributions.4) */
+FRACAS_MUST_USE static fracas_err weibull_init(fracas_strength *strength)
+{
+    bool by_moments;
+    TRY(fracas_pairs_choose(strength, params + 1, &by_moments));
+    if (!by_moments) return FRACAS_OK;
+    const double above = strength->mean - strength->minimum;
+    if (!(above > 0.0))
+        return fracas_fail(FRACAS_USAGE,
+                           "strength.mean is %.15g Pa and strength.minimum %.15g Pa; the mean is "
+                           "above the minimum: raise it, or lower the minimum",
+                           strength->mean, strength->minimum);
+    const double least = 1.0 / largest_shape, most = 1.0 / smallest_shape,
+                 ratio = strength->deviation / above;
+    TRY(fracas_pairs_check(strength, "deviation/(mean - minimum)", ratio,
+                           sqrt(fracas_weibull_variation(least)),
+                           sqrt(fracas_weibull_variation(most))));
+    const double x = fracas_weibull_shape_inverse(ratio * ratio, least, most);
+    strength->shape = 1.0 / x;
+    strength->scale = above / fracas_gamma(1.0 + x);
+    return FRACAS_OK;
+}
+
 const fracas_distribution fracas_weibull = {
     .kind = {.name = "weibull",
              .doc = "weakest of many flaws: minimum + scale (-ln(1 - u))^(1/shape)",

@@ -7,7 +7,6 @@
 #include "sampler/special/fft.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #define NEGATIVE \
     1e-12 /* largest variance lost to clipped eigenvalues; beyond it a larger circle is tried */
@@ -43,13 +42,14 @@ void fracas_circulant_destroy(fracas_circulant *circulant)
     free(circulant);
 }
 
-/* (fields.9) x: row[i], a row of the covariance, and room for `size`; *lost: variance of the
- * eigenvalues below 0, which become 0. */
-static fracas_err factorise(fracas_circulant *circulant, const double *row, double (*x)[2],
-                            double *lost)
+/* (fields.9) row[i], a row of the covariance; *lost: variance of the eigenvalues below 0, which
+ * become 0. */
+static fracas_err factorise(fracas_circulant *circulant, const double *row, double *lost)
 {
     const size_t size = circulant->size;
     double sum = 0.0;
+    OWNED double(*x)[2] = malloc(size * sizeof *x);
+    if (!x) return fracas_no_memory("a correlated field");
     for (size_t i = 0; i < size; i++) {
         x[i][0] = row[i];
         x[i][1] = 0.0;
@@ -73,21 +73,12 @@ static fracas_err factorise(fracas_circulant *circulant, const double *row, doub
     return FRACAS_OK;
 }
 
-static fracas_err factorise_with_room(fracas_circulant *circulant, const double *row, double *lost)
-{
-    double(*x)[2] = malloc(circulant->size * sizeof *x);
-    if (!x) return fracas_no_memory("a correlated field");
-    fracas_err err = factorise(circulant, row, x, lost);
-    free(x);
-    return err;
-}
-
 static fracas_err from_row(const double *row, size_t n, size_t size, fracas_circulant **circulant,
                            double *lost)
 {
     fracas_circulant *made = NULL;
     TRY(create(n, size, &made));
-    fracas_err err = factorise_with_room(made, row, lost);
+    fracas_err err = factorise(made, row, lost);
     if (err) fracas_circulant_destroy(made);
     else *circulant = made;
     return err;
@@ -97,27 +88,24 @@ static fracas_err from_row(const double *row, size_t n, size_t size, fracas_circ
 fracas_err fracas_circulant_circle(const fracas_covariance *covariance, size_t n, double radius,
                                    fracas_circulant **circulant)
 {
-    double lost, *row = malloc(n * sizeof *row);
+    double lost;
+    OWNED double *row = malloc(n * sizeof *row);
     if (!row) return fracas_no_memory("a correlated field");
     for (size_t i = 0; i < n; i++)
         row[i] = fracas_covariance_at(
             covariance, 2.0 * radius * fracas_sinpi((double)(i < n - i ? i : n - i) / (double)n));
-    fracas_err err = from_row(row, n, n, circulant, &lost);
-    free(row);
-    return err;
+    return from_row(row, n, n, circulant, &lost);
 }
 
 /* The line on a circle of `size` sites. */
 static fracas_err embed(const fracas_covariance *covariance, size_t n, double spacing, size_t size,
                         fracas_circulant **circulant, double *lost)
 {
-    double *row = malloc(size * sizeof *row);
+    OWNED double *row = malloc(size * sizeof *row);
     if (!row) return fracas_no_memory("a correlated field");
     for (size_t i = 0; i < size; i++)
         row[i] = fracas_covariance_at(covariance, spacing * (double)(i < size - i ? i : size - i));
-    fracas_err err = from_row(row, n, size, circulant, lost);
-    free(row);
-    return err;
+    return from_row(row, n, size, circulant, lost);
 }
 
 /* (fields.10) */
@@ -149,9 +137,11 @@ double fracas_circulant_error(const fracas_circulant *circulant)
     return circulant->error;
 }
 
-static fracas_err apply(const fracas_circulant *circulant, const double *w, double (*x)[2],
-                        double *z)
+/* (fields.11) */
+fracas_err fracas_circulant_apply(const fracas_circulant *circulant, const double *w, double *z)
 {
+    OWNED double(*x)[2] = malloc(circulant->size * sizeof *x);
+    if (!x) return fracas_no_memory("a correlated field");
     for (size_t i = 0; i < circulant->size; i++) {
         x[i][0] = w[i];
         x[i][1] = 0.0;
@@ -165,14 +155,4 @@ static fracas_err apply(const fracas_circulant *circulant, const double *w, doub
     TRY(fracas_fft_transform(circulant->fft, x));
     for (size_t i = 0; i < circulant->n; i++) z[i] = x[i][1];
     return FRACAS_OK;
-}
-
-/* (fields.11) */
-fracas_err fracas_circulant_apply(const fracas_circulant *circulant, const double *w, double *z)
-{
-    double(*x)[2] = malloc(circulant->size * sizeof *x);
-    if (!x) return fracas_no_memory("a correlated field");
-    fracas_err err = apply(circulant, w, x, z);
-    free(x);
-    return err;
 }

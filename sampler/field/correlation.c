@@ -89,7 +89,7 @@ static fracas_err closed_factor(fracas_correlation *correlation,
                                 const fracas_covariance *covariance, const double (*position)[3],
                                 double period)
 {
-    double(*x)[3] = malloc((correlation->n + 1) * sizeof *x);
+    OWNED double(*x)[3] = malloc((correlation->n + 1) * sizeof *x);
     if (!x) return fracas_no_memory("a correlated field");
     for (size_t i = 0; i < correlation->n; i++) {
         const double turn = 2.0 * (position[i][0] / period), radius = period / (2.0 * FRACAS_PI);
@@ -97,25 +97,21 @@ static fracas_err closed_factor(fracas_correlation *correlation,
         x[i][1] = radius * fracas_sinpi(turn);
         x[i][2] = 0.0;
     }
-    fracas_err err = choose_factor(correlation, covariance, (const double(*)[3])x);
-    free(x);
-    return err;
+    return choose_factor(correlation, covariance, (const double(*)[3])x);
 }
 
 fracas_err fracas_correlation_create(const fracas_strength *strength, size_t n,
                                      const double (*position)[3], double period,
                                      fracas_correlation **correlation)
 {
-    fracas_covariance *covariance;
+    OWN(fracas_covariance) covariance = NULL;
     fracas_correlation *made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("a correlated field");
     made->n = n;
     fracas_err err = fracas_covariance_create(strength, &covariance);
-    if (!err) {
+    if (!err)
         err = period > 0.0 ? closed_factor(made, covariance, position, period)
                            : choose_factor(made, covariance, position);
-        fracas_covariance_destroy(covariance);
-    }
     if (err) fracas_correlation_destroy(made);
     else *correlation = made;
     return err;

@@ -75,16 +75,10 @@ fracas_err fracas_dense_factor_init(const fracas_covariance *covariance,
                                     const double (*position)[3], size_t n, uint32_t *order,
                                     fracas_dense_factor *factor)
 {
-    elimination e = {.covariance = covariance,
-                     .position = position,
-                     .order = order,
-                     .factor = factor,
-                     .left = malloc((n + 1) * sizeof *e.left)};
+    OWNED double *left = malloc((n + 1) * sizeof *left);
     *factor = (fracas_dense_factor){.n = n, .row = calloc(n * n + 1, sizeof *factor->row)};
-    const bool ready = e.left && factor->row;
-    if (ready) eliminate(&e);
-    free(e.left);
-    if (!ready) return fracas_no_memory("a correlated field");
+    if (!left || !factor->row) return fracas_no_memory("a correlated field");
+    eliminate(&(elimination){covariance, position, order, left, factor});
     for (size_t i = 0; i < n; i++) { /* rows of n become rows of `rank`, of norm 1 */
         double *row = &factor->row[i * factor->rank];
         memmove(row, &factor->row[i * n], factor->rank * sizeof *row);

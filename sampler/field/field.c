@@ -124,16 +124,14 @@ static fracas_err draw_normal_field(const fracas_field *field, const fracas_stre
                                     double *z)
 {
     const size_t count = fracas_correlation_normals(field->correlation);
-    double *w = malloc((count + 1) * sizeof *w);
+    OWNED double *w = malloc((count + 1) * sizeof *w);
     if (!w) return fracas_no_memory("a correlated field");
     for (size_t k = 0; k < count; k++) {
         const double u = fracas_stream_uniform(
             stream, fracas_stream_site(k / field->points, k % field->points));
         w[k] = fracas_normal_quantile(fracas_probability_of(u));
     }
-    fracas_err err = fracas_correlation_apply(field->correlation, w, z);
-    free(w);
-    return err;
+    return fracas_correlation_apply(field->correlation, w, z);
 }
 
 /* (fields.18) */
@@ -141,17 +139,16 @@ static fracas_err sample_correlated(const fracas_field *field, const fracas_stre
                                     size_t stride, double *sigma_c)
 {
     const size_t count = fracas_field_size(field);
-    double *z = malloc((count + 1) * sizeof *z);
+    OWNED double *z = malloc((count + 1) * sizeof *z);
     if (!z) return fracas_no_memory("a correlated field");
-    fracas_err err = draw_normal_field(field, stream, z);
-    for (size_t k = 0; k < count && !err; k++) {
+    TRY(draw_normal_field(field, stream, z));
+    for (size_t k = 0; k < count; k++) {
         const fracas_probability p = {.below = fracas_normal_upper(-z[k]),
                                       .above = fracas_normal_upper(z[k])};
         sigma_c[k * stride] = fracas_strength_quantile(field->strength,
                                                        field->extent[k / field->points], p);
     }
-    free(z);
-    return err;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_field_sample(const fracas_field *field, const fracas_stream *stream,

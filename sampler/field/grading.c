@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/field/grading.h"
 
+#include "base/own.h"
 #include "sampler/distribution/lines.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
 
 /* A line of the file. */
 typedef struct {
@@ -17,6 +17,11 @@ typedef struct {
     place *place;
     size_t count;
 } profile;
+
+static void profile_clear(profile *of)
+{
+    free(of->place);
+}
 
 /* The next place; *found is false at the end of the file. */
 FRACAS_MUST_USE static fracas_err next_place(fracas_lines *lines, place *p, bool *found)
@@ -51,7 +56,7 @@ FRACAS_MUST_USE static fracas_err check_order(const fracas_lines *lines, const p
     return FRACAS_OK;
 }
 
-/* of->place is the caller's to free, whatever is returned. */
+/* The caller clears, whatever is returned. */
 FRACAS_MUST_USE static fracas_err read_profile(const fracas_attachment *file, profile *of)
 {
     fracas_lines lines = fracas_lines_begin(file);
@@ -73,7 +78,7 @@ FRACAS_MUST_USE static fracas_err read_profile(const fracas_attachment *file, pr
 
 fracas_err fracas_grading_check(const fracas_strength *strength)
 {
-    profile of = {0};
+    FRACAS_CLEARED(profile) of = {0};
     if (!strength->factor && !strength->factor_along) return FRACAS_OK;
     if (!strength->factor)
         return fracas_fail(FRACAS_USAGE, "strength.factor_along is given without a file `factor`: "
@@ -83,9 +88,7 @@ fracas_err fracas_grading_check(const fracas_strength *strength)
                            "strength.factor needs `factor_along`: x, y, z or radius, what the "
                            "coordinates of %s are",
                            strength->factor->path);
-    fracas_err err = read_profile(strength->factor, &of);
-    free(of.place);
-    return err;
+    return read_profile(strength->factor, &of);
 }
 
 /* (grading.1) */
@@ -115,15 +118,14 @@ static double factor_at(const profile *of, double s)
 fracas_err fracas_grading_create(const fracas_strength *strength, size_t n,
                                  const double (*position)[3], double **factor)
 {
-    profile of = {0};
+    FRACAS_CLEARED(profile) of = {0};
     *factor = NULL;
     TRY(fracas_grading_check(strength));
     if (!strength->factor || n == 0) return FRACAS_OK;
-    fracas_err err = read_profile(strength->factor, &of);
-    if (!err && !(*factor = malloc(n * sizeof **factor)))
-        err = fracas_no_memory("the factors of a strength field");
-    for (size_t k = 0; !err && k < n; k++)
+    TRY(read_profile(strength->factor, &of));
+    if (!(*factor = malloc(n * sizeof **factor)))
+        return fracas_no_memory("the factors of a strength field");
+    for (size_t k = 0; k < n; k++)
         (*factor)[k] = factor_at(&of, coordinate_of(strength->factor_along, position[k]));
-    free(of.place);
-    return err;
+    return FRACAS_OK;
 }

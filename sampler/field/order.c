@@ -4,9 +4,10 @@
  * surfaces fill few of the cells around them. */
 #include "sampler/field/order.h"
 
+#include "base/own.h"
+
 #include <math.h>
 #include <stdbool.h>
-#include <stdlib.h>
 
 #define RATIO 0.8 /* ratio of the spacings of two levels */
 #define NONE UINT32_MAX
@@ -25,6 +26,14 @@ typedef struct {
     uint32_t *waiting;      /* [n] sites not yet taken */
     size_t nwaiting;
 } hierarchy;
+
+static void hierarchy_clear(hierarchy *h)
+{
+    free(h->head);
+    free(h->next);
+    free(h->cell_of);
+    free(h->waiting);
+}
 
 static size_t bucket(const hierarchy *h, const int32_t cell[3])
 {
@@ -196,36 +205,30 @@ fracas_err fracas_order_sites(size_t n, const double (*position)[3], size_t firs
 {
     size_t buckets = 1;
     while (buckets < 2 * n) buckets *= 2;
-    hierarchy h = {.position = position,
-                   .first = first,
-                   .m = m,
-                   .order = order,
-                   .near = near,
-                   .mask = buckets - 1};
+    FRACAS_CLEARED(hierarchy)
+    h = {.position = position,
+         .first = first,
+         .m = m,
+         .order = order,
+         .near = near,
+         .mask = buckets - 1};
     if (n == 0) return FRACAS_OK;
     h.head = malloc(buckets * sizeof *h.head);
     h.next = malloc(n * sizeof *h.next);
     h.cell_of = malloc(n * sizeof *h.cell_of);
     h.waiting = malloc(n * sizeof *h.waiting);
-    double *room = malloc((m + 1) * sizeof *room);
-    const bool ready = h.head && h.next && h.cell_of && h.waiting && room;
-    if (ready) {
-        begin(&h, n, room);
-        /* Sites closer than 1e-3 of the usual distance are left to the end. */
-        for (double r = h.size * RATIO; h.nwaiting > 0 && r > 1e-3 * h.size / (double)n;
-             r *= RATIO) {
-            lay_grid(&h, 2.0 * r);
-            take_level(&h, r, room);
-        }
-        if (h.nwaiting > 0) {
-            lay_grid(&h, h.size > 0.0 ? 2.0 * h.size / sqrt((double)n) : 1.0);
-            take_level(&h, 0.0, room);
-        }
+    OWNED double *room = malloc((m + 1) * sizeof *room);
+    if (!h.head || !h.next || !h.cell_of || !h.waiting || !room)
+        return fracas_no_memory("the order of sites");
+    begin(&h, n, room);
+    /* Sites closer than 1e-3 of the usual distance are left to the end. */
+    for (double r = h.size * RATIO; h.nwaiting > 0 && r > 1e-3 * h.size / (double)n; r *= RATIO) {
+        lay_grid(&h, 2.0 * r);
+        take_level(&h, r, room);
     }
-    free(h.head);
-    free(h.next);
-    free(h.cell_of);
-    free(h.waiting);
-    free(room);
-    return ready ? FRACAS_OK : fracas_no_memory("the order of sites");
+    if (h.nwaiting > 0) {
+        lay_grid(&h, h.size > 0.0 ? 2.0 * h.size / sqrt((double)n) : 1.0);
+        take_level(&h, 0.0, room);
+    }
+    return FRACAS_OK;
 }

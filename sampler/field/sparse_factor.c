@@ -72,22 +72,16 @@ static fracas_err factorise_coarse(fracas_sparse_factor *factor,
                                    const fracas_covariance *covariance, const double (*position)[3])
 {
     fracas_unscaled_factor *field = &factor->field;
-    uint32_t *before = malloc((field->coarse + 1) * sizeof *before),
-             *place = malloc((field->n + 1) * sizeof *place);
-    fracas_err err = before && place ? FRACAS_OK : fracas_no_memory("a correlated field");
-    if (!err) {
-        memcpy(before, factor->order, field->coarse * sizeof *before);
-        err = fracas_dense_factor_init(covariance, position, field->coarse, factor->order,
-                                       &field->dense);
-    }
-    if (!err) {
-        for (size_t k = 0; k < field->coarse; k++) place[factor->order[k]] = (uint32_t)k;
-        for (size_t k = 0; k < (field->n - field->coarse) * M; k++)
-            if (field->near[k] < field->coarse) field->near[k] = place[before[field->near[k]]];
-    }
-    free(before);
-    free(place);
-    return err;
+    OWNED uint32_t *before = malloc((field->coarse + 1) * sizeof *before);
+    OWNED uint32_t *place = malloc((field->n + 1) * sizeof *place);
+    if (!before || !place) return fracas_no_memory("a correlated field");
+    memcpy(before, factor->order, field->coarse * sizeof *before);
+    TRY(fracas_dense_factor_init(covariance, position, field->coarse, factor->order,
+                                 &field->dense));
+    for (size_t k = 0; k < field->coarse; k++) place[factor->order[k]] = (uint32_t)k;
+    for (size_t k = 0; k < (field->n - field->coarse) * M; k++)
+        if (field->near[k] < field->coarse) field->near[k] = place[before[field->near[k]]];
+    return FRACAS_OK;
 }
 
 static void factorise_fine(fracas_sparse_factor *factor, const fracas_covariance *covariance,
@@ -130,15 +124,14 @@ static fracas_err measure_error(fracas_sparse_factor *factor, const fracas_covar
                                 const double (*position)[3])
 {
     const size_t n = factor->field.n;
-    double *correlation = malloc((n + 1) * sizeof *correlation);
-    fracas_err err = correlation ? FRACAS_OK : fracas_no_memory("a correlated field");
-    for (size_t k = 0, starts = n <= FRACAS_DENSE_SITES ? n : STARTS; k < starts && !err; k++) {
+    OWNED double *correlation = malloc((n + 1) * sizeof *correlation);
+    if (!correlation) return fracas_no_memory("a correlated field");
+    for (size_t k = 0, starts = n <= FRACAS_DENSE_SITES ? n : STARTS; k < starts; k++) {
         size_t site = factor->order[(k + 1) * n / starts - 1];
-        for (size_t step = 0; step < (starts < n ? STEPS : 1) && !err; step++)
-            err = probe(factor, covariance, position, site, correlation, &site);
+        for (size_t step = 0; step < (starts < n ? STEPS : 1); step++)
+            TRY(probe(factor, covariance, position, site, correlation, &site));
     }
-    free(correlation);
-    return err;
+    return FRACAS_OK;
 }
 
 static fracas_err fill(fracas_sparse_factor *factor, const fracas_covariance *covariance,
@@ -213,19 +206,16 @@ fracas_err fracas_sparse_factor_apply(const fracas_sparse_factor *factor, const 
 {
     const fracas_unscaled_factor *field = &factor->field;
     const fracas_dense_factor *dense = &field->dense;
-    double *normal = malloc((field->n + 1) * sizeof *normal),
-           *value = malloc((field->n + 1) * sizeof *value);
-    if (normal && value) {
-        for (size_t k = 0; k < field->n; k++) normal[k] = w[factor->order[k]];
-        for (size_t k = 0; k < field->coarse; k++)
-            value[k] = fracas_dot(k < dense->rank ? k + 1 : dense->rank,
-                                  &dense->row[k * dense->rank], normal);
-        draw_fine(field, normal, value);
-        for (size_t k = 0; k < field->n; k++) z[factor->order[k]] = value[k] / factor->norm[k];
-    }
-    free(normal);
-    free(value);
-    return normal && value ? FRACAS_OK : fracas_no_memory("a correlated field");
+    OWNED double *normal = malloc((field->n + 1) * sizeof *normal);
+    OWNED double *value = malloc((field->n + 1) * sizeof *value);
+    if (!normal || !value) return fracas_no_memory("a correlated field");
+    for (size_t k = 0; k < field->n; k++) normal[k] = w[factor->order[k]];
+    for (size_t k = 0; k < field->coarse; k++)
+        value[k] = fracas_dot(k < dense->rank ? k + 1 : dense->rank, &dense->row[k * dense->rank],
+                              normal);
+    draw_fine(field, normal, value);
+    for (size_t k = 0; k < field->n; k++) z[factor->order[k]] = value[k] / factor->norm[k];
+    return FRACAS_OK;
 }
 
 /* (fields.15) A^T e of a site, by place, from the finest to the coarsest. x, row: room for n. */
@@ -252,14 +242,10 @@ fracas_err fracas_sparse_factor_correlation(const fracas_sparse_factor *factor, 
                                             double *correlation)
 {
     const size_t n = factor->field.n;
-    double *row = malloc((n + 1) * sizeof *row), *w = malloc((n + 1) * sizeof *w);
-    fracas_err err = row && w ? FRACAS_OK : fracas_no_memory("a correlated field");
-    if (!err) {
-        find_row(factor, site, w, row);
-        for (size_t k = 0; k < n; k++) w[factor->order[k]] = row[k];
-        err = fracas_sparse_factor_apply(factor, w, correlation);
-    }
-    free(row);
-    free(w);
-    return err;
+    OWNED double *row = malloc((n + 1) * sizeof *row);
+    OWNED double *w = malloc((n + 1) * sizeof *w);
+    if (!row || !w) return fracas_no_memory("a correlated field");
+    find_row(factor, site, w, row);
+    for (size_t k = 0; k < n; k++) w[factor->order[k]] = row[k];
+    return fracas_sparse_factor_apply(factor, w, correlation);
 }

@@ -167,22 +167,15 @@ fracas_err fracas_unscaled_variances(const fracas_unscaled_factor *field, const 
                                      const double (*position)[3], double *variance)
 {
     const size_t n = field->n;
-    sweep s = {.field = field,
-               .product = malloc((field->coarse * field->coarse + 1) * sizeof *s.product),
-               .reach = aligned_alloc(sizeof(rows), (n + 1) * sizeof *s.reach),
-               .reached = calloc(n / 64 + 1, sizeof *s.reached),
-               .support = malloc((field->coarse + 1) * sizeof *s.support)};
-    spot *spots = malloc((n + 1) * sizeof *spots);
-    const bool ready = s.product && s.reach && s.reached && s.support && spots;
-    if (ready) {
-        for (size_t k = 0; k < n; k++) s.reach[k].all = (rows){0};
-        find_spots(field, order, position, spots);
-        sweep_all(&s, spots, variance);
-    }
-    free(s.product);
-    free(s.reach);
-    free(s.reached);
-    free(s.support);
-    free(spots);
-    return ready ? FRACAS_OK : fracas_no_memory("a correlated field");
+    OWNED double *product = malloc((field->coarse * field->coarse + 1) * sizeof *product);
+    OWNED split_rows *reach = aligned_alloc(sizeof(rows), (n + 1) * sizeof *reach);
+    OWNED uint64_t *reached = calloc(n / 64 + 1, sizeof *reached);
+    OWNED uint32_t *support = malloc((field->coarse + 1) * sizeof *support);
+    OWNED spot *spots = malloc((n + 1) * sizeof *spots);
+    if (!product || !reach || !reached || !support || !spots)
+        return fracas_no_memory("a correlated field");
+    for (size_t k = 0; k < n; k++) reach[k].all = (rows){0};
+    find_spots(field, order, position, spots);
+    sweep_all(&(sweep){field, product, reach, reached, support}, spots, variance);
+    return FRACAS_OK;
 }
