@@ -138,12 +138,11 @@ double fracas_model_period(const fracas_model *model)
 /* Ends of an edge and, of quadratic triangles, its middle; else its first end, without a share. */
 static void edge_nodes(const fracas_surface *surface, size_t interface, const double *node[3])
 {
-    const fracas_surface_interface *of = &surface->interface[interface];
-    const uint32_t *element = &surface->element[of->element[0] * surface->corners];
-    const int edge = of->edge[0];
-    node[0] = surface->node[element[edge]];
-    node[1] = surface->node[element[(edge + 1) % 3]];
-    node[2] = surface->order == 2 ? surface->node[element[3 + edge]] : node[0];
+    const size_t element = surface->interface[interface].element[0];
+    const uint32_t edge = surface->interface[interface].edge[0];
+    node[0] = fracas_surface_node(surface, element, edge);
+    node[1] = fracas_surface_node(surface, element, (edge + 1) % 3);
+    node[2] = surface->order == 2 ? fracas_surface_node(surface, element, 3 + edge) : node[0];
 }
 
 /* x = sum_a N_a(s_g) x_a  (grading.4) */
@@ -175,5 +174,9 @@ void fracas_model_interface_positions(const fracas_model *model, double (*positi
 
 fracas_err fracas_model_check_strength(const fracas_model *model, double strength)
 {
-    return model->formulation->check_strength(model, strength);
+    if (strength > 0 && isfinite(strength))
+        return model->formulation->check_strength(model, strength);
+    return fracas_fail(
+        FRACAS_USAGE,
+        "strength of %g Pa; it must be positive and finite: check the section strength", strength);
 }

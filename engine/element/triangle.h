@@ -8,6 +8,8 @@
 #ifndef FRACAS_ENGINE_ELEMENT_TRIANGLE_H
 #define FRACAS_ENGINE_ELEMENT_TRIANGLE_H
 
+#include "base/param.h"
+
 /* Values N[3 order] and derivatives D[3 order][2] by xi, eta at a point. */
 void fracas_triangle_shape(int order, double xi, double eta, double *value,
                            double (*derivative)[2]);
@@ -16,36 +18,32 @@ void fracas_triangle_shape(int order, double xi, double eta, double *value,
  * g, l_g = 2/3); both integrate the elastic energy of a straight-sided triangle exactly. A stress
  * linear over the triangle is s = sum_g (2 l_g - 1/3) s_g  (membrane.2). Derivatives there: */
 #define T_(x) ((x) / 3.0)
-#define LIST_(...)  \
-    {               \
-        __VA_ARGS__ \
-    }
-#define FRACAS_TRIANGLE_DERIVATIVES_1 LIST_({{-1.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}})
-#define FRACAS_TRIANGLE_DERIVATIVES_2 \
-    LIST_({{T_(-5.0), T_(-5.0)},      \
-           {T_(-1.0), 0.0},           \
-           {0.0, T_(-1.0)},           \
-           {2.0, T_(-2.0)},           \
-           {T_(2.0), T_(2.0)},        \
-           {T_(-2.0), 2.0}},          \
-          {{T_(1.0), T_(1.0)},        \
-           {T_(5.0), 0.0},            \
-           {0.0, T_(-1.0)},           \
-           {-2.0, T_(-8.0)},          \
-           {T_(2.0), T_(8.0)},        \
-           {T_(-2.0), 0.0}},          \
-          {{T_(1.0), T_(1.0)},        \
-           {T_(-1.0), 0.0},           \
-           {0.0, T_(5.0)},            \
-           {0.0, T_(-2.0)},           \
-           {T_(8.0), T_(2.0)},        \
-           {T_(-8.0), -2.0}})
+#define FRACAS_TRIANGLE_DERIVATIVES_1 FRACAS_BRACES({{-1.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}})
+#define FRACAS_TRIANGLE_DERIVATIVES_2    \
+    FRACAS_BRACES({{T_(-5.0), T_(-5.0)}, \
+                   {T_(-1.0), 0.0},      \
+                   {0.0, T_(-1.0)},      \
+                   {2.0, T_(-2.0)},      \
+                   {T_(2.0), T_(2.0)},   \
+                   {T_(-2.0), 2.0}},     \
+                  {{T_(1.0), T_(1.0)},   \
+                   {T_(5.0), 0.0},       \
+                   {0.0, T_(-1.0)},      \
+                   {-2.0, T_(-8.0)},     \
+                   {T_(2.0), T_(8.0)},   \
+                   {T_(-2.0), 0.0}},     \
+                  {{T_(1.0), T_(1.0)},   \
+                   {T_(-1.0), 0.0},      \
+                   {0.0, T_(5.0)},       \
+                   {0.0, T_(-2.0)},      \
+                   {T_(8.0), T_(2.0)},   \
+                   {T_(-8.0), -2.0}})
 
 /* Second derivatives of the shape functions of order 2, the same everywhere: by xi xi, by eta eta,
  * by xi eta. */
-#define FRACAS_TRIANGLE_SECOND_2                                            \
-    LIST_({4.0, 4.0, 0.0, -8.0, 0.0, 0.0}, {4.0, 0.0, 4.0, 0.0, 0.0, -8.0}, \
-          {4.0, 0.0, 0.0, -4.0, 4.0, -4.0})
+#define FRACAS_TRIANGLE_SECOND_2                                                    \
+    FRACAS_BRACES({4.0, 4.0, 0.0, -8.0, 0.0, 0.0}, {4.0, 0.0, 4.0, 0.0, 0.0, -8.0}, \
+                  {4.0, 0.0, 0.0, -4.0, 4.0, -4.0})
 
 /* A rule of degree 6 with 12 points (Dunavant 1985): xi, eta, weight; weights sum to 1/2. */
 enum { FRACAS_TRIANGLE_FINE = 12 };
@@ -53,10 +51,11 @@ extern const double fracas_triangle_fine[FRACAS_TRIANGLE_FINE][3];
 
 /* Gauss points on an edge, s in (0, 1) from its first vertex: 2 of weight 1/2 for order 1, 3 of
  * weights 5/18, 8/18, 5/18 for order 2. */
-#define FRACAS_EDGE_POINTS_1 LIST_(0.21132486540518712, 0.78867513459481288)
-#define FRACAS_EDGE_POINTS_2 LIST_(0.11270166537925831, 0.5, 0.88729833462074169)
-#define FRACAS_EDGE_WEIGHTS_1 LIST_(0.5, 0.5)
-#define FRACAS_EDGE_WEIGHTS_2 LIST_(0.27777777777777778, 0.44444444444444444, 0.27777777777777778)
+#define FRACAS_EDGE_POINTS_1 FRACAS_BRACES(0.21132486540518712, 0.78867513459481288)
+#define FRACAS_EDGE_POINTS_2 FRACAS_BRACES(0.11270166537925831, 0.5, 0.88729833462074169)
+#define FRACAS_EDGE_WEIGHTS_1 FRACAS_BRACES(0.5, 0.5)
+#define FRACAS_EDGE_WEIGHTS_2 \
+    FRACAS_BRACES(0.27777777777777778, 0.44444444444444444, 0.27777777777777778)
 #define FRACAS_EDGE_MOST 3
 
 /* At s on an edge: shape functions of its ends and its middle, and the weights by which stresses at

@@ -9,6 +9,27 @@
 #include "tests/support/distorted_model.h"
 #include "tests/support/surface.h"
 
+/* Where the state has component i (dimension node + component) of SURFACE_U, ... of an element. */
+static inline double *surface_value(const fracas_model *model, const fracas_step *step,
+                                    size_t element, int field, int i, int lane)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    const size_t at = element * fracas_surface_element_fields(&c) +
+                      (size_t)field * fracas_surface_unknowns(c.tables) + (size_t)i;
+    return fracas_surface_field(&c, step, at, lane);
+}
+
+/* Where it has a value of the law, SURFACE_DAMAGE, ..., at point p of an interface: layers of its
+ * first Gauss point, of its second, ... */
+static inline double *surface_point(const fracas_model *model, const fracas_step *step,
+                                    size_t interface, int p, int field, int lane)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    const size_t at = fracas_surface_interfaces_at(&c) +
+                      interface * fracas_surface_interface_fields(&c);
+    return fracas_surface_field(&c, step, at + (size_t)(p * c.point_fields + field), lane);
+}
+
 #define PI 3.14159265358979323846
 #define DISTORTION 0.2
 
@@ -68,7 +89,7 @@ static inline double mass_between(const fracas_model *model, size_t e, size_t k,
 /* Where lane 0 has component i (dimension node + component) of an element's SURFACE_U, ... */
 static inline double *value_at(const fracas_batch *batch, size_t e, int field, size_t i)
 {
-    return fracas_surface_value(batch->model, &batch->step, e, field, (int)i, 0);
+    return surface_value(batch->model, &batch->step, e, field, (int)i, 0);
 }
 
 static inline double *value_of(const fracas_batch *batch, size_t unknown, int field)

@@ -210,7 +210,7 @@ static void run_points(fracas_batch *batch, const fate f[2], fracas_record *reco
         OK(fracas_batch_step(batch, record, &running));
         for (int g = 0; g < 2; g++) {
             if (cracked[g] ||
-                !(*fracas_surface_point(batch->model, &batch->step, 0, g, SURFACE_PEAK, 0) > 0))
+                !(*surface_point(batch->model, &batch->step, 0, g, SURFACE_PEAK, 0) > 0))
                 continue;
             cracked[g] = true;
             assert_true(fabs(batch->step.time[0] - f[g].seen) < 0.5 * batch->model->time_step);
@@ -338,7 +338,7 @@ static double energy_of_row(const fracas_batch *batch, const fracas_record *reco
                      *b = node_at(model, joint->element[0], (joint->edge[0] + 1) % 3);
         const double area = hypot(b[0] - a[0], b[1] - a[1]) * model->spec.geometry.thickness;
         for (int g = 0; g < order + 1; g++) {
-            const double peak = *fracas_surface_point(model, &batch->step, i, g, SURFACE_PEAK, 0);
+            const double peak = *surface_point(model, &batch->step, i, g, SURFACE_PEAK, 0);
             if (law->onset == &fracas_onset_flux)
                 assert_true(peak == record->interface[i].strength);
             energy += weight[order - 1][g] * area *
@@ -538,9 +538,8 @@ static void an_interface_holds_by_its_last_point(void **unused)
     OK(fracas_batch_begin(batch));
     for (size_t i = 0; i < model->interfaces; i++)
         for (int g = 0; g < 3; g++) {
-            *fracas_surface_point(model, &batch->step, i, g, SURFACE_PEAK, 0) = BAR_STRENGTH_MEAN;
-            *fracas_surface_point(model, &batch->step, i, g, SURFACE_DAMAGE,
-                                  0) = g < 2 ? 1 : 1 - 0x1p-53;
+            *surface_point(model, &batch->step, i, g, SURFACE_PEAK, 0) = BAR_STRENGTH_MEAN;
+            *surface_point(model, &batch->step, i, g, SURFACE_DAMAGE, 0) = g < 2 ? 1 : 1 - 0x1p-53;
         }
     run_to_end(batch, &record);
     assert_true(record.fragments == 1 && record.nfragment == 1 && record.broken == 0 &&

@@ -93,7 +93,7 @@ static void look_at_hole(const fracas_model *model, const fracas_step *step, dou
         const size_t e = s->border[b].element, k = s->border[b].edge, next = (k + 1) % 3;
         double u[12], at[2], sigma[3];
         for (int i = 0; i < 2 * (int)s->corners; i++)
-            u[i] = *fracas_surface_value(model, step, e, SURFACE_U, i, 0);
+            u[i] = *surface_value(model, step, e, SURFACE_U, i, 0);
         on_edge(k, 0.5, at);
         const membrane_place p = place_at(model, e, at[0], at[1]);
         stress_at(model, &p, u, sigma);

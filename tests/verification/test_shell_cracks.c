@@ -493,7 +493,7 @@ static double damage_of(const fracas_batch *batch, size_t i)
     double damage = 0;
     for (int p = 0; p < SHELL_EDGE * SHELL_LAYERS; p++)
         damage += along[p / 3] * across[p % 3] *
-                  *fracas_surface_point(batch->model, &batch->step, i, p, SURFACE_DAMAGE, 0);
+                  *surface_point(batch->model, &batch->step, i, p, SURFACE_DAMAGE, 0);
     return damage;
 }
 
@@ -604,8 +604,8 @@ static void an_interface_breaks_with_its_last_layer(void **unused)
     OK(fracas_batch_begin(batch));
     for (int last = 0; last <= SHELL_EDGE * SHELL_LAYERS; last++) {
         for (int p = 0; p < SHELL_EDGE * SHELL_LAYERS; p++)
-            *fracas_surface_point(model, &batch->step, 0, p, SURFACE_DAMAGE,
-                                  0) = p == last ? 1 - 0x1p-53 : 1;
+            *surface_point(model, &batch->step, 0, p, SURFACE_DAMAGE, 0) = p == last ? 1 - 0x1p-53
+                                                                                     : 1;
         RECORD(record);
         batch->step.broken[0] = 1;
         OK(model->formulation->harvest(model, &batch->step, 0, &record));

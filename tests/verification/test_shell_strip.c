@@ -238,8 +238,7 @@ static double ledger_error(const strip *s)
 
 static double damage_of(const strip *s, int g, int k)
 {
-    return *fracas_surface_point(s->model, &s->batch->step, 0, g * SHELL_LAYERS + k, SURFACE_DAMAGE,
-                                 0);
+    return *surface_point(s->model, &s->batch->step, 0, g * SHELL_LAYERS + k, SURFACE_DAMAGE, 0);
 }
 
 /* Loads the elements without a crack until the outer layer is at its strength, with eta = 1 - n0/(h

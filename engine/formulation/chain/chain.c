@@ -81,11 +81,6 @@ void fracas_chain_lane_init(const fracas_model *model, const fracas_step *step, 
 fracas_err fracas_chain_check_strength(const fracas_model *model, double strength)
 {
     const fracas_cohesive *cohesive = &model->spec.cohesive;
-    if (!(strength > 0) || !isfinite(strength))
-        return fracas_fail(
-            FRACAS_USAGE,
-            "strength of %g Pa; it must be positive and finite: check the section strength",
-            strength);
     const fracas_law *law = fracas_law_of(&model->spec);
     if (!law->flux) return FRACAS_OK;
     const double young = model->spec.material.young, energy = cohesive->fracture_energy,

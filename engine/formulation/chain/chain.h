@@ -53,8 +53,8 @@ void fracas_chain_lane_init(const fracas_model *model, const fracas_step *step, 
     .interface_volume = fracas_chain_interface_volume, .state_size = fracas_chain_state_size, \
     .strength = fracas_chain_strength, .fragment_count = fracas_chain_fragment_count
 
-/* FRACAS_USAGE unless the strength [Pa] is positive and finite and, for a law with flux, lets the
- * longest element soften as slowly as the law asks, K > sigma_c/delta_c  (cohesive.7). */
+/* FRACAS_USAGE unless the strength [Pa], for a law with flux, lets the longest element soften as
+ * slowly as the law asks, K > sigma_c/delta_c  (cohesive.7). */
 FRACAS_MUST_USE fracas_err fracas_chain_check_strength(const fracas_model *model, double strength);
 
 /* Number of fragments: a closed chain needs two breaks to have two, an open one is cut in two by

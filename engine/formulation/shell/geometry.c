@@ -23,11 +23,6 @@ static double normalize(double a[3])
     return length;
 }
 
-static const double *node_of(const fracas_surface *surface, size_t element, int k)
-{
-    return surface->node[surface->element[element * surface->corners + (size_t)k]];
-}
-
 /* (shell.1), (shell.2) */
 void fracas_shell_geometry_at(const fracas_surface *surface, size_t element, double xi, double eta,
                               fracas_shell_geometry *at)
@@ -36,7 +31,7 @@ void fracas_shell_geometry_at(const fracas_surface *surface, size_t element, dou
     *at = (fracas_shell_geometry){{0}};
     fracas_triangle_shape(2, xi, eta, at->shape, at->slope);
     for (int k = 0; k < 6; k++) {
-        const double *x = node_of(surface, element, k);
+        const double *x = fracas_surface_node(surface, element, (size_t)k);
         for (int i = 0; i < 3; i++) {
             for (int a = 0; a < 2; a++) at->base[a][i] += at->slope[k][a] * x[i];
             for (int ab = 0; ab < 3; ab++) at->second[ab][i] += second[ab][k] * x[i];
@@ -49,7 +44,8 @@ void fracas_shell_geometry_at(const fracas_surface *surface, size_t element, dou
     fracas_shell_cross(at->normal, at->base[0], at->dual[1]);
     for (int a = 0; a < 2; a++)
         for (int i = 0; i < 3; i++) at->dual[a][i] /= at->area;
-    const double *from = node_of(surface, element, 0), *to = node_of(surface, element, 1);
+    const double *from = fracas_surface_node(surface, element, 0),
+                 *to = fracas_surface_node(surface, element, 1);
     for (int i = 0; i < 3; i++) at->x[i] = to[i] - from[i];
     const double off = fracas_shell_dot(at->x, at->normal);
     for (int i = 0; i < 3; i++) at->x[i] -= off * at->normal[i];

@@ -188,9 +188,10 @@ static int axis_of(const fracas_surface *surface, const fracas_surface_border *b
     fracas_shell_geometry_at(surface, border->element, xi, eta, &at);
     const double speed = fracas_shell_edge_tangent(&at, border->edge, tangent);
     fracas_shell_cross(tangent, at.normal, normal);
-    const uint32_t *node = surface->element + border->element * surface->corners, k = border->edge;
-    const double *a = surface->node[node[k]], *b = surface->node[node[(k + 1) % 3]],
-                 *c = surface->node[node[3 + k]];
+    const size_t e = border->element, k = border->edge;
+    const double *a = fracas_surface_node(surface, e, k),
+                 *b = fracas_surface_node(surface, e, (k + 1) % 3),
+                 *c = fracas_surface_node(surface, e, 3 + k);
     int axis = 3;
     for (int i = 0; i < 3; i++) {
         const bool is_in_plane = fmax(fabs(b[i] - a[i]), fabs(c[i] - a[i])) <= 1e-9 * speed;
@@ -207,8 +208,7 @@ static fracas_err hold_edge(const fracas_model *model, const fracas_surface_bord
     const fracas_edge *edge = fracas_edge_of(kind);
     const bool plane = edge->mirror || edge->in_plane;
     const int axis = plane ? axis_of(model->surface, border, edge->mirror ? UPRIGHT : 0) : 3;
-    const double *at =
-        model->surface->node[model->surface->element[border->element * SHELL_NODES + border->edge]];
+    const double *at = fracas_surface_node(model->surface, border->element, border->edge);
     if (!edge->shell)
         return fracas_fail(FRACAS_USAGE,
                            "an edge with tag %d is %s, which edges of shells cannot be: let it be "

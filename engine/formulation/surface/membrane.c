@@ -17,8 +17,8 @@ static fracas_err check_flat(const fracas_surface *surface)
                                "a membrane is flat, but the mesh has nodes at z = %g and %g m: its "
                                "elements must lie in a plane z = const",
                                surface->node[0][2], surface->node[n][2]);
-    const uint32_t *t = surface->element;
-    const double *a = surface->node[t[0]], *b = surface->node[t[1]], *c = surface->node[t[2]];
+    const double *a = fracas_surface_node(surface, 0, 0), *b = fracas_surface_node(surface, 0, 1),
+                 *c = fracas_surface_node(surface, 0, 2);
     if ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "the mesh's elements go round clockwise, seen from +z: turn them round");
@@ -30,8 +30,7 @@ static fracas_err check_flat(const fracas_surface *surface)
 static void nodes_of(const fracas_surface *surface, size_t e, double (*x)[2])
 {
     for (size_t k = 0; k < surface->corners; k++)
-        for (int i = 0; i < 2; i++)
-            x[k][i] = surface->node[surface->element[e * surface->corners + k]][i];
+        for (int i = 0; i < 2; i++) x[k][i] = fracas_surface_node(surface, e, k)[i];
 }
 
 static void fill_bulk(const fracas_model *model, size_t e, double xi, double eta, double weight,

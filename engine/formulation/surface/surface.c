@@ -9,7 +9,6 @@
 #include "engine/mesh/make.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 static const fracas_surface_tables *tables_of(const fracas_model *model)
 {
@@ -149,11 +148,6 @@ fracas_err fracas_surface_model_init(fracas_model *model)
 fracas_err fracas_surface_check_strength(const fracas_model *model, double strength)
 {
     const fracas_spec *spec = &model->spec;
-    if (!(strength > 0) || !isfinite(strength))
-        return fracas_fail(
-            FRACAS_USAGE,
-            "strength of %g Pa; it must be positive and finite: check the section strength",
-            strength);
     const double nu = spec->material.poisson, modulus = spec->material.young / (1 - nu * nu);
     const fracas_law *law = fracas_law_of(spec);
     const double most = spec->cohesive.beta * modulus *
@@ -209,20 +203,6 @@ static double *point_value(const fracas_surface_constants *c, const fracas_step 
     return fracas_surface_field(c, step, at + (size_t)(p * c->point_fields + field), lane);
 }
 
-double *fracas_surface_value(const fracas_model *model, const fracas_step *step, size_t element,
-                             int field, int i, int lane)
-{
-    const fracas_surface_constants c = fracas_surface_constants_of(model);
-    return element_value(&c, step, element, field, (size_t)i, lane);
-}
-
-double *fracas_surface_point(const fracas_model *model, const fracas_step *step, size_t interface,
-                             int p, int field, int lane)
-{
-    const fracas_surface_constants c = fracas_surface_constants_of(model);
-    return point_value(&c, step, interface, p, field, lane);
-}
-
 double *fracas_surface_strength(const fracas_model *model, const fracas_step *step, int lane,
                                 size_t *stride)
 {
@@ -239,8 +219,7 @@ static double start_velocity(const fracas_model *model, size_t e, size_t i)
     const fracas_stretch stretch = stretch_of(model);
     const size_t dimension = (size_t)t->body->dimension, component = i % dimension;
     const bool held = t->held[e] >> i & 1, fixed = t->fixed[e] >> i & 1;
-    const double *x =
-        model->surface->node[model->surface->element[e * model->surface->corners + i / dimension]];
+    const double *x = fracas_surface_node(model->surface, e, i / dimension);
     if ((held && fixed) || !stretch.moving || (stretch.shock && !held)) return 0;
     return (component == 1 ? stretch.ratio : 1.0) * model->spec.loading.rate * x[component];
 }
@@ -341,7 +320,7 @@ static void add_element(const fracas_model *model, const fracas_surface_constant
     for (size_t k = 0; k < nodes; k++)
         for (size_t i = 0; i < dimension; i++) {
             const size_t unknown = dimension * k + i;
-            x[k][i] = model->surface->node[model->surface->element[e * nodes + k]][i] +
+            x[k][i] = fracas_surface_node(model->surface, e, k)[i] +
                       *element_value(c, step, e, SURFACE_U, unknown, lane);
             v[k][i] = *element_value(c, step, e, SURFACE_V, unknown, lane);
         }
@@ -358,13 +337,11 @@ fracas_err fracas_surface_harvest(const fracas_model *model, fracas_step *step, 
     const fracas_surface_constants c = fracas_surface_constants_of(model);
     const size_t count = partition(model, step, lane);
     const double surface_density = model->spec.material.density * model->spec.geometry.thickness;
-    fracas_fragment_sums *sums = calloc(count, sizeof *sums);
+    OWNED fracas_fragment_sums *sums = calloc(count, sizeof *sums);
     if (!sums) return fracas_no_memory("the fragments of a realization");
     for (size_t e = 0; e < model->elements; e++)
         add_element(model, &c, step, lane, e, &sums[step->partition.label[e]]);
     for (size_t f = 0; f < count; f++) sums[f].size = sqrt(sums[f].mass / surface_density);
-    fracas_err err = fracas_fragments_take(sums, count, 2, record);
-    free(sums);
-    TRY(err);
+    TRY(fracas_fragments_take(sums, count, 2, record));
     return step->onset_time ? harvest_interfaces(model, step, lane, record) : FRACAS_OK;
 }

@@ -221,14 +221,6 @@ fracas_surface_constants fracas_surface_constants_of(const fracas_model *model);
 /* Where the state of lane `lane` has a field, counted from the start of its group's. */
 double *fracas_surface_field(const fracas_surface_constants *constants, const fracas_step *step,
                              size_t field, int lane);
-/* Where the state has component i (dimension node + component) of SURFACE_U, ... of an element. */
-double *fracas_surface_value(const fracas_model *model, const fracas_step *step, size_t element,
-                             int field, int i, int lane);
-/* Where it has a value of the law, SURFACE_DAMAGE, ..., at point p of an interface: layers of its
- * first Gauss point, of its second, ... */
-double *fracas_surface_point(const fracas_model *model, const fracas_step *step, size_t interface,
-                             int p, int field, int lane);
-
 /* The operator K of all interfaces whole, or all broken and pressed together:
  *   acceleration = -M^-1 K u, for [element][unknown]; held components: 0
  * `apply` may be called any number of times between open and close. */

@@ -97,8 +97,7 @@ static void fill_positions(const fracas_surface *surface, fracas_surface_tables 
 {
     for (size_t k = 0; k < surface->corners; k++)
         for (size_t i = 0; i < 2; i++)
-            t->position[2 * (e * surface->corners + k) + i] =
-                surface->node[surface->element[e * surface->corners + k]][i];
+            t->position[2 * (e * surface->corners + k) + i] = fracas_surface_node(surface, e, k)[i];
 }
 
 /* ---- edges ---- */

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/formulation/surface/visits.h"
 
-#include <stdbool.h>
-#include <stdlib.h>
+#include "base/own.h"
 
 void fracas_surface_visits_clear(fracas_surface_visits *v)
 {
@@ -50,13 +49,11 @@ fracas_err fracas_surface_visits_init(fracas_surface_visits *v, const fracas_sur
                                  .join = malloc((m ? m : 1) * sizeof *v->join),
                                  .finish_from = calloc(n + 2, sizeof *v->finish_from),
                                  .finish = malloc(n * sizeof *v->finish)};
-    uint32_t *last = malloc(n * sizeof *last), *next = malloc(n * sizeof *next);
-    const bool enough = v->join_from && v->join && v->finish_from && v->finish && last && next;
-    if (enough) {
-        fill_join(v, surface);
-        fill_finish(v, surface, last, next);
-    }
-    free(last);
-    free(next);
-    return enough ? FRACAS_OK : fracas_no_memory("the order of a mesh");
+    OWNED uint32_t *last = malloc(n * sizeof *last);
+    OWNED uint32_t *next = malloc(n * sizeof *next);
+    if (!v->join_from || !v->join || !v->finish_from || !v->finish || !last || !next)
+        return fracas_no_memory("the order of a mesh");
+    fill_join(v, surface);
+    fill_finish(v, surface, last, next);
+    return FRACAS_OK;
 }

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Shared by the bodies: fineness, perturbation of vertices, mid-side nodes. */
+#include "base/own.h"
 #include "engine/mesh/surface/parts.h"
 
 #include <inttypes.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 fracas_err fracas_surface_check_length(const char *what, double length)
 {
@@ -137,7 +136,7 @@ static void tangents(const fracas_surface_draft *draft, const double point[3], d
 static fracas_err perturb(const fracas_surface_draft *draft,
                           const fracas_surface_fineness *fineness, double (*node)[3])
 {
-    double *room = malloc(draft->nvertices * sizeof *room);
+    OWNED double *room = malloc(draft->nvertices * sizeof *room);
     if (!room) return fracas_no_memory("the perturbation of a mesh");
     set_room(draft, room);
     for (size_t v = 0; v < draft->nvertices; v++) {
@@ -149,7 +148,6 @@ static fracas_err perturb(const fracas_surface_draft *draft,
                           (fineness->shift[v][0] * first[i] + fineness->shift[v][1] * second[i]);
         if (draft->sphere > 0.0) fracas_surface_project(node[v], draft->sphere);
     }
-    free(room);
     return FRACAS_OK;
 }
 
@@ -160,6 +158,12 @@ typedef struct {
     uint32_t *element;
     size_t nnodes;
 } refined;
+
+static void refined_clear(refined *all)
+{
+    free(all->node);
+    free(all->element);
+}
 
 /* Straight middles behind the vertices; each edge's in all its elements. */
 static void add_middles(const fracas_surface_draft *draft, const fracas_surface_side *side,
@@ -199,28 +203,25 @@ static void bend_tagged(const fracas_surface_draft *draft, const fracas_surface_
 static fracas_err refine(const fracas_surface_draft *draft, const fracas_surface_fineness *fineness,
                          refined *all)
 {
-    fracas_surface_side *side = NULL;
-    size_t nedges = 0;
-    if (fineness->order == 2) {
-        side = fracas_surface_sides(draft->element, draft->nelements, 3);
-        if (!side) return fracas_no_memory("the edges of a mesh");
-        /* every edge of the boundary has a tag */
-        nedges = (3 * draft->nelements + draft->ntags) / 2;
-    }
+    const bool bent = fineness->order == 2;
+    /* every edge of the boundary has a tag */
+    const size_t nedges = bent ? (3 * draft->nelements + draft->ntags) / 2 : 0;
+    OWNED fracas_surface_side *side =
+        bent ? fracas_surface_sides(draft->element, draft->nelements, 3) : NULL;
+    if (bent && !side) return fracas_no_memory("the edges of a mesh");
     all->node = malloc((draft->nvertices + nedges) * sizeof *all->node);
     all->element = malloc(3 * (size_t)fineness->order * draft->nelements * sizeof *all->element);
-    fracas_err err = all->node && all->element ? FRACAS_OK : fracas_no_memory("a mesh");
-    if (!err) memcpy(all->node, draft->node, draft->nvertices * sizeof *all->node);
+    if (!all->node || !all->element) return fracas_no_memory("a mesh");
+    memcpy(all->node, draft->node, draft->nvertices * sizeof *all->node);
     all->nnodes = draft->nvertices;
-    if (!err && fineness->amplitude > 0.0) err = perturb(draft, fineness, all->node);
-    if (!err && side) {
+    if (fineness->amplitude > 0.0) TRY(perturb(draft, fineness, all->node));
+    if (bent) {
         add_middles(draft, side, all);
         bend_tagged(draft, side, all);
-    } else if (!err) {
+    } else {
         memcpy(all->element, draft->element, 3 * draft->nelements * sizeof *all->element);
     }
-    free(side);
-    return err;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_surface_draft_finish(const fracas_surface_draft *draft,
@@ -231,8 +232,8 @@ fracas_err fracas_surface_draft_finish(const fracas_surface_draft *draft,
         return fracas_fail(FRACAS_USAGE, "a surface has elements of order 1 or 2, not %d",
                            fineness->order);
     TRY(check_shifts(draft, fineness));
-    refined all = {0};
-    fracas_err err = refine(draft, fineness, &all);
+    FRACAS_CLEARED(refined) all = {0};
+    TRY(refine(draft, fineness, &all));
     const fracas_surface_arrays arrays = {.order = fineness->order,
                                           .nnodes = all.nnodes,
                                           .nelements = draft->nelements,
@@ -240,8 +241,5 @@ fracas_err fracas_surface_draft_finish(const fracas_surface_draft *draft,
                                           .node = (const double(*)[3])all.node,
                                           .element = all.element,
                                           .tag = draft->tag};
-    if (!err) err = fracas_surface_assemble(&arrays, surface);
-    free(all.node);
-    free(all.element);
-    return err;
+    return fracas_surface_assemble(&arrays, surface);
 }

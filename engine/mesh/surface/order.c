@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Order of elements: neighbours close to each other, in the cache together. */
+#include "base/own.h"
 #include "engine/mesh/surface/parts.h"
-
-#include <stdlib.h>
 
 enum { MOST_SWEEPS = 8 };
 
@@ -80,18 +79,16 @@ static size_t order_component(search *state, uint32_t start, size_t begin)
 
 fracas_err fracas_surface_order(size_t nelements, const uint32_t (*neighbour)[3], uint32_t *order)
 {
-    search state = {.neighbour = neighbour,
-                    .queue = order,
-                    .reached = calloc(nelements, sizeof *state.reached)};
-    if (!state.reached) return fracas_no_memory("the order of a mesh's elements");
+    OWNED uint32_t *reached = calloc(nelements, sizeof *reached);
+    search state = {.neighbour = neighbour, .queue = order, .reached = reached};
+    if (!reached) return fracas_no_memory("the order of a mesh's elements");
     size_t end = 0;
     for (size_t e = 0; e < nelements; e++)
-        if (state.reached[e] == 0) end = order_component(&state, (uint32_t)e, end);
+        if (reached[e] == 0) end = order_component(&state, (uint32_t)e, end);
     for (size_t i = 0; i < nelements / 2; i++) {
         const uint32_t swapped = order[i];
         order[i] = order[nelements - 1 - i];
         order[nelements - 1 - i] = swapped;
     }
-    free(state.reached);
     return FRACAS_OK;
 }

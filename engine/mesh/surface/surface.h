@@ -101,6 +101,16 @@ FRACAS_MUST_USE fracas_err fracas_surface_octant(double radius,
                                                  const fracas_surface_fineness *fineness,
                                                  const fracas_surface **surface);
 
+/* Place of node `corner` of an element [m]. */
+static inline const double *fracas_surface_node(const fracas_surface *surface, size_t element,
+                                                size_t corner)
+{
+    return surface->node[surface->element[element * surface->corners + corner]];
+}
+
+/* |dx/dxi x dx/deta| and the values of the shape functions at a point of an element [m2]. */
+double fracas_surface_density(const fracas_surface *surface, size_t element, double xi, double eta,
+                              double shape[6]);
 /* Area of an element [m2]: exact for straight edges in a plane, else by a quadrature whose error
  * falls as h^6. */
 double fracas_surface_area(const fracas_surface *surface, size_t element);
