@@ -116,6 +116,8 @@ fracas_err fracas_number_read(const char *text, double *value)
 
 /* ---- units ---- */
 
+FRACAS_OWNER(ut_unit, ut_free)
+
 fracas_err fracas_units_create(fracas_units **units)
 {
     fracas_units *made = malloc(sizeof *made);
@@ -211,17 +213,14 @@ static bool is_plain_unit(const char *at)
 /* The quantity of a unit: one of the table, or its dimension. */
 static void name_dimension(ut_system *system, const ut_unit *unit, char *what, size_t size)
 {
-    bool found = false;
-    for (size_t i = 0; i < ndimensions && !found; i++) {
-        ut_unit *known = ut_parse(system, dimensions[i].unit, UT_UTF8);
-        ut_unit *ratio = known ? ut_divide(unit, known) : NULL;
-        found = ratio && ut_is_dimensionless(ratio);
-        if (found) snprintf(what, size, "%s", dimensions[i].what);
-        ut_free(ratio);
-        ut_free(known);
+    for (size_t i = 0; i < ndimensions; i++) {
+        OWN(ut_unit) known = ut_parse(system, dimensions[i].unit, UT_UTF8);
+        OWN(ut_unit) ratio = known ? ut_divide(unit, known) : NULL;
+        if (!ratio || !ut_is_dimensionless(ratio)) continue;
+        snprintf(what, size, "%s", dimensions[i].what);
+        return;
     }
     char formatted[64];
-    if (found) return;
     int length = ut_format(unit, formatted, sizeof formatted - 1, UT_ASCII);
     formatted[length < 0                        ? 0
               : length >= (int)sizeof formatted ? (int)sizeof formatted - 1
@@ -243,13 +242,10 @@ static double convert_once(ut_unit *from, ut_unit *to, double value)
  * convertible (by the reciprocal). */
 static double unit_factor(ut_system *system, ut_unit *found, ut_unit *expected)
 {
-    double factor = NAN;
-    ut_unit *ratio = ut_divide(found, expected), *one = ut_get_dimensionless_unit_one(system);
-    if (ratio && one && ut_is_dimensionless(ratio))
-        factor = convert_once(found, expected, 0.0) == 0.0 ? convert_once(ratio, one, 1.0) : 0.0;
-    ut_free(ratio);
-    ut_free(one);
-    return factor;
+    OWN(ut_unit) ratio = ut_divide(found, expected);
+    OWN(ut_unit) one = ut_get_dimensionless_unit_one(system);
+    if (!ratio || !one || !ut_is_dimensionless(ratio)) return NAN;
+    return convert_once(found, expected, 0.0) == 0.0 ? convert_once(ratio, one, 1.0) : 0.0;
 }
 
 /* Factor from the unit written as `name` to `expected`; FRACAS_USAGE names its fault. `text`: the
@@ -259,34 +255,27 @@ static fracas_err parse_factor(ut_system *system, const char *text, const char *
 {
     const char *what, *write_in;
     fracas_units_describe(si, &what, &write_in);
-    ut_unit *expected = ut_parse(system, si, UT_UTF8);
+    OWN(ut_unit) expected = ut_parse(system, si, UT_UTF8);
     if (!expected)
         return fracas_fail(FRACAS_BUG, "a parameter table has the unit `%s`, unknown to UDUNITS-2",
                            si);
     const bool plain = is_plain_unit(name);
-    ut_unit *found = plain ? ut_parse(system, name, UT_UTF8) : NULL;
-    fracas_err err = FRACAS_OK;
-    if (!found && plain && ut_get_status() == UT_OS) {
-        err = fracas_no_memory("a unit");
-    } else if (!found) {
-        err = fracas_fail(FRACAS_USAGE, "`%s` has an unknown unit, `%s`; expected %s, in %s", text,
-                          name, what, write_in);
-    } else {
-        *factor = unit_factor(system, found, expected);
-        if (isnan(*factor)) {
-            char is[96];
-            name_dimension(system, found, is, sizeof is);
-            err = fracas_fail(FRACAS_USAGE, "`%s` is %s; expected %s, in %s", text, is, what,
-                              write_in);
-        } else if (*factor == 0.0) {
-            err = fracas_fail(FRACAS_USAGE,
-                              "`%s` is counted from an origin of its own; expected %s, in %s", text,
-                              what, write_in);
-        }
+    OWN(ut_unit) found = plain ? ut_parse(system, name, UT_UTF8) : NULL;
+    if (!found && plain && ut_get_status() == UT_OS) return fracas_no_memory("a unit");
+    if (!found)
+        return fracas_fail(FRACAS_USAGE, "`%s` has an unknown unit, `%s`; expected %s, in %s", text,
+                           name, what, write_in);
+    *factor = unit_factor(system, found, expected);
+    if (isnan(*factor)) {
+        char is[96];
+        name_dimension(system, found, is, sizeof is);
+        return fracas_fail(FRACAS_USAGE, "`%s` is %s; expected %s, in %s", text, is, what,
+                           write_in);
     }
-    ut_free(found);
-    ut_free(expected);
-    return err;
+    if (*factor != 0.0) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "`%s` is counted from an origin of its own; expected %s, in %s", text, what,
+                       write_in);
 }
 
 /* Reads the unit `name` after the number in `text`. */
