@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+/* (meshes.1) */
 double fracas_surface_density(const fracas_surface *surface, size_t element, double xi, double eta,
                               double shape[6])
 {
