@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Membranes that break: lanes do not depend on each other, momenta are kept, ledgers close, and the
  * numbers of nodes and elements and the directions of axes do not matter. */
-#include "tests/support/gmsh.h"
 #include "tests/support/lanes.h"
 #include "tests/support/membrane_cracks.h"
 #include "tests/support/test.h"
@@ -260,18 +259,12 @@ static fracas_model *moved_model(const fracas_model *model, bool mirrored)
     s.node = (const double(*)[3])node;
     s.element = element;
     s.border = border;
-    gmsh_file file = gmsh_write(&s, false, true, false);
-    const fracas_attachment mesh = {.path = "moved", .text = file.bytes, .size = file.size};
     fracas_spec spec = model->spec;
-    spec.geometry.shape = &fracas_shape_file;
-    spec.geometry.file = &mesh;
-    spec.mesh = (fracas_mesh){.spacing = &fracas_spacing_given};
     if (!mirrored) {
         spec.loading.rate = model->spec.loading.rate * model->spec.loading.ratio;
         spec.loading.ratio = 1 / model->spec.loading.ratio;
     }
-    fracas_model *moved = distorted_model(spec, 0, 0);
-    free(file.bytes);
+    fracas_model *moved = mesh_model(spec, &s);
     free(node);
     return moved;
 }

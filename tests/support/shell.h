@@ -8,7 +8,6 @@
 #include "engine/formulation/shell/geometry.h"
 #include "engine/integrator/integrator.h"
 #include "engine/mesh/make.h"
-#include "tests/support/gmsh.h"
 #include "tests/support/surface_state.h"
 
 /* Steel-like in units of its own, thickness 0.1; beta 5, beta_shear 1; never cracks. */
@@ -20,20 +19,6 @@ static inline fracas_spec shell_spec(const fracas_kind *shape)
     spec.material = (fracas_material){.young = 200, .density = 2, .poisson = 0.3};
     spec.cohesive.fracture_energy = 1e12;
     return spec;
-}
-
-/* The model of a surface as a mesh file. */
-static inline fracas_model *shell_of(fracas_spec spec, const fracas_surface *surface)
-{
-    gmsh_file file = gmsh_write(surface, false, true, false);
-    const fracas_attachment mesh = {.path = "mesh", .text = file.bytes, .size = file.size};
-    spec.geometry.shape = &fracas_shape_file;
-    spec.geometry.file = &mesh;
-    spec.mesh = (fracas_mesh){.spacing = &fracas_spacing_given};
-    fracas_model *model = distorted_model(spec, 0, 0);
-    model->spec.geometry.file = NULL; /* it is gone */
-    free(file.bytes);
-    return model;
 }
 
 /* ---- a rectangle of nx x ny cells, two triangles each, that a map of [0, 1]^2 puts in space ----
@@ -138,7 +123,7 @@ static inline fracas_model *grid_model(const fracas_spec *spec, const shell_grid
                                           .tag = tag};
     const fracas_surface *surface;
     OK(fracas_surface_assemble(&arrays, &surface));
-    fracas_model *model = shell_of(*spec, surface);
+    fracas_model *model = mesh_model(*spec, surface);
     fracas_surface_destroy(surface);
     free(node);
     free(at);

@@ -7,6 +7,7 @@
 #include "engine/formulation/surface/surface.h"
 #include "tests/support/dense.h"
 #include "tests/support/distorted_model.h"
+#include "tests/support/gmsh.h"
 #include "tests/support/surface.h"
 
 /* Where the state has component i (dimension node + component) of SURFACE_U, ... of an element. */
@@ -137,6 +138,20 @@ static inline void on_edge(size_t edge, double s, double at[2])
 {
     const double corner[3][2] = {{0, 0}, {1, 0}, {0, 1}};
     for (int i = 0; i < 2; i++) at[i] = (1 - s) * corner[edge][i] + s * corner[(edge + 1) % 3][i];
+}
+
+/* The model of a surface as a mesh file. */
+static inline fracas_model *mesh_model(fracas_spec spec, const fracas_surface *surface)
+{
+    gmsh_file file = gmsh_write(surface, false, true, false);
+    const fracas_attachment mesh = {.path = "mesh", .text = file.bytes, .size = file.size};
+    spec.geometry.shape = &fracas_shape_file;
+    spec.geometry.file = &mesh;
+    spec.mesh = (fracas_mesh){.spacing = &fracas_spacing_given};
+    fracas_model *model = distorted_model(spec, 0, 0);
+    model->spec.geometry.file = NULL; /* it is gone */
+    free(file.bytes);
+    return model;
 }
 
 /* ---- K ---- */

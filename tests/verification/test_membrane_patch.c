@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The membrane's operator on distorted meshes: uniform strain, rigid motions, its matrix against
  * the bilinear form written down anew, its eigenvalues, masses and critical step. */
-#include "tests/support/gmsh.h"
 #include "tests/support/membrane_elastic.h"
 #include "tests/support/test.h"
 
@@ -14,7 +13,7 @@ enum { BENT = BODIES, ALL_BODIES };
 static fracas_model *bent_plate(int64_t divisions, uint64_t seed)
 {
     fracas_spec spec = membrane_spec(&fracas_shape_plate, 2, divisions);
-    fracas_model *flat = distorted_model(spec, DISTORTION, seed), *model;
+    OWN(fracas_model) flat = distorted_model(spec, DISTORTION, seed);
     fracas_surface bent = *flat->surface;
     double(*node)[3] = taken(bent.nnodes * sizeof *node);
     for (size_t n = 0; n < bent.nnodes; n++) {
@@ -24,15 +23,8 @@ static fracas_model *bent_plate(int64_t divisions, uint64_t seed)
         node[n][2] = 0;
     }
     bent.node = (const double(*)[3])node;
-    gmsh_file file = gmsh_write(&bent, false, true, false);
-    const fracas_attachment mesh = {.path = "bent", .text = file.bytes, .size = file.size};
-    spec.geometry.shape = &fracas_shape_file;
-    spec.geometry.file = &mesh;
-    spec.mesh = (fracas_mesh){.spacing = &fracas_spacing_given};
-    model = distorted_model(spec, 0, 0);
-    free(file.bytes);
+    fracas_model *model = mesh_model(spec, &bent);
     free(node);
-    fracas_model_destroy(flat);
     return model;
 }
 
@@ -375,14 +367,15 @@ static bool is_positive(double *work, size_t n)
 }
 
 /* beta from which K has no negative eigenvalue: K is linear in beta. Zero eigenvalues are lifted by
- * 1e-9 of the largest entry. */
-static double smallest_beta(fracas_spec spec, double distortion)
+ * 1e-9 of the largest entry. `given`: a mesh, or NULL to make the spec's. */
+static double smallest_beta(fracas_spec spec, double distortion, const fracas_surface *given)
 {
     double *k[2], low = 0, high = 10;
     size_t n = 0;
     for (int i = 0; i < 2; i++) {
         spec.cohesive.beta = i ? 20 : 10;
-        OWN(fracas_model) model = distorted_model(spec, distortion, 2);
+        OWN(fracas_model) model = given ? mesh_model(spec, given)
+                                        : distorted_model(spec, distortion, 2);
         n = unknowns_of(model);
         k[i] = stiffness_matrix(model, n);
     }
@@ -400,9 +393,9 @@ static double smallest_beta(fracas_spec spec, double distortion)
     return high;
 }
 
-/* A rhombus of equilateral triangles with edges of 1 mm, n x n, as a Gmsh file. Its nodes, middles
- * too, are a grid of half that spacing; vertices are those of even numbers. */
-static gmsh_file equilateral(size_t n, int order)
+/* A rhombus of equilateral triangles with edges of 1 mm, n x n, for the caller to destroy. Its
+ * nodes, middles too, are a grid of half that spacing; vertices are those of even numbers. */
+static const fracas_surface *equilateral(size_t n, int order)
 {
     const size_t step = (size_t)order, row = step * n + 1;
     const fracas_surface *surface = NULL;
@@ -430,12 +423,9 @@ static gmsh_file equilateral(size_t n, int order)
                                           .node = (const double(*)[3])node,
                                           .element = element};
     OK(fracas_surface_assemble(&arrays, &surface));
-    gmsh_file file = gmsh_write(surface, false, false, false);
-    gmsh_put(&file, "", 1);
-    fracas_surface_destroy(surface);
     free(node);
     free(element);
-    return file;
+    return surface;
 }
 
 /* The theory has 1.01 to 1.23 and 2.0 to 2.3 from equilateral to right-angled triangles, with the
@@ -446,27 +436,22 @@ static void beta_has_room(void **unused)
 {
     const double poisson[] = {0, 0.22, 0.3, 0.45};
     for (int order = 1; order <= 2; order++) {
-        gmsh_file file = equilateral(4, order);
-        const fracas_attachment mesh = {
-            .path = "equilateral", .text = file.bytes, .size = file.size - 1};
+        const fracas_surface *equal = equilateral(4, order);
         for (int p = 0; p < 4; p++) {
             fracas_spec spec = membrane_spec(&fracas_shape_plate, order, 4);
             spec.material.poisson = poisson[p];
             spec.geometry.width = spec.geometry.height;
-            fracas_spec equal = spec;
-            equal.geometry.shape = &fracas_shape_file;
-            equal.geometry.file = &mesh;
-            equal.mesh = (fracas_mesh){.spacing = &fracas_spacing_given};
             const double least = order == 1 ? 1.01 : 2.0, most = order == 1 ? 1.23 : 2.3;
-            const double beta[] = {smallest_beta(equal, 0), smallest_beta(spec, 0),
-                                   smallest_beta(spec, DISTORTION), smallest_beta(spec, 0.3)};
+            const double beta[] = {smallest_beta(spec, 0, equal), smallest_beta(spec, 0, NULL),
+                                   smallest_beta(spec, DISTORTION, NULL),
+                                   smallest_beta(spec, 0.3, NULL)};
             print_message("order %d, nu %.2f: smallest beta %.3f equilateral, %.3f right-angled, "
                           "%.3f and %.3f distorted by 20 and 30 %%\n",
                           order, poisson[p], beta[0], beta[1], beta[2], beta[3]);
             for (int i = 0; i < 4; i++) assert_true(beta[i] < most);
             for (int i = 0; i < 2 && poisson[p] > 0.2; i++) assert_true(beta[i] > 0.8 * least);
         }
-        free(file.bytes);
+        fracas_surface_destroy(equal);
     }
 }
 

@@ -151,11 +151,10 @@ static twin twin_of(const fracas_model *model, const fracas_batch *batch)
 {
     const size_t n = model->interfaces * SHELL_EDGE;
     twin t = {.model = model,
-              .unit = calloc(36 * n, sizeof *t.unit),
-              .memory = calloc(SHELL_LAYERS * n, sizeof *t.memory),
-              .strength = calloc(n, sizeof(double)),
-              .force = calloc(unknowns_of(model), sizeof(double))};
-    assert_true(t.unit && t.memory && t.strength && t.force);
+              .unit = zeroed(36 * n, sizeof *t.unit),
+              .memory = zeroed(SHELL_LAYERS * n, sizeof *t.memory),
+              .strength = vector_of(n),
+              .force = vector_of(unknowns_of(model))};
     for (size_t i = 0; i < n; i++)
         for (size_t j = 0; j < 36; j++) {
             double u[2][SHELL_UNKNOWNS] = {{0}};
@@ -299,11 +298,10 @@ static double slope_error(fracas_batch *batch, const double *u, double scale,
                           const fracas_stream *stream, uint64_t *draw)
 {
     const size_t n = unknowns_of(batch->model);
-    shell_answer here = {.force = calloc(n, sizeof(double))},
-                 there = {.force = calloc(n, sizeof(double))};
-    OWNED double *direction = calloc(n, sizeof *direction), *moved = calloc(n, sizeof *moved);
+    OWNED double *direction = vector_of(n), *moved = vector_of(n), *before = vector_of(n),
+                 *after = vector_of(n);
+    shell_answer here = {.force = before}, there = {.force = after};
     double energy[2], worst = 0;
-    assert_true(here.force && there.force && direction && moved);
     look_at(batch, u, &here);
     for (int trial = 0; trial < 4; trial++) {
         double power = 0, size = 0;
@@ -322,8 +320,6 @@ static double slope_error(fracas_batch *batch, const double *u, double scale,
         }
         worst = fmax(worst, fabs((energy[0] - energy[1]) / (2e-7 * scale) - power) / size);
     }
-    free(here.force);
-    free(there.force);
     return worst;
 }
 
@@ -343,11 +339,9 @@ static void walk(const fracas_spec *spec, double scale, double distortion, long 
     OK(fracas_batch_begin(batch));
     const size_t n = unknowns_of(model);
     twin t = twin_of(model, batch);
-    shell_answer answer = {.force = calloc(n, sizeof(double))};
-    OWNED double *from = calloc(n, sizeof *from), *to = calloc(n, sizeof *to),
-                 *u = calloc(n, sizeof *u);
+    OWNED double *from = vector_of(n), *to = vector_of(n), *u = vector_of(n), *force = vector_of(n);
+    shell_answer answer = {.force = force};
     double size = 0, largest = 0, bending[2] = {0};
-    assert_true(answer.force && from && to && u);
     const fracas_stream stream = {.seed = 8, .purpose = FRACAS_PURPOSE_MESH};
     uint64_t draw = 0;
     for (int segment = 0; segment < SEGMENTS; segment++) {
@@ -395,7 +389,6 @@ static void walk(const fracas_spec *spec, double scale, double distortion, long 
         spec->cohesive.friction, spec->cohesive.critical_opening > 0 ? "delta_c" : "G_c",
         model->strengths, worst[0], worst[1], worst[2], bending[0] / bending[1], t.seen[0],
         t.seen[1], t.seen[2], t.seen[3], t.seen[4], t.seen[5], t.seen[6]);
-    free(answer.force);
     twin_clear(&t);
 }
 

@@ -191,7 +191,7 @@ static fracas_model *mirrored(const fracas_model *octant)
                                           .element = element};
     const fracas_surface *all;
     OK(fracas_surface_assemble(&arrays, &all));
-    fracas_model *model = shell_of(octant->spec, all);
+    fracas_model *model = mesh_model(octant->spec, all);
     fracas_surface_destroy(all);
     free(node);
     return model;

@@ -8,18 +8,28 @@
 
 /* ---- loads ---- */
 
+/* The first unknowns of the nodes at a place. */
+static size_t find_point(const fracas_model *model, const double at[3], size_t found[16])
+{
+    size_t count = 0;
+    for (size_t i = 0; i < unknowns_of(model); i += 3) {
+        const double *x = place_of(model, i);
+        if (hypot(hypot(x[0] - at[0], x[1] - at[1]), x[2] - at[2]) >
+            1e-9 * (1 + fabs(at[0]) + fabs(at[1]) + fabs(at[2])))
+            continue;
+        assert_true(count < 16);
+        found[count++] = i;
+    }
+    assert_true(count > 0);
+    return count;
+}
+
 /* Force `load` [N] on the nodes at a place, shared equally by the elements that have one there. */
 static void load_point(const fracas_model *model, const double at[3], const double load[3],
                        double *f)
 {
-    size_t found[16], count = 0;
-    for (size_t i = 0; i < unknowns_of(model); i += 3) {
-        const double *x = place_of(model, i);
-        if (hypot(hypot(x[0] - at[0], x[1] - at[1]), x[2] - at[2]) <
-            1e-9 * (1 + fabs(at[0]) + fabs(at[1]) + fabs(at[2])))
-            found[count++] = i;
-    }
-    assert_true(count > 0 && count <= 16);
+    size_t found[16];
+    const size_t count = find_point(model, at, found);
     for (size_t k = 0; k < count; k++)
         for (size_t i = 0; i < 3; i++) f[found[k] + i] += load[i] / (double)count;
 }
@@ -28,17 +38,10 @@ static void load_point(const fracas_model *model, const double at[3], const doub
 static double read_point(const fracas_model *model, const double at[3], size_t component,
                          const double *u)
 {
+    size_t found[16];
     double sum = 0;
-    size_t count = 0;
-    for (size_t i = 0; i < unknowns_of(model); i += 3) {
-        const double *x = place_of(model, i);
-        if (hypot(hypot(x[0] - at[0], x[1] - at[1]), x[2] - at[2]) >
-            1e-9 * (1 + fabs(at[0]) + fabs(at[1]) + fabs(at[2])))
-            continue;
-        sum += u[i + component];
-        count++;
-    }
-    assert_true(count > 0);
+    const size_t count = find_point(model, at, found);
+    for (size_t k = 0; k < count; k++) sum += u[found[k] + component];
     return sum / (double)count;
 }
 
@@ -73,7 +76,26 @@ static void hemisphere_map(const void *how, double s, double t, double x[3])
     x[2] = radius * sin(latitude);
 }
 
-static double hemisphere(size_t n, double beta, double beta_shear, double distortion)
+/* A mesh of n x n cells, and a problem of it. */
+typedef struct {
+    size_t n;
+    double beta, beta_shear, distortion;
+} bench_mesh;
+
+static fracas_model *bench_model(fracas_spec *spec, const bench_mesh *m, shell_map *map,
+                                 const double *how)
+{
+    spec->cohesive.beta = m->beta;
+    spec->cohesive.beta_shear = m->beta_shear;
+    return grid_model(spec, &(shell_grid){.nx = m->n,
+                                          .ny = m->n,
+                                          .map = map,
+                                          .how = how,
+                                          .distortion = m->distortion,
+                                          .seed = 3});
+}
+
+static double hemisphere(const bench_mesh *m)
 {
     const double radius = 10, out[3] = {1, 0, 0}, in[3] = {0, -1, 0}, a[3] = {radius, 0, 0},
                  b[3] = {0, radius, 0};
@@ -81,16 +103,9 @@ static double hemisphere(size_t n, double beta, double beta_shear, double distor
     spec.geometry.thickness = 0.04;
     spec.geometry.edge[1] = spec.geometry.edge[2] = &fracas_edge_symmetry;
     spec.material = (fracas_material){.young = 6.825e7, .density = 1, .poisson = 0.3};
-    spec.cohesive.beta = beta;
-    spec.cohesive.beta_shear = beta_shear;
-    OWN(fracas_model) model = grid_model(&spec, &(shell_grid){.nx = n,
-                                                              .ny = n,
-                                                              .map = hemisphere_map,
-                                                              .how = &radius,
-                                                              .distortion = distortion,
-                                                              .seed = 3});
-    shell_statics *s = statics_open_pinned(model,
-                                           3 * 3 + 2); /* along z nothing holds or moves it */
+    OWN(fracas_model) model = bench_model(&spec, m, hemisphere_map, &radius);
+    /* along z nothing holds or moves it */
+    shell_statics *s = statics_open_pinned(model, 3 * 3 + 2);
     OWNED double *f = vector_of(s->n), *u = vector_of(s->n);
     load_point(model, a, out, f);
     load_point(model, b, in, f);
@@ -116,7 +131,7 @@ static double uniform(const void *how, const double x[3])
     return *(const double *)how;
 }
 
-static double roof(size_t n, double beta, double beta_shear, double distortion)
+static double roof(const bench_mesh *m)
 {
     const double size[3] = {25, 50, 40 * PI / 180}, load = -90,
                  at[3] = {25 * sin(size[2]), 0, 25 * cos(size[2])};
@@ -125,14 +140,7 @@ static double roof(size_t n, double beta, double beta_shear, double distortion)
     spec.geometry.edge[1] = spec.geometry.edge[3] = &fracas_edge_symmetry;
     spec.geometry.edge[4] = &fracas_edge_diaphragm;
     spec.material = (fracas_material){.young = 4.32e8, .density = 1, .poisson = 0};
-    spec.cohesive.beta = beta;
-    spec.cohesive.beta_shear = beta_shear;
-    OWN(fracas_model) model = grid_model(&spec, &(shell_grid){.nx = n,
-                                                              .ny = n,
-                                                              .map = roof_quarter,
-                                                              .how = size,
-                                                              .distortion = distortion,
-                                                              .seed = 3});
+    OWN(fracas_model) model = bench_model(&spec, m, roof_quarter, size);
     shell_statics *s = statics_open(model);
     OWNED double *f = vector_of(s->n), *u = vector_of(s->n);
     load_area(model, uniform, &load, 2, f);
@@ -142,7 +150,7 @@ static double roof(size_t n, double beta, double beta_shear, double distortion)
     return down;
 }
 
-typedef double benchmark(size_t n, double beta, double beta_shear, double distortion);
+typedef double benchmark(const bench_mesh *m);
 
 /* Prints a line of the table; values [count]. */
 static void converge(const char *name, benchmark *body, double beta, double beta_shear,
@@ -151,7 +159,7 @@ static void converge(const char *name, benchmark *body, double beta, double beta
 {
     print_message("%s, beta %g, beta_shear %g, moved by %g:", name, beta, beta_shear, distortion);
     for (size_t k = 0; k < count; k++) {
-        value[k] = body(n[k], beta, beta_shear, distortion);
+        value[k] = body(&(bench_mesh){n[k], beta, beta_shear, distortion});
         print_message("  %zu: %.5f (%+.2f %%)", n[k], value[k], 100 * (value[k] / reference - 1));
     }
     print_message("\n");
