@@ -25,19 +25,23 @@ static inline double *at(const one_run *run, size_t element, int field)
     return run->batch->step.state + element % run->n * RING_FIELDS_STERSHIC + field;
 }
 
-/* Directions of element e at the start, and of the vertex of interface e. */
-static inline void chord_of(const one_run *run, size_t e, double t[2])
+/* Along the ring, so many half elements from its start. */
+static inline void along_ring(const one_run *run, size_t halves, double t[2])
 {
-    const double angle = 3.14159265358979323846 * (double)(2 * (e % run->n) + 1) / (double)run->n;
+    const double angle = M_PI * (double)(halves % (2 * run->n)) / (double)run->n;
     t[0] = -sin(angle);
     t[1] = cos(angle);
 }
 
+/* Directions of element e at the start, and of the vertex of interface e. */
+static inline void chord_of(const one_run *run, size_t e, double t[2])
+{
+    along_ring(run, 2 * e + 1, t);
+}
+
 static inline void normal_of(const one_run *run, size_t e, double n[2])
 {
-    const double angle = 3.14159265358979323846 * (double)(2 * (e % run->n) + 2) / (double)run->n;
-    n[0] = -sin(angle);
-    n[1] = cos(angle);
+    along_ring(run, 2 * e + 2, n);
 }
 
 /* Gives element e this stress [Pa], by moving its nodes apart along its chord: nodes of closed

@@ -3,14 +3,6 @@
 #include "tests/support/bar_state.h"
 #include "tests/support/test.h"
 
-static fracas_record run_alone(fracas_batch *batch)
-{
-    fracas_record record;
-    fracas_record_init(&record);
-    OK(fracas_batch_run(batch, &record));
-    return record;
-}
-
 /* sigma = E rate t: failure at sigma_c/(E rate), 109.0909 ns at 1e4 /s. S is linear in time until
  * onset, so that the interpolated time is exact up to round-off; 1e-6 is the figure promised. */
 static void onset_time_is_strength_over_stress_rate(void **unused)
@@ -23,12 +15,13 @@ static void onset_time_is_strength_over_stress_rate(void **unused)
                 fracas_spec spec = bar_reference(r < 3 ? 800 : 4000, rates[r], 1.5 * exact);
                 spec.cohesive.law = laws[law];
                 spec.geometry.ends = ends[held];
-                OWN(fracas_model) model = make_model(&spec);
-                OWN(fracas_batch) batch = batch_of(model, 301e6);
-                bar_set_strength(batch, 0, 37, 300e6);
-                FRACAS_CLEARED(fracas_record) record = run_alone(batch);
-                assert_true(record.cracked > 0);
-                assert_true(fabs(record.onset_time / exact - 1) < 1e-6);
+                one_run run = make_run(make_model(&spec), 1, 301e6);
+                bar_set_strength(run.batch, 0, 37, 300e6);
+                OK(fracas_batch_begin(run.batch));
+                finish_run(&run);
+                assert_true(run.record.cracked > 0);
+                assert_true(fabs(run.record.onset_time / exact - 1) < 1e-6);
+                clear_run(&run);
             }
 }
 
@@ -46,35 +39,26 @@ static crack_errors isolated_crack(double rate, double x_b, int elements_per_s0)
     int64_t elements = (int64_t)ceil(1.2 * x_b * elements_per_s0) + 8;
     fracas_spec spec = bar_reference(elements, rate, 1.2 * broken);
     spec.geometry.length = (double)elements * BAR_S0 / elements_per_s0;
-    OWN(fracas_model) model = make_model(&spec);
-    fracas_batch *batch = batch_of(model, 2.9e9);
+    one_run run = make_run(make_model(&spec), 1, 2.9e9);
     const size_t weak = (size_t)elements / 3;
-    bar_set_strength(batch, 0, weak, 300e6);
-    OK(fracas_batch_begin(batch));
-    fracas_record record;
-    fracas_record_init(&record);
+    bar_set_strength(run.batch, 0, weak, 300e6);
+    OK(fracas_batch_begin(run.batch));
     crack_errors errors = {0, 0};
-    for (size_t running = 1; running && batch->step.broken[0] == 0;) {
-        OK(fracas_batch_step(batch, &record, &running));
-        double x = (batch->step.time[0] - onset) / BAR_T0, damage = *field(batch, weak, BAR_DAMAGE);
+    while (run.running && run.batch->step.broken[0] == 0) {
+        step_run(&run);
+        double x = (run.batch->step.time[0] - onset) / BAR_T0,
+               damage = *field(run.batch, weak, BAR_DAMAGE);
         double exact = 2 * 1e4 * rate * BAR_T0 * BAR_T0 * (exp(x) - 1 - x);
         /* relative to delta_c/10 where the opening is smaller than that: both vanish at onset */
         if (x > 0 && damage < 1)
             errors.opening_error = fmax(
                 errors.opening_error, fabs(damage * delta_c - exact) / fmax(exact, 0.1 * delta_c));
     }
-    fracas_batch_destroy(batch);
-
-    batch = batch_of(model, 2.9e9);
-    bar_set_strength(batch, 0, weak, 300e6);
-    fracas_record_clear(&record);
-    record = run_alone(batch);
-    assert_true(record.cracked >= 1);
-    errors.break_error = fabs(
-        (record.interface[weak].break_time - record.interface[weak].onset_time) / (x_b * BAR_T0) -
-        1);
-    fracas_record_clear(&record);
-    fracas_batch_destroy(batch);
+    finish_run(&run);
+    assert_true(run.record.cracked >= 1);
+    const fracas_interface_row *row = &run.record.interface[weak];
+    errors.break_error = fabs((row->break_time - row->onset_time) / (x_b * BAR_T0) - 1);
+    clear_run(&run);
     return errors;
 }
 
