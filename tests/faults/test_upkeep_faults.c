@@ -33,50 +33,25 @@ static bool stops(void)
     return true;
 }
 
-int fsync(int fd)
-{
-    return stops() ? -1 : (int)syscall(SYS_fsync, fd);
-}
-int fdatasync(int fd)
-{
-    return stops() ? -1 : (int)syscall(SYS_fdatasync, fd);
-}
-int rename(const char *from, const char *to)
-{
-    return stops() ? -1 : (int)syscall(SYS_renameat, AT_FDCWD, from, AT_FDCWD, to);
-}
-int unlink(const char *path)
-{
-    return stops() ? -1 : (int)syscall(SYS_unlinkat, AT_FDCWD, path, 0);
-}
-int rmdir(const char *path)
-{
-    return stops() ? -1 : (int)syscall(SYS_unlinkat, AT_FDCWD, path, AT_REMOVEDIR);
-}
-int mkdir(const char *path, mode_t mode)
-{
-    return stops() ? -1 : (int)syscall(SYS_mkdirat, AT_FDCWD, path, mode);
-}
-int ftruncate(int fd, off_t size)
-{
-    return stops() ? -1 : (int)syscall(SYS_ftruncate, fd, size);
-}
-int ftruncate64(int fd, off64_t size)
-{
-    return stops() ? -1 : (int)syscall(SYS_ftruncate, fd, size);
-}
-ssize_t pwrite(int fd, const void *bytes, size_t size, off_t at)
-{
-    return stops() ? -1 : syscall(SYS_pwrite64, fd, bytes, size, at);
-}
-ssize_t pwrite64(int fd, const void *bytes, size_t size, off64_t at)
-{
-    return stops() ? -1 : syscall(SYS_pwrite64, fd, bytes, size, at);
-}
-ssize_t write(int fd, const void *bytes, size_t size)
-{
-    return stops() ? -1 : syscall(SYS_write, fd, bytes, size);
-}
+#define STOPPABLE(type, name, parameters, ...)            \
+    type name parameters                                  \
+    {                                                     \
+        return stops() ? -1 : (type)syscall(__VA_ARGS__); \
+    }
+STOPPABLE(int, fsync, (int fd), SYS_fsync, fd)
+STOPPABLE(int, fdatasync, (int fd), SYS_fdatasync, fd)
+STOPPABLE(int, rename, (const char *from, const char *to), SYS_renameat, AT_FDCWD, from, AT_FDCWD,
+          to)
+STOPPABLE(int, unlink, (const char *path), SYS_unlinkat, AT_FDCWD, path, 0)
+STOPPABLE(int, rmdir, (const char *path), SYS_unlinkat, AT_FDCWD, path, AT_REMOVEDIR)
+STOPPABLE(int, mkdir, (const char *path, mode_t mode), SYS_mkdirat, AT_FDCWD, path, mode)
+STOPPABLE(int, ftruncate, (int fd, off_t size), SYS_ftruncate, fd, size)
+STOPPABLE(int, ftruncate64, (int fd, off64_t size), SYS_ftruncate, fd, size)
+STOPPABLE(ssize_t, pwrite, (int fd, const void *bytes, size_t size, off_t at), SYS_pwrite64, fd,
+          bytes, size, at)
+STOPPABLE(ssize_t, pwrite64, (int fd, const void *bytes, size_t size, off64_t at), SYS_pwrite64, fd,
+          bytes, size, at)
+STOPPABLE(ssize_t, write, (int fd, const void *bytes, size_t size), SYS_write, fd, bytes, size)
 
 int remove(const char *path)
 {
