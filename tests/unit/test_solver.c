@@ -61,8 +61,9 @@ static void settled_waits_for_quiet_after_the_first_onset(void **unused)
         {5, 0, 0, 0, GOES_ON}, /* not armed, however long it is quiet */
         {6, 1, 1, 0, GOES_ON}, /* onset */
         {6.9, 1.005, 1, 0, GOES_ON}, {6.95, 1.02, 1, 0, GOES_ON}, /* dissipates: starts again */
-        {7.5, 1.02, 1, 1, GOES_ON},                               /* a break: again */
-        {8.4, 1.025, 1, 1, GOES_ON}, {8.5, 1.03, 1, 1, FRACAS_FRAGMENTED}};
+        {7.4, 1.02, 1, 0, GOES_ON},  {7.5, 1.02, 1, 1, GOES_ON},  /* a break: again */
+        {8.4, 1.025, 1, 1, GOES_ON}, {8.5, 1.03, 1, 1, FRACAS_FRAGMENTED},
+    };
     static const progress runs_on[] = {{9.5, 1, 1, 0, GOES_ON},
                                        {10, 1, 1, 0, FRACAS_TIME_LIMIT}}; /* the cap */
     static const progress never_cracks[] = {{10, 0, 0, 0, FRACAS_INTACT}};
