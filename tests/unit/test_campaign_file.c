@@ -145,22 +145,18 @@ static void test_product(void **state)
 
 static void test_ranges(void **state)
 {
-    fracas_campaign *campaign = read_replaced(
-        "", "sweep:\n  - loading.rate: {from: 0.1 1/s, to: 0.5, points: 5}\n");
     static const double lin[] = {0.1, 0.2, 0.3, 0.4, 0.5};
-    for (size_t p = 0; p < 5; p++) assert_true(campaign->point[p].spec.loading.rate == lin[p]);
-    fracas_campaign_destroy(campaign);
-    campaign = read_replaced(
-        "", "sweep:\n  - loading.rate: {from: 1e6, to: 1e3, points: 7, spacing: log}\n");
     static const double log_down[] = {1e6, 316227.766016838, 1e5, 31622.7766016838,
                                       1e4, 3162.27766016838, 1e3};
-    for (size_t p = 0; p < 7; p++) assert_true(campaign->point[p].spec.loading.rate == log_down[p]);
-    fracas_campaign_destroy(campaign);
-    campaign = read_replaced(
+    OWN(fracas_campaign) linear = read_replaced(
+        "", "sweep:\n  - loading.rate: {from: 0.1 1/s, to: 0.5, points: 5}\n");
+    OWN(fracas_campaign) falling = read_replaced(
+        "", "sweep:\n  - loading.rate: {from: 1e6, to: 1e3, points: 7, spacing: log}\n");
+    OWN(fracas_campaign) whole = read_replaced(
         "", "sweep:\n  - mesh.elements: {from: 1000, to: 8000, points: 4, spacing: log}\n");
-    for (size_t p = 0; p < 4; p++)
-        assert_int_equal(campaign->point[p].spec.mesh.elements, 1000 << p);
-    fracas_campaign_destroy(campaign);
+    for (size_t p = 0; p < 5; p++) assert_true(linear->point[p].spec.loading.rate == lin[p]);
+    for (size_t p = 0; p < 7; p++) assert_true(falling->point[p].spec.loading.rate == log_down[p]);
+    for (size_t p = 0; p < 4; p++) assert_int_equal(whole->point[p].spec.mesh.elements, 1000 << p);
 }
 
 static void test_zip(void **state)
@@ -240,9 +236,9 @@ static void test_key_of_all_kinds(void **state)
 /* A value that is a name: swept, and by default the first one. */
 static void test_choices(void **state)
 {
-    fracas_campaign *campaign = read_replaced("",
-                                              "sweep:\n  - geometry.ends: [held, periodic]\n"
-                                              "  - geometry: [{}, {shape: bar, length: 1 m}]\n");
+    OWN(fracas_campaign) campaign = read_replaced(
+        "", "sweep:\n  - geometry.ends: [held, periodic]\n"
+            "  - geometry: [{}, {shape: bar, length: 1 m}]\n");
     assert_int_equal(campaign->npoints, 4);
     for (size_t p = 0; p < 4; p++) {
         assert_string_equal(at(campaign, p, "geometry.ends")->text, p < 2 ? "held" : "periodic");
@@ -251,12 +247,10 @@ static void test_choices(void **state)
         assert_true(isnan(real(campaign, p, "geometry.ends")));
         assert_true(campaign->point[p].spec.geometry.length == (p % 2 ? 1 : 0.05));
     }
-    fracas_campaign_destroy(campaign);
-    campaign = read_replaced("  ends: periodic\n", "");
-    assert_string_equal(at(campaign, 0, "geometry.ends")->text, "periodic");
-    assert_string_equal(at(campaign, 0, "geometry.shape")->text, "bar");
-    assert_null(campaign->point[0].spec.geometry.direction); /* of the other shape */
-    fracas_campaign_destroy(campaign);
+    OWN(fracas_campaign) first = read_replaced("  ends: periodic\n", "");
+    assert_string_equal(at(first, 0, "geometry.ends")->text, "periodic");
+    assert_string_equal(at(first, 0, "geometry.shape")->text, "bar");
+    assert_null(first->point[0].spec.geometry.direction); /* of the other shape */
 }
 
 /* The sweep may supply what the sections leave out. */
@@ -404,24 +398,18 @@ static void test_tables_agree(void **state)
  * (test_campaign_membranes has the other). */
 static void test_page_examples(void **state)
 {
-    char *page = whole_file(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md"), *block[4],
-         *end = page;
+    OWNED char *page = whole_file(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md");
+    char *block[4], *end = page;
     for (int b = 0; b < 4; b++) {
         block[b] = strstr(end, "```yaml\n") + strlen("```yaml\n");
         end = strstr(block[b], "```");
         *end++ = '\0';
     }
-    fracas_campaign *plain = read_text(plain_campaign), *shown = read_text(block[0]);
+    OWN(fracas_campaign) plain = read_text(plain_campaign), *shown = read_text(block[0]),
+                         *swept = read_replaced("", block[2]), *drawn = read_replaced("", block[3]);
     assert_true(fracas_hash_equal(&plain->hash, &shown->hash));
-    fracas_campaign_destroy(shown);
-    shown = read_replaced("", block[2]);
-    assert_int_equal(shown->npoints, 2 * 4 * 2 * 2 * 2);
-    fracas_campaign_destroy(shown);
-    shown = read_replaced("", block[3]);
-    assert_int_equal(shown->npoints, 64);
-    fracas_campaign_destroy(shown);
-    fracas_campaign_destroy(plain);
-    free(page);
+    assert_int_equal(swept->npoints, 2 * 4 * 2 * 2 * 2);
+    assert_int_equal(drawn->npoints, 64);
 }
 
 /* ---- the resolved file ---- */

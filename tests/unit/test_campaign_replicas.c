@@ -20,7 +20,7 @@ static fracas_campaign *with_replicas(const char *replicas)
 
 static void a_rule_is_read(void **state)
 {
-    fracas_campaign *campaign = with_replicas(RULE);
+    OWN(fracas_campaign) campaign = with_replicas(RULE);
     const fracas_point *point = &campaign->point[0];
     assert_int_equal(point->replicas, 16);
     assert_int_equal(point->rule.minimum, 16);
@@ -30,18 +30,15 @@ static void a_rule_is_read(void **state)
     assert_true(point->rule.relative_half_width == 0.02 && point->rule.confidence == 0.95);
     assert_int_equal(campaign->table.point[0].replicas, 16);
     assert_int_equal(campaign->table.point[0].most, 256);
-    fracas_campaign_destroy(campaign);
-    campaign = with_replicas(
+    OWN(fracas_campaign) other = with_replicas(
         "{minimum: 8, maximum: 8, until: {quantity: dissipated, relative-half-width: 2 %}}");
-    assert_int_equal(campaign->point[0].rule.quantity, FRACAS_DISSIPATED);
-    assert_true(campaign->point[0].rule.relative_half_width == 0.02 &&
-                campaign->point[0].rule.confidence == 0.95);
-    fracas_campaign_destroy(campaign);
-    campaign = with_replicas("3");
-    assert_int_equal(campaign->point[0].rule.maximum, 0);
-    assert_int_equal(fracas_point_most(&campaign->point[0]), 3);
-    assert_int_equal(campaign->table.point[0].most, 0);
-    fracas_campaign_destroy(campaign);
+    assert_int_equal(other->point[0].rule.quantity, FRACAS_DISSIPATED);
+    assert_true(other->point[0].rule.relative_half_width == 0.02 &&
+                other->point[0].rule.confidence == 0.95);
+    OWN(fracas_campaign) fixed = with_replicas("3");
+    assert_int_equal(fixed->point[0].rule.maximum, 0);
+    assert_int_equal(fracas_point_most(&fixed->point[0]), 3);
+    assert_int_equal(fixed->table.point[0].most, 0);
 }
 
 /* The resolved file says the same, and the hash of a campaign goes by the rule, that of a point
