@@ -156,7 +156,7 @@ static void put_parts(fracas_compared_value *value)
     value->relative_high = value->high / base;
 }
 
-enum { ALIKE_LEAST = 8 }; /* of two equal chances all agree once in 128 times */
+enum { ALIKE_LEAST = 8 }; /* two equal chances agree in all once in 128 times */
 
 /* Onset times and the part of bending are not alike by chance; the others may be multiples of one
  * break. */

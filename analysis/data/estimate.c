@@ -18,8 +18,7 @@ const fracas_fields fracas_estimate_fields = FRACAS_FIELDS(estimate_fields);
 fracas_estimate fracas_estimate_of(const double *value, size_t stride, size_t count)
 {
     int64_t n = 0;
-    double first = NAN,
-           sum = 0; /* of differences to the first: equal values have a deviation of 0 */
+    double first = NAN, sum = 0; /* differences to the first: equal values have no deviation */
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(value[i * stride])) continue;
         if (n++ == 0) first = value[i * stride];

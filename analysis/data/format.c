@@ -129,7 +129,7 @@ void fracas_format_interval(double value, double low, double high, char *text, s
     }
     char rounded[64];
     FRACAS_PRINT(rounded, "%.1e", half_width);
-    const int place = exponent_of(strtod(rounded, NULL)) - 1; /* of the last digit shown */
+    const int place = exponent_of(strtod(rounded, NULL)) - 1; /* the last digit shown */
     const bool large = place > 0, small = value != 0 && fabs(value) < 1e-2;
     const int exponent = large || small ? exponent_of(value) : 0;
     const double ends[3] = {value, low, high};

@@ -103,8 +103,8 @@ bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, 
 /* The name of a value on an axis with names; NULL on any other. */
 const char *fracas_axis_name(const fracas_axis *axis, double value);
 
-extern const char fracas_chart_style[];   /* of every drawing. Colours of Okabe and Ito */
-extern const char fracas_surface_style[]; /* of pictures of surfaces, beside it */
+extern const char fracas_chart_style[];   /* every drawing: Colours of Okabe and Ito */
+extern const char fracas_surface_style[]; /* pictures of surfaces, beside it */
 extern const char fracas_page_style[];    /* for the page; drawings in the dark, too */
 extern const char fracas_page_script[];
 

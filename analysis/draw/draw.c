@@ -66,7 +66,7 @@ static void fit(frame *f)
     for (size_t s = 0; s < f->panel.nseries; s++) {
         const fracas_series *series = &f->panel.series[s];
         for (size_t i = 0; i < series->n; i++) {
-            widen(series->x[i], &f->panel.x, &x[0], &x[1]); /* of all panels */
+            widen(series->x[i], &f->panel.x, &x[0], &x[1]); /* all panels */
             if (!fracas_panel_shows(&f->panel, series, i)) continue;
             widen(series->y[i], &f->panel.y, &y[0], &y[1]);
             if (!series->low) continue;

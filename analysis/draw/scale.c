@@ -43,7 +43,7 @@ void fracas_scale_fit(fracas_scale *scale, bool log, double least, double greate
         greatest += apart;
     }
     double step = linear_step(least, greatest);
-    const double over = 0.02; /* of a step: the last time of a history is a little past its end */
+    const double over = 0.02; /* steps: the last time of a history is a little past its end */
     scale->low = floor(least / step + over) * step;
     scale->high = ceil(greatest / step - over) * step;
 }

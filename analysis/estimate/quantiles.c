@@ -124,7 +124,7 @@ static void pass(row *of, double before, double after, double size, double latti
     }
 }
 
-enum { NUMBER, MASS, NROWS = 4, NVALUES = NROWS * FRACAS_NQUANTILES }; /* of all, above the cut */
+enum { NUMBER, MASS, NROWS = 4, NVALUES = NROWS * FRACAS_NQUANTILES }; /* all, above the cut */
 
 static void begin(row of[2], const amount *floor, const amount *total, double *value)
 {

@@ -40,7 +40,7 @@ void fracas_mean_errors(const fracas_mean *mean, size_t n, fracas_mean_error *er
         const double replicas = (double)mean[i].replicas,
                      own = mean[i].replicas > 1 ? mean[i].scatter * mean[i].scatter : 0;
         const bool pooled = mean[i].replicas < FRACAS_REPLICAS_OWN;
-        const double one = pooled ? shared.variance : own; /* of one replica; NaN if all are */
+        const double one = pooled ? shared.variance : own; /* one replica; NaN if all are */
         error[i] = (fracas_mean_error){.variance = one / replicas,
                                        .most = fmax(one, own) / replicas,
                                        .pooled = pooled,

@@ -21,7 +21,7 @@ typedef struct {
     int64_t replicas; /* in the mean */
     double rate;      /* 1/s, > 0 */
     double size;      /* m, mean over replicas, > 0 */
-    double error;     /* of log(size), by its own replicas; 0: all alike, NaN: one replica */
+    double error;     /* log(size), by its own replicas; 0: all alike, NaN: one replica */
     bool whole;       /* fracas_size_whole */
 } fracas_size_point;
 

@@ -20,8 +20,8 @@ static const double residual_limit = 1e-3; /* for the dissipated energy */
 static const double created_limit = 1e-2;  /* for the dissipated energy */
 static const double elements_limit = 10;   /* elements of a mean fragment */
 static const double dust_limit = 0.05;     /* share of all fragments */
-static const double rise_limit = 0.01;     /* of the dissipated energy */
-static const double zone_limit = 0.25;     /* of a mean fragment (docs/results/ring.md) */
+static const double rise_limit = 0.01;     /* part of the dissipated energy */
+static const double zone_limit = 0.25;     /* part of a mean fragment (docs/results/ring.md) */
 
 enum { WARNINGS_PER_POINT = 17, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
 
