@@ -23,19 +23,16 @@ typedef struct {
 
 /* ---- the top of the file ---- */
 
-static bool is_own_key(const char *key)
-{
-    for (size_t k = 0; k < FRACAS_COUNT(own_keys); k++)
-        if (strcmp(own_keys[k], key) == 0) return true;
-    return false;
-}
-
-static fracas_err unknown_section(const fracas_file *file, const fracas_node *key)
+static fracas_err check_section(const fracas_file *file, const fracas_node *key)
 {
     const fracas_catalog *catalog = file->catalog;
     fracas_words words;
     fracas_words_init(&words, key->text);
-    for (size_t k = 0; k < FRACAS_COUNT(own_keys); k++) fracas_words_add(&words, own_keys[k]);
+    for (size_t k = 0; k < FRACAS_COUNT(own_keys); k++) {
+        if (strcmp(own_keys[k], key->text) == 0) return FRACAS_OK;
+        fracas_words_add(&words, own_keys[k]);
+    }
+    if (fracas_catalog_section(catalog, key->text)) return FRACAS_OK;
     for (size_t s = 0; s < catalog->nsections; s++)
         fracas_words_add(&words, catalog->section[s].table->name);
     for (size_t i = 0; i < catalog->nleaves; i++) {
@@ -86,9 +83,7 @@ static fracas_err read_heading(reading *read, fracas_campaign *campaign)
 {
     const fracas_file *file = &read->file;
     const fracas_node *node;
-    for (node = file->root->first; node; node = node->next)
-        if (!is_own_key(node->key->text) && !fracas_catalog_section(file->catalog, node->key->text))
-            return unknown_section(file, node->key);
+    for (node = file->root->first; node; node = node->next) TRY(check_section(file, node->key));
     TRY(need(file, "name",
              "give the campaign a name, which becomes its folder, as `name: bar-rates`", &node));
     TRY(fracas_setting_name(file, node, &campaign->name));

@@ -203,8 +203,7 @@ static fracas_err check_point(const fracas_point *point, fracas_index *index, si
 
 fracas_err fracas_rounds_check(const fracas_campaign *campaign, fracas_index *index)
 {
-    fracas_err err = FRACAS_OK;
-    for (size_t p = 0; !err && p < campaign->npoints; p++)
-        if (campaign->point[p].rule.maximum > 0) err = check_point(&campaign->point[p], index, p);
-    return err;
+    for (size_t p = 0; p < campaign->npoints; p++)
+        if (campaign->point[p].rule.maximum > 0) TRY(check_point(&campaign->point[p], index, p));
+    return FRACAS_OK;
 }

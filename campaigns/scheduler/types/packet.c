@@ -17,7 +17,7 @@ fracas_err fracas_packet_create(fracas_packet_kind kind, const void *body, size_
     fracas_packet *m = malloc(sizeof *m + size);
     if (!m) return fracas_no_memory("a message");
     *m = (fracas_packet){.kind = kind, .size = (uint32_t)size};
-    if (size) memcpy(m->body, body, size);
+    if (body) memcpy(m->body, body, size);
     *message = m;
     return FRACAS_OK;
 }

@@ -65,8 +65,8 @@ typedef struct {
     uint64_t rows;
 } fracas_segment_note;
 
-/* A message with a copy of `size` bytes of `body`. FRACAS_ENVIRONMENT without memory, or if it is
- * too long for MPI. */
+/* A message with a copy of `size` bytes of `body`; NULL: the caller fills them in.
+ * FRACAS_ENVIRONMENT without memory, or if it is too long for MPI. */
 FRACAS_MUST_USE fracas_err fracas_packet_create(fracas_packet_kind kind, const void *body,
                                                 size_t size, fracas_packet **message);
 

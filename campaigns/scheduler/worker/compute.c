@@ -8,11 +8,10 @@
 
 static fracas_err pack(const fracas_record *record, fracas_packet **message)
 {
-    size_t size = fracas_record_packed_size(record);
-    OWNED void *bytes = malloc(size);
-    if (!bytes) return fracas_no_memory("a packed record");
-    fracas_record_pack(record, bytes);
-    return fracas_packet_create(FRACAS_PACKET_RECORD, bytes, size, message);
+    TRY(fracas_packet_create(FRACAS_PACKET_RECORD, NULL, fracas_record_packed_size(record),
+                             message));
+    fracas_record_pack(record, (*message)->body);
+    return FRACAS_OK;
 }
 
 static fracas_err compute(const fracas_computation *computation, const int64_t *replica,

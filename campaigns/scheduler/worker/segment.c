@@ -168,13 +168,14 @@ fracas_err fracas_segment_write(fracas_segment *segment, const char *study,
         return fracas_fail(FRACAS_ENVIRONMENT, "the path of the study is too long: %s", study);
     TRY(make_provenance(segment, host, options, &provenance));
     size_t rows = segment->count * sizeof(fracas_segment_row), text = strlen(provenance) + 1;
-    OWNED unsigned char *body = malloc(sizeof head + rows + text);
-    if (!body) return fracas_no_memory("the rows of a segment");
-    TRY(write_file(segment, path, campaign, provenance, (fracas_segment_row *)(body + sizeof head),
-                   &head.seal));
-    memcpy(body, &head, sizeof head);
-    memcpy(body + sizeof head + rows, provenance, text);
-    TRY(fracas_packet_create(FRACAS_PACKET_SEGMENT, body, sizeof head + rows + text, note));
+    OWNED fracas_packet *made = NULL;
+    TRY(fracas_packet_create(FRACAS_PACKET_SEGMENT, NULL, sizeof head + rows + text, &made));
+    TRY(write_file(segment, path, campaign, provenance,
+                   (fracas_segment_row *)(made->body + sizeof head), &head.seal));
+    memcpy(made->body, &head, sizeof head);
+    memcpy(made->body + sizeof head + rows, provenance, text);
+    *note = made;
+    made = NULL;
     const uint64_t number = segment->number + 1;
     fracas_segment_clear(segment);
     segment->number = number;
