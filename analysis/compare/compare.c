@@ -157,7 +157,7 @@ static fracas_err test(gathered *of, const fracas_compare_options *options,
         options->seed + point->a + 1, result, &point->permutations, &point->exact));
     for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++) point->value[v].p = result[v].p;
     point->p = of->na > 1 && of->nb > 1 ? result[FRACAS_COMPARED_VALUES].p
-                                        : NAN; /* no scatter of one */
+                                        : NAN; /* one realization tells nothing of its scatter */
     point->distance = result[FRACAS_COMPARED_VALUES].distance;
     return FRACAS_OK;
 }

@@ -97,7 +97,7 @@ fracas_err fracas_bands_begin(int64_t intervals, double end, size_t realizations
         return fracas_no_memory("the energies over time of a point");
     of->times = times;
     for (size_t j = 0; j < times; j++)
-        bands->time[j] = (double)j * end / (double)(times - 1); /* as histories have it */
+        bands->time[j] = (double)j * end / (double)(times - 1); /* rounded as the histories' are */
     return FRACAS_OK;
 }
 

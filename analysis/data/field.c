@@ -164,7 +164,7 @@ static void put_reference(const char *key, const char *type, const char *unit, c
 {
     fprintf(out, "| `%s` | %s | %s | ", key, type, unit);
     for (const char *c = doc; *c; c++)
-        fprintf(out, *c == '|' ? "\\%c" : "%c", *c); /* as in |residual| */
+        fprintf(out, *c == '|' ? "\\%c" : "%c", *c); /* |residual| is no column */
     fputs(" |\n", out);
 }
 

@@ -26,10 +26,9 @@ typedef enum {
 typedef struct fracas_field {
     const char *key;
     fracas_field_type type;
-    const char
-        *unit;       /* for UDUNITS-2; "1" of a pure number, "" of text; NULL: that of its object */
-    const char *doc; /* in a member, "%s" stands for the meaning of its object */
-    size_t offset;   /* in the struct [bytes] */
+    const char *unit; /* for UDUNITS-2; "1": a pure number, "": text, NULL: that of its object */
+    const char *doc;  /* in a member, "%s" stands for the meaning of its object */
+    size_t offset;    /* in the struct [bytes] */
     const struct fracas_fields *members;
     bool outcome; /* the text is one of fracas_outcome_name */
 } fracas_field;

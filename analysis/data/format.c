@@ -135,7 +135,7 @@ void fracas_format_interval(double value, double low, double high, char *text, s
     const double ends[3] = {value, low, high};
     for (int i = 0; i < 3; i++) {
         const bool vanishes = ends[i] > 0 &&
-                              ends[i] < 0.5 * pow(10, place); /* would be shown as 0 */
+                              ends[i] < 0.5 * pow(10, place); /* an end above 0 is not shown as 0 */
         const int last = vanishes ? exponent_of(ends[i]) : place;
         format_power(ends[i], exponent, exponent > last ? exponent - last : 0, part[i],
                      sizeof part[i]);

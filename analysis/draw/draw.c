@@ -378,7 +378,7 @@ static double place(frame *f, double left, double top)
     fit(f);
     f->x.from = left;
     const char *last = f->nxtick > 0 ? f->xtick[f->nxtick - 1].label
-                                     : ""; /* the axis may end in its middle */
+                                     : ""; /* in the middle of which the axis may end */
     f->x.to = f->width - fmax(RIGHT, 4 + character * (double)characters(last) / 2);
     f->y.to = top + legend(f, false) + 8;
     f->y.from = f->y.to + f->panel.height;

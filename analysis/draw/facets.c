@@ -278,7 +278,7 @@ static void put_cut(const shaping *s, size_t e, int k)
                inner = s->to->facet[e].kind == FRACAS_FACET_INNER;
     const fracas_side line = s->across[e][k] < 0 ? FRACAS_SIDE_EDGE : FRACAS_SIDE_PARTED;
     const uint32_t node[2][3] = {{a + 1, b + 1, b},
-                                 {b, a, a + 1}}; /* with the inner edge, the outer */
+                                 {b, a, a + 1}}; /* the inner edge first, and the outer one */
     double normal[2][3], sum[3];
     for (int half = 0; half < 2; half++) facet_normal(s, node[half], normal[half]);
     for (int i = 0; i < 3; i++) sum[i] = normal[0][i] + normal[1][i];

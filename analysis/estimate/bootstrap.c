@@ -111,7 +111,7 @@ static void summarise(double *found, size_t most, const double *left_out, size_t
         sum += found[b] - interval->value;
         below += found[b] < interval->value    ? 1
                  : found[b] == interval->value ? 0.5
-                                               : 0; /* ties on a lattice */
+                                               : 0; /* half of the ties, for lattice values */
     }
     const double bias = sum / (double)count;
     for (size_t b = 0; b < count; b++) {

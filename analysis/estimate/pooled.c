@@ -22,7 +22,7 @@ size_t fracas_pooled_unit(size_t i, size_t realizations)
 typedef struct {
     double number, size, squares, mass, moment; /* over all fragments: 1, s, s^2, m, m s */
     double resolved, resolved_size, resolved_squares, resolved_mass,
-        resolved_moment; /* above the cut */
+        resolved_moment; /* the same over those above the cut */
     double between;      /* (sum s)^2/number of each realization */
     double group;        /* number^2 of each */
     double realizations;

@@ -53,7 +53,7 @@ static void put_data(fracas_json *json, const fracas_fits *of)
                              *const ends[] = {"mean", "cv"};
     fracas_json_object(json, "data");
     fracas_json_text(json, "fingerprint",
-                     find(of, "data", "fingerprint")->note); /* compared before */
+                     find(of, "data", "fingerprint")->note); /* it was compared: fracas_fits_keep */
     for (size_t i = 0; i < FRACAS_COUNT(plain); i++) put_value(json, of, "data", plain[i]);
     for (size_t i = 0; i < FRACAS_COUNT(ends); i++) {
         const fracas_fits_row *row = find(of, "data", ends[i]);

@@ -109,7 +109,7 @@ typedef struct {
     size_t columns, size;          /* size: of a row's struct [bytes] */
     bool (*keep)(const void *row); /* as fracas_table_rows has it */
     fracas_err (*list)(const fracas_analysis *analysis, void **rows,
-                       size_t *count); /* owned by the caller; NULL: the points */
+                       size_t *count); /* the rows, freed by the caller; NULL: the points are it */
 } fracas_side_table;
 
 extern const fracas_side_table fracas_side_tables[FRACAS_SIDE_TABLES];

@@ -44,7 +44,7 @@ static void put(rows *to, const char *quantity, const char *unit, const fracas_i
     FRACAS_PRINT(row.unit, "%s", unit);
     FRACAS_PRINT(row.note, "%s", note);
     for (char *at = row.note; (at = strchr(at, ',')); at++)
-        *at = ';'; /* commas are between fields */
+        *at = ';'; /* the file has commas between its fields alone */
     if (!to->err) to->err = fracas_fits_append(to->fits, &row);
 }
 

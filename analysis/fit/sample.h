@@ -25,7 +25,7 @@ typedef struct {
     uint32_t *cell;
     double *times; /* fragments in each */
     double *kept, *sum,
-        *squares;        /* each: fragments above the cut, sizes less the mean [m], squares [m2] */
+        *squares;        /* each: fragments above the cut, sizes less mean [m], squares [m2] */
     size_t fragments;    /* for all realizations, dust and whole bodies included */
     double total;        /* above the cut */
     double mean, cv;     /* for those [m], [1] */

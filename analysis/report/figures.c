@@ -44,7 +44,7 @@ static const fracas_point_statistics *statistics_of(const rate_plot *plot, size_
 static bool has_mean(const fracas_point_statistics *statistics)
 {
     return isfinite(statistics->rate) && statistics->rate > 0 &&
-           isfinite(statistics->size.mean); /* a log axis */
+           isfinite(statistics->size.mean); /* the axis is a log one */
 }
 
 static bool has_scales(const fracas_point_statistics *statistics)

@@ -70,7 +70,7 @@ static fracas_err draw(const library *lib, RsvgHandle *drawing, const char *to)
     height *= points_a_pixel;
     cairo_surface_t *surface = lib->cairo_pdf_surface_create(to, width, height);
     lib->cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE,
-                                        ""); /* equal files */
+                                        ""); /* equal studies, equal files */
     cairo_t *cairo = lib->cairo_create(surface);
     GError *error = NULL;
     const RsvgRectangle page = {0, 0, width, height};

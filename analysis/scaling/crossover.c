@@ -164,7 +164,7 @@ static void draw(const fitter *of, const double best[NPARAMETERS],
     const bool off = crossover->misfit < FRACAS_MISFIT_LIMIT; /* the residuals tell how far */
     const double shared = off ? crossover->freedom : crossover->pooled;
     const double factor = shared > 0 ? sqrt(shared / gsl_ran_chisq(random, shared))
-                                     : 1; /* for all equally */
+                                     : 1; /* a shared error is off for all equally */
     for (size_t i = 0; i < of->n; i++) {
         const bool alike = off || of->known[i].pooled;
         const double z = alike ? factor * gsl_ran_ugaussian(random)
@@ -294,7 +294,7 @@ static fracas_err fit_series(const fracas_size_series *series, int64_t resamples
 fracas_err fracas_crossover_fit(const fracas_size_series *series, int64_t resamples, uint64_t seed,
                                 fracas_size_crossover *crossover)
 {
-    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* a reason, no end */
+    gsl_error_handler_t *handler = gsl_set_error_handler_off(); /* failed fits have a reason */
     const fracas_err err = fit_series(series, resamples, seed, crossover);
     gsl_set_error_handler(handler);
     return err;

@@ -201,7 +201,7 @@ fracas_window fracas_window_of(const fracas_size_point *low, const fracas_size_p
     window.freedom = (a + b) * (a + b) /
                      (a * a / (double)(low->replicas - 1) + b * b / (double)(high->replicas - 1));
     const bool few = low->replicas < FRACAS_REPLICAS_OWN ||
-                     high->replicas < FRACAS_REPLICAS_OWN; /* chance */
+                     high->replicas < FRACAS_REPLICAS_OWN; /* alike by chance */
     if (a + b > 0)
         window.half_width = gsl_cdf_tdist_Pinv(0.975, window.freedom) * window.standard_error;
     else window.half_width = few ? NAN : window.standard_error;
@@ -218,7 +218,7 @@ static void add_series(const fracas_size_series *series, fracas_size_window *lis
             .normalised = {low->rate / series->scales.rate, high->rate / series->scales.rate},
             .window = fracas_window_of(low, high)};
         if (low->whole || high->whole || !isfinite(made.window.slope))
-            continue; /* no fragment size */
+            continue; /* the length of a body is no fragment size */
         FRACAS_PRINT(made.name, "%s", series->name);
         list[(*count)++] = made;
     }

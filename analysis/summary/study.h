@@ -15,9 +15,8 @@ struct fracas_analysis {
     const fracas_point_table *table;
     fracas_columns shown;           /* columns by which the points differ */
     fracas_point_statistics *point; /* table->npoints of them */
-    fracas_decision
-        *decision; /* last of each point; replicas 0 where they were given, NULL: everywhere */
-    fracas_results *results; /* open as long as the analysis: it owns the table */
+    fracas_decision *decision; /* last of each point; replicas 0: they were given, NULL: all were */
+    fracas_results *results;   /* open as long as the analysis: it owns the table */
 };
 
 /* How far the study, or a point of it, is. */
