@@ -44,7 +44,7 @@ static double mean_area(const fracas_surface *surface)
                                 : fracas_surface_area(surface, 0);
 }
 
-static double mean_length(const fracas_surface *surface)
+double fracas_mesh_mean_length(const fracas_surface *surface)
 {
     double length = 0;
     for (size_t i = 0; i < surface->ninterfaces; i++)
@@ -62,7 +62,7 @@ fracas_err fracas_mesh_interface_extent(const fracas_spec *spec, double *volume,
     const fracas_surface *surface;
     TRY(fracas_mesh_make(spec, &surface));
     *volume = geometry->thickness * mean_area(surface);
-    *area = geometry->thickness * mean_length(surface);
+    *area = geometry->thickness * fracas_mesh_mean_length(surface);
     fracas_surface_destroy(surface);
     return FRACAS_OK;
 }

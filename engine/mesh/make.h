@@ -19,4 +19,7 @@ FRACAS_MUST_USE fracas_err fracas_mesh_noise_count(const fracas_spec *spec, size
 FRACAS_MUST_USE fracas_err fracas_mesh_interface_extent(const fracas_spec *spec, double *volume,
                                                         double *area);
 
+/* Mean length of the interfaces of a surface [m]; 0 where there are none. */
+double fracas_mesh_mean_length(const fracas_surface *surface);
+
 #endif

@@ -3,7 +3,7 @@
 
 #include "base/elementary.h"
 #include "sampler/field/circulant.h"
-#include "sampler/field/distance.h"
+#include "sampler/field/dense_factor.h"
 #include "sampler/field/sparse_factor.h"
 
 #include <math.h>

@@ -1,9 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "sampler/field/dense_factor.h"
 
-#include "sampler/field/distance.h"
-
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -5,6 +5,7 @@
 
 #include "sampler/field/covariance.h"
 
+#include <math.h>
 #include <stdint.h>
 
 typedef struct {
@@ -22,6 +23,13 @@ void fracas_dense_factor_clear(fracas_dense_factor *factor);
 
 /* (L L^T)[i][j] */
 double fracas_dense_factor_product(const fracas_dense_factor *factor, size_t i, size_t j);
+
+/* |a - b| [m] */
+static inline double fracas_distance(const double a[3], const double b[3])
+{
+    const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+    return sqrt(x * x + y * y + z * z);
+}
 
 /* a.b in a fixed order, n >= 0 */
 double fracas_dot(size_t n, const double *a, const double *b);

@@ -6,7 +6,6 @@
 #include "sampler/field/sparse_factor.h"
 
 #include "sampler/field/dense_factor.h"
-#include "sampler/field/distance.h"
 #include "sampler/field/order.h"
 #include "sampler/field/variance.h"
 

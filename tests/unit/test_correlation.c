@@ -6,7 +6,6 @@
 #include "sampler/field/circulant.h"
 #include "sampler/field/correlation.h"
 #include "sampler/field/dense_factor.h"
-#include "sampler/field/distance.h"
 #include "sampler/field/order.h"
 #include "sampler/field/sparse_factor.h"
 #include "tests/support/sites.h"

@@ -104,15 +104,11 @@ double fracas_surface_inverse_size(const fracas_surface *surface, size_t i)
 static void measure(fracas_model *model)
 {
     const fracas_surface *surface = model->surface;
-    double length = 0;
-    for (size_t i = 0; i < surface->ninterfaces; i++) {
-        length += fracas_surface_length(surface, surface->interface[i].element[0],
-                                        surface->interface[i].edge[0]);
+    for (size_t i = 0; i < surface->ninterfaces; i++)
         model->longest = fmax(model->longest, 1.0 / fracas_surface_inverse_size(surface, i));
-    }
     model->element_size =
         surface->ninterfaces
-            ? length / (double)surface->ninterfaces
+            ? fracas_mesh_mean_length(surface)
             : sqrt(model->mass / (model->spec.material.density * model->spec.geometry.thickness));
 }
 

@@ -2,7 +2,6 @@
 /* Tables of a surface: masses, held edges, and the body's own geometry. */
 #include "engine/formulation/surface/surface.h"
 
-#include "engine/formulation/surface/nodal_mass.h"
 #include "engine/integrator/integrator.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
@@ -46,6 +45,28 @@ static bool allocate(fracas_surface_tables *t, bool consistent, bool positions)
 
 /* ---- masses ---- */
 
+/* consistent[k n + l] = int density N_k N_l dA, n = surface->corners, and lumped[k] by the rule of
+ * Hinton, Rock and Zienkiewicz: its diagonal, scaled to the element's mass  (membrane.13).
+ * `density` per area [kg/m2]; masses in kg. */
+static void find_masses(const fracas_surface *surface, size_t element, double density,
+                        double *consistent, double *lumped)
+{
+    const size_t nodes = surface->corners;
+    double shape[6], total = 0, trace = 0;
+    for (size_t i = 0; i < nodes * nodes; i++) consistent[i] = 0;
+    for (int g = 0; g < FRACAS_TRIANGLE_FINE; g++) {
+        const double *point = fracas_triangle_fine[g];
+        const double weight = density * point[2] *
+                              fracas_surface_density(surface, element, point[0], point[1], shape);
+        total += weight;
+        for (size_t k = 0; k < nodes; k++)
+            for (size_t l = 0; l < nodes; l++)
+                consistent[k * nodes + l] += weight * shape[k] * shape[l];
+    }
+    for (size_t k = 0; k < nodes; k++) trace += consistent[k * nodes + k];
+    for (size_t k = 0; k < nodes; k++) lumped[k] = total * consistent[k * nodes + k] / trace;
+}
+
 /* m = inverse of the n x n matrix m (Gauss-Jordan, positive definite: no pivoting). */
 static void invert(double *m, int n)
 {
@@ -81,9 +102,8 @@ static void fill_mass(const fracas_model *model, fracas_surface_tables *t, size_
 {
     const int nodes = SURFACE_NODES(t->order);
     double mass[36], *lumped = t->lumped + 2 * (size_t)nodes * e;
-    fracas_nodal_mass(model->surface, e,
-                      model->spec.material.density * model->spec.geometry.thickness, mass,
-                      lumped + nodes);
+    find_masses(model->surface, e, model->spec.material.density * model->spec.geometry.thickness,
+                mass, lumped + nodes);
     for (int k = 0; k < nodes; k++) lumped[k] = 1.0 / lumped[nodes + k];
     if (!t->consistent) return;
     const size_t entries = (size_t)(nodes * nodes);
