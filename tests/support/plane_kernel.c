@@ -21,7 +21,7 @@ LANES_FUNCTION void scatter(double *first, size_t step, vd from)
 #define OF(lanes, field) .field = gathered(&(lanes)->field, sizeof *(lanes))
 #define INTO(lanes, from, field) scatter(&(lanes)->field, sizeof *(lanes), (from).field)
 
-/* What the laws remember. */
+/* The laws' memories. */
 #define NITSCHE(X) X(damage) X(peak) X(slip) X(rub)
 #define EXTRINSIC(X) NITSCHE(X) X(q_n) X(q_t) X(t_n) X(t_t)
 #define TAKE(field) OF(state, field),

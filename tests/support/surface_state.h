@@ -221,7 +221,7 @@ static inline void compare_matrix(const fracas_model *model, const double *expec
         }
 }
 
-/* Of M^-1/2 K M^-1/2, ascending: omega^2; the matrix becomes that. */
+/* Eigenvalues omega^2 of M^-1/2 K M^-1/2, ascending; the matrix becomes that product. */
 static inline double *squares_of_frequencies(const fracas_model *model, double *matrix, size_t n)
 {
     for (size_t i = 0; i < n; i++)
