@@ -114,8 +114,8 @@ LANES_FUNCTION plane_result plane_at_nitsche(const plane_interface *at, const pl
 LANES_FUNCTION vd plane_opening_nitsche(const plane_interface *at, const plane_input *in,
                                         const double *point)
 {
-    const plane_traction flux = plane_flux(at, in);
-    return lanes_sqrt(plane_effective(at, flux.n, flux.t)) * at->softness_n /
+    const plane_traction flux = plane_flux(at, in); /* the law carries it less friction */
+    return lanes_sqrt(plane_onset(at, flux.n, flux.t)) * at->softness_n /
            plane_critical_opening(at, lanes_load(point + SURFACE_PEAK * LANES));
 }
 #endif

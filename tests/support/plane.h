@@ -119,6 +119,11 @@ static inline void plane_step(plane_walk *w, plane_at to)
         !(fabs(now->dissipated - plane_fracture(w) * w->memory.damage) <=
           1e-14 * plane_fracture(w)))
         w->excess = INFINITY;
+    /* D reaches 1 where the opening is that of the break, from which its time is found; 1e-9:
+     * rounding of a softening that is 1e5 times as long as the flux's part */
+    if ((now->breaks && !(now->opening > 1 - 1e-9)) ||
+        (now->cracked && w->memory.damage < 1 && !(now->opening < 1 + 1e-9)))
+        w->excess = INFINITY;
 }
 
 /* Straight on, in `steps` steps. */

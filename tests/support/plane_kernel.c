@@ -45,15 +45,22 @@ void LANES_UNIT(plane_call)(const plane_case *const *kind, const plane_at *in, p
         OF(in, m_n), OF(in, m_t), OF(in, q_n), OF(in, q_t),
         .opened = lanes_lt(lanes_set(0.0), gathered(opened, sizeof *opened))};
     const int friction = kinds->mu_c > 0;
+    _Alignas(64) double point[SURFACE_POINT_FIELDS_MOST * LANES];
     plane_result r;
     if (kinds->law == PLANE_NITSCHE) {
         series_state s = {NITSCHE(TAKE)};
         r = plane_nitsche(&at, &input, friction, &s);
         NITSCHE(GIVE)
+        lanes_store(point + SURFACE_PEAK * LANES, s.peak);
+        scatter(&out->opening, sizeof *out, plane_opening_nitsche(&at, &input, point));
     } else {
         extrinsic_state s = {EXTRINSIC(TAKE)};
         r = plane_extrinsic(&at, &input, kinds->law == PLANE_STANDARD, friction, &s);
         EXTRINSIC(GIVE)
+        lanes_store(point + SURFACE_PEAK * LANES, s.peak);
+        lanes_store(point + EXTRINSIC_JUMP_N * LANES, s.q_n);
+        lanes_store(point + EXTRINSIC_JUMP_T * LANES, s.q_t);
+        scatter(&out->opening, sizeof *out, extrinsic_opening_at(&at, &input, point));
     }
     INTO(out, r, t_n);
     INTO(out, r, t_t);

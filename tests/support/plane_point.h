@@ -40,6 +40,7 @@ typedef struct {
 
 typedef struct {
     double t_n, t_t, s_n, s_t, flux, stored, created, rubbed, dissipated;
+    double opening; /* over that of the break, once it has cracked */
     int cracked, cracks, breaks;
 } plane_out;
 
