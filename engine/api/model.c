@@ -55,22 +55,19 @@ static fracas_err check_partners(const fracas_spec *spec)
 fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
 {
     TRY(check_partners(spec));
-    fracas_model *model = calloc(1, sizeof *model);
+    OWN(fracas_model) model = calloc(1, sizeof *model);
     if (!model) return fracas_no_memory("a model");
     model->spec = *spec;
     model->formulation =
         (const fracas_formulation *)(const void *)spec->formulation; /* .kind is its first member */
     model->strengths = 1;
-    fracas_err code = model->formulation->model_init(model);
+    TRY(model->formulation->model_init(model));
     model->spec.mesh.noise = NULL; /* the caller's, and done with, as is a file */
     model->spec.geometry.file = NULL;
     model->time_step = spec->time.safety * model->critical_step;
-    if (!code) code = check_steps(model);
-    if (code) {
-        fracas_model_destroy(model);
-        return code;
-    }
+    TRY(check_steps(model));
     *out = model;
+    model = NULL;
     return FRACAS_OK;
 }
 

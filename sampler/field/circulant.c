@@ -22,18 +22,6 @@ struct fracas_circulant {
     double error;
 };
 
-static fracas_err create(size_t n, size_t size, fracas_circulant **circulant)
-{
-    fracas_circulant *made = calloc(1, sizeof *made);
-    if (!made) return fracas_no_memory("a correlated field");
-    *made = (fracas_circulant){.n = n, .size = size, .root = malloc(size * sizeof *made->root)};
-    fracas_err err = made->root ? fracas_fft_create(size, &made->fft)
-                                : fracas_no_memory("a correlated field");
-    if (err) fracas_circulant_destroy(made);
-    else *circulant = made;
-    return err;
-}
-
 void fracas_circulant_destroy(fracas_circulant *circulant)
 {
     if (!circulant) return;
@@ -76,12 +64,15 @@ static fracas_err factorise(fracas_circulant *circulant, const double *row, doub
 static fracas_err from_row(const double *row, size_t n, size_t size, fracas_circulant **circulant,
                            double *lost)
 {
-    fracas_circulant *made = NULL;
-    TRY(create(n, size, &made));
-    fracas_err err = factorise(made, row, lost);
-    if (err) fracas_circulant_destroy(made);
-    else *circulant = made;
-    return err;
+    OWN(fracas_circulant) made = calloc(1, sizeof *made);
+    if (!made) return fracas_no_memory("a correlated field");
+    *made = (fracas_circulant){.n = n, .size = size, .root = malloc(size * sizeof *made->root)};
+    if (!made->root) return fracas_no_memory("a correlated field");
+    TRY(fracas_fft_create(size, &made->fft));
+    TRY(factorise(made, row, lost));
+    *circulant = made;
+    made = NULL;
+    return FRACAS_OK;
 }
 
 /* (fields.8) */

@@ -105,16 +105,15 @@ fracas_err fracas_correlation_create(const fracas_strength *strength, size_t n,
                                      fracas_correlation **correlation)
 {
     OWN(fracas_covariance) covariance = NULL;
-    fracas_correlation *made = calloc(1, sizeof *made);
+    OWN(fracas_correlation) made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("a correlated field");
     made->n = n;
-    fracas_err err = fracas_covariance_create(strength, &covariance);
-    if (!err)
-        err = period > 0.0 ? closed_factor(made, covariance, position, period)
-                           : choose_factor(made, covariance, position);
-    if (err) fracas_correlation_destroy(made);
-    else *correlation = made;
-    return err;
+    TRY(fracas_covariance_create(strength, &covariance));
+    TRY(period > 0.0 ? closed_factor(made, covariance, position, period)
+                     : choose_factor(made, covariance, position));
+    *correlation = made;
+    made = NULL;
+    return FRACAS_OK;
 }
 
 void fracas_correlation_destroy(fracas_correlation *correlation)

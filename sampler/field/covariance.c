@@ -133,7 +133,7 @@ static void make_polynomial(fracas_covariance *covariance, int degree)
 
 fracas_err fracas_covariance_create(const fracas_strength *strength, fracas_covariance **covariance)
 {
-    fracas_covariance *made = calloc(1, sizeof *made);
+    OWN(fracas_covariance) made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("a covariance");
     const double nu = strength->smoothness > 0 ? strength->smoothness : USUAL_SMOOTHNESS;
     *made = (fracas_covariance){.kind = strength->covariance,
@@ -145,13 +145,11 @@ fracas_err fracas_covariance_create(const fracas_strength *strength, fracas_cova
     } else {
         made->factor = nu / fracas_gamma(nu + 1.0) * fracas_pow(2.0, 1.0 - nu);
         made->table = malloc(PIECES * sizeof *made->table);
-        if (!made->table) {
-            free(made);
-            return fracas_no_memory("a covariance");
-        }
+        if (!made->table) return fracas_no_memory("a covariance");
         for (int piece = 0; piece < PIECES; piece++) interpolate(made, piece, made->table[piece]);
     }
     *covariance = made;
+    made = NULL;
     return FRACAS_OK;
 }
 

@@ -16,7 +16,7 @@ struct fracas_surface_operator {
 fracas_err fracas_surface_operator_open(const fracas_model *model, int contact,
                                         fracas_surface_operator **out)
 {
-    fracas_surface_operator *op = aligned_alloc(64, (sizeof *op + 63) / 64 * 64);
+    OWN(fracas_surface_operator) op = aligned_alloc(64, (sizeof *op + 63) / 64 * 64);
     if (!op) return fracas_no_memory("the critical time step");
     *op = (fracas_surface_operator){.step = {.width = 1, .lanes = 1},
                                     .constants = fracas_surface_constants_of(model)};
@@ -26,11 +26,9 @@ fracas_err fracas_surface_operator_open(const fracas_model *model, int contact,
     op->constants.point_fields = 0; /* no law: interfaces have no state */
     op->constants.speed = 0;
     op->step.state = calloc(fracas_surface_state_fields(&op->constants), sizeof *op->step.state);
-    if (!op->step.state) {
-        free(op);
-        return fracas_no_memory("the critical time step");
-    }
+    if (!op->step.state) return fracas_no_memory("the critical time step");
     *out = op;
+    op = NULL;
     return FRACAS_OK;
 }
 
