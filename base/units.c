@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/units.h"
 
-#include <ctype.h>
 #include <locale.h>
 #include <math.h>
+#include <regex.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -154,60 +154,25 @@ void fracas_units_describe(const char *si, const char **what, const char **write
         }
 }
 
+/* Products and quotients of powers of names (ASCII letters, the two characters for micro), with at
+ * most one level of brackets. */
+#define TERM "(1|([a-z]|\xc2\xb5|\xce\xbc)+(\xc2[\xb2\xb3]|\\^?-?[0-9]{1,2})?)"
+#define AND "( *[/*.] *| +)"
+#define GROUP "(" TERM "|\\(" TERM "(" AND TERM ")*\\))"
+static const char plain_unit[] = "^" GROUP "(" AND GROUP ")*$";
+
 /* Words after which UDUNITS-2 reads an origin. */
-static bool is_origin_word(const char *word, size_t length)
-{
-    static const char *const words[] = {"since", "from", "after", "ref", "at"};
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
-        if (strlen(words[i]) == length && strncasecmp(words[i], word, length) == 0) return true;
-    return false;
-}
+static const char origin[] = "(^|[^a-z\x80-\xff])(since|from|after|ref|at)([^a-z\x80-\xff]|$)";
 
-/* Skips a name (ASCII letters, the two characters for micro) and its exponent; NULL if there is
- * none. */
-static const char *skip_power(const char *at)
+/* True if `text` matches the regular expression, whatever the case of its letters. */
+static fracas_err match(const char *expression, const char *text, bool *matches)
 {
-    const char *name = at;
-    for (;;) {
-        if (isascii((unsigned char)*at) && isalpha((unsigned char)*at)) at++;
-        else if (strncmp(at, "\xc2\xb5", 2) == 0 || strncmp(at, "\xce\xbc", 2) == 0) at += 2;
-        else break;
-    }
-    if (at == name || is_origin_word(name, (size_t)(at - name))) return NULL;
-    if (strncmp(at, "\xc2\xb2", 2) == 0 || strncmp(at, "\xc2\xb3", 2) == 0)
-        return at + 2; /* squared, cubed */
-    const char *exponent = at + (*at == '^');
-    exponent += *exponent == '-';
-    size_t length = digits(exponent);
-    if (length == 0) return exponent == at ? at : NULL;
-    return length <= 2 ? exponent + length : NULL;
-}
-
-/* True for products and quotients of powers of names, with at most one level of brackets. */
-static bool is_plain_unit(const char *at)
-{
-    bool inside = false;
-    for (;;) {
-        if (*at == '(' && !inside) {
-            inside = true;
-            at++;
-        }
-        at = *at == '1' ? at + 1 : skip_power(at);
-        if (!at) return false;
-        if (*at == ')' && inside) {
-            inside = false;
-            at++;
-        }
-        if (*at == '\0') return !inside;
-        size_t blanks = strspn(at, " ");
-        at += blanks;
-        if (*at == '/' || *at == '*' || *at == '.') {
-            at++;
-            at += strspn(at, " ");
-        } else if (blanks == 0) {
-            return false;
-        }
-    }
+    regex_t compiled;
+    if (regcomp(&compiled, expression, REG_EXTENDED | REG_ICASE | REG_NOSUB))
+        return fracas_no_memory("a unit");
+    *matches = regexec(&compiled, text, 0, NULL, 0) == 0;
+    regfree(&compiled);
+    return FRACAS_OK;
 }
 
 /* The quantity of a unit: one of the table, or its dimension. */
@@ -259,7 +224,10 @@ static fracas_err parse_factor(ut_system *system, const char *text, const char *
     if (!expected)
         return fracas_fail(FRACAS_BUG, "a parameter table has the unit `%s`, unknown to UDUNITS-2",
                            si);
-    const bool plain = is_plain_unit(name);
+    bool plain, from = false;
+    TRY(match(plain_unit, name, &plain));
+    if (plain) TRY(match(origin, name, &from));
+    plain = plain && !from;
     OWN(ut_unit) found = plain ? ut_parse(system, name, UT_UTF8) : NULL;
     if (!found && plain && ut_get_status() == UT_OS) return fracas_no_memory("a unit");
     if (!found)

@@ -13,7 +13,8 @@ fracas_err fracas_output_folder(const char *folder)
     if (!mkdir(folder, 0777)) return FRACAS_OK;
     const int reason = errno;
     if (reason == EEXIST && !stat(folder, &what) && S_ISDIR(what.st_mode)) return FRACAS_OK;
-    if (reason == EEXIST) return fracas_fail(FRACAS_USAGE, "%s is no folder; name another", folder);
+    if (reason == EEXIST)
+        return fracas_fail(FRACAS_USAGE, "%s is no folder; move it away or name another", folder);
     return fracas_fail_system(reason, "cannot make the folder %s", folder);
 }
 

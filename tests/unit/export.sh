@@ -34,7 +34,7 @@ expect 0 "$fracas" export one --to elsewhere
 check one elsewhere
 touch file
 expect 2 "$fracas" export one --to file
-said 'file is no folder; name another'
+said 'file is no folder; move it away or name another'
 expect 6 "$fracas" export one --to none/there
 said 'cannot make the folder none/there'
 mkdir taken taken/points.csv

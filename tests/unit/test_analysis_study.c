@@ -237,7 +237,7 @@ static void report_that_cannot_be_written(void **state)
     write_bytes(blocker, "", 0); /* where the folder should be */
     OWN(fracas_analysis) analysis;
     OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
-    FAILS(fracas_report_write(analysis, folder), FRACAS_ENVIRONMENT, "blocked/report");
+    FAILS(fracas_report_write(analysis, folder), FRACAS_USAGE, "blocked/report is no folder");
 }
 
 TESTS_ALL(report_make_root, report_remove_root, table_of_a_sweep, table_of_awkward_points,
