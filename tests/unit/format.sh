@@ -1,11 +1,12 @@
 #!/bin/sh
 # ctest-labels: ci
 # tools/check-format: the tree obeys, and a line that is too long or a missing licence is found.
-# tools/mutate-kernels --check: every mutation finds its place in the sources.
+# tools/mutate-kernels --check, tools/fuzz-planted --check: every mutation and planted bug finds its place in the sources.
 set -eu
 
 tools/check-format
 tools/mutate-kernels --check
+tools/fuzz-planted --check
 
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
