@@ -235,11 +235,10 @@ static inline double cosine(double r)
         -0x1.a6d1f2a204805p-6, 0x1.f9d38a36c4ef0p-10,  -0x1.b6e24df1af831p-14,
         0x1.20c49b569566dp-18, -0x1.281e7c45b8040p-23,
     };
-    const double half_square = 0x1.3bd3cc9be45dep+2,
-                 half_square_lo = 0x1.692b71366cc04p-52; /* pi^2/2 */
+    const double half_square = 0x1.3bd3cc9be45dep+2, half_square_lo = 0x1.692b71366cc04p-52;
     double z_lo, low;
     double z = two_product(r, r, &z_lo);
-    double fall = two_product(half_square, z, &low);
+    double fall = two_product(half_square, z, &low); /* pi^2/2 r^2 */
     low += half_square * z_lo + half_square_lo * z;
     double sum = 1.0 - fall;
     return sum + (((1.0 - sum) - fall) + ((z * z) * poly8(c, z) - low));

@@ -17,13 +17,11 @@
 #include <stdint.h>
 
 typedef enum {
-    FRACAS_REAL,    /* double, may carry a unit */
-    FRACAS_INTEGER, /* int64_t */
-    FRACAS_BOOLEAN, /* bool */
-    FRACAS_CHOICE, /* const fracas_kind *, one of `choices` (which have no parameters); the first is
-                      the default */
-    FRACAS_ATTACHMENT /* const fracas_attachment *, a file named by its path; NULL where none is
-                         given */
+    FRACAS_REAL,      /* double, may carry a unit */
+    FRACAS_INTEGER,   /* int64_t */
+    FRACAS_BOOLEAN,   /* bool */
+    FRACAS_CHOICE,    /* const fracas_kind *, one of `choices`, no parameters; default: the first */
+    FRACAS_ATTACHMENT /* const fracas_attachment *, a file named by its path; NULL: none given */
 } fracas_param_type;
 
 /* A value of a selector. Objects with functions (a law, a distribution) have it as first member. */
@@ -35,8 +33,7 @@ typedef struct {
     const char *path; /* as named */
     const char *text; /* content, and a NUL after it */
     size_t size;      /* bytes, without the final NUL */
-    char digest[33];  /* XXH3 of the content in hexadecimal: stands for the file in a point's
-                         identity */
+    char digest[33];  /* hexadecimal XXH3 of the content: its part in a point's identity */
 } fracas_attachment;
 
 /* A required value has no default. */
@@ -55,8 +52,7 @@ typedef struct {
     const fracas_kind *const *choices; /* for FRACAS_CHOICE */
     size_t nchoices;
     const fracas_kind *const *only; /* models with this parameter, up to a NULL; NULL: all */
-    bool optional; /* no default: a point without it has NaN or NULL. Not for FRACAS_INTEGER and
-                      FRACAS_BOOLEAN */
+    bool optional; /* no default: without it NaN or NULL; not for FRACAS_INTEGER, FRACAS_BOOLEAN */
 } fracas_param;
 
 struct fracas_kind {
@@ -86,8 +82,7 @@ typedef struct {
     size_t nparams;
     size_t offset; /* place of the section's struct in its owner (see the registry) */
     bool hashed;   /* part of a point's identity (output options are not) */
-    fracas_err (*check)(
-        const void *section); /* checks values against each other; NULL: no such check */
+    fracas_err (*check)(const void *section); /* checks values against each other; NULL: none */
 } fracas_section;
 
 #define FRACAS_COUNT(array) (sizeof(array) / sizeof *(array))

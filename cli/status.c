@@ -27,8 +27,7 @@ typedef struct {
     fracas_index_counts *point; /* campaign->npoints */
 } fracas_status;
 
-static const char *const lock_name[] = {"free", "held", "left",
-                                        "elsewhere"}; /* by fracas_lock_state */
+static const char *const lock_name[] = {"free", "held", "left", "elsewhere"}; /* by lock state */
 static const char *const lock_text[] = {
     "", "held", "left by a run that died, the next one takes it over",
     "of another host; if that run is gone, `fracas run --force` takes it over"};
@@ -249,8 +248,7 @@ static fracas_err count(fracas_status *status)
         for (size_t p = 0; p < campaign->npoints; p++) unlease(&status->point[p]);
     }
     status->complete = false;
-    if (status->all.planned || status->all.leased)
-        return FRACAS_OK; /* no need to look at any file */
+    if (status->all.planned || status->all.leased) return FRACAS_OK; /* no file need be read */
     int64_t failed;
     return fracas_study_settled(status->study, status->index, campaign, &status->complete, &failed);
 }

@@ -28,8 +28,7 @@ typedef struct {
     double position[3]; /* m, centre of mass at end_time */
     double velocity[3]; /* m/s, of the centre of mass with the background, half a step later */
     double angular_momentum[3]; /* kg m2/s, about the centre of mass */
-    double spin[3]; /* rad/s, of the rigid body with this angular momentum; 0 about an axis without
-                       inertia, and in a bar */
+    double spin[3]; /* rad/s, rigid body's; 0 in a bar and about an axis without inertia */
 } fracas_fragment;
 
 typedef struct {

@@ -15,18 +15,17 @@
  * names; optional ones are NaN, or NULL, where none is given. */
 typedef struct {
     const fracas_kind *distribution;
-    double value;     /* Pa, constant */
-    double minimum;   /* Pa */
-    double maximum;   /* Pa */
-    double scale;     /* Pa */
-    double shape;     /* 1 */
-    double median;    /* Pa, lognormal: exp(mu) */
-    double sigma;     /* 1, lognormal: standard deviation of the logarithm */
-    double mean;      /* Pa; normal: before it is cut off at 0 */
-    double deviation; /* Pa, standard deviation, as mean */
-    double own[4];    /* numbers of one distribution alone: its file names them */
-    const fracas_attachment
-        *file; /* file, positions: a strength for each interface; empirical: measured ones */
+    double value;                     /* Pa, constant */
+    double minimum;                   /* Pa */
+    double maximum;                   /* Pa */
+    double scale;                     /* Pa */
+    double shape;                     /* 1 */
+    double median;                    /* Pa, lognormal: exp(mu) */
+    double sigma;                     /* 1, lognormal: standard deviation of the logarithm */
+    double mean;                      /* Pa; normal: before it is cut off at 0 */
+    double deviation;                 /* Pa, standard deviation, as mean */
+    double own[4];                    /* numbers of one distribution alone: its file names them */
+    const fracas_attachment *file;    /* strengths: each interface's; empirical: measured ones */
     const fracas_kind *interpolation; /* empirical: between its strengths */
     double reference_volume;          /* m3, or */
     double reference_area;            /* m2: extent of the interfaces with the given strengths */
@@ -35,10 +34,9 @@ typedef struct {
     double smoothness;                /* 1, matern: nu */
     const fracas_kind *per;           /* interface, gauss-point; NULL: interface */
     const fracas_attachment *factor;  /* profile of a factor of the strengths; NULL: 1 everywhere */
-    const fracas_kind
-        *factor_along;          /* x, y, z, radius: the profile's coordinate; given along with it */
-    bool ready;                 /* made by fracas_strength_init */
-    struct fracas_table *table; /* empirical, ready: owned */
+    const fracas_kind *factor_along;  /* x, y, z, radius: the profile's coordinate, given with it */
+    bool ready;                       /* made by fracas_strength_init */
+    struct fracas_table *table;       /* empirical, ready: owned */
 } fracas_strength;
 
 extern const fracas_kind fracas_along_x, fracas_along_y, fracas_along_z, fracas_along_radius;

@@ -65,9 +65,8 @@ static fracas_err load(const fracas_file *file, const char *path, fracas_attachm
 {
     struct stat info;
     if (stat(path, &info)) return cannot("open", path);
-    if (!S_ISREG(info.st_mode))
-        return fracas_fail(FRACAS_USAGE, "%s is not a file", path); /* opening a pipe would wait */
-    OWN(FILE) in = fopen(path, "rb");
+    if (!S_ISREG(info.st_mode)) return fracas_fail(FRACAS_USAGE, "%s is not a file", path);
+    OWN(FILE) in = fopen(path, "rb"); /* opening a pipe would wait */
     return in ? load_open(file, path, in, made) : cannot("open", path);
 }
 

@@ -26,8 +26,7 @@ typedef struct {
 
 typedef struct {
     size_t nsections;
-    const fracas_file_section *section; /* in file order; the first, `model`, restricts the
-                                           kinds of others */
+    const fracas_file_section *section; /* in file order; `model` first: it limits others' kinds */
     size_t nleaves;
     const fracas_leaf *leaf; /* sorted by path */
 } fracas_catalog;

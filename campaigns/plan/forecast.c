@@ -235,14 +235,13 @@ fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
 
 /* ---- size ---- */
 
-/* Bytes of one realization in study.h5, by the widths of a record. */
+/* Bytes of a realization in study.h5, by widths of a record; a history adds start and 3 events. */
 static double realization_bytes(const fracas_output *output, const fracas_forecast *forecast)
 {
     const double fragments = fmax(1.0,
                                   (double)forecast->elements / FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
     const double scalars = offsetof(fracas_record, nfragment);
-    const double history = ((double)output->history + 4.0) *
-                           sizeof(fracas_history_row); /* start and three events */
+    const double history = ((double)output->history + 4.0) * sizeof(fracas_history_row);
     const double interfaces = output->interfaces
                                   ? (double)forecast->interfaces * sizeof(fracas_interface_row)
                                   : 0.0;

@@ -183,9 +183,8 @@ static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
     for (size_t v = 0; v < plan->nvaried; v++) {
         const fracas_value *value = &point->value[plan->varied[v]];
         char number[FRACAS_NUMBER_TEXT];
-        fracas_number_write(value->real, number);
-        if (strlen(number) > LONG)
-            snprintf(number, sizeof number, "%.6g", value->real); /* --json has all digits */
+        fracas_number_write(value->real, number); /* all digits, which --json has */
+        if (strlen(number) > LONG) snprintf(number, sizeof number, "%.6g", value->real);
         const bool text = plan->table->column[plan->varied[v]].text;
         sheet_put(sheet, row, 1 + v, "%s", text ? value->text : isnan(value->real) ? "-" : number);
     }

@@ -19,12 +19,11 @@ extern const char *const fracas_refinement_name[FRACAS_NREFINEMENTS]; /* "base",
 extern const char *const fracas_refinement_doc[FRACAS_NREFINEMENTS];  /* "half the element size" */
 
 typedef struct {
-    fracas_campaign
-        *campaign; /* NAME-mesh, points in file order; NULL if no point can be refined */
-    size_t *from;  /* its points' numbers in the file */
-    double *cost;  /* its points' element-steps, maximum over all replicas */
-    size_t left;   /* number of points left out */
-    char why[512]; /* reason for the first of them */
+    fracas_campaign *campaign; /* NAME-mesh, points in file order; NULL: no point can be refined */
+    size_t *from;              /* its points' numbers in the file */
+    double *cost;              /* its points' element-steps, maximum over all replicas */
+    size_t left;               /* number of points left out */
+    char why[512];             /* reason for the first of them */
 } fracas_refined;
 
 /* The campaign file at `path`, with `replicas` for every point (0: the file's), refined:

@@ -131,9 +131,7 @@ static void note(rank_state *rank, const fracas_packet *message)
     case FRACAS_PACKET_ENDED:
     case FRACAS_PACKET_TROUBLE: rank->ended = true; break;
     case FRACAS_PACKET_FAILED:
-    case FRACAS_PACKET_SEGMENT:
-        rank->deaths = 0;
-        break; /* settled: records in memory would die with the server */
+    case FRACAS_PACKET_SEGMENT: rank->deaths = 0; break; /* settled: safe if the server dies */
     default: break;
     }
 }
@@ -369,8 +367,7 @@ static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
     fracas_trouble_take(err, &result);
     const fracas_packet quit = {.kind = FRACAS_PACKET_QUIT};
     for (int other = 1; other < rank->size; other++)
-        if (mpi_send(other, &quit))
-            MPI_Abort(MPI_COMM_WORLD, FRACAS_ENVIRONMENT); /* no rank may be left waiting */
+        if (mpi_send(other, &quit)) MPI_Abort(MPI_COMM_WORLD, FRACAS_ENVIRONMENT); /* or it waits */
     receive_rest(rank);
     if (!channel.launcher) return fracas_trouble_fail(&result);
     *ran = false;

@@ -58,8 +58,7 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
     OWN(fracas_model) model = calloc(1, sizeof *model);
     if (!model) return fracas_no_memory("a model");
     model->spec = *spec;
-    model->formulation =
-        (const fracas_formulation *)(const void *)spec->formulation; /* .kind is its first member */
+    model->formulation = (const fracas_formulation *)(const void *)spec->formulation;
     model->strengths = 1;
     TRY(model->formulation->model_init(model));
     model->spec.mesh.noise = NULL; /* the caller's, and done with, as is a file */

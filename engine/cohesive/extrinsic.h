@@ -75,9 +75,8 @@ LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const pla
     vd reached = state->damage * delta_c;
     vmask loading = lanes_lt(reached, opening), opened = lanes_or(loading, lanes_lt(zero, reached));
     vd damage = lanes_select(loading, plane_min(opening / delta_c, one), state->damage);
-    vd factor = (one - damage) /
-                lanes_select(loading, opening,
-                             lanes_select(opened, reached, one)); /* (cohesive.18) */
+    /* (cohesive.18) */
+    vd factor = (one - damage) / lanes_select(loading, opening, lanes_select(opened, reached, one));
     vd amplitude_n = standard ? p : state->t_n;
     vd amplitude_t = at->beta_c * (standard ? p * at->beta_c : plane_abs(state->t_t));
     vd open_n = lanes_select(opened, amplitude_n * factor * pull, state->t_n);

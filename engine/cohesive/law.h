@@ -47,8 +47,7 @@ typedef struct {
     /* Slope of its steepest softening by sigma_c/delta_c; laws with `flux`, whose stiffness must
      * exceed it. */
     double steepest;
-    int fields[2]; /* surfaces: values of a point, without and with friction, at most
-                      SURFACE_POINT_FIELDS_MOST */
+    int fields[2]; /* surfaces: values without, with friction, at most SURFACE_POINT_FIELDS_MOST */
     /* Chains. */
     double (*contact)(const fracas_cohesive *); /* stiffness of contact by E/h; NULL: at most 1 */
     bool contact_by_strength; /* contact stiffens with the strength  (cohesive.9) */

@@ -28,8 +28,7 @@ typedef struct {
 typedef struct {
     vd m_n, m_t;  /* Pa */
     vd q_n, q_t;  /* m */
-    vmask opened; /* the flux is held against the strength, even with onset_mean: beside an open
-                     layer of a shell */
+    vmask opened; /* flux held against strength, even with onset_mean: by a shell's open layer */
 } plane_input;
 
 typedef struct {
@@ -41,8 +40,7 @@ typedef struct {
     vd s_n, s_t;        /* the flux's part of the jump [m]; 0 once it is left */
     vd flux, stored;    /* energies of the flux, and in openings and contact [J/m2] */
     vd dissipated;      /* G_c D [J/m2] */
-    vd created, rubbed; /* in this step: energy put in by an onset or break, energy dissipated by
-                           friction [J/m2] */
+    vd created, rubbed; /* this step's energy put in by onset or break, lost to friction [J/m2] */
     vmask cracked; /* past onset: the above holds; elsewhere the flux's own T = m + k q, s = q */
     vmask cracks, breaks; /* in this step */
     /* For shells: energy dissipated in this step [J/m2], and the traction at the D halfway through

@@ -19,8 +19,7 @@ typedef struct {
     fracas_ring_drive drive;
     int circumferential; /* direction of the drive; else radial */
     double level, rate;  /* level + rate t: velocity [m/s], force by length of the ring [N/m] */
-    double
-        start[2]; /* FRACAS_RING_FREE: velocities outward and along the ring at the start [m/s] */
+    double start[2];     /* FRACAS_RING_FREE: velocities outward and along the ring [m/s] */
 } fracas_ring_motion;
 
 /* Stretch (1, ratio) strain of a plate at a time t. */

@@ -12,9 +12,8 @@ void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int la
     if (first) {
         ledger->initial = fracas_energy_held(ledger->energy, 0);
         ledger->work = ledger->largest_residual = 0;
-    } else {
-        ledger->work += step->drift[lane] * (0.5 * (before + ledger->power)) +
-                        step->work[lane]; /* (bar.13) */
+    } else { /* (bar.13) */
+        ledger->work += step->drift[lane] * (0.5 * (before + ledger->power)) + step->work[lane];
     }
     ledger->residual = fracas_energy_residual(ledger->energy, ledger->initial); /* (bar.14) */
     if (!(fabs(ledger->residual) <= ledger->largest_residual))

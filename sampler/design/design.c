@@ -10,8 +10,7 @@
 
 typedef struct {
     fracas_kind kind; /* first: a design names its type by this */
-    fracas_err (*fill)(const fracas_design *design,
-                       fracas_probability *p); /* independent coordinates */
+    fracas_err (*fill)(const fracas_design *design, fracas_probability *p); /* independent */
     bool stratified; /* they only give the order of the points in each parameter */
 } design_type;
 

@@ -19,8 +19,7 @@ typedef struct {
     uint64_t seed;             /* the campaign's */
     size_t points, parameters; /* at least 1 each */
     const uint64_t *name;      /* [parameters], all different: the names of their random numbers */
-    const double *correlation; /* [parameters][parameters], of the normal scores Phi^-1(u); NULL:
-                                  independent */
+    const double *correlation; /* [parameters][parameters], of the scores Phi^-1(u); NULL: none */
 } fracas_design;
 
 /* How many parameters a design of this type can have: 40 with sobol, else SIZE_MAX. */

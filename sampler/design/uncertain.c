@@ -63,8 +63,7 @@ static double log_uniform_quantile(const fracas_uncertain *uncertain, fracas_pro
 /* ---- normal, cut where there are bounds ---- */
 
 typedef struct {
-    double below, above, kept; /* probabilities of the uncut distribution: under both bounds, over
-                                  both, between them */
+    double below, above, kept; /* uncut probabilities: under both bounds, over both, between */
 } cut;
 
 static cut cut_of(const fracas_uncertain *uncertain)
@@ -98,8 +97,7 @@ static double normal_quantile(const fracas_uncertain *uncertain, fracas_probabil
     const fracas_probability whole = {out.below + p.below * out.kept,
                                       out.above + p.above * out.kept};
     const double value = uncertain->mean + uncertain->deviation * fracas_normal_quantile(whole);
-    return fmin(fmax(value, uncertain->minimum),
-                uncertain->maximum); /* which a bound of NaN leaves as it is */
+    return fmin(fmax(value, uncertain->minimum), uncertain->maximum); /* a bound of NaN is none */
 }
 
 /* ---- the tables ---- */

@@ -14,26 +14,21 @@ typedef struct {
 } fracas_moments;
 
 /* All functions but `init` take ready strengths (fracas_strength_init), and compute the
- * distribution before any size effect of reference_volume or reference_area. */
+ * distribution before any size effect of reference_volume or reference_area. Quantile F^-1 [Pa]. */
 typedef struct {
     fracas_kind kind; /* first: a strength names its distribution by this */
-    double (*quantile)(const fracas_strength *strength, fracas_extent extent,
-                       fracas_probability p); /* F^-1 [Pa] */
+    double (*quantile)(const fracas_strength *strength, fracas_extent extent, fracas_probability p);
     fracas_moments (*moments)(const fracas_strength *strength, fracas_extent extent);
-    fracas_err (*init)(fracas_strength *strength); /* finds its own parameters, checks them against
-                                                      each other; may be NULL */
+    fracas_err (*init)(fracas_strength *strength); /* finds, checks its parameters; may be NULL */
     void (*clear)(fracas_strength *strength);      /* frees the memory of `init`; may be NULL */
     bool size_effect;                              /* both depend on the extent */
     /* Exponent m of the lower tail, F ~ (s - minimum)^m; NaN without one; may be NULL. */
     double (*tail)(const fracas_strength *strength, fracas_extent extent);
     /* True if it can have the weakest-link size effect of a reference; then also: */
     bool takes_reference;
-    double (*far)(const fracas_strength *strength,
-                  double t); /* [Pa] F^-1 where p.above is e^-t; NULL: the largest there is */
-    double far_from; /* the t from which it holds, 700 at most: beyond 745 e^-t is no double */
-    fracas_moments (*weakest)(
-        const fracas_strength *strength,
-        double size); /* moments of the weakest of `size`; NULL: by quadrature */
+    double (*far)(const fracas_strength *strength, double t); /* F^-1 [Pa] at e^-t; NULL: largest */
+    double far_from; /* the t from which it holds, 700 at most: p.above = e^-t is 0 beyond 745 */
+    fracas_moments (*weakest)(const fracas_strength *strength, double size); /* NULL: quadrature */
     /* Both NULL for drawn strengths: the next strength of the file, and sigma_c[i*stride] =
      * strength of interface i. */
     fracas_lines_reader *read;

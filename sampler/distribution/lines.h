@@ -14,8 +14,7 @@
 typedef struct {
     const fracas_attachment *file;
     const char *at, *end;     /* bytes left of the file */
-    const char *start, *stop; /* the line, without blanks at its ends; fracas_lines_field takes
-                                 fields off its start */
+    const char *start, *stop; /* the line without outer blanks; fracas_lines_field shortens it */
     int64_t line;             /* its number, from 1 */
     bool first;               /* it is the first one: it may be a line of headings */
 } fracas_lines;

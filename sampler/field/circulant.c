@@ -8,11 +8,8 @@
 
 #include <math.h>
 
-#define NEGATIVE \
-    1e-12 /* largest variance lost to clipped eigenvalues; beyond it a larger circle is tried */
-enum {
-    LARGEST = 1 << 17
-}; /* largest circle for few sites; for many, 4 times the smallest possible */
+#define NEGATIVE 1e-12 /* largest variance lost to clipped eigenvalues; above, a larger circle */
+enum { LARGEST = 1 << 17 }; /* circle for few sites; for many, 4 times the smallest possible */
 
 struct fracas_circulant {
     size_t n;    /* sites */
@@ -53,8 +50,7 @@ static fracas_err factorise(fracas_circulant *circulant, const double *row, doub
         x[k][1] = 0.0;
         circulant->root[k] = sqrt(x[k][0] / (double)size);
     }
-    TRY(fracas_fft_transform(circulant->fft,
-                             x)); /* eigenvalues are even in k: the inverse is the same */
+    TRY(fracas_fft_transform(circulant->fft, x)); /* even eigenvalues: the inverse is the same */
     circulant->error = 0.0;
     for (size_t i = 0; i < circulant->n; i++)
         circulant->error = fmax(circulant->error, fabs(x[i][0] - row[i]));

@@ -77,8 +77,7 @@ static fracas_err choose_factor(fracas_correlation *correlation,
         TRY(fracas_circulant_line(covariance, n, size, &correlation->circulant));
         if (n > FRACAS_DENSE_SITES || fracas_circulant_error(correlation->circulant) < 1e-12)
             return FRACAS_OK;
-        fracas_circulant_destroy(
-            correlation->circulant); /* no circle has this covariance: few sites do without */
+        fracas_circulant_destroy(correlation->circulant); /* no circle fits: few sites do without */
         correlation->circulant = NULL;
     }
     return fracas_sparse_factor_create(covariance, n, x, &correlation->sparse);

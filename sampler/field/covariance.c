@@ -26,8 +26,7 @@ struct fracas_covariance {
     double factor;     /* 2^(1 - nu)/Gamma(nu) */
     int degree;        /* the polynomial's; -1: nu is no half-integer */
     double polynomial[10];
-    double (*table)[TERMS]; /* [PIECES] Chebyshev coefficients of e^x rho; NULL where there is a
-                               polynomial */
+    double (*table)[TERMS]; /* [PIECES] Chebyshev coefficients of e^x rho; NULL for a polynomial */
 };
 
 fracas_err fracas_covariance_check(const fracas_strength *strength)

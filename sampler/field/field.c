@@ -10,8 +10,7 @@
 #include <string.h>
 
 struct fracas_field {
-    const fracas_strength
-        *strength; /* ready: the field's own `drawn`, or as it was, where strengths are given */
+    const fracas_strength *strength; /* ready: `drawn`, or as passed where strengths are given */
     fracas_strength drawn;
     size_t n, points;
     fracas_extent *extent;           /* [n] */

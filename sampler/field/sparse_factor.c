@@ -13,8 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SMALLEST \
-    1e-7 /* least variance of a near site given nearer ones: others add rounding alone */
+#define SMALLEST 1e-7 /* least variance of a near site given nearer ones: less is but rounding */
 enum { STARTS = 32, STEPS = 4, M = FRACAS_NEAR_SITES };
 
 struct fracas_sparse_factor {

@@ -27,9 +27,7 @@ typedef struct {
     double confidence;          /* the interval's, between 0 and 1 */
 } fracas_sequential_rule;
 
-enum {
-    FRACAS_ROUND_FIRST = 8
-}; /* replicas of a first round, at least: fewer say nothing about a deviation */
+enum { FRACAS_ROUND_FIRST = 8 }; /* least replicas of a first round: fewer give no deviation */
 
 typedef enum { FRACAS_GO_ON, FRACAS_PRECISE, FRACAS_AT_MAXIMUM } fracas_sequential_stop;
 

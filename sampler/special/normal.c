@@ -76,8 +76,7 @@ double fracas_normal_far(double t)
 {
     const double ln_sqrt_two_pi = 0x1.d67f1c864beb4p-1;
     double z = sqrt(2.0 * t);
-    for (int i = 0; i < 4;
-         i++) { /* from an error below 0.2 at z > 34: squared, over z, at each step */
+    for (int i = 0; i < 4; i++) { /* error below 0.2 at z > 34: at each step squared, over z */
         double hazard = z;
         for (double n = 8.0; n > 0.0; n -= 1.0) hazard = z + n / hazard;
         z -= (0.5 * z * z + ln_sqrt_two_pi + fracas_log(hazard) - t) / hazard;

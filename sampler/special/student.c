@@ -41,8 +41,7 @@ double fracas_student_quantile(double confidence, int64_t nu)
         const double above = (1 - confidence) / 2;
         return expand(-fracas_normal_quantile((fracas_probability){above, 1 - above}), (double)nu);
     }
-    double low = 0, high = 0.5; /* bounds of the x whose interval has the confidence: halved until
-                                   no double lies between */
+    double low = 0, high = 0.5; /* bounds of the x sought: halved until no double lies between */
     for (double x; (x = low + (high - low) / 2) > low && x < high;) {
         if (fracas_student_within(x, nu) < confidence) low = x;
         else high = x;

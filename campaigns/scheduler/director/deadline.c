@@ -74,8 +74,7 @@ static void mind_deadline(fracas_director *director, double time)
     if (!director->stopping) fracas_director_drain(director);
     else if (over)
         for (size_t worker = 0; worker < director->setup.workers; worker++)
-            if (director->phase[worker] == STOPPING)
-                fracas_director_stop_worker(director, worker); /* and kill its lease */
+            if (director->phase[worker] == STOPPING) fracas_director_stop_worker(director, worker);
 }
 
 /* Gives up silent workers when everything is durable or no time is left. */

@@ -384,8 +384,7 @@ static fracas_err act(fracas_director *director, size_t worker, const fracas_pac
 
 void fracas_director_receive(fracas_director *director, size_t worker, const fracas_packet *message)
 {
-    if (director->phase[worker] == ENDED && message->kind != FRACAS_PACKET_DRAIN)
-        return; /* it was given up before */
+    if (director->phase[worker] == ENDED && message->kind != FRACAS_PACKET_DRAIN) return; /* gone */
     director->timings.messages++;
     fracas_director_check(director, act(director, worker, message));
     fracas_director_check(director, flush_all(director));

@@ -113,10 +113,9 @@ fracas_err fracas_director_finish(fracas_director *director)
 {
     director->timings.workers = (double)director->setup.workers;
     director->timings.computed = fracas_timings_time(&director->timings);
-    fracas_err err = conclude(director);
+    fracas_err err = conclude(director); /* if it fails, the index may not be writable */
     fracas_timings_end(&director->timings);
-    if (err && err != FRACAS_INTERRUPTED && err != FRACAS_SOME_FAILED)
-        return err; /* the index may not be writable */
+    if (err && err != FRACAS_INTERRUPTED && err != FRACAS_SOME_FAILED) return err;
     fracas_trouble result;
     fracas_trouble_take(err, &result);
     if (fracas_timings_note(&director->timings, director->index))

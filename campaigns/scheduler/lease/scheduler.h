@@ -21,8 +21,7 @@
 
 typedef struct {
     const double *cost; /* predicted for a realization of each point [element-steps]; not owned */
-    const bool *first; /* points leased before all others, as more work depends on them; NULL: none;
-                          not owned */
+    const bool *first;  /* leased first, as more work depends on them; NULL: none; not owned */
     size_t npoints;
     size_t workers;
     size_t width;   /* realizations of a batch, 1 to FRACAS_LANES_MAX */

@@ -53,14 +53,13 @@ static bool find_disk(const char *study, struct statvfs *disk)
     return true;
 }
 
-/* Realizations done in a study begun before, and bytes of one in its segments. */
+/* Realizations done in a study begun before, and bytes of one; 0 and silent for a damaged index. */
 static void read_progress(const char *study, double *done, double *bytes)
 {
     OWN(fracas_index) index = NULL;
     fracas_index_counts counts;
     *done = *bytes = 0;
-    if (!fracas_index_exists(study) || fracas_index_open(study, false, &index))
-        return; /* others report a damaged index */
+    if (!fracas_index_exists(study) || fracas_index_open(study, false, &index)) return;
     if (!fracas_index_count(index, &counts) && counts.realizations > 0) {
         *done = (double)(counts.done + counts.failed);
         if (counts.done) *bytes = (double)counts.bytes / (double)counts.done;

@@ -93,8 +93,7 @@ fracas_err fracas_packet_read(int fd, fracas_packet **message)
     fracas_packet head;
     size_t got;
     TRY(read_whole(fd, &head, sizeof head, &got));
-    if (got < sizeof head)
-        return FRACAS_OK; /* also when the writer was killed in the middle of a message */
+    if (got < sizeof head) return FRACAS_OK; /* also if the writer was killed within a message */
     OWNED fracas_packet *m = malloc(sizeof *m + head.size);
     if (!m) return fracas_no_memory("a message");
     *m = head;

@@ -192,9 +192,7 @@ static void quote(const fracas_child *child, char *reason, size_t size)
 static void explain(fracas_child *child, fracas_lease_failure *failure)
 {
     const size_t wanted = (size_t)child->lease.count;
-    if (child->count == wanted)
-        free(child->record[--child->count]); /* it ended badly after its last record, which is
-                                                doubtful */
+    if (child->count == wanted) free(child->record[--child->count]); /* doubtful: it ended badly */
     const size_t end = (child->count / child->width + 1) * child->width; /* end of the batch */
     failure->kept = child->count;
     failure->count = (end < wanted ? end : wanted) - child->count;

@@ -99,8 +99,7 @@ static fracas_err make_provenance(const fracas_segment *segment, const char *hos
     if (job) fracas_json_text(&json, "slurm_job", job);
     write_versions(&json);
     fracas_json_text(&json, "isa", fracas_isa_name[isa]);
-    fracas_json_integer(&json, "lanes_asked",
-                        options->width); /* 0: by the number of realizations */
+    fracas_json_integer(&json, "lanes_asked", options->width); /* 0: by number of realizations */
     fracas_json_real(&json, "began",
                      (double)segment->clock.tv_sec + 1e-9 * (double)segment->clock.tv_nsec);
     fracas_json_real(&json, "wall_seconds", fracas_now() - segment->began);

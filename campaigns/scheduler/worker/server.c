@@ -177,9 +177,7 @@ static fracas_err advance(server *s)
     }
     const bool empty = s->segment.count == 0;
     TRY(add_records(s, own->lease.point, own->lease.replica + own->done, record, count));
-    if (empty)
-        s->segment.began = began; /* no segment is written during a batch: after a long one it is
-                                     due at once */
+    if (empty) s->segment.began = began; /* batches write no segment: after a long one it is due */
     own->done += count;
     own->runs = own->done < own->lease.count;
     return own->runs ? FRACAS_OK : send_computed(s, own->lease.id, own->seconds);
@@ -290,6 +288,5 @@ _Noreturn void fracas_server_run(const fracas_campaign *campaign, const fracas_r
     fracas_child_clear(&s.child);
     fracas_segment_clear(&s.segment);
     fracas_models_clear(&s.models);
-    _exit(err ? FRACAS_ENVIRONMENT
-              : 0); /* not exit: the rank's handlers are not for this process */
+    _exit(err ? FRACAS_ENVIRONMENT : 0); /* not exit: it would run the rank's handlers */
 }

@@ -88,9 +88,8 @@ static void wake(int signal_number)
  * of mpirun and terminals. */
 static void set_up_process(supervisor *k)
 {
-    static const int ignored[] = {
-        SIGINT,  SIGTERM, SIGHUP, SIGUSR1,
-        SIGUSR2, SIGPIPE, SIGXFSZ}; /* the last two become errors of write */
+    /* The last two become errors of write. */
+    static const int ignored[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGPIPE, SIGXFSZ};
     for (size_t i = 0; i < FRACAS_COUNT(ignored); i++) signal(ignored[i], SIG_IGN);
     int null = open("/dev/null", O_RDWR | O_CLOEXEC);
     if (null >= 0) {
@@ -216,11 +215,9 @@ static fracas_err take_server(fracas_supervisor *one)
 {
     fracas_trouble trouble;
     if (!receive(one->control, &trouble, &one->server)) return supervisor_gone(one);
-    if (!trouble.code && one->server >= 0) return FRACAS_OK;
+    if (!trouble.code && one->server >= 0) return FRACAS_OK; /* else the kernel dropped it */
     fracas_supervisor_end(one);
-    if (!trouble.code)
-        return fracas_fail_system(EMFILE, /* then the kernel drops a connection */
-                                  "no connection to a compute server");
+    if (!trouble.code) return fracas_fail_system(EMFILE, "no connection to a compute server");
     return fracas_fail((fracas_err)trouble.code, "%s", trouble.text);
 }
 

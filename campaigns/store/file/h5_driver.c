@@ -179,16 +179,14 @@ fracas_err fracas_h5_flush_close(fracas_h5 *h5)
 {
     hid_t id = h5->id;
     h5->id = H5I_INVALID_HID;
-    if (H5Fclose(id) < 0)
-        h5->driver = H5I_INVALID_HID; /* HDF5 has not let go of the file, so of it neither */
+    if (H5Fclose(id) < 0) h5->driver = H5I_INVALID_HID; /* HDF5 keeps the file, so the driver too */
     else if (!h5->error) return FRACAS_OK;
     return fracas_h5_fail(h5, "end of the file");
 }
 
 void fracas_h5_close(fracas_h5 *h5)
 {
-    if (h5->writing && !h5->error)
-        h5->error = ECANCELED; /* given up: HDF5 need not write the rest */
+    if (h5->writing && !h5->error) h5->error = ECANCELED; /* given up: HDF5 may drop the rest */
     if (h5->id >= 0 && H5Fclose(h5->id) < 0) h5->driver = H5I_INVALID_HID;
     if (h5->driver >= 0) H5FDunregister(h5->driver);
     if (h5->fd >= 0) close(h5->fd);

@@ -268,7 +268,6 @@ fracas_err fracas_writer_finish(fracas_writer *writer, bool complete, fracas_fil
 void fracas_writer_abandon(fracas_writer *writer)
 {
     if (!writer) return;
-    if (writer->temporary)
-        unlink(writer->temporary); /* not there any more if only the last sync failed */
+    if (writer->temporary) unlink(writer->temporary); /* gone if only the last sync failed */
     writer_free(writer);
 }

@@ -38,9 +38,8 @@ static unsigned long long start_of(long pid)
     char path[64], text[TEXT], state = 'X';
     unsigned long long start = 0;
     snprintf(path, sizeof path, "/proc/%ld/stat", pid);
-    OWN(FILE) in = fopen(path, "re");
-    const char *at = in && fgets(text, sizeof text, in) ? strrchr(text, ')')
-                                                        : NULL; /* a name may hold anything */
+    OWN(FILE) in = fopen(path, "re"); /* its name, in brackets, may hold anything */
+    const char *at = in && fgets(text, sizeof text, in) ? strrchr(text, ')') : NULL;
     if (at && sscanf(at + 1, " %c%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%llu",
                      &state, &start) != 2)
         start = 0;
@@ -247,8 +246,7 @@ fracas_err fracas_study_lock_to_look(const char *study, bool force, int *lock)
 void fracas_study_unlock(int lock)
 {
     if (lock < 0) return;
-    while (ftruncate(lock, 0) < 0 &&
-           errno == EINTR) /* if it cannot be: the next run takes it over from the dead */
+    while (ftruncate(lock, 0) < 0 && errno == EINTR) /* if this fails: the next run takes over */
         ;
     close(lock);
 }

@@ -352,7 +352,6 @@ fracas_err fracas_study_recover(const char *study, fracas_index *index,
     fracas_identity_of(header, &r.identity);
     *report = NULL;
     TRY(check_index(index, table));       /* before anything is added to it */
-    TRY(fracas_index_plan(index, table)); /* before the sweep: a segment of a realization that the
-                                             index does not know is left alone */
+    TRY(fracas_index_plan(index, table)); /* before the sweep, which skips unknown realizations */
     return report_of(recover, &r, report);
 }

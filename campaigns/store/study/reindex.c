@@ -107,8 +107,7 @@ static fracas_err look_at_old(reindexing *r)
     fracas_err err = fracas_index_open(r->study, false, &old);
     if (!err) err = check_old(r, old);
     r->readable = !err;
-    if (err != FRACAS_DAMAGED && err != FRACAS_BUG)
-        return err; /* a bug: tables that are not as ours */
+    if (err != FRACAS_DAMAGED && err != FRACAS_BUG) return err; /* a bug: tables unlike ours */
     say_line(r->said, "the index before cannot be used: %s", fracas_message());
     say_line(r->said,
              "realizations that FAILED are computed again, for that index alone knew of them");

@@ -81,8 +81,7 @@ static fracas_err ring_model_init(fracas_model *model)
     double *table = model->table = malloc(n * RING_TABLE * sizeof *table);
     if (!table) return fracas_no_memory("the mesh of a ring");
     for (size_t e = 0; e < n; e++) {
-        const double angle = (double)(2 * e) / (double)n,
-                     middle = (double)(2 * e + 1) / (double)n; /* parts of pi */
+        const double angle = (double)(2 * e) / (double)n, middle = (double)(2 * e + 1) / (double)n;
         table[e * RING_TABLE + RING_COS] = fracas_cospi(angle);
         table[e * RING_TABLE + RING_SIN] = fracas_sinpi(angle);
         table[e * RING_TABLE + RING_COS_MIDDLE] = fracas_cospi(middle);

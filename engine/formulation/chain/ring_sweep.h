@@ -45,8 +45,7 @@ typedef struct {
     int steep; /* stershic: closing links on steep secants refine the time step too */
     fracas_ring_drive drive;
     int circumferential; /* direction of the drive; else radial */
-    double level, rate;  /* drive: level + rate t is the velocity held [m/s], or the force on
-                            a node per area [Pa] */
+    double level, rate;  /* level + rate t: velocity held [m/s], or force on a node per area [Pa] */
 } fracas_ring_constants;
 
 /* Cosine and sine of the angle of vertex e, and of the middle of element e. */

@@ -39,8 +39,7 @@ void fracas_shell_geometry_at(const fracas_surface *surface, size_t element, dou
     }
     fracas_shell_cross(at->base[0], at->base[1], at->normal);
     at->area = normalize(at->normal);
-    fracas_shell_cross(at->base[1], at->normal,
-                       at->dual[0]); /* phi^xi = phi_eta x t/area, phi^eta = t x phi_xi/area */
+    fracas_shell_cross(at->base[1], at->normal, at->dual[0]); /* (phi_eta x t, t x phi_xi)/area */
     fracas_shell_cross(at->normal, at->base[0], at->dual[1]);
     for (int a = 0; a < 2; a++)
         for (int i = 0; i < 3; i++) at->dual[a][i] /= at->area;

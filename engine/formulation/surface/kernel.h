@@ -58,8 +58,7 @@ typedef struct {
     double *elements, *interfaces, *slots; /* state of these lanes */
     const double *strengths;
     size_t element_size, interface_size;  /* doubles */
-    size_t strengths_size, strength_step; /* doubles: an interface's; to the next Gauss point,
-                                             0 where all share one */
+    size_t strengths_size, strength_step; /* doubles: an interface's; to next point, 0: shared */
     vd drift, kick;                       /* s */
     vd spin;                              /* membranes: w(t_n)^2 [1/s2] */
     int begins;                           /* the first step of all */

@@ -70,8 +70,7 @@ typedef struct {
     double *interface;  /* [interface]: head, then [Gauss point][body->point_table] */
     uint32_t (*element)[2]; /* [interface] */
     uint8_t (*edge)[2];     /* [interface]: which of its elements' edges */
-    uint32_t *held, *fixed; /* [element]: bit dimension node + component is set where the velocity
-                               is held, and where it is held at 0 */
+    uint32_t *held, *fixed; /* [element]: bit dimension node + component: velocity held; at 0 */
     bool moves;             /* some edge is held, and not fixed */
     /* A shell's edges whose director is held. */
     size_t nrims;
@@ -90,8 +89,7 @@ typedef struct {
 typedef struct {
     const fracas_surface_tables *tables;
     double thickness;     /* m */
-    double c11, c12, c33; /* membranes: E/(1 - nu^2), nu c11, E/(2 (1 + nu)) [Pa]; shells: times
-                             thickness [N/m] */
+    double c11, c12, c33; /* E/(1-nu^2), nu c11, E/(2 + 2 nu) [Pa]; shells: times thickness [N/m] */
     double d11, d12, d33; /* shells: thickness^2/12 of those [N m] */
     double normal, tangential; /* 1: k_n and k_t by K of the interface  (membrane.6) */
     double energy, opening;    /* G_c [J/m2], or delta_c [m]: the other is 0 */
