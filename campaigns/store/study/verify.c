@@ -238,7 +238,7 @@ static fracas_err check_merged_row(void *context, fracas_visit *visit)
     if (visit->damaged) return FRACAS_OK; /* said already */
     const bool computed = visit->place.status != FRACAS_PLANNED &&
                           visit->place.status != FRACAS_LEASED;
-    if (!computed && v->record.outcome == FRACAS_FAILED) return FRACAS_OK; /* study.h5 is older */
+    if (!computed && v->record.outcome == FRACAS_FAILED) return FRACAS_OK; /* to retry */
     if (!computed)
         return found(
             v, "%s/study.h5: row %zu is in no segment any more; `fracas run` computes it again",

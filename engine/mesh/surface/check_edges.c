@@ -36,7 +36,7 @@ fracas_surface_side *fracas_surface_sides(const uint32_t *element, size_t neleme
 size_t fracas_surface_find_edge(const fracas_surface_side *side, size_t nsides, uint32_t a,
                                 uint32_t b)
 {
-    const fracas_surface_side edge = {.low = a < b ? a : b, .high = a < b ? b : a}; /* least side */
+    const fracas_surface_side edge = {.low = a < b ? a : b, .high = a < b ? b : a}; /* the first */
     size_t first = 0, last = nsides;
     while (first < last) {
         const size_t middle = first + (last - first) / 2;

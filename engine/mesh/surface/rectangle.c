@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-#define LEG 0.93060485910209960 /* leg of half a square as large as a regular triangle, edge 1 */
+#define LEG 0.93060485910209960 /* sqrt(sqrt(3)/2): half a square's leg by its triangle's edge */
 
 static void fill(fracas_surface_draft *draft, double width, double height, size_t nx, size_t ny)
 {
