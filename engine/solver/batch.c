@@ -32,29 +32,24 @@ fracas_err fracas_batch_create(const fracas_model *model, size_t count,
     fracas_isa isa;
     TRY(choose_width(count, options->width, &width));
     TRY(fracas_isa_choose(options->isa, &isa));
-    fracas_batch *batch = aligned_alloc(64, (sizeof *batch + 63) / 64 * 64);
+    OWN(fracas_batch) batch = aligned_alloc(64, (sizeof *batch + 63) / 64 * 64);
     if (!batch) return fracas_no_memory("a batch");
     *batch = (fracas_batch){
         .model = model,
         .count = count,
         .step = {.width = width, .lanes = fracas_isa_lanes(isa, width), .isa = isa}};
     const size_t lanes = (size_t)width;
-    bool enough = (batch->step.state = allocate(model->formulation->state_size(model) * lanes)) !=
-                  NULL;
-    if (options->interfaces) {
-        enough = (batch->step.onset_time = allocate(model->interfaces * lanes)) != NULL && enough;
-        enough = (batch->step.break_time = allocate(model->interfaces * lanes)) != NULL && enough;
+    double **const array[] = {&batch->step.state, &batch->step.onset_time, &batch->step.break_time};
+    for (int i = 0; i < (options->interfaces ? 3 : 1); i++) {
+        *array[i] = allocate((i ? model->interfaces : model->formulation->state_size(model)) *
+                             lanes);
+        if (!*array[i]) return fracas_no_memory("a batch");
     }
-    enough = !fracas_partition_init(&batch->step.partition, model->elements) && enough;
+    TRY(fracas_partition_init(&batch->step.partition, model->elements));
     for (size_t l = 0; l < lanes; l++)
-        enough = !fracas_history_init(&batch->lane[l].history, options->history,
-                                      model->spec.time.end) &&
-                 enough;
-    if (!enough) {
-        fracas_batch_destroy(batch);
-        return fracas_no_memory("a batch");
-    }
+        TRY(fracas_history_init(&batch->lane[l].history, options->history, model->spec.time.end));
     *out = batch;
+    batch = NULL;
     return FRACAS_OK;
 }
 

@@ -39,24 +39,26 @@ static fracas_err read_given(fracas_field *field, const fracas_sites *sites)
 fracas_err fracas_field_create(const fracas_strength *strength, const fracas_sites *sites,
                                fracas_field **field)
 {
-    fracas_field *made = calloc(1, sizeof *made);
+    const size_t n = sites->n * sites->points;
+    OWN(fracas_field) made = calloc(1, sizeof *made);
     if (!made) return fracas_no_memory("a strength field");
     *made = (fracas_field){.strength = strength, .n = sites->n, .points = sites->points};
     made->extent = copy_of(sites->extent, sites->n, sizeof *made->extent);
-    fracas_err err = made->extent ? FRACAS_OK : fracas_no_memory("a strength field");
-    if (!err) err = fracas_isa_choose(FRACAS_ISA_BEST, &made->isa);
-    if (!err && fracas_strength_is_given(strength)) err = read_given(made, sites);
-    else if (!err && !(err = fracas_strength_init(strength, &made->drawn)))
+    if (!made->extent) return fracas_no_memory("a strength field");
+    TRY(fracas_isa_choose(FRACAS_ISA_BEST, &made->isa));
+    if (fracas_strength_is_given(strength)) {
+        TRY(read_given(made, sites));
+    } else {
+        TRY(fracas_strength_init(strength, &made->drawn));
         made->strength = &made->drawn;
-    if (!err && strength->covariance)
-        err = fracas_correlation_create(strength, made->n * made->points, sites->position,
-                                        sites->period, &made->correlation);
-    if (!err)
-        err = fracas_grading_create(strength, sites->n * sites->points, sites->position,
-                                    &made->factor);
-    if (err) fracas_field_destroy(made);
-    else *field = made;
-    return err;
+    }
+    if (strength->covariance)
+        TRY(fracas_correlation_create(strength, n, sites->position, sites->period,
+                                      &made->correlation));
+    TRY(fracas_grading_create(strength, n, sites->position, &made->factor));
+    *field = made;
+    made = NULL;
+    return FRACAS_OK;
 }
 
 void fracas_field_destroy(fracas_field *field)
