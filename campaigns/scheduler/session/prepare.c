@@ -50,14 +50,6 @@ size_t fracas_run_part(int part, int parts, fracas_index_row *row, size_t count)
 
 /* ---- the study ---- */
 
-enum { PATH = 4096 };
-
-static fracas_err join(const char *folder, const char *name, char path[PATH])
-{
-    if (snprintf(path, PATH, "%s/%s", folder, name) < PATH) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", folder);
-}
-
 fracas_err fracas_study_folder(const fracas_run_options *options, const fracas_campaign *campaign,
                                char *study, size_t size)
 {
@@ -79,8 +71,8 @@ fracas_err fracas_study_folder(const fracas_run_options *options, const fracas_c
 
 fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
 {
-    char path[PATH];
-    TRY(join(study, "campaign.yaml", path));
+    OWNED char *path = NULL;
+    TRY(fracas_path(&path, "%s/campaign.yaml", study));
     if (access(path, F_OK) && errno == ENOENT) return FRACAS_OK;
     OWN(fracas_campaign) before = NULL;
     fracas_err err = fracas_campaign_read(path, &before);
@@ -107,8 +99,8 @@ fracas_err fracas_study_settled(const char *study, fracas_index *index,
 {
     *settled = false;
     *failed = 0;
-    char path[PATH];
-    TRY(join(study, "study.h5", path));
+    OWNED char *path = NULL;
+    TRY(fracas_path(&path, "%s/study.h5", study));
     bool sealed;
     TRY(fracas_study_sealed(study, index, &sealed));
     if (!sealed) return FRACAS_OK;
@@ -139,8 +131,8 @@ fracas_err fracas_study_examine(const char *study, const fracas_campaign *campai
 {
     *settled = false;
     *failed = 0;
-    char file[PATH];
-    TRY(join(study, "campaign.yaml", file));
+    OWNED char *file = NULL;
+    TRY(fracas_path(&file, "%s/campaign.yaml", study));
     TRY(fracas_study_fits(study, campaign));
     if (!fracas_index_exists(study)) return FRACAS_OK;
     int lock;
@@ -154,8 +146,8 @@ fracas_err fracas_study_examine(const char *study, const fracas_campaign *campai
 /* Creates a folder and those above it. */
 static fracas_err make_folder(const char *path)
 {
-    char part[PATH];
-    snprintf(part, sizeof part, "%s", path);
+    OWNED char *part = NULL;
+    TRY(fracas_path(&part, "%s", path));
     for (char *at = part + 1;; at++) {
         char here = *at;
         if (here != '/' && here != '\0') continue;
@@ -183,10 +175,9 @@ static fracas_err write_whole(const char *folder, const char *name,
                               fracas_err (*write)(const void *content, FILE *out),
                               const void *content)
 {
-    char path[PATH], temporary[PATH];
-    TRY(join(folder, name, path));
-    if (snprintf(temporary, PATH, "%s.tmp", path) >= PATH)
-        return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", folder);
+    OWNED char *path = NULL, *temporary = NULL;
+    TRY(fracas_path(&path, "%s/%s", folder, name));
+    TRY(fracas_path(&temporary, "%s.tmp", path));
     unlink(temporary); /* left by a killed run, or a link or a pipe to elsewhere */
     FILE *out = fopen(temporary, "w");
     fracas_err err = FRACAS_OK;
@@ -222,10 +213,11 @@ static fracas_err attachment_to(const void *content, FILE *out)
 /* True if the study has this content already. */
 static bool is_copied(const char *folder, const fracas_attachment *attachment)
 {
-    char path[PATH], block[1 << 14];
+    OWNED char *path = NULL;
+    char block[1 << 14];
     size_t at = 0, got;
     struct stat found;
-    if (snprintf(path, PATH, "%s/%s", folder, attachment->digest) >= PATH) return false;
+    if (fracas_path(&path, "%s/%s", folder, attachment->digest)) return false;
     if (stat(path, &found) || !S_ISREG(found.st_mode)) return false; /* opening a pipe would wait */
     OWN(FILE) in = fopen(path, "rb");
     if (!in) return false;
@@ -239,9 +231,9 @@ static bool is_copied(const char *folder, const fracas_attachment *attachment)
  * originals. */
 static fracas_err copy_attachments(const char *study, const fracas_campaign *campaign)
 {
-    char folder[PATH];
+    OWNED char *folder = NULL;
     if (!campaign->attached) return FRACAS_OK;
-    TRY(join(study, FRACAS_ATTACHMENTS, folder));
+    TRY(fracas_path(&folder, "%s/%s", study, FRACAS_ATTACHMENTS));
     TRY(make_folder(folder));
     TRY(sync_folder(study));
     for (const fracas_attached *a = campaign->attached; a; a = a->next)
@@ -291,8 +283,8 @@ static fracas_err note_takeover(fracas_index *index, int lock)
 fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campaign, bool force,
                                 int *lock, fracas_index **index, char **report)
 {
-    char segments[PATH];
-    TRY(join(study, "segments", segments));
+    OWNED char *segments = NULL;
+    TRY(fracas_path(&segments, "%s/segments", study));
     TRY(make_folder(segments));
     TRY(fracas_study_lock(study, force, lock));
     fracas_err err = fracas_study_plan(study, campaign, index, report);

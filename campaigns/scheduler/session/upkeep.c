@@ -146,9 +146,8 @@ static void joining_clear(joining *j)
 
 static fracas_err read_campaign(const char *study, fracas_campaign **campaign)
 {
-    char file[4096];
-    if (snprintf(file, sizeof file, "%s/campaign.yaml", study) >= (int)sizeof file)
-        return fracas_fail(FRACAS_USAGE, "the path of the study is too long: %s", study);
+    OWNED char *file = NULL;
+    TRY(fracas_path(&file, "%s/campaign.yaml", study));
     fracas_err err = fracas_campaign_read(file, campaign);
     return err == FRACAS_USAGE
                ? fracas_fail_within(FRACAS_DAMAGED,

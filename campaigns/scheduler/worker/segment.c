@@ -158,13 +158,12 @@ fracas_err fracas_segment_write(fracas_segment *segment, const char *study,
                                 const fracas_campaign *campaign, const fracas_run_options *options,
                                 fracas_packet **note)
 {
-    char host[65] = "unknown", path[4096];
-    OWNED char *provenance = NULL;
+    char host[65] = "unknown";
+    OWNED char *provenance = NULL, *path = NULL;
     gethostname(host, sizeof host - 1);
     fracas_segment_note head = {.rows = segment->count};
     make_name(segment, host, head.name, sizeof head.name);
-    if ((size_t)snprintf(path, sizeof path, "%s/segments/%s", study, head.name) >= sizeof path)
-        return fracas_fail(FRACAS_ENVIRONMENT, "the path of the study is too long: %s", study);
+    TRY(fracas_path(&path, "%s/segments/%s", study, head.name));
     TRY(make_provenance(segment, host, options, &provenance));
     size_t rows = segment->count * sizeof(fracas_segment_row), text = strlen(provenance) + 1;
     OWNED fracas_packet *made = NULL;
