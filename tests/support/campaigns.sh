@@ -84,10 +84,10 @@ busy()
 # wait_segments STUDY COUNT
 wait_segments()
 {
-    tries=0
+    polls=0
     while [ "$(segments "$1")" -lt "$2" ]; do
-        tries=$((tries + 1))
-        [ $tries -lt 6000 ] || fail "no $2 segments in $1"
+        polls=$((polls + 1))
+        [ $polls -lt 6000 ] || fail "no $2 segments in $1"
         sleep 0.01
     done
 }
@@ -111,11 +111,11 @@ named()
 kill_session()
 {
     [ -n "$session" ] || return 0
-    tries=0
+    polls=0
     while pids=$(processes) && [ -n "$pids" ]; do
         kill -9 $pids 2>/dev/null || true
-        tries=$((tries + 1))
-        [ $tries -lt 10000 ] || { echo "processes do not die: $pids" >&2; exit 1; }
+        polls=$((polls + 1))
+        [ $polls -lt 10000 ] || { echo "processes do not die: $pids" >&2; exit 1; }
     done
     wait "$session" 2>/dev/null || true
     session=
