@@ -51,14 +51,15 @@ static double wave_speed(const fracas_material *material)
     return sqrt(material->young / material->density);
 }
 
-/* A fracas_plan_warning: its condition, and its text as printf writes it. */
+/* A fracas_plan_warning: its condition, and its text as printf writes it where it holds. */
 #define WARNING(name, condition, ...)                                                        \
     static bool name(const fracas_point *point, const fracas_forecast *forecast, char *text, \
                      size_t size)                                                            \
     {                                                                                        \
         (void)point, (void)forecast;                                                         \
+        if (!(condition)) return false;                                                      \
         snprintf(text, size, __VA_ARGS__);                                                   \
-        return condition;                                                                    \
+        return true;                                                                         \
     }
 
 WARNING(
@@ -140,8 +141,7 @@ WARNING(warn_long,
 WARNING(warn_flat, forecast->flat,
         "strength.factor is the same at all interfaces: the body does not reach where %s changes "
         "along %s: are its coordinates in m?",
-        forecast->flat ? point->strength.factor->path : "",
-        forecast->flat ? point->strength.factor_along->name : "")
+        point->strength.factor->path, point->strength.factor_along->name)
 
 /* Correlated neighbours leave the body fewer independent flaws than its volume suggests. */
 WARNING(warn_weakest,
