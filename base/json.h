@@ -11,7 +11,7 @@ typedef struct {
     FILE *out;
     int depth;
     bool first[16]; /* nothing written yet at this depth */
-    char end[16];   /* bracket that closes this depth */
+    char end[16];   /* closing bracket of this depth */
 } fracas_json;
 
 /* Opens an object; the end closes it, with every level open in it, and writes a newline. */

@@ -206,7 +206,7 @@ static void print_numbers(const bench *b, const fracas_timings *t, double wall, 
     if (as_json) fracas_json_end(&json);
 }
 
-/* The numbers that rank 0 has noted in its event `measured`. */
+/* The numbers noted by rank 0 in its event `measured`. */
 static const struct {
     const char *name;
     size_t at;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Commands on a study that compute nothing: reindex, merge, merge-studies, gc. */
+/* Commands on a study without computing: reindex, merge, merge-studies, gc. */
 #include "cli/cli.h"
 
 #include "base/json.h"
@@ -9,7 +9,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-/* Actions as lines, in JSON those of "said", then counts of the study. */
+/* Actions as lines (in JSON: "said"), then counts of the study. */
 typedef struct {
     const char *study;
     fracas_said said;

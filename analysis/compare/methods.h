@@ -45,7 +45,7 @@ typedef struct {
     size_t na, nb; /* realizations; of pairs na = nb, and i of a belongs to i of b */
     bool paired;
     size_t nvalues;
-    const double *value; /* (na + nb) x nvalues, those of a first; NaN is left out */
+    const double *value; /* (na + nb) x nvalues, a first; NaN is left out */
     size_t ncuts;
     const double *below;     /* (na + nb) x ncuts: fragments up to each cut, ascending */
     const double *fragments; /* one each realization */

@@ -53,7 +53,7 @@ enum { FRACAS_BAND_LEAST = 20 };
 typedef struct {
     fracas_bands *bands;
     size_t times;         /* 0: there are no histories */
-    size_t all, selected; /* usable realizations, and those of them to take, evenly */
+    size_t all, selected; /* usable realizations; to take of them, evenly */
     size_t met, count;    /* met and taken so far */
     double *value;        /* [time][energy][selected] */
 } fracas_bands_collector;

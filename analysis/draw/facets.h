@@ -34,7 +34,7 @@ typedef struct {
     uint8_t kind;         /* fracas_facet_kind */
     uint32_t fragment;
     float light;   /* share of a light falling on it square on, 0 to 1 */
-    int32_t layer; /* -1: hidden; else behind the layers of all that hide part of it, from 0 */
+    int32_t layer; /* -1: hidden; else behind all layers hiding part of it, from 0 */
 } fracas_facet;
 
 typedef struct {

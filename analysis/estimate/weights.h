@@ -20,7 +20,7 @@ typedef struct {
     bool pooled;     /* one relative variance for this mean and others */
 } fracas_mean_error;
 
-enum { FRACAS_REPLICAS_OWN = 8 }; /* replicas that weigh a mean by their own scatter */
+enum { FRACAS_REPLICAS_OWN = 8 }; /* least replicas to weigh a mean by their own scatter */
 
 /* (estimators.25), (estimators.26): the errors of the `n` means of one line or curve, error[n].
  * Means of less than FRACAS_REPLICAS_OWN replicas share one relative variance, from their own

@@ -14,7 +14,7 @@ enum { FRACAS_TABLE_PARTS = 3 };
 typedef struct fracas_csv_table {
     const char *name;                      /* for the file, before ".csv" */
     const char *doc;                       /* meaning of a line */
-    const char *key[FRACAS_TABLE_KEY];     /* columns that identify a line, then NULL */
+    const char *key[FRACAS_TABLE_KEY];     /* columns identifying a line, then NULL */
     const struct fracas_csv_table *parent; /* the first columns are its key; NULL: none */
     const fracas_fields *columns[FRACAS_TABLE_PARTS]; /* one after the other, NULL behind them */
     void (*fields)(const struct fracas_csv_table *table, const fracas_analysis *analysis,

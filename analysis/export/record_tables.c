@@ -73,7 +73,7 @@ static void put_values(const fracas_store_set *set, size_t first, const void *ro
     putc('\n', out);
 }
 
-/* The rows of the table in one realization: itself, or those of its part. */
+/* The rows of the table in one realization: itself, or its parts. */
 static const void *rows_of(const fracas_csv_table *table, const fracas_stored_realization *of,
                            size_t *count)
 {

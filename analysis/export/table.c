@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { OF_SURFACES = 3 }; /* lines of the legend that only a study of surfaces needs */
+enum { OF_SURFACES = 3 }; /* lines of the legend for studies of surfaces only */
 
 static const char *const legend[] = {
     "Of a surface: no dust: count without pieces of one or two elements; size: of the square root "

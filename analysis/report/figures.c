@@ -24,7 +24,7 @@ typedef struct {
     const fracas_analysis *analysis;
     bool normalised;
     double size_factor;
-    fracas_columns others; /* columns that make series */
+    fracas_columns others; /* columns making series */
     size_t n, nseries;
     rate_mark *mark;
     double rate[2]; /* least and greatest, in the unit of the axis */
@@ -381,7 +381,7 @@ fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fr
  * bands. */
 enum { RESIDUAL = FRACAS_ENERGIES };
 
-/* The energy that a part is a part of; of any other energy itself. */
+/* The whole of a part; any other energy itself. */
 static size_t whole_of(size_t which)
 {
     while (fracas_energies[which].role == FRACAS_ROLE_PART) which--;

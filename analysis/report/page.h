@@ -29,7 +29,7 @@ typedef struct {
     int figures, tables;     /* numbered so far */
     size_t ndrawings, room;
     char (*drawing)[FRACAS_DRAWING]; /* SVG files, without their ending, to become PDF */
-    const char *grid; /* class of the grid that the next figure opens; NULL: none, or open */
+    const char *grid; /* class of the grid to open with the next figure; NULL: none, or open */
     bool grid_open;
 } fracas_page;
 

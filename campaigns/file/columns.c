@@ -9,7 +9,7 @@
 
 /* ---- derived columns ---- */
 
-/* Columns that follow from the values of a point. No hash depends on them. A new one is one line of
+/* Columns derived from the values of a point. No hash depends on them. A new one is one line of
  * the table, and its function. */
 
 /* A point, the mean extent of its interfaces (0 where no strength needs it), the mean of its

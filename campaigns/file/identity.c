@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lines "path=value" of the sections in a point's hash, or of those outside it, sorted by path. */
+/* Lines "path=value" of the sections in a point's hash, or outside it, sorted by path. */
 static void write_values(const fracas_catalog *catalog, bool hashed, const void *owner, FILE *out)
 {
     for (size_t i = 0; i < catalog->nleaves; i++) {

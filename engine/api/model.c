@@ -36,7 +36,7 @@ static fracas_err check_steps(const fracas_model *model)
                        end, most_steps(model), model->spec.cohesive.refinement, MOST_STEPS);
 }
 
-/* A formulation asks shape, spacing and loading for traits that only its partners have. */
+/* A formulation asks shape, spacing and loading for traits of its partners alone. */
 static fracas_err check_partners(const fracas_spec *spec)
 {
     const fracas_kind *model = spec->formulation, *const chosen[] = {spec->geometry.shape,

@@ -25,7 +25,7 @@
                         "its G_c is strength delta_c/2; or give fracture_energy"),                 \
         FRACAS_SURFACE_INTERFACE
 
-/* ... without those that say when it is broken. */
+/* ... without the opening or energy of a break. */
 #define FRACAS_SURFACE_INTERFACE                                                                   \
     FRACAS_LAW_REAL(beta, "1", 5, 1.3, 1e4, false, fracas_membrane_models,                         \
                     "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element "     \

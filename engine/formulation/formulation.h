@@ -63,7 +63,7 @@ struct fracas_formulation {
     fracas_kind kind; /* first: a registry entry */
     /* Fills the model's sizes, mass, table and critical steps from its spec. */
     fracas_err (*model_init)(fracas_model *model);
-    /* Checks strengths that are positive and finite [Pa]. */
+    /* Checks strengths, positive and finite already [Pa]. */
     fracas_err (*check_strength)(const fracas_model *model, double strength);
     /* Volume of the body that an interface stands for [m3]. */
     double (*interface_volume)(const fracas_model *model, size_t interface);

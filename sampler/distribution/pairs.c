@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-/* The key of the pair that is given, or that is not; NULL: there is none. */
+/* The given key of the pair, or the missing one; NULL: there is none. */
 static const char *key_of(const fracas_param pair[2], const fracas_strength *strength, bool given)
 {
     for (int k = 0; k < 2; k++)

@@ -23,7 +23,7 @@ const char *__lsan_default_suppressions(void)
 static char calls[64];      /* f: fsync of a file, d: of a folder, r: rename */
 static int fail_at = -1;    /* number of the call that fails ... */
 static int fail_with = EIO; /* ... with this */
-static int dies_at = -1;    /* number of the call, of these and of all that write, that kills */
+static int dies_at = -1;    /* number of the fatal call, among these and all writing ones */
 static bool renamed_open;   /* a file was renamed while it was open here */
 
 static void may_die(void)
@@ -90,7 +90,7 @@ ssize_t pwrite64(int fd, const void *bytes, size_t size, off64_t at)
     return pwrite(fd, bytes, size, at);
 }
 
-/* The segment of everything that is computed. */
+/* The segment of all computed realizations. */
 static const char *commit_all(void)
 {
     commit_everything(0);
@@ -434,7 +434,7 @@ static void an_interrupted_merge_leaves_no_seal(void **state)
     for (const char *call = "rd"; *call; call++) {
         merge();
         fail_call(-1);
-        merge(); /* its calls are those of the next one */
+        merge(); /* its calls are the next one's */
         assert_true(is_sealed());
         assert_non_null(strchr(calls, *call));
         fail_call((int)(strchr(calls, *call) - calls));
@@ -532,7 +532,7 @@ static void commits_survive_the_death_of_the_process(void **state)
         const int64_t told = killed(commit_until_killed, 7 * kills);
         open_again();
         const fracas_index_counts counts = count_all();
-        assert_true(counts.done >= told + 1); /* what was said is there */
+        assert_true(counts.done >= told + 1); /* all said is there */
         assert_true(counts.done >= committed);
         assert_int_equal(counts.done, counts.segments); /* and each whole */
         committed = counts.done;

@@ -198,7 +198,7 @@ typedef struct {
     fracas_err (*run)(void);
     int64_t computed[SAMPLE_POINTS]; /* replicas 0 to this number - 1 are, at the end */
     int64_t lost;                    /* failures without a record */
-    bool again;                      /* what failed is planned at the end */
+    bool again;                      /* failed ones are planned at the end */
     bool copies;                     /* links do not work */
     bool damaged; /* the study is not sound before, so it may not be after a failure */
     bool pending; /* study.h5 may be missing or without its seal after one */
@@ -255,7 +255,7 @@ static void is_sound(const trial *t, long k)
         fail_msg("%s, %s at call %ld: %s", t->name, how == DIE ? "killed" : "failing", k, text);
 }
 
-/* Some records of what is computed have the outcome FAILED. */
+/* Some computed records have the outcome FAILED. */
 static fracas_index_counts counts_of(const trial *t)
 {
     int64_t done = 0, failed = t->lost;

@@ -22,7 +22,7 @@ static uint64_t next_random(uint64_t *x)
     return *x >> 33;
 }
 
-/* Pieces that mean something to YAML, to numbers, to units or to a sweep: those of the fuzzer. */
+/* The fuzzer's pieces, with a meaning for YAML, numbers, units or a sweep. */
 static char pieces[128][64];
 static size_t npieces;
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Bars of one lane, on elements of any lengths, for tests that look at their state. */
+/* Bars of one lane, on elements of any lengths, for tests of their state. */
 #ifndef FRACAS_TESTS_SUPPORT_BAR_STATE_H
 #define FRACAS_TESTS_SUPPORT_BAR_STATE_H
 

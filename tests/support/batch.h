@@ -30,7 +30,7 @@ static inline size_t strengths_of(const fracas_model *model)
     return model->interfaces * model->strengths;
 }
 
-/* The strength that holds at Gauss point g of an interface. */
+/* The strength at Gauss point g of an interface. */
 static inline double strength_at(const fracas_batch *batch, size_t lane, size_t interface, size_t g)
 {
     const size_t strengths = batch->model->strengths;
@@ -59,7 +59,7 @@ static inline void bar_set_strength(fracas_batch *batch, size_t lane, size_t k, 
     strength[k * stride] = sigma_c;
 }
 
-/* One lane that keeps its interfaces; strengths of 300 MPa (1 +- scatter). */
+/* One lane with its interfaces kept; strengths of 300 MPa (1 +- scatter). */
 static inline fracas_batch *lane_of(const fracas_model *model, double scatter, uint64_t replica,
                                     int64_t history)
 {

@@ -82,7 +82,7 @@ static inline char *write_text(const fracas_campaign *campaign)
     return text_end(out);
 }
 
-/* What `fracas plan` prints for so many processes. Freed by the caller. */
+/* The output of `fracas plan` for so many processes. Freed by the caller. */
 static inline char *plan_text(const fracas_campaign *campaign, int jobs, bool json)
 {
     FILE *out = text_begin();

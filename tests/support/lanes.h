@@ -15,7 +15,7 @@ static inline void assert_same_record(const fracas_record *a, const fracas_recor
     assert_memory_equal(a->interface, b->interface, a->ninterface * sizeof *a->interface);
 }
 
-/* How replicas differ, and what goes NaN. */
+/* Differences of replicas, and the slot going NaN. */
 typedef struct {
     double scatter; /* strengths of 300 MPa (1 +- scatter) ... */
     double fourth;  /* ... but for every fourth replica, which has this [Pa]; 0: none */
@@ -28,7 +28,7 @@ typedef struct {
     size_t count;
     int width;
     fracas_isa isa;
-    size_t poisoned; /* slot that goes NaN in its 40th step, if there is one of this number */
+    size_t poisoned; /* slot going NaN in its 40th step, if there is one of this number */
 } lane_batch;
 
 static inline void poison_lane(fracas_batch *batch, size_t slot, size_t back)
@@ -100,7 +100,7 @@ static inline void check_lanes(const fracas_model *model, const lane_kind *kind,
         compare_lanes(model, kind, (lane_batch){2, 4, 4, isa, 0}, alone);
         compare_lanes(model, kind, (lane_batch){0, 8, 8, isa, 0}, alone);
     }
-    /* another place, and lanes that repeat the first */
+    /* another place, and lanes repeating the first */
     compare_lanes(model, kind, (lane_batch){3, 5, 8, FRACAS_ISA_BEST, 0}, alone);
     for (size_t r = 0; r < 8; r++) fracas_record_clear(&alone[r]);
 }

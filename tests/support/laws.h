@@ -65,7 +65,7 @@ static inline fracas_strength law_of_file(const fracas_attachment *file, bool st
     return strength;
 }
 
-/* A file that a campaign names. */
+/* A file named by a campaign. */
 static inline fracas_attachment attached(const char *path, const char *text)
 {
     return (fracas_attachment){.path = path, .text = text, .size = strlen(text), .digest = "0"};

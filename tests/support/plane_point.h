@@ -13,7 +13,7 @@ static inline double effective_of(const double traction[2], double beta_c)
     return hypot(fmax(0, traction[0]), traction[1] / beta_c);
 }
 
-/* The traction that the strength is compared with  (cohesive.11) */
+/* The traction compared with the strength  (cohesive.11) */
 static inline double judged_of(const double traction[2], double beta_c, double mu_c)
 {
     return traction[0] >= 0 ? effective_of(traction, beta_c)

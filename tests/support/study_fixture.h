@@ -105,7 +105,7 @@ static inline void sql(const char *text)
         fail_msg("%s: %s", text, message);
 }
 
-/* The number that a query of the index finds. */
+/* The number found by a query of the index. */
 static inline int64_t number(const char *query)
 {
     sqlite3_stmt *statement;

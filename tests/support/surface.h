@@ -15,7 +15,7 @@ static inline double next_share(uint64_t *x)
     return (double)(*x >> 32) * 0x1p-32;
 }
 
-/* A surface that ends with its scope: OWN(a_surface). */
+/* A surface ending with its scope: OWN(a_surface). */
 typedef const fracas_surface a_surface;
 FRACAS_OWNER(a_surface, fracas_surface_destroy)
 

@@ -55,7 +55,7 @@ static inline const double *node_at(const fracas_model *model, size_t element, s
     return model->surface->node[model->surface->element[element * model->surface->corners + k]];
 }
 
-/* x of the node that an unknown is of. */
+/* x of an unknown's node. */
 static inline const double *place_of(const fracas_model *model, size_t unknown)
 {
     const size_t size = element_unknowns(model);

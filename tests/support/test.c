@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What tests/support/test.h declares for every program of tests. */
+/* Definitions of tests/support/test.h for every program of tests. */
 #include "tests/support/test.h"
 
 void test_fails(const char *call, fracas_err err, fracas_err wanted, const char *const part[],

@@ -24,7 +24,7 @@
         if (call) fail_msg("%s: %s", #call, fracas_message()); \
     } while (0)
 
-/* The call fails with this code, and its message has the parts that follow. */
+/* The call fails with this code, and its message has these parts. */
 #define FAILS(call, code, ...) \
     test_fails(#call, call, code, (const char *const[]){__VA_ARGS__, NULL}, SIZE_MAX)
 

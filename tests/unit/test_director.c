@@ -51,7 +51,7 @@ static fracas_run_options options;
 static fracas_channel channel;
 static fracas_director *director;
 
-/* Ends the run that was prepared last, if there is one. */
+/* Ends the run prepared last, if any. */
 static int end(void **state)
 {
     if (!study) return 0;
@@ -268,7 +268,7 @@ static void a_worker_that_is_not_needed_is_given_up(void **state)
         1); /* nobody stops before everything is durable: should this one die now ... */
     assert_int_equal(worker[0].stops + worker[1].stops, 0);
     segment(1, 1, 1, 1000);
-    assert_stops(1, 1); /* what it does is not needed */
+    assert_stops(1, 1); /* its work is not needed */
     say_ended(1);
     pass(9.9);
     assert_false(fracas_director_over(director));

@@ -26,7 +26,7 @@ static int64_t count_broken(const fracas_model *model, int64_t broken)
     return model->formulation->fragment_count(model, &step, 0);
 }
 
-/* How far a realization is, and how the rule says that it ends. */
+/* State of a realization, and its end by the rule. */
 enum { GOES_ON = FRACAS_NOUTCOMES };
 typedef struct {
     double time, dissipated;

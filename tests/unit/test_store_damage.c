@@ -72,7 +72,7 @@ static void a_flipped_byte_of_the_merged_file_is_merged_again(void **state)
     assert_true(study_is_the_first());
 }
 
-/* A statement that changes something. */
+/* A statement changing something. */
 static void execute(const char *text)
 {
     sql(text);

@@ -119,7 +119,7 @@ static fracas_reader *written(int64_t replicas, size_t most)
     return reader_of(path);
 }
 
-/* What it is, and a value as the digits of its 64 bits. */
+/* Name, and a value as the digits of its 64 bits. */
 static void tell_bits(const char *what, double value)
 {
     uint64_t bits;

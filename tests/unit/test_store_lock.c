@@ -26,9 +26,9 @@ static int tear_down(void **state)
     return 0;
 }
 
-static int told_of_rest = -1; /* a pipe that hears of each */
+static int told_of_rest = -1; /* a pipe told of each */
 
-/* Stands before that of the C library. */
+/* Stands before the C library's. */
 int nanosleep(const struct timespec *time, struct timespec *rest)
 {
     if (told_of_rest >= 0) assert_int_equal(write(told_of_rest, "", 1), 1);

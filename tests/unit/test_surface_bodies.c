@@ -34,7 +34,7 @@ static a_surface *perturbed(const body *b, size_t divisions, int order, uint64_t
     return surface_moved(b->shape, b->length, divisions, order, seed, ends);
 }
 
-/* Its radius; 0 of what is flat. */
+/* Its radius; 0 if it is flat. */
 static double radius_of(const body *b)
 {
     return b->shape < SHAPE_SPHERE ? 0.0 : b->length[0];

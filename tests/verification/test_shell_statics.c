@@ -24,7 +24,7 @@ static size_t find_point(const fracas_model *model, const double at[3], size_t f
     return count;
 }
 
-/* Force `load` [N] on the nodes at a place, shared equally by the elements that have one there. */
+/* Force `load` [N] on the nodes at a place, shared equally by their elements. */
 static void load_point(const fracas_model *model, const double at[3], const double load[3],
                        double *f)
 {

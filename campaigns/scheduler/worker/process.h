@@ -11,7 +11,7 @@
  * of a lease should go before a server with records in memory, and both before a rank. */
 enum { FRACAS_OOM_SAME = 0, FRACAS_OOM_COMPUTING_SERVER = 900, FRACAS_OOM_CHILD = 1000 };
 
-/* Forks a process that dies with this one: *pid is 0 in it. Its name has 15 bytes at most, its
+/* Forks a process to die with this one: *pid is 0 in it. Its name has 15 bytes at most, its
  * out-of-memory score is `oom_score` (FRACAS_OOM_SAME: as its parent). To be called in the main
  * thread, since the signal follows the thread. FRACAS_ENVIRONMENT, naming its `purpose`, without a
  * process. */

@@ -23,7 +23,7 @@ typedef struct {
 } fracas_identity;
 
 void fracas_identity_of(const fracas_file_header *header, fracas_identity *identity);
-/* True if a value that both know differs; then *text is the first, "NAME FOUND, not WANTED". */
+/* True if a value known to both differs; then *text is the first, "NAME FOUND, not WANTED". */
 bool fracas_identity_differs(const fracas_identity *found, const fracas_identity *wanted,
                              char text[FRACAS_DIFFERENCE_TEXT]);
 

@@ -57,7 +57,7 @@ fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point
                               SQL_VALUES(SQL_HASH(point)), id, NULL);
 }
 
-/* The same of a point that must be there. */
+/* The same of a point; FRACAS_DAMAGED if it is missing. */
 static fracas_err need_point(fracas_index *index, const fracas_hash *point, int64_t *id)
 {
     TRY(fracas_index_find_point(index, point, id));

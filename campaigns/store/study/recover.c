@@ -162,7 +162,7 @@ static fracas_err forget_lost(const char *study, fracas_index *index, FILE *repo
     return quick ? unseal_damaged(study, index, report) : FRACAS_OK;
 }
 
-/* FRACAS_DAMAGED names the first file that does not fit its seal. */
+/* FRACAS_DAMAGED names the first file at odds with its seal. */
 static fracas_err check_files(const char *study, fracas_index *index)
 {
     FRACAS_CLEARED(fracas_known_segments) known = {0};

@@ -184,7 +184,7 @@ static fracas_err read_index(const char *study, fracas_index *index, const fraca
 
 /* ---- opening ---- */
 
-/* Facts that study.h5 and partial results have in one place. */
+/* Facts of study.h5 and of partial results. */
 static fracas_err read_facts(fracas_results *results)
 {
     results->header = *fracas_reader_header(results->reader);

@@ -165,7 +165,7 @@ static fracas_err note_leftovers(verification *v)
 
 /* ---- segments against the index ---- */
 
-/* For a record that only had to be read, and a damaged one that is reported with its segment. */
+/* For a record read but not compared, and a damaged one, reported with its segment. */
 static fracas_err pass(void *context, fracas_result *result)
 {
     (void)context, (void)result;
@@ -176,7 +176,7 @@ static fracas_err check_segment(verification *v, int64_t id)
 {
     fracas_reader *reader;
     TRY(fracas_segments_open(v->segments, id, &reader));
-    /* also rows that the index has from another segment */
+    /* also rows of the index from another segment */
     return v->options->full ? fracas_reader_each(reader, FRACAS_READ_ALL, pass, NULL) : FRACAS_OK;
 }
 
