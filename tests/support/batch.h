@@ -163,6 +163,11 @@ break_up(const fracas_model *model, uint64_t first, size_t count, double scatter
         f.work = fmax(f.work, r->work / r->dissipated);
         f.fragments += (double)r->fragments / (double)count;
         f.broken += r->broken;
+        for (int e = 0, whole = 0; e < FRACAS_ENERGIES; e++) { /* 1e-9: sums of other terms */
+            if (fracas_energies[e].role != FRACAS_ROLE_PART) whole = e;
+            assert_true(0 <= r->energy[e] || fracas_energies[e].role != FRACAS_ROLE_PART);
+            assert_true(whole == e || r->energy[e] <= r->energy[whole] * (1 + 1e-9));
+        }
         if (look) look(model, r);
         fracas_record_clear(&record[l]);
     }
