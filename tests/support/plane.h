@@ -7,6 +7,8 @@
 #include "tests/support/plane_point.h"
 #include "tests/support/test.h"
 
+static const double MICRON = 1e-6; /* delta_c of plane_kind at its strength */
+
 /* Where a walk is, where it was, and what has been done. The ledger of a walk is
  *   work of T on q and of s on m = flux + stored + dissipated + rubbed - created
  * with the work by the trapezoid rule, whose error in a step of length h is at most h/4 times the
@@ -138,5 +140,22 @@ static inline void plane_go(plane_walk *w, plane_at to, int steps)
                                        y * from.q_n + x * to.q_n, y * from.q_t + x * to.q_t});
     }
 }
+
+/* Means [Pa], and jumps by delta_c. */
+static inline plane_at to(double m_n, double m_t, double q_n, double q_t)
+{
+    return (plane_at){m_n, m_t, q_n * MICRON, q_t * MICRON};
+}
+
+/* The ledger has closed at every step. */
+#define ASSERT_CLOSED(w, where, number)                                                            \
+    do {                                                                                           \
+        if (!((w)->excess <= 1))                                                                   \
+            fail_msg("%s %g: law %d beta_c %g K %g mu_c %g onset_mean %d: residual %g of what is " \
+                     "allowed, %g J/m2 with slack %g",                                             \
+                     where, number, (int)(w)->kind.law, (w)->kind.beta_c, (w)->kind.k_n,           \
+                     (w)->kind.mu_c, (w)->kind.onset_mean, (w)->excess, (w)->residual,             \
+                     (w)->slack);                                                                  \
+    } while (0)
 
 #endif
