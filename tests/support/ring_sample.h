@@ -121,4 +121,54 @@ static inline double ring_noise(uint64_t *seed)
     return 2 * random_noise(seed);
 }
 
+/* ---- rings in a given state ---- */
+
+enum { MOST = 12 }; /* elements of the rings of which states are set */
+
+typedef struct {
+    double u[MOST][4], damage[MOST]; /* of left and right node, x and y [m] */
+} ring_state;
+
+typedef struct {
+    double elastic, cohesive, dissipated; /* J */
+    ring_point force[MOST][2];            /* N, on left and right node */
+    double largest;                       /* N, of the forces' components */
+} ring_answer;
+
+/* n elements 20 um long. */
+static inline one_run small_ring(size_t n, double beta, const fracas_kind *direction)
+{
+    fracas_spec spec = ring_reference((int64_t)n, 1e4, 1);
+    spec.cohesive.beta = beta;
+    spec.geometry.radius = (double)n * 2e-5 / (2 * RING_PI);
+    spec.geometry.direction = direction;
+    return begin(&spec, BAR_STRENGTH_MEAN);
+}
+
+/* What the engine makes of a state that it does not move: energies, and forces from the kick of
+ * velocities that are 0. */
+static inline ring_answer answer(one_run *s, const ring_state *state)
+{
+    fracas_step *step = &s->batch->step;
+    ring_answer a = {.largest = 0};
+    for (size_t e = 0; e < s->model->elements; e++) {
+        memcpy(ring_field(s, e, RING_U_LEFT), state->u[e], sizeof state->u[e]);
+        memset(ring_field(s, e, RING_V_LEFT), 0, 4 * sizeof(double));
+        *ring_field(s, e, RING_DAMAGE) = state->damage[e];
+    }
+    step->drift[0] = 0;
+    step->kick[0] = 1e-9;
+    s->model->formulation->advance(s->model, step);
+    a.elastic = step->elastic[0];
+    a.cohesive = step->cohesive[0];
+    a.dissipated = step->dissipated[0];
+    for (size_t e = 0; e < s->model->elements; e++)
+        for (size_t side = 0; side < 2; side++) {
+            a.force[e][side] = ring_plus((ring_point){0, 0}, ring_nodal_mass(s) / 1e-9,
+                                         ring_velocity(s, e, side));
+            a.largest = fmax(a.largest, fmax(fabs(a.force[e][side].x), fabs(a.force[e][side].y)));
+        }
+    return a;
+}
+
 #endif
