@@ -26,8 +26,8 @@ typedef enum {
     X(created, SOURCE, "J", "energy that the method put in at onsets and breaks") \
     X(work, LOAD, "J", "work of the loading")
 
-#define FRACAS_ENERGY_ONE(key, role, unit, meaning) +1
-enum { FRACAS_ENERGIES = FRACAS_EACH_ENERGY(FRACAS_ENERGY_ONE) };
+#define FRACAS_ENERGY_PLACE(key, role, unit, meaning) FRACAS_ENERGY_##key,
+enum { FRACAS_EACH_ENERGY(FRACAS_ENERGY_PLACE) FRACAS_ENERGIES }; /* FRACAS_ENERGY_kinetic, ... */
 
 /* Members of a struct: each energy as `key`, and as energy[i] with i in the table's order [J]. */
 #define FRACAS_ENERGY_MEMBER(key, role, unit, meaning) double key;

@@ -5,21 +5,21 @@
 #include <stdlib.h>
 
 static const fracas_field band_fields[] = {
-    FRACAS_FIELD(fracas_band, NUMBER, "mean", NULL, "%s", mean),
+    FRACAS_FIELD(fracas_band, NUMBER, "mean", NULL, "mean over realizations: %s", mean),
     FRACAS_FIELD(fracas_band, NUMBER, "low", NULL, "lower end of its band or interval: %s", low),
     FRACAS_FIELD(fracas_band, NUMBER, "high", NULL, "upper end of its band or interval: %s", high),
 };
 static const fracas_fields band_of_energy = FRACAS_FIELDS(band_fields);
 
-#define BAND(key)                             \
-    {#key,                                    \
-     FRACAS_FIELD_OBJECT,                     \
-     "J",                                     \
-     "energy over realizations",              \
-     FRACAS_BAND_##key * sizeof(fracas_band), \
-     &band_of_energy},
-#define BAND_FIELD(key, role, unit, meaning) FRACAS_HELD(BAND, key, role)
-static const fracas_field energy_fields[] = {FRACAS_EACH_ENERGY(BAND_FIELD)};
+#define BAND(key, role, unit, meaning)             \
+    {                                              \
+        #key,                                      \
+        FRACAS_FIELD_OBJECT,                       \
+        unit,                                      \
+        meaning,                                   \
+        FRACAS_ENERGY_##key * sizeof(fracas_band), \
+        &band_of_energy},
+static const fracas_field energy_fields[] = {FRACAS_EACH_ENERGY(BAND)};
 const fracas_fields fracas_energy_fields = FRACAS_FIELDS(energy_fields);
 
 static const double tail = 0.05;
@@ -27,7 +27,7 @@ enum { ROOM = 1 << 26 }; /* bytes of the values */
 
 static double *values_of(const fracas_bands_collector *of, size_t time, int energy)
 {
-    return of->value + (time * FRACAS_NBANDS + (size_t)energy) * of->selected;
+    return of->value + (time * FRACAS_ENERGIES + (size_t)energy) * of->selected;
 }
 
 /* One realization: of each time the first row at or after it, which is its own, and the last row
@@ -39,13 +39,10 @@ static void take_in(const fracas_record *record, fracas_bands_collector *of)
     for (size_t j = 0; j < of->times; j++) {
         while (row + 1 < record->nhistory && record->history[row].time < bands->time[j]) row++;
         const fracas_history_row *now = &record->history[row];
-#define VALUE(key) now->key,
-#define BAND_VALUE(key, role, unit, meaning) FRACAS_HELD(VALUE, key, role)
-        const double energy[] = {FRACAS_EACH_ENERGY(BAND_VALUE)};
         if (now->time >= bands->time[j]) bands->running[j]++;
-        for (int e = 0; e < FRACAS_NBANDS; e++) {
-            bands->energy[j][e].mean += energy[e];
-            values_of(of, j, e)[of->count] = energy[e];
+        for (int e = 0; e < FRACAS_ENERGIES; e++) {
+            bands->energy[j][e].mean += now->energy[e];
+            values_of(of, j, e)[of->count] = now->energy[e];
         }
     }
     of->count++;
@@ -68,7 +65,7 @@ static void finish(fracas_bands_collector *of)
     bands->realizations = (int64_t)n;
     bands->extremes = n < FRACAS_BAND_LEAST;
     for (size_t j = 0; j < of->times && n > 0 && bands->running[j] > 0; j++) {
-        for (int e = 0; e < FRACAS_NBANDS; e++) {
+        for (int e = 0; e < FRACAS_ENERGIES; e++) {
             fracas_band *band = &bands->energy[j][e];
             double *value = values_of(of, j, e);
             gsl_sort(value, 1, n);
@@ -86,7 +83,7 @@ fracas_err fracas_bands_begin(int64_t intervals, double end, size_t realizations
     *bands = (fracas_bands){0};
     *of = (fracas_bands_collector){.bands = bands, .all = realizations};
     if (intervals <= 0 || !(end > 0) || realizations == 0) return FRACAS_OK;
-    const size_t times = (size_t)intervals + 1, values = times * FRACAS_NBANDS;
+    const size_t times = (size_t)intervals + 1, values = times * FRACAS_ENERGIES;
     const size_t most = ROOM / (values * sizeof *of->value) + 1;
     of->selected = realizations < most ? realizations : most;
     bands->time = malloc(times * sizeof *bands->time);

@@ -12,23 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Energies with a band are the kinetic, stored and lost energies of the balance (bar.14), in the
- * order of FRACAS_EACH_ENERGY. FRACAS_HELD(X, key, role) is X(key) for these, nothing for others.
- */
-#define FRACAS_HELD_KINETIC(X, key) X(key)
-#define FRACAS_HELD_STORED(X, key) X(key)
-#define FRACAS_HELD_SINK(X, key) X(key)
-#define FRACAS_HELD_PART(X, key)
-#define FRACAS_HELD_SOURCE(X, key)
-#define FRACAS_HELD_LOAD(X, key)
-#define FRACAS_HELD(X, key, role) FRACAS_HELD_##role(X, key)
-
-#define FRACAS_BAND_NAME(key) FRACAS_BAND_##key,
-#define FRACAS_BAND_ENUMERATOR(key, role, unit, meaning) FRACAS_HELD(FRACAS_BAND_NAME, key, role)
-/* FRACAS_BAND_kinetic, ... */
-typedef enum { FRACAS_EACH_ENERGY(FRACAS_BAND_ENUMERATOR) FRACAS_NBANDS } fracas_energy;
-
-/* The bands of one time, fracas_band[FRACAS_NBANDS]: of each energy mean, low, high. */
+/* The bands of one time, fracas_band[FRACAS_ENERGIES]: of each energy mean, low, high. */
 extern const fracas_fields fracas_energy_fields;
 
 typedef struct {
@@ -41,7 +25,7 @@ typedef struct {
     size_t count;     /* times, 0 of a study without histories */
     double *time;     /* s */
     int64_t *running; /* still running at this time; the others count with their last values */
-    fracas_band (*energy)[FRACAS_NBANDS];
+    fracas_band (*energy)[FRACAS_ENERGIES];
     int64_t realizations; /* taken: the usable ones, or, evenly spread, as many as fit in 64 MiB */
     bool extremes; /* fewer than FRACAS_BAND_LEAST: low and high are extremes, not quantiles */
 } fracas_bands;

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LAW_VALUES = 80, TALL = 300, LOW = FRACAS_FIGURE_LOW, STRIP = 80 };
+enum { LAW_VALUES = 80, TALL = 300, LOW = FRACAS_FIGURE_LOW };
 
 /* ---- mean size against rate ---- */
 
@@ -372,125 +372,6 @@ fracas_err fracas_figure_sizes(const fracas_analysis *analysis, size_t point, fr
                  "Share of the fragments that are at least of size s: n = %zu fragments of %lld "
                  "replicas together, dust included.",
                  statistics->nfragments, (long long)statistics->usable);
-    return FRACAS_OK;
-}
-
-/* ---- energies ---- */
-
-/* Curves of the balance (bar.14), in the order of its energies; colours are those of the figure of
- * bands. */
-enum { RESIDUAL = FRACAS_ENERGIES };
-
-/* The whole of a part; any other energy itself. */
-static size_t whole_of(size_t which)
-{
-    while (fracas_energies[which].role == FRACAS_ROLE_PART) which--;
-    return which;
-}
-
-/* Kinetic energy and its parts at the start, as of a flying ring. They would dwarf all other
- * energies, and are left out [J]. */
-static double start_of(const fracas_point_statistics *statistics, size_t which)
-{
-    const fracas_history_row *first = statistics->history;
-    const bool kinetic = fracas_energies[whole_of(which)].role == FRACAS_ROLE_KINETIC;
-    return kinetic && statistics->nhistory > 0 && first->time == 0 ? first->energy[which] : 0;
-}
-
-static double energy(const fracas_point_statistics *statistics, size_t row, size_t which)
-{
-    const fracas_history_row *of = &statistics->history[row];
-    return which == RESIDUAL ? of->residual : of->energy[which] - start_of(statistics, which);
-}
-
-static double largest_energy(const fracas_point_statistics *statistics, size_t which)
-{
-    double largest = 0;
-    for (size_t i = 0; i < statistics->nhistory; i++)
-        largest = fmax(largest, fabs(energy(statistics, i, which)));
-    return largest;
-}
-
-/* A part, or a sink after the first, has a curve if it is ever above 0; created energy and its
- * parts have none. */
-static bool has_curve(const fracas_point_statistics *statistics, size_t which)
-{
-    const fracas_energy_role role = fracas_energies[which].role;
-    const bool later = role == FRACAS_ROLE_SINK && which > 0 &&
-                       fracas_energies[whole_of(which - 1)].role == FRACAS_ROLE_SINK;
-    if (fracas_energies[whole_of(which)].role == FRACAS_ROLE_SOURCE) return false;
-    return !(role == FRACAS_ROLE_PART || later) || largest_energy(statistics, which) > 0;
-}
-
-static fracas_err add_energy(const fracas_point_statistics *statistics, size_t which, unsigned look,
-                             double time_factor, double energy_factor, fracas_panel *panel)
-{
-    fracas_series *series;
-    TRY(fracas_panel_add(panel, FRACAS_CURVE, look, statistics->nhistory, &series));
-    const char *key = which == RESIDUAL ? "|residual|" : fracas_energies[which].key;
-    const int length = (int)strcspn(key, "_"); /* "dissipated_bending": "dissipated, bending" */
-    FRACAS_PRINT(series->name, "%.*s%s%s%s", length, key, key[length] ? ", " : "",
-                 key[length] ? key + length + 1 : "",
-                 which != RESIDUAL && start_of(statistics, which) > 0 ? " - start" : "");
-    for (size_t i = 0; i < statistics->nhistory; i++) {
-        double value = energy(statistics, i, which) * energy_factor;
-        series->x[i] = statistics->history[i].time * time_factor;
-        series->y[i] = which == RESIDUAL ? fabs(value) : value;
-    }
-    return FRACAS_OK;
-}
-
-/* The curves of all energies, and of the residual below them. A part has the colour of its whole
- * and other dashes, each its own. */
-static fracas_err add_energies(const fracas_point_statistics *statistics, double time, double joule,
-                               fracas_chart *chart)
-{
-    fracas_panel *panel = fracas_chart_add(chart, LOW);
-    unsigned look = 0;
-    for (size_t e = 0; e < FRACAS_ENERGIES; e++) {
-        const unsigned part = (unsigned)(e - whole_of(e)); /* 0: none */
-        const unsigned own = part ? look - 1 + part * FRACAS_CHART_COLOURS : look;
-        if (has_curve(statistics, e)) TRY(add_energy(statistics, e, own, time, joule, panel));
-        look += !part && fracas_energies[e].role != FRACAS_ROLE_SOURCE;
-    }
-    return add_energy(statistics, RESIDUAL, look, time, joule, fracas_chart_add(chart, STRIP));
-}
-
-/* A residual so far below the largest energy is rounding; it would stretch the axis. */
-static const double residual_floor = 1e-12;
-
-fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
-                                  fracas_chart *chart)
-{
-    const fracas_point_statistics *statistics = &analysis->point[point];
-    fracas_figure_name(analysis, point, "energies", "Energies", chart);
-    double largest = 0;
-    for (size_t e = 0; e < FRACAS_ENERGIES; e++)
-        if (has_curve(statistics, e)) largest = fmax(largest, largest_energy(statistics, e));
-    if (statistics->nhistory == 0 || !(largest > 0)) return FRACAS_OK;
-    fracas_prefix time = fracas_prefix_for(&statistics->history[statistics->nhistory - 1].time, 1);
-    fracas_prefix joule = fracas_prefix_for(&largest, 1);
-    TRY(add_energies(statistics, time.factor, joule.factor, chart));
-    fracas_panel *lower = &chart->panel[1];
-    lower->y.log = true;
-    lower->y_floor = residual_floor * largest * joule.factor;
-    FRACAS_PRINT(lower->x.label, "time [%ss]", time.sign);
-    for (size_t p = 0; p < chart->npanels; p++)
-        FRACAS_PRINT(chart->panel[p].y.label, "energy [%sJ]", joule.sign);
-    char motion[128] =
-        "Kinetic energy is that of the motion beside the imposed stretching, work likewise.";
-    const double start = start_of(statistics, 0); /* kinetic energy comes first */
-    if (start > 0)
-        FRACAS_PRINT(motion, "Kinetic energy less the %.4g J that the %s starts with.", start,
-                     statistics->surface ? "surface" : "ring");
-    else if (statistics->surface) motion[0] = '\0';
-    FRACAS_PRINT(
-        chart->caption,
-        "Replica %lld of %lld, the one whose dissipated energy is the nearest to the mean. "
-        "%s%sBelow: |residual| of the energy balance; its largest value over all replicas is "
-        "%s of the dissipated energy.",
-        (long long)statistics->typical_replica, (long long)statistics->usable, motion,
-        *motion ? " " : "", fracas_digits(statistics->residual, 2).text);
     return FRACAS_OK;
 }
 

@@ -1,45 +1,168 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Figures of all realizations of a point together: bands of energies, convergence, fits. */
+/* Figures of a point: energies of a replica and of all, convergence, fits. */
 #include "analysis/report/figures.h"
 
 #include "analysis/data/format.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
+
+enum { STRIP = 80 }; /* pixels */
 
 /* ---- energies ---- */
 
-/* Initial kinetic energy, as of a flying ring: it would dwarf the rest [J]. */
-static double start_of(const fracas_bands *bands, size_t energy)
+/* Curves of energies over time, of a replica or of all. Kinetic energy and its parts are drawn less
+ * their `start`, as of a flying ring: it would dwarf all other energies. */
+typedef struct {
+    double start[FRACAS_ENERGIES], largest[FRACAS_ENERGIES]; /* J; |value - start| at most */
+} energy_curves;
+
+/* The whole of a part; any other energy itself. */
+static size_t whole_of(size_t energy)
 {
-    return energy == FRACAS_BAND_kinetic && bands->time[0] == 0 ? bands->energy[0][energy].mean : 0;
+    while (fracas_energies[energy].role == FRACAS_ROLE_PART) energy--;
+    return energy;
 }
 
-static double largest_of(const fracas_bands *bands)
+/* At a time of the curve: its value, and the one farthest from it [J]. */
+static void add_value(energy_curves *curves, size_t energy, double time, double value, double far)
+{
+    double *start = &curves->start[energy], *largest = &curves->largest[energy];
+    if (time == 0 && fracas_energies[whole_of(energy)].role == FRACAS_ROLE_KINETIC) *start = value;
+    *largest = fmax(*largest, fabs(far - *start));
+}
+
+/* A part, or a sink after the first, has a curve if it is ever above 0; created energy and its
+ * parts have none. */
+static bool has_curve(const energy_curves *curves, size_t energy)
+{
+    const fracas_energy_role role = fracas_energies[energy].role;
+    const bool later = role == FRACAS_ROLE_SINK && energy > 0 &&
+                       fracas_energies[whole_of(energy - 1)].role == FRACAS_ROLE_SINK;
+    if (fracas_energies[whole_of(energy)].role == FRACAS_ROLE_SOURCE) return false;
+    return !(role == FRACAS_ROLE_PART || later) || curves->largest[energy] > 0;
+}
+
+static double largest_of(const energy_curves *curves)
 {
     double largest = 0;
-    for (size_t j = 0; j < bands->count; j++)
-        for (size_t e = 0; e < FRACAS_NBANDS; e++)
-            largest = fmax(largest, fabs(bands->energy[j][e].high - start_of(bands, e)));
+    for (size_t e = 0; e < FRACAS_ENERGIES; e++)
+        if (has_curve(curves, e)) largest = fmax(largest, curves->largest[e]);
     return largest;
+}
+
+/* A part has the colour of its whole and other dashes, each its own; the look of FRACAS_ENERGIES is
+ * that of a curve after all. */
+static unsigned look_of(size_t energy)
+{
+    const size_t whole = energy < FRACAS_ENERGIES ? whole_of(energy) : energy;
+    unsigned look = (unsigned)(energy - whole) * FRACAS_CHART_COLOURS;
+    for (size_t e = 0; e < whole; e++)
+        look += fracas_energies[e].role != FRACAS_ROLE_PART &&
+                fracas_energies[e].role != FRACAS_ROLE_SOURCE;
+    return look;
+}
+
+static fracas_err add_curve(const energy_curves *curves, size_t energy, fracas_series_kind kind,
+                            size_t rows, fracas_panel *panel, fracas_series **series)
+{
+    const char *key = fracas_energies[energy].key;
+    const int length = (int)strcspn(key, "_"); /* "dissipated_bending": "dissipated, bending" */
+    TRY(fracas_panel_add(panel, kind, look_of(energy), rows, series));
+    FRACAS_PRINT((*series)->name, "%.*s%s%s%s", length, key, key[length] ? ", " : "",
+                 key[length] ? key + length + 1 : "", curves->start[energy] > 0 ? " - start" : "");
+    return FRACAS_OK;
+}
+
+/* The curves of all energies, and of the residual of their balance (bar.14) below them. */
+static fracas_err add_energies(const fracas_point_statistics *statistics,
+                               const energy_curves *curves, double time, double joule,
+                               fracas_chart *chart)
+{
+    fracas_panel *panel = fracas_chart_add(chart, FRACAS_FIGURE_LOW);
+    const size_t rows = statistics->nhistory;
+    const fracas_history_row *row = statistics->history;
+    fracas_series *series;
+    for (size_t e = 0; e < FRACAS_ENERGIES; e++) {
+        if (!has_curve(curves, e)) continue;
+        TRY(add_curve(curves, e, FRACAS_CURVE, rows, panel, &series));
+        for (size_t i = 0; i < rows; i++) {
+            series->x[i] = row[i].time * time;
+            series->y[i] = (row[i].energy[e] - curves->start[e]) * joule;
+        }
+    }
+    TRY(fracas_panel_add(fracas_chart_add(chart, STRIP), FRACAS_CURVE, look_of(FRACAS_ENERGIES),
+                         rows, &series));
+    FRACAS_PRINT(series->name, "|residual|");
+    for (size_t i = 0; i < rows; i++) {
+        series->x[i] = row[i].time * time;
+        series->y[i] = fabs(row[i].residual * joule);
+    }
+    return FRACAS_OK;
+}
+
+/* A residual so far below the largest energy is rounding; it would stretch the axis. */
+static const double residual_floor = 1e-12;
+
+fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
+                                  fracas_chart *chart)
+{
+    const fracas_point_statistics *statistics = &analysis->point[point];
+    energy_curves curves = {0};
+    fracas_figure_name(analysis, point, "energies", "Energies", chart);
+    for (size_t i = 0; i < statistics->nhistory; i++)
+        for (size_t e = 0; e < FRACAS_ENERGIES; e++)
+            add_value(&curves, e, statistics->history[i].time, statistics->history[i].energy[e],
+                      statistics->history[i].energy[e]);
+    const double largest = largest_of(&curves);
+    if (!(largest > 0)) return FRACAS_OK;
+    fracas_prefix time = fracas_prefix_for(&statistics->history[statistics->nhistory - 1].time, 1);
+    fracas_prefix joule = fracas_prefix_for(&largest, 1);
+    TRY(add_energies(statistics, &curves, time.factor, joule.factor, chart));
+    fracas_panel *lower = &chart->panel[1];
+    lower->y.log = true;
+    lower->y_floor = residual_floor * largest * joule.factor;
+    FRACAS_PRINT(lower->x.label, "time [%ss]", time.sign);
+    for (size_t p = 0; p < chart->npanels; p++)
+        FRACAS_PRINT(chart->panel[p].y.label, "energy [%sJ]", joule.sign);
+    char motion[128] =
+        "Kinetic energy is that of the motion beside the imposed stretching, work likewise.";
+    const double start = curves.start[FRACAS_ENERGY_kinetic];
+    if (start > 0)
+        FRACAS_PRINT(motion, "Kinetic energy less the %.4g J that the %s starts with.", start,
+                     statistics->surface ? "surface" : "ring");
+    else if (statistics->surface) motion[0] = '\0';
+    FRACAS_PRINT(
+        chart->caption,
+        "Replica %lld of %lld, the one whose dissipated energy is the nearest to the mean. "
+        "%s%sBelow: |residual| of the energy balance; its largest value over all replicas is "
+        "%s of the dissipated energy.",
+        (long long)statistics->typical_replica, (long long)statistics->usable, motion,
+        *motion ? " " : "", fracas_digits(statistics->residual, 2).text);
+    return FRACAS_OK;
 }
 
 fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point, fracas_chart *chart)
 {
     const fracas_bands *bands = &analysis->point[point].bands;
+    energy_curves curves = {0};
     fracas_figure_name(analysis, point, "bands", "Energies of all realizations", chart);
-    const double largest = bands->count ? largest_of(bands) : 0;
+    for (size_t j = 0; j < bands->count; j++)
+        for (size_t e = 0; e < FRACAS_ENERGIES; e++)
+            add_value(&curves, e, bands->time[j], bands->energy[j][e].mean,
+                      bands->energy[j][e].high);
+    const double largest = largest_of(&curves);
     if (bands->realizations < 2 || !(largest > 0)) return FRACAS_OK;
     const fracas_prefix time = fracas_prefix_for(&bands->time[bands->count - 1], 1),
                         joule = fracas_prefix_for(&largest, 1);
     fracas_panel *panel = fracas_chart_add(chart, FRACAS_FIGURE_LOW);
     panel->bars = bands->extremes ? "least to greatest" : "5 to 95 %";
-    for (size_t e = 0; e < FRACAS_NBANDS; e++) {
+    for (size_t e = 0; e < FRACAS_ENERGIES; e++) {
+        const double start = curves.start[e];
         fracas_series *series;
-        const double start = start_of(bands, e);
-        TRY(fracas_panel_add(panel, FRACAS_BAND, (unsigned)e, bands->count, &series));
-        FRACAS_PRINT(series->name, "%s%s", fracas_energy_fields.field[e].key,
-                     start > 0 ? " - start" : "");
+        if (!has_curve(&curves, e)) continue;
+        TRY(add_curve(&curves, e, FRACAS_BAND, bands->count, panel, &series));
         for (size_t j = 0; j < bands->count; j++) {
             const fracas_band *band = &bands->energy[j][e];
             series->x[j] = bands->time[j] * time.factor;

@@ -126,8 +126,8 @@ static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning
     size_t before = last;
     while (before > 0 && bands->time[before - 1] >= 0.9 * end * (1 - 1e-9))
         before--; /* within the last tenth: the end itself of fewer than ten intervals */
-    const double dissipated = bands->energy[last][FRACAS_BAND_dissipated].mean;
-    const double rise = dissipated - bands->energy[before][FRACAS_BAND_dissipated].mean;
+    const double dissipated = bands->energy[last][FRACAS_ENERGY_dissipated].mean;
+    const double rise = dissipated - bands->energy[before][FRACAS_ENERGY_dissipated].mean;
     if (!(rise > rise_limit * dissipated)) return;
     warn(list, p,
          "bodies were still breaking at time.end: %s %% of the energy was dissipated in the last "

@@ -220,7 +220,8 @@ static void make_history(int64_t replica, fracas_record *record)
             .kinetic = (double)(replica * 7 % MOST),
             .elastic = -1,
             .cohesive = 2,
-            .dissipated = j};
+            .dissipated = j,
+            .dissipated_bending = 0.25 * j};
         if (j < last)
             record->history[record->nhistory++] = (fracas_history_row){
                 .time = j + 0.5, .kinetic = 99, .elastic = 99, .dissipated = 99};
@@ -251,16 +252,17 @@ static void band_of_many(void **state)
     for (size_t j = 0; j < bands.count; j++) {
         assert_true(bands.time[j] == (double)j);
         assert_int_equal(bands.running[j], running[j]);
-        const fracas_band *kinetic = &bands.energy[j][FRACAS_BAND_kinetic],
-                          *dissipated = &bands.energy[j][FRACAS_BAND_dissipated];
+        const fracas_band *kinetic = &bands.energy[j][FRACAS_ENERGY_kinetic],
+                          *dissipated = &bands.energy[j][FRACAS_ENERGY_dissipated];
         assert_near(kinetic->mean, 14.5);
         assert_near(kinetic->low, 1.45);
         assert_near(kinetic->high, 27.55);
-        assert_near(bands.energy[j][FRACAS_BAND_elastic].mean, -1);
-        assert_near(bands.energy[j][FRACAS_BAND_cohesive].high, 2);
+        assert_near(bands.energy[j][FRACAS_ENERGY_elastic].mean, -1);
+        assert_near(bands.energy[j][FRACAS_ENERGY_cohesive].high, 2);
         assert_near(dissipated->mean, j < 3 ? (double)j : 2.5); /* half of them held at 2 */
         assert_near(dissipated->low, j < 3 ? (double)j : 2);
         assert_near(dissipated->high, (double)j);
+        assert_near(bands.energy[j][FRACAS_ENERGY_dissipated_bending].high, 0.25 * (double)j);
     }
 }
 
@@ -270,9 +272,9 @@ static void band_of_few(void **state)
     FRACAS_CLEARED(fracas_bands) bands;
     read_bands(3, &bands);
     assert_true(bands.extremes && bands.count == 4 && bands.running[3] == 2);
-    assert_near(bands.energy[2][FRACAS_BAND_kinetic].mean, 7);
-    assert_near(bands.energy[2][FRACAS_BAND_kinetic].low, 0);
-    assert_near(bands.energy[2][FRACAS_BAND_kinetic].high, 14);
+    assert_near(bands.energy[2][FRACAS_ENERGY_kinetic].mean, 7);
+    assert_near(bands.energy[2][FRACAS_ENERGY_kinetic].low, 0);
+    assert_near(bands.energy[2][FRACAS_ENERGY_kinetic].high, 14);
 }
 
 TESTS(sizes_by_number_and_by_mass, sizes_on_a_lattice_and_above_the_cut, variance_of_unequal_groups,

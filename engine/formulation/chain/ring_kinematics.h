@@ -52,6 +52,7 @@ typedef struct {
     vd turn; /* dn/d(chord) = r r turn [1/m]; 0 for fixed directions */
 } ring_frame;
 
+#define RING_SUM(key, role, unit, meaning) vd key;
 typedef struct {
     const fracas_ring_constants *ring;
     fracas_step *step;
@@ -61,8 +62,9 @@ typedef struct {
     vd spring, modulus;   /* K, E/h [Pa/m] */
     vd drive, next_drive; /* force on a node [Pa] now; velocity held half a step ahead [m/s] */
     vd inertia;           /* nodal mass/dt [Pa s/m] */
-    /* sums over the body, for the ledger, 0 at first */
-    vd elastic, flux_energy, opening_energy, dissipated, velocity_squared;
+    /* sums over the body, for the ledger, 0 at first; of a part: energy per area [J/m2] */
+    FRACAS_EACH_ENERGY(RING_SUM)
+    vd flux_energy;
     vd driven, driven_next; /* power of the drive at the velocities before and after now [W/m2] */
 } ring_context;
 
@@ -163,6 +165,29 @@ LANES_FUNCTION vd ring_drive_work(const ring_context *c)
     vd before = lanes_load(c->step->driven + c->first);
     lanes_store(c->step->driven + c->first, area * c->driven_next);
     return half * c->drift * (before + area * c->driven);
+}
+
+/* The kinetic and elastic energy of an element, from products of its velocities. */
+LANES_FUNCTION void ring_add_element(ring_context *c, const ring_element *element, vd left,
+                                     vd right)
+{
+    c->kinetic += left + right;
+    c->elastic += element->stress * element->strain;
+}
+
+/* Sums to energies [J], of both sweeps: elastic energy and dissipation differ. */
+LANES_FUNCTION void ring_totals(const ring_context *c, vd elastic, vd dissipated)
+{
+    const vd area = lanes_set(c->ring->area), half_area = lanes_set(0.5 * c->ring->area);
+    fracas_step *step = c->step;
+#define RING_PART(key, role, unit, meaning) \
+    if (FRACAS_ROLE_##role == FRACAS_ROLE_PART) lanes_store(step->key + c->first, area * c->key);
+    FRACAS_EACH_ENERGY(RING_PART)
+    lanes_store(step->kinetic + c->first, half_area * lanes_set(c->ring->nodal_mass) * c->kinetic);
+    lanes_store(step->elastic + c->first, elastic);
+    lanes_store(step->cohesive + c->first, half_area * c->cohesive);
+    lanes_store(step->dissipated + c->first, dissipated);
+    lanes_store(step->work + c->first, ring_drive_work(c));
 }
 
 /* Velocities are advanced by `kick` [s], to `ahead` [s] beyond this step's time. */

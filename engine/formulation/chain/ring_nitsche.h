@@ -37,7 +37,7 @@ LANES_FUNCTION ring_link ring_join(ring_context *c, int law, size_t e, const rin
     vd restraint = lanes_select(lanes_le(it.damage, zero), c->spring * p, zero);
 
     c->flux_energy += it.slip * (mean + it.traction) + restraint * p;
-    c->opening_energy += it.traction * (q - it.slip);
+    c->cohesive += it.traction * (q - it.slip);
     c->dissipated += it.dissipated;
 
     vmask grows = lanes_lt(before, it.damage);
@@ -77,8 +77,8 @@ LANES_FUNCTION void ring_finish(ring_context *c, size_t e, const ring_element *e
     ring_vector v_right = ring_drive_node(c, e + 1 < c->ring->elements ? e + 1 : 0,
                                           element->u_right, element->v_right,
                                           ring_subtract(right->force, internal));
-    c->velocity_squared += ring_dot(element->v_left, v_left) + ring_dot(element->v_right, v_right);
-    c->elastic += element->stress * element->strain;
+    ring_add_element(c, element, ring_dot(element->v_left, v_left),
+                     ring_dot(element->v_right, v_right));
     ring_write(at + RING_U_LEFT * LANES, element->u_left);
     ring_write(at + RING_U_RIGHT * LANES, element->u_right);
     ring_write(at + RING_V_LEFT * LANES, v_left);
@@ -109,13 +109,8 @@ LANES_FUNCTION void ring_flux(const fracas_ring_constants *ring, fracas_step *st
     ring_finish(c, last, &next, &right, &closing);
 
     const vd area = lanes_set(ring->area), half_area = lanes_set(0.5 * ring->area);
-    lanes_store(step->kinetic + first,
-                half_area * lanes_set(ring->nodal_mass) * c->velocity_squared);
-    lanes_store(step->elastic + first,
-                half_area * (lanes_set(ring->size) * c->elastic + c->flux_energy));
-    lanes_store(step->cohesive + first, half_area * c->opening_energy);
-    lanes_store(step->dissipated + first, area * lanes_set(ring->fracture_energy) * c->dissipated);
-    lanes_store(step->work + first, ring_drive_work(c));
+    ring_totals(c, half_area * (lanes_set(ring->size) * c->elastic + c->flux_energy),
+                area * lanes_set(ring->fracture_energy) * c->dissipated);
 }
 
 #endif

@@ -222,7 +222,7 @@ LANES_FUNCTION ring_link stershic_join(ring_context *c, size_t e, const ring_ele
     damage = lanes_select(open, damage, before);
     traction = lanes_select(open, traction, zero);
     lanes_store(at + RING_DAMAGE * LANES, damage);
-    c->opening_energy += traction * q;
+    c->cohesive += traction * q;
     c->dissipated += half * sigma_c * delta_c * damage;
 
     vmask breaks = lanes_and(lanes_lt(before, damage), lanes_le(one, damage));
@@ -266,8 +266,7 @@ LANES_FUNCTION void stershic_finish(ring_context *c, size_t e, const ring_elemen
                                     ring_scale(share, ring_subtract(v_left, element->v_left)));
     ring_vector now_right = ring_add(element->v_right,
                                      ring_scale(share, ring_subtract(v_right, element->v_right)));
-    c->velocity_squared += ring_dot(now_left, now_left) + ring_dot(now_right, now_right);
-    c->elastic += element->stress * element->strain;
+    ring_add_element(c, element, ring_dot(now_left, now_left), ring_dot(now_right, now_right));
     if (c->ring->zone > 0) {
         const vd zero = lanes_set(0.0), half = lanes_set(0.5), young = lanes_set(c->ring->young);
         vd largest = lanes_load(at + RING_STRAIN * LANES), yield = stershic_yield(c, e);
@@ -317,12 +316,7 @@ static void ring_rigid(const fracas_ring_constants *ring, fracas_step *step, int
     stershic_advance(c, drift / (drift + next));
 
     const vd area = lanes_set(ring->area), half_area = half * area;
-    lanes_store(step->kinetic + first,
-                half_area * lanes_set(ring->nodal_mass) * c->velocity_squared);
-    lanes_store(step->elastic + first, half_area * lanes_set(ring->size) * c->elastic);
-    lanes_store(step->cohesive + first, half_area * c->opening_energy);
-    lanes_store(step->dissipated + first, area * c->dissipated);
-    lanes_store(step->work + first, ring_drive_work(c));
+    ring_totals(c, half_area * lanes_set(ring->size) * c->elastic, area * c->dissipated);
 }
 
 #endif
