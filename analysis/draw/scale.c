@@ -42,10 +42,14 @@ void fracas_scale_fit(fracas_scale *scale, bool log, double least, double greate
         least -= apart;
         greatest += apart;
     }
-    double step = linear_step(least, greatest);
     const double over = 0.02; /* steps: the last time of a history is a little past its end */
-    scale->low = floor(least / step + over) * step;
-    scale->high = ceil(greatest / step - over) * step;
+    for (int pass = 0; pass < 2; pass++) { /* the wider scale may have wider steps */
+        const double step = linear_step(least, greatest);
+        least = floor(least / step + over) * step;
+        greatest = ceil(greatest / step - over) * step;
+    }
+    scale->low = least;
+    scale->high = greatest;
 }
 
 double fracas_scale_place(const fracas_scale *scale, double value)

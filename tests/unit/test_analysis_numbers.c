@@ -410,6 +410,8 @@ static void assert_labels(bool log, double least, double greatest, const char *e
     fracas_tick tick[FRACAS_MAX_TICKS];
     size_t count = fracas_scale_ticks(&scale, tick);
     char text[512] = "";
+    assert_true(log || (fabs(tick->value - scale.low) < 1e-9 &&
+                        fabs(tick[count - 1].value - scale.high) < 1e-9));
     for (size_t i = 0; i < count; i++)
         if (*tick[i].label) strcat(strcat(text, tick[i].label), " ");
     assert_string_equal(text, expected);
@@ -420,6 +422,7 @@ static void ticks(void **state)
     assert_labels(false, 0, 9.3, "0 2 4 6 8 10 ");
     assert_labels(false, -0.02, 0.31, "-0.1 0.0 0.1 0.2 0.3 0.4 ");
     assert_labels(false, 5, 5, "2 3 4 5 6 7 8 ");
+    assert_labels(false, -7.2, 6.8, "-10 -5 0 5 10 "); /* not of -8 to 8 */
     assert_labels(true, 0.013, 60, "0.01 0.1 1 10 100 ");
     assert_labels(true, 30, 180, "20 50 100 200 ");
     assert_labels(true, 1e4, 1e5, "10\u2074 2\u00b710\u2074 5\u00b710\u2074 10\u2075 ");
