@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/err.h"
 
+#include "base/text.h"
+
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -13,24 +15,23 @@ static _Thread_local char message[1024];
 
 fracas_err fracas_fail(fracas_err code, const char *format, ...)
 {
+    char text[sizeof message];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(message, sizeof message, format, arguments);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    fracas_text_show(text, message, sizeof message);
     return code;
 }
 
 fracas_err fracas_fail_within(fracas_err code, const char *format, ...)
 {
-    char inner[sizeof message];
-    memcpy(inner, message, sizeof inner);
+    char context[sizeof message];
     va_list arguments;
     va_start(arguments, format);
-    int used = vsnprintf(message, sizeof message, format, arguments);
+    vsnprintf(context, sizeof context, format, arguments);
     va_end(arguments);
-    if (used >= 0 && (size_t)used < sizeof message)
-        snprintf(message + used, sizeof message - (size_t)used, ": %s", inner);
-    return code;
+    return fracas_fail(code, "%s: %s", context, message);
 }
 
 const char *fracas_remedy(int reason)

@@ -27,9 +27,8 @@ typedef enum {
         if (try_code_) return try_code_; \
     } while (0)
 
-/* Sets this thread's message (which names the value, the place and the remedy) and returns `code`.
- * Messages longer than 1023 bytes are cut. The previous message is overwritten, so it may not be an
- * argument of its own replacement: use fracas_fail_within for that. */
+/* Sets this thread's message (which names the value, the place and the remedy), as fracas_text_show
+ * writes it, and returns `code`. Messages longer than 1023 bytes are cut. */
 FRACAS_MUST_USE fracas_err fracas_fail(fracas_err code, const char *format, ...)
     FRACAS_PRINTF(2, 3);
 

@@ -1,16 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/json.h"
 
+#include "base/text.h"
+
 #include <inttypes.h>
 #include <math.h>
 
+/* UTF-8, whatever the text has: a byte that is none becomes "\\xNN". Control characters, which a
+ * terminal might obey, are escaped as JSON has it. */
 static void write_text(FILE *out, const char *text)
 {
     putc('"', out);
-    for (const unsigned char *c = (const unsigned char *)text; *c; c++) {
-        if (*c == '"' || *c == '\\') fprintf(out, "\\%c", *c);
-        else if (*c < 0x20) fprintf(out, "\\u%04x", *c);
-        else putc(*c, out);
+    for (size_t length; *text; text += length) {
+        int32_t code;
+        length = fracas_text_character(text, &code);
+        if (code < 0) fprintf(out, "\\\\x%02x", (unsigned char)*text);
+        else if (code == '"' || code == '\\') fprintf(out, "\\%c", *text);
+        else if (code < 0x20 || fracas_text_is_hidden(code)) fprintf(out, "\\u%04" PRIx32, code);
+        else fwrite(text, 1, length, out);
     }
     putc('"', out);
 }

@@ -2,13 +2,16 @@
 /* The program fracas. */
 #include "cli/cli.h"
 
+#include "base/text.h"
 #include "base/version.h"
 #include "campaigns/campaign.h"
 #include "campaigns/file/words.h"
 #include "campaigns/scheduler/run.h"
+#include "campaigns/scheduler/status/channel.h"
 
 #include <fcntl.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -139,8 +142,10 @@ static void open_standard_streams(void)
 int main(int argc, char **argv)
 {
     open_standard_streams();
+    if (!getenv(FRACAS_LAUNCHER_MARK)) fracas_text_guard_stdout(); /* else the status channel */
     fracas_err code = dispatch(argc, argv);
-    if ((fflush(stdout) || ferror(stdout)) && !code)
+    const bool bad = ferror(stdout);
+    if ((fclose(stdout) || bad) && !code)
         code = fracas_fail(FRACAS_ENVIRONMENT,
                            "the output could not be written; is the disk full?");
     if (code) fprintf(stderr, "fracas: %s\n", fracas_message());

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/data/text.h"
 
+#include "base/text.h"
+
 #include <stdarg.h>
 #include <string.h>
 
@@ -16,13 +18,15 @@ void fracas_append(char *text, size_t size, const char *separator, const char *f
 
 static void put_escaped(const char *text, FILE *out)
 {
-    for (; *text; text++) {
-        switch (*text) {
+    while (*text) {
+        char shown[FRACAS_TEXT_SHOWN];
+        text += fracas_text_show_character(text, shown);
+        switch (*shown) {
         case '&': fputs("&amp;", out); break;
         case '<': fputs("&lt;", out); break;
         case '>': fputs("&gt;", out); break;
         case '"': fputs("&quot;", out); break;
-        default: putc(*text, out);
+        default: fputs(shown, out);
         }
     }
 }

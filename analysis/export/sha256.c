@@ -5,6 +5,7 @@
 #include <openssl/evp.h>
 #include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { BLOCK = 1 << 16, DIGEST = (FRACAS_SHA256_HEX - 1) / 2 };
 
@@ -38,5 +39,14 @@ fracas_err fracas_sha256_of_file(const char *path, char hex[FRACAS_SHA256_HEX], 
     if (reason) return fracas_fail_system(reason, "cannot read %s", path);
     if (!good) return fracas_no_memory("a digest");
     for (int i = 0; i < DIGEST; i++) snprintf(hex + 2 * i, 3, "%02x", result[i]);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_sha256_of_text(const char *text, char base64[FRACAS_SHA256_BASE64])
+{
+    unsigned char result[DIGEST];
+    if (!EVP_Digest(text, strlen(text), result, NULL, EVP_sha256(), NULL))
+        return fracas_no_memory("a digest");
+    EVP_EncodeBlock((unsigned char *)base64, result, DIGEST);
     return FRACAS_OK;
 }

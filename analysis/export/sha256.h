@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* SHA-256 of a file, by libcrypto: the digest in data packages, and of sha256sum. */
+/* SHA-256 by libcrypto: the digest of files in data packages, as sha256sum has it, and of the
+ * script of a page. */
 #ifndef FRACAS_ANALYSIS_EXPORT_SHA256_H
 #define FRACAS_ANALYSIS_EXPORT_SHA256_H
 
@@ -7,11 +8,14 @@
 
 #include <stdint.h>
 
-enum { FRACAS_SHA256_HEX = 65 }; /* 64 digits and the end */
+enum { FRACAS_SHA256_HEX = 65, FRACAS_SHA256_BASE64 = 45 }; /* characters and the end */
 
 /* Digest and size of the file's bytes. FRACAS_ENVIRONMENT if it cannot be read, or without memory.
  */
 FRACAS_MUST_USE fracas_err fracas_sha256_of_file(const char *path, char hex[FRACAS_SHA256_HEX],
                                                  uint64_t *bytes);
+/* Digest of the text in base64. FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err fracas_sha256_of_text(const char *text,
+                                                 char base64[FRACAS_SHA256_BASE64]);
 
 #endif

@@ -3,6 +3,7 @@
 #include "analysis/report/page.h"
 
 #include "analysis/export/csv.h"
+#include "analysis/export/sha256.h"
 #include "analysis/data/output.h"
 #include "analysis/draw/chart.h"
 #include "base/param.h"
@@ -15,6 +16,7 @@
 typedef struct {
     char *text[FRACAS_PAGE_SECTIONS];
     size_t size[FRACAS_PAGE_SECTIONS];
+    char script[FRACAS_SHA256_BASE64]; /* digest of the page's */
 } contents;
 
 static fracas_err write_section(fracas_page *page, const fracas_page_entry *section, char **text,
@@ -28,11 +30,23 @@ static fracas_err write_section(fracas_page *page, const fracas_page_entry *sect
     return err;
 }
 
+/* A page loads nothing and runs its own script only, whatever its texts may hold. Drawings have
+ * attributes of style, which no hash allows. */
+static void put_policy(const char *script, FILE *out)
+{
+    fracas_markup(out,
+                  "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
+                  "img-src data:; style-src 'unsafe-inline'; script-src 'sha256-%s'; "
+                  "base-uri 'none'; form-action 'none'\"/>\n",
+                  script);
+}
+
 static void put_page(const char *title, const char *lead, const fracas_page_entry *section,
                      size_t count, const contents *of, FILE *out)
 {
+    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n", out);
+    put_policy(of->script, out);
     fracas_markup(out,
-                  "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
                   "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n"
                   "<link rel=\"icon\" href=\"data:,\"/>\n<title>"
                   "%s",
@@ -54,14 +68,14 @@ static void put_page(const char *title, const char *lead, const fracas_page_entr
         fwrite(of->text[i], 1, of->size[i], out);
         fputs("</section>\n", out);
     }
-    fprintf(out, "</main>\n<script>\n%s</script>\n</body>\n</html>\n", fracas_page_script);
+    fprintf(out, "</main>\n<script>%s</script>\n</body>\n</html>\n", fracas_page_script);
 }
 
 fracas_err fracas_page_write(fracas_page *page, const char *title, const char *lead,
                              const fracas_page_entry *section, size_t count)
 {
     contents of = {0};
-    fracas_err err = FRACAS_OK;
+    fracas_err err = fracas_sha256_of_text(fracas_page_script, of.script);
     for (size_t i = 0; i < count && !err; i++)
         err = write_section(page, &section[i], &of.text[i], &of.size[i]);
     if (!err) err = fracas_pdf_write(page->folder, page->drawing, page->ndrawings);

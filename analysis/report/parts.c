@@ -2,6 +2,7 @@
 #include "analysis/report/page.h"
 
 #include "analysis/data/output.h"
+#include "base/text.h"
 
 #include <ctype.h>
 #include <limits.h>
@@ -57,17 +58,27 @@ static void put_source(fracas_page *page)
     if (!page->source)
         fprintf(page->out, ", campaign %.12s",
                 fracas_hash_hex(&page->analysis->header.campaign).text);
-    fprintf(page->out, ", fracas %s.</span>", page->analysis->header.version);
+    fracas_markup(page->out, ", fracas %s.</span>", page->analysis->header.version);
 }
 
 /* Text in which the c of "G_c" stands low; an underscore within a word stays. */
 static void put_words(const char *text, FILE *out)
 {
-    for (const char *rest = text; *rest; rest++) {
+    const char *rest = text;
+    while (*rest) {
         const bool low = rest[0] == '_' && rest > text && isalpha((unsigned char)rest[1]) &&
                          !isalnum((unsigned char)rest[2]) && rest[2] != '_';
-        if (low) fprintf(out, "<sub>%c</sub>", *++rest);
-        else fracas_markup(out, "%s", (const char[]){*rest, '\0'});
+        if (low) {
+            fprintf(out, "<sub>%c</sub>", rest[1]);
+            rest += 2;
+            continue;
+        }
+        char character[5];
+        int32_t code;
+        const size_t length = fracas_text_character(rest, &code);
+        snprintf(character, length + 1, "%s", rest);
+        fracas_markup(out, "%s", character);
+        rest += length;
     }
 }
 

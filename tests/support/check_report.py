@@ -3,8 +3,10 @@
 usage: check_report.py STUDY SOURCE
 STUDY holds study.h5, table.txt, summary.json and report/.
 """
+import base64
 import csv
 import glob
+import hashlib
 import html
 import html.parser
 import json
@@ -500,6 +502,10 @@ source_text = open(os.path.join(report, "index.html"), encoding="utf-8").read()
 page = Page()
 page.feed(source_text)
 assert page.open == []
+(policy,) = re.findall(r'<meta http-equiv="Content-Security-Policy" content="([^"]*)"/>', source_text)
+(script,) = re.findall(r"<script>(.*?)</script>", source_text, re.S)
+digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+assert "default-src 'none'" in policy and f"script-src 'sha256-{digest}';" in policy, policy
 assert page.scripts == 1
 # Marks on two and three pairs of axes; of a figure, for a new one may have marks, too.
 for name in ("size-against-rate", "size-against-rate-normalised"):

@@ -220,6 +220,33 @@ static void table_of_awkward_points(void **state)
     report_check(folder);
 }
 
+/* Texts of a study.h5 that somebody made by hand: neither markup nor what drives a terminal. */
+static void texts_of_a_file_are_no_markup(void **state)
+{
+    char folder[512];
+    made_table made;
+    fracas_file_header header = {.version = "<svg onload=alert(1)>\x1b[2J\xff", .complete = true};
+    make_table(&sweep, &made);
+    for (size_t p = 0; p < NPOINTS; p++) made.value[p][1].text = "\u202e<b>\x01";
+    snprintf(folder, sizeof folder, "%s/by hand", report_root);
+    report_write_study(folder, &header, &made.table, make_any_record, &sweep);
+    report_analyse(folder);
+    static const char *const written[] = {"report/index.html", "report/summary.json",
+                                          "report/size-against-rate.svg"};
+    for (size_t i = 0; i < sizeof written / sizeof *written; i++) {
+        OWNED char *text = report_contents(folder, written[i]);
+        for (const char *c = text; *c; c++) assert_true((unsigned char)*c >= 0x20 || *c == '\n');
+        assert_null(strstr(text, "\u202e"));
+        assert_null(strchr(text, '\xff'));
+        if (i == 1) continue;
+        assert_null(strstr(text, "<svg onload"));
+        assert_null(strstr(text, "<b>\\x01"));
+    }
+    OWNED char *page = report_contents(folder, "report/index.html");
+    assert_has(page, ", fracas &lt;svg onload=alert(1)&gt;\\x1b[2J\\xff.</span>");
+    assert_has(page, "law \\xe2\\x80\\xae&lt;b&gt;\\x01");
+}
+
 static void study_that_is_not_there(void **state)
 {
     fracas_analysis *analysis;
@@ -241,4 +268,4 @@ static void report_that_cannot_be_written(void **state)
 }
 
 TESTS_ALL(report_make_root, report_remove_root, table_of_a_sweep, table_of_awkward_points,
-          study_that_is_not_there, report_that_cannot_be_written)
+          texts_of_a_file_are_no_markup, study_that_is_not_there, report_that_cannot_be_written)

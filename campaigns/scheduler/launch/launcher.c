@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/launch/launcher.h"
 
+#include "base/text.h"
 #include "campaigns/scheduler/launch/allocation.h"
 #include "campaigns/scheduler/launch/mpirun.h"
 #include "campaigns/scheduler/launch/reap.h"
@@ -267,7 +268,9 @@ static fracas_err go_on(launcher *p, int status)
     explain(now, status, reason, sizeof reason);
     p->barren = now->gained ? 0 : p->barren + 1;
     if (p->barren == MOST_BARREN) {
-        fprintf(stderr, "%s", now->noise);
+        char shown[2 * NOISE];
+        fracas_text_show(now->noise, shown, sizeof shown);
+        fprintf(stderr, "%s", shown);
         return fracas_fail(FRACAS_ENVIRONMENT,
                            "%s; MPI was started %d times, the last %d in vain; what was done is "
                            "kept; the same command goes on from there",

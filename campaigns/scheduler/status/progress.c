@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/status/progress.h"
 
+#include "base/text.h"
 #include "campaigns/scheduler/types/clock.h"
 
 #include <math.h>
@@ -86,7 +87,9 @@ void fracas_progress_update(fracas_progress *progress, const fracas_counts *coun
 
 void fracas_progress_message(fracas_progress *progress, const char *text)
 {
-    fprintf(progress->out, "%s%s\n", progress->bar ? "\r\033[K" : "", text);
+    char shown[4096];
+    fracas_text_show(text, shown, sizeof shown);
+    fprintf(progress->out, "%s%s\n", progress->bar ? "\r\033[K" : "", shown);
     fflush(progress->out);
     progress->bar = false;
 }
