@@ -108,6 +108,7 @@ static fracas_err report_death(rank_state *rank, fracas_packet **message)
     rank->fresh = false;
     if (fracas_supervisor_reap(&rank->supervisor, how, sizeof how)) {
         snprintf(text, room, "%s", fracas_message());
+        trouble.again = 1;
     } else if (++rank->deaths >= DEATHS_MAX) {
         snprintf(text, room,
                  "%s, and %d died before it with no segment in between; it is not started again",

@@ -38,6 +38,13 @@ mount -t tmpfs -o size=1m tmpfs small || exit 77
 echo mounted
 run 6 'will need about .* but its disk has 1.0 MB free.*output.history.*--ignore-space'
 [ ! -e small/study ] || { echo "a refused run left something behind"; exit 1; }
+export TMPDIR="$PWD/small" # MPI would hang
+run 6 "^fracas: MPI needs 10 MB for its own files in $TMPDIR (TMPDIR), but the disk has 1.0 MB free; free some, or set TMPDIR" --ignore-space
+mount -o remount,ro small
+run 6 "^fracas: MPI cannot make a folder .* in $TMPDIR (TMPDIR): Read-only file system; set TMPDIR" --ignore-space
+! grep 'started' said || exit 1
+mount -o remount,rw small
+unset TMPDIR
 run 6 'No space left on device; free some space.*the same command goes on' --ignore-space
 mount -o remount,size=64m,nr_inodes=40 small
 run 6 'room for .* more files.*df -i'

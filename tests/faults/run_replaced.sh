@@ -12,12 +12,12 @@ events()
     sqlite3 "$1/index.sqlite" "SELECT count(*) FROM event WHERE kind = '$2'"
 }
 
-# killed STUDY ISOLATION NAME: kill -9 of the first process of that name while there is much to do.
+# killed STUDY ISOLATION NAME [JOBS]: kill -9 of the first process of that name while there is much to do.
 killed()
 {
     tries=0
     while :; do
-        start long.yaml --study "$1" --jobs 2 --isolation "$2" --lanes 1 --lease-time 0 --segment-size 0.1 # three records
+        start long.yaml --study "$1" --jobs "${4:-2}" --isolation "$2" --lanes 1 --lease-time 0 --segment-size 0.1 # three records
         wait_segments "$1" 1
         servers=$(named fracas-server)
         victim=$(named "$3" | head -n 1)
@@ -55,6 +55,12 @@ for isolation in lease none; do
     [ "$(events supervisor-$isolation 'worker lost')" -eq 1 ] || fail "not one event of a worker lost"
 done
 killed lease-lease lease fracas-lease
+
+# The supervisor of the only worker: MPI is started again, as for a dead rank.
+killed only-supervisor lease fracas-supervis 1
+grep -q '^the compute server of rank 0 went with its supervisor, which died of signal 9.*; MPI is started again' background ||
+    { cat background >&2; fail "it did not say that MPI is started again"; }
+grep -q 'others go on' background && fail "there are no others"
 
 zombies()
 {

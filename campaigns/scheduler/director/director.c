@@ -339,11 +339,15 @@ static fracas_err on_end(fracas_director *director, size_t worker, const fracas_
         fracas_director_fail(director, &trouble);
         return FRACAS_OK;
     }
-    fracas_channel_message(director->setup.channel, "%s; the others go on", trouble.text);
     TRY(fracas_index_event(director->index, "worker lost", trouble.text));
-    if (fracas_director_over(director) && !director->stopping)
-        fracas_director_fail(director, &trouble);
-    return lease_all(director);
+    if (!fracas_director_over(director)) {
+        fracas_channel_message(director->setup.channel, "%s; the others go on", trouble.text);
+        return lease_all(director);
+    }
+    if (director->stopping) return FRACAS_OK;
+    director->setup.channel->again = director->setup.channel->launcher && trouble.again;
+    fracas_director_fail(director, &trouble);
+    return FRACAS_OK;
 }
 
 /* The worker's server died, and READY of a new one follows. The leases of the dead one wait again;

@@ -78,6 +78,7 @@ static fracas_err unfinished(const fracas_director *director, const fracas_count
 {
     const long long kept = (long long)(count->done + count->failed),
                     total = (long long)count->total;
+    if (director->setup.channel->again) return fracas_trouble_fail(&director->trouble);
     if (director->trouble.code)
         return fracas_fail(
             (fracas_err)director->trouble.code,

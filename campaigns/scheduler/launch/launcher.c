@@ -243,10 +243,12 @@ static void explain(const launch *now, int status, char *text, size_t size)
                  WEXITSTATUS(status));
 }
 
-/* The run is over, unless processes of the last start still hold the study on another machine. */
+/* The run is over, unless it lost its last worker, or processes of the last start still hold the
+ * study on another machine. */
 static bool is_over(const launcher *p)
 {
-    return p->now.ending.ended && !(p->now.ending.err == FRACAS_IN_USE && p->starts > 1);
+    const fracas_ending *ending = &p->now.ending;
+    return ending->ended && !ending->again && !(ending->err == FRACAS_IN_USE && p->starts > 1);
 }
 
 static fracas_err stopped(const launcher *p)
@@ -265,6 +267,8 @@ static fracas_err go_on(launcher *p, int status)
     if (WIFEXITED(status) && WEXITSTATUS(status) == FRACAS_MPIRUN_MISSING && !now->speaks)
         return fracas_fail(FRACAS_ENVIRONMENT,
                            "there is no mpirun; install Open MPI (Debian: openmpi-bin)");
+    if (!now->speaks && fracas_mpirun_hopeless(now->noise, reason, sizeof reason))
+        return fracas_fail(FRACAS_ENVIRONMENT, "%s", reason);
     explain(now, status, reason, sizeof reason);
     p->barren = now->gained ? 0 : p->barren + 1;
     if (p->barren == MOST_BARREN) {

@@ -30,6 +30,7 @@ static void set_environment(void)
         {"HWLOC_HIDE_ERRORS", "2"},
     };
     for (size_t i = 0; i < FRACAS_COUNT(quiet); i++) setenv(quiet[i].name, quiet[i].value, 1);
+    setenv("PATH", "/usr/local/bin:/usr/bin:/bin", 0); /* mpirun fails without any */
     if (geteuid() == 0) { /* mpirun refuses to run as root without both */
         setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
         setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
@@ -56,12 +57,13 @@ static _Noreturn void become_mpirun(char **arguments, pid_t parent, const int ou
 
 fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, fracas_mpirun *mpirun)
 {
-    char self[4096], count[16];
+    char self[4096], count[16], colon[] = "./:";
     char *const before[] = {"mpirun", "--oversubscribe", "--bind-to", "none", "-n", count, self};
     OWNED char **arguments = calloc(FRACAS_COUNT(before) + (size_t)argc + 1, sizeof *arguments);
     if (!arguments) return fracas_no_memory("the arguments of mpirun");
     memcpy(arguments, before, sizeof before);
-    for (int i = 1; i < argc; i++) arguments[FRACAS_COUNT(before) + (size_t)i - 1] = argv[i];
+    for (int i = 1; i < argc; i++) /* a lone colon separates programs for mpirun */
+        arguments[FRACAS_COUNT(before) + (size_t)i - 1] = strcmp(argv[i], ":") ? argv[i] : colon;
     snprintf(count, sizeof count, "%d", jobs);
     ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
     if (n < 0)
@@ -101,6 +103,21 @@ static bool find_line(const char *output, const char *key, char *text, size_t si
     }
     *text = '\0';
     return false;
+}
+
+bool fracas_mpirun_hopeless(const char *output, char *text, size_t size)
+{
+    char framework[64], component[64];
+    if (!find_line(output, "requested component was not found", text, size) ||
+        !find_line(output, "Framework: ", framework, sizeof framework) ||
+        !find_line(output, "Component: ", component, sizeof component))
+        return false;
+    const char *of = framework + strlen("Framework: ");
+    snprintf(text, size,
+             "Open MPI has no component `%s` of `%s`: correct OMPI_MCA_%s, or take it out of the "
+             "environment (or of ~/.openmpi/mca-params.conf)",
+             component + strlen("Component: "), of, of);
+    return true;
 }
 
 void fracas_mpirun_reason(const char *output, char *text, size_t size)

@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <sys/types.h>
 
@@ -20,6 +21,10 @@ enum { FRACAS_MPIRUN_MISSING = 127 }; /* its exit status when there is no mpirun
  * this process. */
 FRACAS_MUST_USE fracas_err fracas_mpirun_start(int jobs, int argc, char **argv,
                                                fracas_mpirun *mpirun);
+
+/* True, with the reason and its remedy in `text`, if the output says that no further start can
+ * help: a component of Open MPI that is asked for and not there. */
+bool fracas_mpirun_hopeless(const char *output, char *text, size_t size);
 
 /* The reason for an early end: the most telling line of the output of mpirun and the ranks; ""
  * without any. */

@@ -57,7 +57,7 @@ void fracas_channel_end(fracas_channel *channel, fracas_err err, bool ran)
     char text[1024];
     snprintf(text, sizeof text, "%s", err ? fracas_message() : "");
     replace(text, '\n', '\v');
-    printf("%send %d %d %s\n", mark, err, ran, text);
+    printf("%send %d %d %d %s\n", mark, err, ran, channel->again, text);
     fflush(stdout);
 }
 
@@ -67,16 +67,17 @@ bool fracas_channel_receive(char *line, fracas_progress *progress, fracas_ending
     line += strlen(mark);
     long long total, done, memory, failed;
     double work;
-    int code, ran, text = 0;
+    int code, ran, again, text = 0;
     if (sscanf(line, "progress %lld %lld %lld %lld %lg", &total, &done, &memory, &failed, &work) ==
         5) {
         fracas_progress_update(progress, &(fracas_counts){total, done, memory, failed, work});
     } else if (!strncmp(line, "say ", 4)) {
         replace(line, '\v', '\n');
         fracas_progress_message(progress, line + 4);
-    } else if (sscanf(line, "end %d %d%n", &code, &ran, &text) == 2 && text) {
+    } else if (sscanf(line, "end %d %d %d%n", &code, &ran, &again, &text) == 3 && text) {
         replace(line, '\v', '\n');
-        *ending = (fracas_ending){.ended = true, .ran = ran != 0, .err = (fracas_err)code};
+        *ending = (fracas_ending){
+            .ended = true, .ran = ran != 0, .again = again != 0, .err = (fracas_err)code};
         snprintf(ending->text, sizeof ending->text, "%s", line[text] == ' ' ? line + text + 1 : "");
     }
     return true;

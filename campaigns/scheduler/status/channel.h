@@ -4,7 +4,7 @@
  *
  *   @fracas progress TOTAL DONE MEMORY FAILED WORK
  *   @fracas say TEXT
- *   @fracas end STATUS RAN TEXT
+ *   @fracas end STATUS RAN AGAIN TEXT
  *
  * A line break in TEXT travels as a vertical tab. Lines without the mark come from others (MPI). */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_STATUS_CHANNEL_H
@@ -19,6 +19,7 @@
 
 typedef struct {
     bool launcher; /* one reads stdout */
+    bool again;    /* no worker is left, and the launcher is to start MPI again */
     fracas_progress progress;
 } fracas_channel;
 
@@ -31,7 +32,7 @@ void fracas_channel_end(fracas_channel *channel, fracas_err err, bool ran);
 
 /* The last line, as the launcher has read it. */
 typedef struct {
-    bool ended, ran;
+    bool ended, ran, again;
     fracas_err err;
     char text[1024];
 } fracas_ending;

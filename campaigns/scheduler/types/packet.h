@@ -43,7 +43,8 @@ typedef struct {
 } fracas_packet;
 
 typedef struct {
-    int32_t code; /* fracas_err */
+    int32_t code;  /* fracas_err */
+    int32_t again; /* not 0: another start of MPI helps */
     char text[1024];
 } fracas_trouble;
 
