@@ -54,6 +54,14 @@ void fracas_signals_catch(void)
     signal(SIGPIPE, SIG_IGN);
 }
 
+void fracas_signals_catch_rank(void)
+{
+    static const int asking[] = {SIGUSR1, SIGUSR2, SIGTERM, SIGINT};
+    set(asking, FRACAS_COUNT(asking), drain);
+    signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
+}
+
 bool fracas_signals_ask(void)
 {
     return ended > 0 || drained;

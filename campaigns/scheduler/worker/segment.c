@@ -5,9 +5,9 @@
 #include "base/version.h"
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/types/header.h"
+#include "campaigns/scheduler/types/mailbox.h"
 
 #include <math.h>
-#include <mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -58,21 +58,12 @@ static void read_cpu(char *model, size_t size)
     }
 }
 
-/* "Open MPI v4.1.4": MPI allows this call before MPI_Init, hence in a compute server. */
-static void read_mpi(char *version, size_t size)
-{
-    char text[MPI_MAX_LIBRARY_VERSION_STRING] = "unknown";
-    int length;
-    if (MPI_Get_library_version(text, &length) != MPI_SUCCESS) strcpy(text, "unknown");
-    snprintf(version, size, "%.*s", (int)strcspn(text, ",\n"), text);
-}
-
 static void write_versions(fracas_json *json)
 {
     char cpu[256], hdf5[32], mpi[128];
     read_cpu(cpu, sizeof cpu);
     fracas_hdf5_version(hdf5);
-    read_mpi(mpi, sizeof mpi);
+    fracas_mailbox_version(mpi, sizeof mpi);
     fracas_json_text(json, "version", FRACAS_VERSION);
     fracas_json_text(json, "compiler", compiler);
     fracas_json_text(json, "hdf5", hdf5);
