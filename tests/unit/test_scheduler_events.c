@@ -98,6 +98,27 @@ static void an_overdue_lease_goes_to_an_idle_worker(void **state)
     assert_done(scheduler, 24, 0, 8);
 }
 
+/* A lease that never ends, in two hands: when the first is killed for it the second's is not copied
+ * before its time is over, too, and then it is bisected. With a copy at once, two workers would
+ * take turns for ever. */
+static void two_do_not_take_turns_with_what_never_ends(void **state)
+{
+    fracas_lease first, second, copy;
+    bool final;
+    OWN(fracas_scheduler) scheduler = create_late(&first, &second);
+    OK(fracas_scheduler_computed(scheduler, 1, second.id, 8, 8));
+    fracas_scheduler_durable(scheduler, 1);
+    copy_of(scheduler, 2, 33, 0, &copy);
+    OK(fracas_scheduler_failed(scheduler, 0, first.id, 1000, 0, 8, &first, &final));
+    assert_int_equal(first.count, 0);
+    assert_false(any(scheduler, 0, 1000, &first));
+    assert_false(any(scheduler, 0, 33 + first.limit, &first));
+    OK(fracas_scheduler_failed(scheduler, 2, copy.id, 1033, 0, 8, &copy, &final));
+    assert_int_equal(copy.count, 8);
+    assert_true(next(scheduler, 0, 1033, &first));
+    assert_int_equal(first.count, 4);
+}
+
 /* 10 s at least; of a lease ahead from when it was given, and from when it began when the one
  * before it was computed. */
 static void short_leases_are_overdue_after_10_s(void **state)
@@ -489,6 +510,7 @@ static void a_million_is_not_too_many(void **state)
     }
 }
 
-TESTS(an_overdue_lease_goes_to_an_idle_worker, short_leases_are_overdue_after_10_s,
-      a_lease_that_stays_in_memory_is_overdue, a_loss_at_any_stage_loses_nothing,
-      a_copy_that_fails_is_forgotten, any_course_of_events, a_million_is_not_too_many)
+TESTS(an_overdue_lease_goes_to_an_idle_worker, two_do_not_take_turns_with_what_never_ends,
+      short_leases_are_overdue_after_10_s, a_lease_that_stays_in_memory_is_overdue,
+      a_loss_at_any_stage_loses_nothing, a_copy_that_fails_is_forgotten, any_course_of_events,
+      a_million_is_not_too_many)

@@ -16,6 +16,7 @@ typedef struct task {
     bool isolated;
     bool done;         /* durable, by whichever worker was first */
     size_t held, kept; /* numbers of workers: computing it, with it in memory */
+    size_t returned;   /* times that it failed while another worker had it */
     size_t count;
     int64_t replica[];
 } task;
@@ -302,12 +303,14 @@ static task *cut(fracas_scheduler *s, double now)
 }
 
 /* Time from which a task is overdue, had by one worker since `since` and `kept` seconds in its
- * memory at most; INFINITY: never. */
+ * memory at most; INFINITY: never. After each failure elsewhere it has the time of another lease:
+ * that worker's attempt must end alone, or two would take turns with what never ends. */
 static double overdue_at(const fracas_scheduler *s, const task *t, double since, double kept)
 {
     const double expected = predicted(s, t);
     if (t->held + t->kept > 1 || t->done || isnan(expected)) return INFINITY;
-    return since + kept + fmax(OVERDUE_LEAST, OVERDUE * expected);
+    return since + kept + fmax(OVERDUE_LEAST, OVERDUE * expected) +
+           (t->returned ? (double)t->returned * limit_of(s, t) : 0);
 }
 
 /* The worker's first overdue task, at time *at; NULL if none ever is. */
@@ -494,6 +497,7 @@ fracas_err fracas_scheduler_failed(fracas_scheduler *scheduler, size_t worker, u
     *lease = (fracas_lease){.id = t->id, .point = t->point, .count = alone ? count : 0};
     memcpy(lease->replica, t->replica + kept, lease->count * sizeof *t->replica);
     if (!alone) {
+        t->returned++;
         destroy_if_unused(t);
     } else if (single) {
         try_again(scheduler, t, final);
