@@ -5,6 +5,7 @@
 
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/director/director.h"
+#include "campaigns/store/index/index.h"
 
 static struct {
     size_t nleases, stops, fresh;
@@ -128,6 +129,20 @@ static void one_that_dies_while_a_run_drains_is_stopped(void **state)
     assert_int_equal(worker[0].nleases, 1);
 }
 
+/* The disk is full, and no event can be noted: the new server must hear all the same, for it is
+ * about to be told to stop. */
+static void one_that_dies_while_nothing_can_be_noted_is_stopped(void **state)
+{
+    fracas_index *index;
+    OK(fracas_index_open(study, false, &index));
+    OK(fracas_sql_script(index, "DROP TABLE event"));
+    fracas_index_close(index);
+    replaced(0);
+    assert_int_equal(worker[0].fresh, 1);
+    ready(0);
+    assert_int_equal(worker[0].stops, 1);
+}
+
 /* A drained run whose last worker is lost has drained: the same command goes on, and nobody needs
  * to be told of trouble. */
 static void one_that_is_lost_while_a_run_drains_is_no_trouble(void **state)
@@ -156,5 +171,6 @@ static void a_server_without_a_segment_answers_too(void **state)
 
 TESTS_EACH(begin, end, what_it_held_waits_and_is_isolated,
            one_that_dies_at_the_end_costs_what_it_had, one_that_dies_while_a_run_drains_is_stopped,
+           one_that_dies_while_nothing_can_be_noted_is_stopped,
            one_that_is_lost_while_a_run_drains_is_no_trouble,
            a_server_without_a_segment_answers_too)

@@ -364,8 +364,9 @@ static fracas_err on_replaced(fracas_director *director, size_t worker,
         director->needless = false;
         director->stopping = director->drained || director->trouble.code;
     }
-    TRY(fracas_director_announce(director, "server replaced", trouble.text));
+    /* First: without it the new server hears nothing, not even STOP after an error below. */
     TRY(fracas_director_post(director, worker, FRACAS_PACKET_FRESH, NULL, 0));
+    TRY(fracas_director_announce(director, "server replaced", trouble.text));
     return lease_all(director);
 }
 
