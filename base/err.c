@@ -58,9 +58,26 @@ const char *fracas_remedy(int reason)
     case ENOMEM: return "; free some memory, or use fewer --jobs, and run again";
     case EAGAIN:
         return "; raise the limits on processes (`ulimit -u`), or use fewer --jobs, and run again";
+    case ELOOP:
+        return "; nothing is written through links: remove it, or put in its place what it leads "
+               "to";
+    case ENXIO:
+    case EISDIR: return "; move it away";
     case ESTALE:
         return "; the network filesystem has lost it: look whether it is mounted, and run again";
     default: return "";
+    }
+}
+
+/* Anything else in the place of a file is no fault of the system; the system's words for it are
+ * about other things. */
+static const char *what_is_there(int reason)
+{
+    switch (reason) {
+    case ELOOP: return "it is a symbolic link";
+    case ENXIO: return "it is a pipe, a socket or a device, and no file";
+    case EISDIR: return "it is a folder, and no file";
+    default: return NULL;
     }
 }
 
@@ -71,8 +88,9 @@ fracas_err fracas_fail_system(int reason, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    return fracas_fail(FRACAS_ENVIRONMENT, "%s: %s%s", text, strerror(reason),
-                       fracas_remedy(reason));
+    const char *there = what_is_there(reason);
+    return fracas_fail(there ? FRACAS_DAMAGED : FRACAS_ENVIRONMENT, "%s: %s%s", text,
+                       there ? there : strerror(reason), fracas_remedy(reason));
 }
 
 fracas_err fracas_no_memory(const char *what)

@@ -164,6 +164,12 @@ fracas_err fracas_arguments_read(const fracas_command *command, int argc, char *
         return fracas_fail(FRACAS_USAGE, "%s: %s is missing: fracas %s %s%s%s", command->name,
                            missing, command->name, command->operand, command->second ? " " : "",
                            command->second ? command->second : "");
+    const char *empty = arguments->operand && !*arguments->operand ? command->operand
+                        : arguments->second && !*arguments->second ? command->second
+                                                                   : NULL;
+    if (empty)
+        return fracas_fail(FRACAS_USAGE, "%s: %s is empty: an empty name would be the folder `/`",
+                           command->name, empty);
     return FRACAS_OK;
 }
 

@@ -3,6 +3,7 @@
 #include "cli/cli.h"
 
 #include "analysis/analysis.h"
+#include "analysis/data/output.h"
 #include "analysis/fit/fits.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
@@ -100,9 +101,9 @@ static fracas_err export(const fracas_arguments *arguments)
     OWN(fracas_analysis) analysis = NULL;
     OWNED char *folder = NULL;
     const char *to = fracas_given(arguments, "to");
-    TRY(to ? fracas_path(&folder, "%s", to)
-           : fracas_path(&folder, "%s/export", arguments->operand));
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
+    TRY(to ? fracas_path(&folder, "%s", to)
+           : fracas_output_folder_in(arguments->operand, "export", &folder));
     TRY(fracas_export_write(analysis, folder, fracas_given(arguments, "histories") != NULL));
     printf("export: %s/datapackage.json\n", folder);
     return FRACAS_OK;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
+#include "base/file.h"
 #include "base/param.h"
 #include "campaigns/sample/sample.h"
 
@@ -21,11 +22,11 @@ static const fracas_option options[] = {
     {"json", NULL, "print the summary as JSON"},
     {0}};
 
-static bool write_to(const char *path, const fracas_sample *sample,
+static bool write_to(const char *path, bool plain, const fracas_sample *sample,
                      void (*write)(const fracas_sample *sample, FILE *out))
 {
     errno = 0;
-    FILE *out = fopen(path, "w");
+    FILE *out = plain ? fracas_file_stream(fracas_file_create(path), "w") : fopen(path, "w");
     if (!out) return false;
     write(sample, out);
     const bool bad = ferror(out);
@@ -44,7 +45,7 @@ static fracas_err write_file(const fracas_sample *sample,
     if (snprintf(temporary, sizeof temporary, plain ? "%s.tmp-%ld" : "%s", path, (long)getpid()) >=
         (int)sizeof temporary)
         return fracas_fail(FRACAS_USAGE, "the path of a file is too long: %s", path);
-    const bool written = write_to(temporary, sample, write);
+    const bool written = write_to(temporary, plain, sample, write);
     if (written && (!plain || rename(temporary, path) == 0)) return FRACAS_OK;
     const fracas_err err = fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", path,
                                        strerror(errno));

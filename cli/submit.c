@@ -2,6 +2,7 @@
 #include "cli/job.h"
 #include "cli/run.h"
 
+#include "base/file.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/session/space.h"
@@ -126,9 +127,9 @@ static fracas_err find_places(submission *s)
 static fracas_err check_place(const char *path)
 {
     bool own;
-    OWN(FILE) file = fopen(path, "r");
+    OWN(FILE) file = fracas_file_stream(fracas_file_open(path), "r");
     if (!file && errno == ENOENT) return FRACAS_OK;
-    if (!file) return fracas_fail(FRACAS_ENVIRONMENT, "cannot open %s: %s", path, strerror(errno));
+    if (!file) return fracas_fail_system(errno, "cannot open %s", path);
     TRY(fracas_job_is_own(file, &own));
     if (own) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
@@ -140,9 +141,8 @@ static fracas_err check_place(const char *path)
 static fracas_err write_script(const submission *s)
 {
     TRY(check_place(s->script));
-    FILE *out = fopen(s->script, "w");
-    if (!out)
-        return fracas_fail(FRACAS_ENVIRONMENT, "cannot write %s: %s", s->script, strerror(errno));
+    FILE *out = fracas_file_stream(fracas_file_create(s->script), "w");
+    if (!out) return fracas_fail_system(errno, "cannot write %s", s->script);
     fracas_err err = fracas_job_write(&s->job, out);
     const int bad = ferror(out);
     if (fclose(out) || bad)

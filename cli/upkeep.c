@@ -177,8 +177,7 @@ const fracas_command fracas_command_merge_studies = {
             "be an extension of the other's; program version, seed and output options must be the "
             "same. What both have is compared\n"
             "bit for bit before anything is copied: status 5 names the first difference. B stays "
-            "as it is, but for damaged\n"
-            "segments, which are set aside.\n",
+            "as it is, and is refused if it is damaged.\n",
     .options = fracas_json_option,
     .run = merge_studies,
 };

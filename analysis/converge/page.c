@@ -264,13 +264,12 @@ fracas_err fracas_convergence_write_page(const fracas_convergence *convergence, 
 {
     OWNED char *to = NULL;
     char lead[160];
-    TRY(fracas_disk_join(folder, "report", &to));
+    TRY(fracas_output_folder_in(folder, "report", &to));
     fracas_page page = {
         .analysis = convergence->study, .folder = to, .of = convergence, .source = title};
     const size_t npoints = convergence->study->table->npoints;
     FRACAS_PRINT(lead, "What refinement changes: %zu point%s, %zu numbers, tolerance %g %%",
                  npoints, npoints == 1 ? "" : "s", convergence->nrows,
                  100 * convergence->tolerance);
-    TRY(fracas_output_folder(to));
     return fracas_page_write(&page, title, lead, sections, FRACAS_COUNT(sections));
 }

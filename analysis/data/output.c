@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/data/output.h"
 
+#include "base/file.h"
+
 #include <errno.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -18,13 +20,21 @@ fracas_err fracas_output_folder(const char *folder)
     return fracas_fail_system(reason, "cannot make the folder %s", folder);
 }
 
+fracas_err fracas_output_folder_in(const char *study, const char *name, char **folder)
+{
+    TRY(fracas_path(folder, "%s/%s", study, name));
+    if (!fracas_folder_is_own(*folder) && errno == ELOOP)
+        return fracas_fail_system(errno, "cannot write into %s", *folder);
+    return fracas_output_folder(*folder);
+}
+
 fracas_err fracas_output_open(const char *folder, const char *name, fracas_output_file *output)
 {
     *output = (fracas_output_file){0};
     fracas_err err = fracas_path(&output->path, "%s/%s", folder, name);
     if (!err) err = fracas_path(&output->temporary, "%s/.%s.%ld", folder, name, (long)getpid());
     if (!err) {
-        output->file = fopen(output->temporary, "w");
+        output->file = fracas_file_stream(fracas_file_create(output->temporary), "w");
         if (output->file) return FRACAS_OK;
         err = fracas_fail_system(errno, "cannot write %s", output->temporary);
     }

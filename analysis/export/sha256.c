@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/export/sha256.h"
 
+#include "base/file.h"
+
 #include <errno.h>
 #include <openssl/evp.h>
 #include <stdbool.h>
@@ -30,7 +32,7 @@ fracas_err fracas_sha256_of_file(const char *path, char hex[FRACAS_SHA256_HEX], 
 {
     unsigned char result[DIGEST];
     int reason;
-    FILE *file = fopen(path, "r");
+    FILE *file = fracas_file_stream(fracas_file_open(path), "r");
     if (!file) return fracas_fail_system(errno, "cannot read %s", path);
     EVP_MD_CTX *context = EVP_MD_CTX_new();
     const bool good = digest(file, context, result, bytes, &reason);

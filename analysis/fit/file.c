@@ -2,6 +2,7 @@
 /* STUDY/fits.csv: a stamp in its first lines, then a line a number. */
 #include "analysis/data/output.h"
 #include "analysis/fit/fits.h"
+#include "base/file.h"
 #include "campaigns/store/file/disk.h"
 
 #include <errno.h>
@@ -130,7 +131,7 @@ fracas_err fracas_fits_read(const char *study, fracas_fits **fits)
     OWNED char *path = NULL;
     *fits = NULL;
     TRY(fracas_disk_join(study, FRACAS_FITS_FILE, &path));
-    OWN(FILE) in = fopen(path, "r");
+    OWN(FILE) in = fracas_file_stream(fracas_file_open(path), "r");
     if (!in && errno == ENOENT) return FRACAS_OK;
     if (!in) return fracas_fail_system(errno, "cannot read %s", path);
     OWN(fracas_fits) found = calloc(1, sizeof *found);

@@ -150,8 +150,7 @@ fracas_err fracas_report_write(const fracas_analysis *analysis, const char *stud
     OWN(fracas_fits) fits = NULL;
     size_t stale = 0;
     char lead[512];
-    TRY(fracas_disk_join(study, "report", &folder));
-    TRY(fracas_output_folder(folder));
+    TRY(fracas_output_folder_in(study, "report", &folder));
     TRY(fracas_fits_read(study, &fits));
     if (fits) fracas_fits_keep(fits, analysis, &stale);
     TRY(write_tables(analysis, folder, fits, stale));

@@ -3,6 +3,10 @@
 
 #ifdef FRACAS_PDF
 
+#include "analysis/data/output.h"
+#include "base/own.h"
+#include "base/param.h"
+
 #include <cairo-pdf.h>
 #include <librsvg/rsvg.h>
 
@@ -26,7 +30,7 @@ static const double points_a_pixel = 72.0 / 96;
     X(rsvg_handle_new_from_file) \
     X(rsvg_handle_get_intrinsic_size_in_pixels) \
     X(rsvg_handle_render_document) \
-    X(cairo_pdf_surface_create) \
+    X(cairo_pdf_surface_create_for_stream) \
     X(cairo_pdf_surface_set_metadata) \
     X(cairo_create) \
     X(cairo_destroy) \
@@ -61,14 +65,19 @@ static fracas_err load(library *of)
     return FRACAS_OK;
 }
 
-static fracas_err draw(const library *lib, RsvgHandle *drawing, const char *to)
+static cairo_status_t put(void *out, const unsigned char *bytes, unsigned size)
+{
+    return fwrite(bytes, 1, size, out) == size ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
+}
+
+static fracas_err draw(const library *lib, RsvgHandle *drawing, const char *to, FILE *out)
 {
     double width, height;
     if (!lib->rsvg_handle_get_intrinsic_size_in_pixels(drawing, &width, &height))
         return fracas_fail(FRACAS_BUG, "the drawing for %s has no size", to);
     width *= points_a_pixel;
     height *= points_a_pixel;
-    cairo_surface_t *surface = lib->cairo_pdf_surface_create(to, width, height);
+    cairo_surface_t *surface = lib->cairo_pdf_surface_create_for_stream(put, out, width, height);
     lib->cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE,
                                         ""); /* equal studies, equal files */
     cairo_t *cairo = lib->cairo_create(surface);
@@ -89,24 +98,19 @@ static fracas_err draw(const library *lib, RsvgHandle *drawing, const char *to)
 
 static fracas_err convert(const library *lib, const char *folder, const char *name)
 {
-    char *from, *to, *temporary;
-    if (asprintf(&from, "%s/%s.svg", folder, name) < 0 ||
-        asprintf(&to, "%s/%s.pdf", folder, name) < 0 ||
-        asprintf(&temporary, "%s/.%s.pdf.%ld", folder, name, (long)getpid()) < 0)
-        return fracas_no_memory("a path"); /* the child ends here, with its memory */
+    OWNED char *from = NULL;
+    char file[FRACAS_DRAWING + 4];
+    fracas_output_file output;
+    TRY(fracas_path(&from, "%s/%s.svg", folder, name));
+    FRACAS_PRINT(file, "%s.pdf", name);
     GError *error = NULL;
     RsvgHandle *drawing = lib->rsvg_handle_new_from_file(from, &error);
     if (!drawing)
         return fracas_fail(FRACAS_ENVIRONMENT, "cannot read %s to make a PDF of it: %s", from,
                            error->message);
-    fracas_err err = draw(lib, drawing, temporary);
-    if (!err && rename(temporary, to))
-        err = fracas_fail_system(errno, "cannot rename %s to %s", temporary, to);
-    if (err) unlink(temporary);
+    fracas_err err = fracas_output_open(folder, file, &output);
+    if (!err) err = fracas_output_close(&output, draw(lib, drawing, output.path, output.file));
     lib->g_object_unref(drawing);
-    free(from);
-    free(to);
-    free(temporary);
     return err;
 }
 

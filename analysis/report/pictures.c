@@ -177,9 +177,9 @@ static fracas_err make(making *m)
                                    m->first_row + (size_t)m->request->replica, &surface));
     TRY(check_record(m, &surface.record));
     const char *wanted = m->request->folder;
-    TRY(wanted ? fracas_path(&m->folder, "%s", wanted)
-               : fracas_path(&m->folder, "%s/pictures", m->study));
-    TRY(fracas_output_folder(m->folder));
+    if (wanted) TRY(fracas_path(&m->folder, "%s", wanted));
+    TRY(wanted ? fracas_output_folder(m->folder)
+               : fracas_output_folder_in(m->study, "pictures", &m->folder));
     TRY(save_pictures(m, &surface));
     if (m->request->table) TRY(save_table(m, &surface.mesh));
     return say_times(m, &surface);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/attach.h"
 
+#include "base/file.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -63,11 +65,11 @@ static fracas_err load_open(const fracas_file *file, const char *path, FILE *in,
 
 static fracas_err load(const fracas_file *file, const char *path, fracas_attachment *made)
 {
-    struct stat info;
-    if (stat(path, &info)) return cannot("open", path);
-    if (!S_ISREG(info.st_mode)) return fracas_fail(FRACAS_USAGE, "%s is not a file", path);
-    OWN(FILE) in = fopen(path, "rb"); /* opening a pipe would wait */
-    return in ? load_open(file, path, in, made) : cannot("open", path);
+    OWN(FILE) in = fracas_file_stream(fracas_file_open(path), "rb");
+    if (in) return load_open(file, path, in, made);
+    if (errno == ENXIO || errno == EISDIR)
+        return fracas_fail(FRACAS_USAGE, "%s is not a file", path);
+    return cannot("open", path);
 }
 
 fracas_err fracas_attachment_read(const fracas_file *file, const char *key, const fracas_node *node,

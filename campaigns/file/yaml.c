@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/node.h"
 
+#include "base/file.h"
 #include "base/own.h"
 
 #include <errno.h>
@@ -60,9 +61,11 @@ static fracas_err load_open(const char *name, FILE *in, unsigned char **bytes, s
 
 static fracas_err load(const char *name, unsigned char **bytes, size_t *size)
 {
-    OWN(FILE) in = fopen(name, "rb");
+    OWN(FILE) in = fracas_file_stream(fracas_file_open(name), "rb");
     if (in) return load_open(name, in, bytes, size);
     if (errno == ENOENT) return fracas_fail(FRACAS_USAGE, "there is no campaign file %s", name);
+    if (errno == ENXIO || errno == EISDIR)
+        return fracas_fail(FRACAS_USAGE, "%s is no file; write the campaign into one", name);
     return fracas_fail(FRACAS_ENVIRONMENT, "cannot open the campaign file %s: %s", name,
                        strerror(errno));
 }

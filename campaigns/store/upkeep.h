@@ -73,6 +73,9 @@ FRACAS_MUST_USE fracas_err fracas_study_compare(const char *into, fracas_index *
                                                 const fracas_file_header *header,
                                                 const fracas_point_table *table, int64_t *both);
 
+/* FRACAS_DAMAGED names the first segment that is missing or at odds with its seal. */
+FRACAS_MUST_USE fracas_err fracas_study_check_segments(const char *study, fracas_index *index);
+
 typedef struct {
     int64_t realizations; /* new in `into` */
     int64_t segments;     /* taken over */
@@ -80,7 +83,7 @@ typedef struct {
 } fracas_joined;
 
 /* Takes segments of `from` with realizations not done in `into` (all planned there) over into it,
- * by link or by copy, and their rows; then the failures of realizations not done there. Only after
+ * by link or by copy (of what a symbolic link leads to), and their rows; then the failures of realizations not done there. Only after
  * fracas_study_compare. `table`: of `from`. */
 FRACAS_MUST_USE fracas_err fracas_study_join(const char *into, fracas_index *into_index,
                                              const char *from, fracas_index *from_index,

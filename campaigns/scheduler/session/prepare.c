@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/session/prepare.h"
 
+#include "base/file.h"
 #include "campaigns/scheduler/types/header.h"
 
 #include <errno.h>
@@ -178,8 +179,7 @@ static fracas_err write_whole(const char *folder, const char *name,
     OWNED char *path = NULL, *temporary = NULL;
     TRY(fracas_path(&path, "%s/%s", folder, name));
     TRY(fracas_path(&temporary, "%s.tmp", path));
-    unlink(temporary); /* left by a killed run, or a link or a pipe to elsewhere */
-    FILE *out = fopen(temporary, "w");
+    FILE *out = fracas_file_stream(fracas_file_create(temporary), "w");
     fracas_err err = FRACAS_OK;
     if (out) err = write(content, out);
     bool good = out && !err && !fflush(out) && !fsync(fileno(out));
@@ -216,15 +216,21 @@ static bool is_copied(const char *folder, const fracas_attachment *attachment)
     OWNED char *path = NULL;
     char block[1 << 14];
     size_t at = 0, got;
-    struct stat found;
     if (fracas_path(&path, "%s/%s", folder, attachment->digest)) return false;
-    if (stat(path, &found) || !S_ISREG(found.st_mode)) return false; /* opening a pipe would wait */
-    OWN(FILE) in = fopen(path, "rb");
+    OWN(FILE) in = fracas_file_stream(fracas_file_open(path), "rb");
     if (!in) return false;
     while ((got = fread(block, 1, sizeof block, in)) > 0 && got <= attachment->size - at &&
            memcmp(block, attachment->text + at, got) == 0)
         at += got;
     return got == 0 && at == attachment->size && !ferror(in);
+}
+
+/* Makes FOLDER/NAME, which may be there. */
+static fracas_err make_own_folder(const char *folder, const char *name, char **path)
+{
+    TRY(fracas_path(path, "%s/%s", folder, name));
+    return fracas_folder_create(*path) ? FRACAS_OK
+                                       : fracas_fail_system(errno, "cannot create %s", *path);
 }
 
 /* Copies the files named in the campaign into the study, which then does not depend on the
@@ -233,8 +239,7 @@ static fracas_err copy_attachments(const char *study, const fracas_campaign *cam
 {
     OWNED char *folder = NULL;
     if (!campaign->attached) return FRACAS_OK;
-    TRY(fracas_path(&folder, "%s/%s", study, FRACAS_ATTACHMENTS));
-    TRY(make_folder(folder));
+    TRY(make_own_folder(study, FRACAS_ATTACHMENTS, &folder));
     TRY(sync_folder(study));
     for (const fracas_attached *a = campaign->attached; a; a = a->next)
         if (!is_copied(folder, &a->attachment))
@@ -284,8 +289,8 @@ fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campai
                                 int *lock, fracas_index **index, char **report)
 {
     OWNED char *segments = NULL;
-    TRY(fracas_path(&segments, "%s/segments", study));
-    TRY(make_folder(segments));
+    TRY(make_folder(study));
+    TRY(make_own_folder(study, "segments", &segments));
     TRY(fracas_study_lock(study, force, lock));
     fracas_err err = fracas_study_plan(study, campaign, index, report);
     if (!err) err = note_takeover(*index, *lock);

@@ -181,9 +181,25 @@ static fracas_err lock_both(joining *j)
     return fracas_study_lock(j->from.study, false, &j->from.lock);
 }
 
+/* A damaged study is not joined: its own run computes again what it lost, and reads it here as it
+ * is. */
+static fracas_err check_whole(const char *study)
+{
+    OWN(fracas_index) index = NULL;
+    if (!fracas_index_exists(study)) return FRACAS_OK;
+    TRY(fracas_index_open(study, false, &index));
+    fracas_err err = fracas_study_check_segments(study, index);
+    if (err != FRACAS_DAMAGED) return err;
+    return fracas_fail_within(err,
+                              "nothing is taken from a damaged study; `fracas run "
+                              "%s/campaign.yaml --study %s` repairs it",
+                              study, study);
+}
+
 static fracas_err join(joining *j, fracas_joined *joined, int64_t *both, fracas_index_counts *end)
 {
     const fracas_file_header header = fracas_campaign_header(j->longer);
+    TRY(check_whole(j->from.study));
     TRY(resume(&j->from, j->theirs, j->said));
     TRY(resume(&j->into, j->ours, j->said));
     TRY(fracas_study_compare(j->into.study, j->into.index, j->from.study, j->from.index, &header,

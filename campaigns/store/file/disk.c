@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/store/file/disk.h"
 
+#include "base/file.h"
 #include "base/param.h"
 
 #include <ctype.h>
@@ -88,7 +89,7 @@ fracas_err fracas_disk_sync_folder(const char *path)
 
 fracas_err fracas_disk_open(const char *path, int *fd)
 {
-    *fd = open(path, O_RDONLY | O_CLOEXEC);
+    *fd = fracas_file_open(path);
     if (*fd >= 0) return FRACAS_OK;
     return errno == ENOENT ? fracas_fail(FRACAS_DAMAGED, "%s is not there", path)
                            : fracas_disk_fail("open", path);

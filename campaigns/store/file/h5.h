@@ -29,7 +29,7 @@ typedef struct {
 
 #define FRACAS_H5_CLOSED ((fracas_h5){.id = H5I_INVALID_HID, .driver = H5I_INVALID_HID, .fd = -1})
 
-/* Creates `name` (or empties it); `path` is its name in messages. fracas_h5_close after an error,
+/* Creates `name` anew; `path` is its name in messages. fracas_h5_close after an error,
  * too. */
 FRACAS_MUST_USE fracas_err fracas_h5_create(fracas_h5 *h5, const char *name, const char *path);
 /* Opens `path` to read. FRACAS_DAMAGED if it is not there or no HDF5 file. */

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* HDF5's file driver over our own descriptor, and the opening and closing of files. */
+#include "base/file.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/file/h5.h"
 #include "campaigns/store/store.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -153,7 +153,7 @@ void fracas_hdf5_version(char text[32])
 fracas_err fracas_h5_create(fracas_h5 *h5, const char *name, const char *path)
 {
     TRY(start(h5, path, true));
-    h5->fd = open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    h5->fd = fracas_file_create(name);
     if (h5->fd < 0) return fracas_disk_fail("create", path);
     OWN_ID list = H5I_INVALID_HID;
     OWN_ID creation = H5I_INVALID_HID;

@@ -2,6 +2,8 @@
 /* The index: opening the database, its tables and its statements. */
 #include "campaigns/store/index/index.h"
 
+#include "base/file.h"
+#include "base/param.h"
 #include "campaigns/store/file/disk.h"
 
 #include <ctype.h>
@@ -307,8 +309,22 @@ static bool can_write(const char *path)
     return faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) == 0;
 }
 
+/* The database, and SQLite's files beside it, are files and no links: SQLite would follow the one,
+ * and wait for a pipe. */
+static fracas_err check_names(const char *path)
+{
+    static const char *const tail[] = {"", "-wal", "-shm", "-journal"};
+    for (size_t t = 0; t < FRACAS_COUNT(tail); t++) {
+        OWNED char *name = NULL;
+        TRY(fracas_path(&name, "%s%s", path, tail[t]));
+        if (!fracas_file_is_own(name)) return fracas_disk_fail("open", name);
+    }
+    return FRACAS_OK;
+}
+
 static fracas_err connect_to(fracas_index *index, const char *study, bool create)
 {
+    TRY(check_names(index->path));
     if (!create && access(index->path, F_OK) < 0 && errno == ENOENT)
         return fracas_fail(FRACAS_DAMAGED,
                            "%s is not there; `fracas reindex` makes it from the segments of a "

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Needless files of a study: found, and removed. */
+#include "base/file.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/index.h"
 #include "campaigns/store/upkeep.h"
@@ -62,6 +63,7 @@ static fracas_err each(collection *c, const char *folder,
 {
     OWNED char *path = NULL;
     if (*folder) TRY(fracas_disk_join(c->study, folder, &path));
+    if (path && !fracas_folder_is_own(path)) return fracas_disk_fail("remove files of", path);
     return fracas_disk_each(path ? path : c->study, judge_file, &(judging){c, judge});
 }
 

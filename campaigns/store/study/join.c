@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Two studies of one campaign, computed in two places, made one. */
+#include "base/file.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
 #include "campaigns/store/upkeep.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 /* ---- comparing ---- */
@@ -108,7 +109,7 @@ static fracas_err copy_to(int from, const fracas_file_seal *seal, const char *te
                           const char *path)
 {
     fracas_file_seal copied;
-    OWN_FD to = open(temporary, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    OWN_FD to = fracas_file_create(temporary);
     if (to < 0) return fracas_disk_fail("create", temporary);
     TRY(copy_bytes(from, to, path));
     TRY(fracas_disk_seal(to, path, &copied));
@@ -121,17 +122,25 @@ static fracas_err copy_to(int from, const fracas_file_seal *seal, const char *te
     return fsync(to) < 0 ? fracas_disk_fail("sync", path) : FRACAS_OK;
 }
 
-/* A link where both lie on one filesystem, else a copy, whole under a temporary name first. */
+/* A file that lies there itself, not a link to a store whose owner may empty it. */
+static bool is_plain(const char *path)
+{
+    struct stat info;
+    return lstat(path, &info) == 0 && S_ISREG(info.st_mode);
+}
+
+/* A link of their file where both lie on one filesystem, else a copy, whole under a temporary name
+ * first; the bytes are `ours` then. FRACAS_DAMAGED unless they have their seal. */
 static fracas_err bring(const char *theirs, const fracas_file_seal *seal, const char *ours)
 {
     OWNED char *temporary = NULL;
-    OWN_FD from = open(theirs, O_RDONLY | O_CLOEXEC);
-    if (from < 0) return fracas_disk_fail("open", theirs);
+    OWN_FD from = -1;
+    TRY(fracas_disk_check_seal(theirs, seal));
+    TRY(fracas_disk_open(theirs, &from));
     /* It may have come here by a copy that nobody has synced. */
     if (fsync(from) < 0 && errno != EROFS && errno != EINVAL)
         return fracas_disk_fail("sync", theirs);
-    if (link(theirs, ours) < 0) {
-        if (errno == EEXIST) return fracas_disk_fail("link to", ours);
+    if (!is_plain(theirs) || link(theirs, ours) < 0) {
         TRY(fracas_disk_temporary(ours, &temporary));
         fracas_err err = copy_to(from, seal, temporary, ours);
         if (!err && rename(temporary, ours) < 0) err = fracas_disk_fail("rename to", ours);

@@ -5,6 +5,7 @@
  * messages and for the one case in which the kernel does not know: a filesystem whose locks hosts
  * do not share. A clean release empties the file, so text under a lock that could be had is that of
  * a holder that died, or that runs on another such host (docs/decisions/lock.md). */
+#include "base/file.h"
 #include "campaigns/store/file/disk.h"
 
 #include <errno.h>
@@ -225,7 +226,7 @@ static fracas_err open_and_take(const char *study, bool force, bool signing, int
     OWNED char *path = NULL;
     *lock = -1;
     TRY(fracas_disk_join(study, "lock", &path));
-    const int fd = open(path, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    const int fd = fracas_file_open_own(path); /* it will be emptied */
     if (fd < 0) return fracas_disk_fail("open", path);
     fracas_err err = take(fd, path, force, signing);
     if (err) close(fd);
@@ -271,7 +272,7 @@ fracas_lock_state fracas_study_lock_state(const char *study, char text[FRACAS_HO
     *text = '\0';
     if (fracas_disk_join(study, "lock", &path)) return state;
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    OWN_FD fd = open(path, O_RDONLY | O_CLOEXEC);
+    OWN_FD fd = fracas_file_open(path);
     if (fd < 0) return state;
     bool held = fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK,
          named = read_holder(fd, &h);

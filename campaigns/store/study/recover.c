@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sweeping a study after an interruption. */
+#include "base/file.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
+#include "campaigns/store/upkeep.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -162,11 +164,9 @@ static fracas_err forget_lost(const char *study, fracas_index *index, FILE *repo
     return quick ? unseal_damaged(study, index, report) : FRACAS_OK;
 }
 
-/* FRACAS_DAMAGED names the first file at odds with its seal. */
-static fracas_err check_files(const char *study, fracas_index *index)
+fracas_err fracas_study_check_segments(const char *study, fracas_index *index)
 {
     FRACAS_CLEARED(fracas_known_segments) known = {0};
-    TRY(check_study_file(study, index));
     TRY(fracas_index_segments_by_id(index, &known));
     for (size_t s = 0; s < known.count; s++) TRY(check_segment(study, &known.segment[s]));
     return FRACAS_OK;
@@ -177,7 +177,8 @@ fracas_err fracas_study_sound(const char *study, fracas_index *index, bool *soun
     bool quick;
     *sound = true;
     TRY(is_quick_to_check(index, &quick));
-    const fracas_err err = quick ? check_files(study, index) : FRACAS_OK;
+    fracas_err err = quick ? check_study_file(study, index) : FRACAS_OK;
+    if (quick && !err) err = fracas_study_check_segments(study, index);
     *sound = err != FRACAS_DAMAGED;
     return *sound ? err : FRACAS_OK;
 }
@@ -338,7 +339,7 @@ static fracas_err recover(const void *context, FILE *report)
     const recovery *r = context;
     OWNED char *folder = NULL;
     TRY(fracas_disk_join(r->study, "segments", &folder));
-    if (mkdir(folder, 0777) < 0 && errno != EEXIST) return fracas_disk_fail("create", folder);
+    if (!fracas_folder_create(folder)) return fracas_disk_fail("create", folder);
     TRY(sweep(r->study, report));
     TRY(forget_lost(r->study, r->index, report));
     return adopt_orphans(folder, r->table, r->index, &r->identity, report);

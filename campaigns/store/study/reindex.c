@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STUDY/index.sqlite made anew from the segments. */
+#include "base/file.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/index.h"
 #include "campaigns/store/upkeep.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -127,6 +127,7 @@ static void drop_nursery(const reindexing *r)
 
 static fracas_err clear_nursery(const reindexing *r)
 {
+    if (!fracas_folder_is_own(r->nursery)) return fracas_disk_fail("remove folder", r->nursery);
     drop_nursery(r);
     if (rmdir(r->nursery) == 0 || errno == ENOENT) return FRACAS_OK;
     return fracas_disk_fail("remove folder", r->nursery);
@@ -207,13 +208,13 @@ static fracas_err fill(reindexing *r, const fracas_file_header *header)
 
 static fracas_err sync_file(const char *path)
 {
-    OWN_FD fd = open(path, O_RDONLY | O_CLOEXEC);
+    OWN_FD fd = fracas_file_open(path);
     return fd >= 0 && fsync(fd) == 0 ? FRACAS_OK : fracas_disk_fail("sync", path);
 }
 
 static fracas_err make(reindexing *r, const fracas_file_header *header)
 {
-    if (mkdir(r->nursery, 0777) < 0) return fracas_disk_fail("create", r->nursery);
+    if (!fracas_folder_create(r->nursery)) return fracas_disk_fail("create", r->nursery);
     TRY(fracas_index_open(r->nursery, true, &r->index));
     fracas_err err = fill(r, header);
     fracas_index_close(r->index); /* removes its log, which is empty */

@@ -1,0 +1,131 @@
+# A study from a stranger (docs/decisions/trust.md): no command waits for a pipe in the place of a file, writes through a
+# symbolic link or takes an empty name for a folder; merge-studies owns the bytes it takes.
+. tests/support/campaigns.sh
+
+campaign small.yaml 4 '3e4 1/s, 1e5 1/s'
+for part in 1 2; do
+    expect 3 "$fracas" run small.yaml --study part$part --part $part/2 --jobs 2
+done
+expect 0 "$fracas" run small.yaml --study sound --jobs 2
+
+# at_once STATUS COMMAND...: as expect, and within seconds.
+at_once()
+{
+    wanted=$1
+    shift
+    expect "$wanted" timeout -s KILL 20 "$@"
+}
+
+# content STUDY...: all that it holds.
+content()
+{
+    find "$@" ! -name 'index*' -printf '%p %y %l\n' | sort
+    find "$@" -type f ! -name 'index*' -exec sha256sum {} + | sort
+    for study; do sqlite3 "$study/index.sqlite" .dump; done
+}
+
+# Segments that are links to a store: merge-studies takes their bytes.
+mkdir store
+mv part2/segments/*.h5 store
+for file in store/*; do ln -s "../../$file" part2/segments/; done
+cp -a part1 linked
+expect 0 "$fracas" verify part2
+expect 0 "$fracas" merge-studies linked part2
+[ -z "$(find linked/segments -type l)" ] || fail "a link was taken for a segment"
+
+# A damaged study is refused, and both stay as they are.
+before=$(content part1 part2)
+one=$(ls store/* | head -n 1)
+python3 -c 'import sys
+with open(sys.argv[1], "r+b") as f: f.seek(3000); byte = f.read(1)[0]; f.seek(3000); f.write(bytes([byte ^ 1]))' "$one"
+expect 5 "$fracas" merge-studies part1 part2
+said "nothing is taken from a damaged study; .fracas run part2/campaign.yaml --study part2. repairs it: .*damaged"
+rm "$one"
+expect 5 "$fracas" merge-studies part1 part2
+said 'is not there'
+[ "$before" = "$(content part1 part2)" ] || fail "a refused merge-studies changed something"
+rm -r store part2
+expect 0 "$fracas" merge linked
+same sound linked
+expect 0 "$fracas" verify --full linked
+
+# A pipe in the place of each file: no command waits.
+for name in campaign.yaml lock index.sqlite index.sqlite-wal index.sqlite-shm index.sqlite-journal fits.csv study.h5 segment; do
+    rm -rf piped
+    cp -r sound piped
+    [ $name != segment ] || name=segments/$(ls sound/segments | head -n 1)
+    rm -f piped/$name
+    mkfifo piped/$name
+    commands='status verify gc reindex'
+    [ $name != fits.csv ] || commands='verify report'
+    for command in $commands; do
+        status=0
+        timeout -s KILL 20 "$fracas" $command piped > said 2>&1 || status=$?
+        case $status in 0 | 5) ;; *) cat said; fail "status $status of $command with a pipe as $name" ;; esac
+    done
+done
+mkfifo pipe
+at_once 2 "$fracas" plan pipe
+said 'pipe is no file'
+at_once 5 "$fracas" submit small.yaml --time 1:00:00 --script pipe
+said 'it is a pipe'
+
+# A link in the place of each file or folder that is written: what it leads to stays.
+mkdir elsewhere
+echo precious > elsewhere/victim
+for name in lock index.sqlite index.sqlite-wal index.sqlite-shm index.sqlite-journal; do
+    rm -rf linked
+    cp -r sound linked
+    rm -f linked/$name linked/study.h5
+    ln -s ../elsewhere/victim linked/$name
+    for command in gc merge; do at_once 5 "$fracas" $command linked; done
+    said "$name: it is a symbolic link"
+done
+rm -rf linked # these are renamed over
+cp -r sound linked
+cp sound/campaign.yaml elsewhere/campaign
+ln -sf ../elsewhere/campaign linked/campaign.yaml
+ln -sf ../elsewhere/victim linked/study.h5
+at_once 0 "$fracas" reindex linked
+at_once 0 "$fracas" run small.yaml --study linked --jobs 1
+same sound linked
+ln -sf ../elsewhere/victim linked/fits.csv
+at_once 0 "$fracas" fit linked --resamples 99
+[ -z "$(find linked -type l)" ] || fail "a link is left"
+for name in segments attachments report export pictures .reindex; do
+    rm -rf linked
+    cp -r sound linked
+    rm -rf linked/$name linked/study.h5
+    ln -s ../elsewhere linked/$name
+    touch elsewhere/.left.tmp-1 elsewhere/0123456789abcdef0123456789abcdef elsewhere/index.sqlite elsewhere/x.damaged
+    case $name in
+    segments) commands='gc merge reindex' ;;
+    attachments) commands=gc ;;
+    report) commands=report ;;
+    export) commands=export ;;
+    pictures) commands= ;;
+    .reindex) commands='gc reindex' ;;
+    esac
+    for command in $commands; do
+        at_once 5 "$fracas" $command linked
+        said "$name: it is a symbolic link"
+    done
+    [ "$(ls -A elsewhere | wc -l)" -eq 6 ] || { ls -A elsewhere; fail "a link was followed by $command: $name"; }
+done
+grep -q precious elsewhere/victim || fail "the victim of a link is gone"
+[ "$(wc -c < elsewhere/victim)" -eq 9 ] || fail "the victim of a link was written"
+cmp sound/campaign.yaml elsewhere/campaign
+
+# A study that the user reaches by a link is fine.
+ln -s sound reached
+expect 0 "$fracas" report reached
+expect 0 "$fracas" run small.yaml --study reached
+expect 0 "$fracas" gc reached
+
+# An empty name is no folder.
+for command in status report fit export verify picture merge reindex gc 'retry --failed' 'extend --replicas 9' run plan sample; do
+    expect 2 "$fracas" ${command%% *} '' $(echo "$command" | sed 's/^[a-z]*//')
+    said 'is empty: an empty name would be the folder'
+done
+expect 2 "$fracas" merge-studies sound ''
+expect 2 "$fracas" compare '' sound
