@@ -61,22 +61,20 @@ const char *fracas_remedy(int reason)
     case ELOOP:
         return "; nothing is written through links: remove it, or put in its place what it leads "
                "to";
-    case ENXIO:
-    case EISDIR: return "; move it away";
+    case ENXIO: return "; move it away";
     case ESTALE:
         return "; the network filesystem has lost it: look whether it is mounted, and run again";
     default: return "";
     }
 }
 
-/* Anything else in the place of a file is no fault of the system; the system's words for it are
- * about other things. */
+/* A link or a pipe in the place of a file is no fault of the system, whose words for it are about
+ * other things. */
 static const char *what_is_there(int reason)
 {
     switch (reason) {
     case ELOOP: return "it is a symbolic link";
     case ENXIO: return "it is a pipe, a socket or a device, and no file";
-    case EISDIR: return "it is a folder, and no file";
     default: return NULL;
     }
 }

@@ -38,7 +38,7 @@ FRACAS_MUST_USE fracas_err fracas_fail_within(fracas_err code, const char *forma
 
 /* FRACAS_ENVIRONMENT with "<the formatted text>: <strerror(reason)>; <remedy>". The remedies cover
  * the limits of long runs: disk, quota, open files, size of files, memory, a failing or read-only
- * disk. FRACAS_DAMAGED, and in our words, for a link, a pipe or a folder in the place of a file
+ * disk. FRACAS_DAMAGED, and in our words, for a link or a pipe in the place of a file
  * (base/file.h). */
 FRACAS_MUST_USE fracas_err fracas_fail_system(int reason, const char *format, ...)
     FRACAS_PRINTF(2, 3);

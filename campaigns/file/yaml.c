@@ -64,7 +64,7 @@ static fracas_err load(const char *name, unsigned char **bytes, size_t *size)
     OWN(FILE) in = fracas_file_stream(fracas_file_open(name), "rb");
     if (in) return load_open(name, in, bytes, size);
     if (errno == ENOENT) return fracas_fail(FRACAS_USAGE, "there is no campaign file %s", name);
-    if (errno == ENXIO || errno == EISDIR)
+    if (errno == ENXIO)
         return fracas_fail(FRACAS_USAGE, "%s is no file; write the campaign into one", name);
     return fracas_fail(FRACAS_ENVIRONMENT, "cannot open the campaign file %s: %s", name,
                        strerror(errno));
