@@ -3,6 +3,7 @@
 
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/director/director.h"
+#include "campaigns/scheduler/launch/scratch.h"
 #include "campaigns/scheduler/launch/signals.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/types/clock.h"
@@ -230,6 +231,7 @@ fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
     /* No rank outlives the launcher's mpirun. (Not with other launchers: the signal follows the
      * starting thread, and theirs may end early.) */
     if (getenv(FRACAS_LAUNCHER_MARK)) prctl(PR_SET_PDEATHSIG, SIGKILL);
+    fracas_scratch_import();
     fracas_signals_catch_rank();
     rank_state rank = {.options = options,
                        .began = fracas_now(),

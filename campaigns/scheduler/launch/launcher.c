@@ -5,6 +5,7 @@
 #include "campaigns/scheduler/launch/allocation.h"
 #include "campaigns/scheduler/launch/mpirun.h"
 #include "campaigns/scheduler/launch/reap.h"
+#include "campaigns/scheduler/launch/scratch.h"
 #include "campaigns/scheduler/launch/signals.h"
 #include "campaigns/scheduler/status/channel.h"
 #include "campaigns/scheduler/types/clock.h"
@@ -28,6 +29,7 @@ enum { NOISE = 16384, MOST_BARREN = 3 };
 /* One start of mpirun. */
 typedef struct {
     fracas_mpirun mpirun;
+    fracas_scratch scratch;
     fracas_ending ending;
     bool speaks;          /* rank 0 has sent a message: every rank can be signalled */
     bool drained, killed; /* by this process */
@@ -83,6 +85,7 @@ static void receive(launcher *p, char *line)
         keep_noise(now, "\n", 1);
         return;
     }
+    if (!now->speaks) fracas_scratch_remove(&now->scratch);
     now->speaks = true;
     if (now->ending.ended && now->ended == 0) now->ended = fracas_now();
     const int64_t durable = p->progress.last.done + p->progress.last.failed;
@@ -215,12 +218,16 @@ static fracas_err start(launcher *p, int jobs, int argc, char **argv, int *statu
     memset(&p->now, 0, sizeof p->now);
     p->starts++;
     p->now.began = fracas_now();
-    TRY(fracas_mpirun_start(jobs, argc, argv, &p->now.mpirun));
-    read_streams(p);
-    close(p->now.mpirun.out);
-    close(p->now.mpirun.errors);
-    *status = wait_for_all(p);
-    return FRACAS_OK;
+    fracas_err err = fracas_scratch_create(&p->now.scratch);
+    if (!err) err = fracas_mpirun_start(jobs, argc, argv, &p->now.scratch, &p->now.mpirun);
+    if (!err) {
+        read_streams(p);
+        close(p->now.mpirun.out);
+        close(p->now.mpirun.errors);
+        *status = wait_for_all(p);
+    }
+    fracas_scratch_remove(&p->now.scratch);
+    return err;
 }
 
 /* The reason for an early end. */

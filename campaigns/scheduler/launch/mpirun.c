@@ -38,8 +38,8 @@ static void set_environment(void)
 }
 
 /* In the new process: never returns. */
-static _Noreturn void become_mpirun(char **arguments, pid_t parent, const int out[2],
-                                    const int errors[2])
+static _Noreturn void become_mpirun(char **arguments, pid_t parent, const fracas_scratch *scratch,
+                                    const int out[2], const int errors[2])
 {
     static const int reset[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGPIPE};
     setpgid(0, 0);
@@ -47,6 +47,7 @@ static _Noreturn void become_mpirun(char **arguments, pid_t parent, const int ou
     if (getppid() != parent) _exit(FRACAS_INTERRUPTED); /* the parent died before the line above */
     for (size_t i = 0; i < FRACAS_COUNT(reset); i++) signal(reset[i], SIG_DFL);
     set_environment();
+    fracas_scratch_export(scratch);
     int null = open("/dev/null", O_RDONLY);
     if (null >= 0) dup2(null, STDIN_FILENO);
     dup2(out[1], STDOUT_FILENO);
@@ -55,7 +56,8 @@ static _Noreturn void become_mpirun(char **arguments, pid_t parent, const int ou
     _exit(FRACAS_MPIRUN_MISSING);
 }
 
-fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, fracas_mpirun *mpirun)
+fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, const fracas_scratch *scratch,
+                               fracas_mpirun *mpirun)
 {
     char self[4096], count[16], colon[] = "./:";
     char *const before[] = {"mpirun", "--oversubscribe", "--bind-to", "none", "-n", count, self};
@@ -74,7 +76,7 @@ fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, fracas_mpirun *m
     pid_t parent = getpid(), pid = -1;
     if (!pipe2(out, O_CLOEXEC) && !pipe2(errors, O_CLOEXEC)) pid = fork();
     const int reason = errno;
-    if (pid == 0) become_mpirun(arguments, parent, out, errors);
+    if (pid == 0) become_mpirun(arguments, parent, scratch, out, errors);
     fracas_err err = FRACAS_OK;
     if (pid < 0) err = fracas_fail_system(reason, "cannot start mpirun");
     if (out[1] >= 0) close(out[1]);

@@ -4,6 +4,7 @@
 #define FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_MPIRUN_H
 
 #include "base/err.h"
+#include "campaigns/scheduler/launch/scratch.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -20,6 +21,7 @@ enum { FRACAS_MPIRUN_MISSING = 127 }; /* its exit status when there is no mpirun
 /* Starts `mpirun -n jobs <this program> argv[1] ...` in a process group of its own; it dies with
  * this process. */
 FRACAS_MUST_USE fracas_err fracas_mpirun_start(int jobs, int argc, char **argv,
+                                               const fracas_scratch *scratch,
                                                fracas_mpirun *mpirun);
 
 /* True, with the reason and its remedy in `text`, if the output says that no further start can

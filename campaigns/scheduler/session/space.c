@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/session/space.h"
 
-#include "base/param.h"
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
 #include "campaigns/store/store.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,12 +39,11 @@ fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run
     return FRACAS_OK;
 }
 
-enum { PATH = 4096 };
-
-/* Disk of the folder, or of its first existing ancestor: `path`. */
-static bool find_disk(const char *folder, char path[PATH], struct statvfs *disk)
+/* Disk of the folder, or of its first existing ancestor. */
+static bool find_disk(const char *study, struct statvfs *disk)
 {
-    snprintf(path, PATH, "%s", folder);
+    char path[4096];
+    snprintf(path, sizeof path, "%s", study);
     while (statvfs(path, disk)) {
         char *slash = strrchr(path, '/');
         if (slash && slash != path) *slash = '\0';
@@ -77,8 +74,7 @@ fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign
     double planned = 0, all = 0, done, measured;
     char need[FRACAS_SIZE_TEXT], segments[FRACAS_SIZE_TEXT], merged[FRACAS_SIZE_TEXT],
         have[FRACAS_SIZE_TEXT];
-    char path[PATH];
-    if (options->ignore_space || !find_disk(study, path, &disk)) return FRACAS_OK;
+    if (options->ignore_space || !find_disk(study, &disk)) return FRACAS_OK;
     for (size_t p = 0; p < campaign->npoints; p++) {
         planned += (double)campaign->table.point[p].replicas;
         all += (double)campaign->table.point[p].replicas * bytes[p];
@@ -117,43 +113,6 @@ fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign
     return FRACAS_OK;
 }
 
-/* Folder of Open MPI's own files, as it looks for it; *named: by this variable. */
-static const char *temporary_folder(const char **named)
-{
-    static const char *const variable[] = {"OMPI_MCA_orte_tmpdir_base", "TMPDIR", "TEMP", "TMP"};
-    for (size_t i = 0; i < FRACAS_COUNT(variable); i++) {
-        const char *folder = getenv(variable[i]);
-        *named = variable[i];
-        if (folder && *folder) return folder;
-    }
-    *named = "TMPDIR is not set";
-    return "/tmp";
-}
-
-/* Measured: Open MPI 4.1.4 filled 8.2 MB there, hung with less, and did not start where it could
- * make no folder. It makes a missing folder itself. */
-static fracas_err check_temporary_folder(void)
-{
-    static const double need = 10e6;
-    char path[PATH], trial[PATH + 16], have[FRACAS_SIZE_TEXT];
-    const char *named, *folder = temporary_folder(&named);
-    struct statvfs disk;
-    if (!find_disk(folder, path, &disk)) return FRACAS_OK;
-    snprintf(trial, sizeof trial, "%s/fracas-XXXXXX", path);
-    if (!mkdtemp(trial))
-        return fracas_fail(FRACAS_ENVIRONMENT,
-                           "MPI cannot make a folder for its own files in %s (%s): %s; set TMPDIR "
-                           "to a folder where you may write, with 10 MB free",
-                           folder, named, strerror(errno));
-    rmdir(trial);
-    const double room = (double)disk.f_bavail * (double)disk.f_frsize;
-    if (room >= need) return FRACAS_OK;
-    return fracas_fail(FRACAS_ENVIRONMENT,
-                       "MPI needs 10 MB for its own files in %s (%s), but the disk has %s free; "
-                       "free some, or set TMPDIR to a folder with more",
-                       folder, named, fracas_size_write(room, have));
-}
-
 /* Measured: Open MPI 4.1.4 hung with fewer than 24 + 4 jobs files, and with files below 4.2 MB, its
  * shared memory. */
 fracas_err fracas_limits_check(const fracas_run_options *options)
@@ -178,5 +137,5 @@ fracas_err fracas_limits_check(const fracas_run_options *options)
                            "a file may have %llu bytes, MPI needs %d for its shared memory; raise "
                            "the limit on the size of files (`ulimit -f`)",
                            (unsigned long long)limit.rlim_cur, FILE_SIZE);
-    return check_temporary_folder();
+    return FRACAS_OK;
 }
