@@ -1,23 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* System calls, allocations, processes and MPI; failing_libraries.c has SQLite and HDF5. */
 #include "tests/support/failing_calls.h"
+#include "tests/support/own_calls.h"
 
 #include <dlfcn.h>
-#include <errno.h>
 #include <fcntl.h>
-#include <linux/audit.h>
-#include <linux/filter.h>
-#include <linux/seccomp.h>
 #include <mpi.h>
-#include <signal.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
-#include <sys/syscall.h>
 #include <ucontext.h>
 #include <unistd.h>
 
@@ -36,21 +29,6 @@ static uint64_t wanted_at;
 static int error;
 static bool kills, tears, is_late;
 static const char *under;
-
-/* With a sixth argument that marks it as ours, which the filter lets pass. */
-static const uint64_t OURS = 0x66726163617321;
-static long really(long number, long a, long b, long c, long d, long e)
-{
-    long result;
-    register long r10 __asm__("r10") = d;
-    register long r8 __asm__("r8") = e;
-    register long r9 __asm__("r9") = (long)OURS;
-    __asm__ volatile("syscall"
-                     : "=a"(result)
-                     : "a"(number), "D"(a), "S"(b), "d"(c), "r"(r10), "r"(r8), "r"(r9)
-                     : "rcx", "r11", "memory");
-    return result;
-}
 
 static void die(void)
 {
@@ -177,29 +155,20 @@ static void on_call(int signal_number, siginfo_t *info, void *context)
 /* Every call of the list becomes a SIGSYS, unless it is ours. */
 static void watch_calls(void)
 {
-    enum { HEAD = 1, TAIL = 7, SIXTH = offsetof(struct seccomp_data, args[5]) };
-    struct sock_filter filter[HEAD + NCALLS + TAIL];
+    enum { HEAD = 1 };
+    struct sock_filter filter[HEAD + NCALLS + OWN_TAIL];
     size_t n = 0;
     filter[n++] = (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS,
                                                offsetof(struct seccomp_data, nr));
     for (size_t c = 0; c < NCALLS; c++) /* to the second line of the tail */
         filter[n++] = (struct sock_filter)BPF_JUMP(
             BPF_JMP | BPF_JEQ | BPF_K, (uint32_t)calls[c].number, (uint8_t)(NCALLS - c), 0);
-    filter[n++] = (struct sock_filter)BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
-    filter[n++] = (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS, SIXTH);
-    filter[n++] = (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (uint32_t)OURS, 0, 2);
-    filter[n++] = (struct sock_filter)BPF_STMT(BPF_LD | BPF_W | BPF_ABS, SIXTH + 4);
-    filter[n++] = (struct sock_filter)BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, (uint32_t)(OURS >> 32), 1,
-                                               0);
-    filter[n++] = (struct sock_filter)BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_TRAP);
-    filter[n++] = (struct sock_filter)BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
-    struct sock_fprog program = {(unsigned short)n, filter};
+    own_tail(&filter[n]);
     struct sigaction action = {.sa_sigaction = on_call,
                                .sa_flags = SA_SIGINFO | SA_NODEFER | SA_RESTART};
     sigemptyset(&action.sa_mask);
     sigaction(SIGSYS, &action, NULL);
-    if (prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) ||
-        prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program)) {
+    if (!own_install(filter, n + OWN_TAIL)) {
         perror("failing_calls: no seccomp filter");
         _exit(77);
     }

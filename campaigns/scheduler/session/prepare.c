@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "campaigns/scheduler/types/header.h"
+#include "campaigns/store/file/disk.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -144,7 +145,8 @@ fracas_err fracas_study_examine(const char *study, const fracas_campaign *campai
     return err;
 }
 
-/* Creates a folder and those above it. */
+/* Creates a folder and those above it, durable on return. One that is there may be of a run that
+ * was killed before its sync; whose folder cannot be opened is not ours, and not new. */
 static fracas_err make_folder(const char *path)
 {
     OWNED char *part = NULL;
@@ -153,22 +155,14 @@ static fracas_err make_folder(const char *path)
         char here = *at;
         if (here != '/' && here != '\0') continue;
         *at = '\0';
-        if (mkdir(part, 0777) && errno != EEXIST)
+        const bool made = mkdir(part, 0777) == 0;
+        if (!made && errno != EEXIST)
             return fracas_fail_system(
                 errno, "cannot create the folder %s (or choose another --study)", part);
+        if (fracas_disk_sync_folder(part) && made) return FRACAS_ENVIRONMENT;
         if (here == '\0') return FRACAS_OK;
         *at = here;
     }
-}
-
-static fracas_err sync_folder(const char *path)
-{
-    int fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    bool good = fd >= 0 && !fsync(fd);
-    fracas_err err = good ? FRACAS_OK
-                          : fracas_fail_system(errno, "cannot sync the folder %s", path);
-    if (fd >= 0) close(fd);
-    return err;
 }
 
 /* Writes FOLDER/NAME whole by `write`: under a temporary name, synced, renamed. */
@@ -192,7 +186,7 @@ static fracas_err write_whole(const char *folder, const char *name,
         good = false;
         reason = errno;
     }
-    if (good) return sync_folder(folder);
+    if (good) return fracas_disk_sync_folder(path);
     unlink(temporary);
     return err ? err : fracas_fail_system(reason, "cannot write %s", path);
 }
@@ -225,11 +219,11 @@ static bool is_copied(const char *folder, const fracas_attachment *attachment)
     return got == 0 && at == attachment->size && !ferror(in);
 }
 
-/* Makes FOLDER/NAME, which may be there. */
+/* Makes FOLDER/NAME, which may be there, durable on return. */
 static fracas_err make_own_folder(const char *folder, const char *name, char **path)
 {
     TRY(fracas_path(path, "%s/%s", folder, name));
-    return fracas_folder_create(*path) ? FRACAS_OK
+    return fracas_folder_create(*path) ? fracas_disk_sync_folder(*path)
                                        : fracas_fail_system(errno, "cannot create %s", *path);
 }
 
@@ -240,7 +234,6 @@ static fracas_err copy_attachments(const char *study, const fracas_campaign *cam
     OWNED char *folder = NULL;
     if (!campaign->attached) return FRACAS_OK;
     TRY(make_own_folder(study, FRACAS_ATTACHMENTS, &folder));
-    TRY(sync_folder(study));
     for (const fracas_attached *a = campaign->attached; a; a = a->next)
         if (!is_copied(folder, &a->attachment))
             TRY(write_whole(folder, a->attachment.digest, attachment_to, &a->attachment));

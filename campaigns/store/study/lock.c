@@ -136,7 +136,7 @@ static fracas_err sign(int fd, const char *path, const holder *before)
     }
     if (ftruncate(fd, 0) < 0 || pwrite(fd, text, (size_t)length, 0) != length)
         return fracas_disk_fail("write", path);
-    return FRACAS_OK;
+    return fsync(fd) < 0 ? fracas_disk_fail("sync", path) : FRACAS_OK; /* whole after a power cut */
 }
 
 /* Whoever the kernel says has it: `pid` is 0 or less across a network. */

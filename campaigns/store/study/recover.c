@@ -340,6 +340,7 @@ static fracas_err recover(const void *context, FILE *report)
     OWNED char *folder = NULL;
     TRY(fracas_disk_join(r->study, "segments", &folder));
     if (!fracas_folder_create(folder)) return fracas_disk_fail("create", folder);
+    TRY(fracas_disk_sync_folder(folder));
     TRY(sweep(r->study, report));
     TRY(forget_lost(r->study, r->index, report));
     return adopt_orphans(folder, r->table, r->index, &r->identity, report);

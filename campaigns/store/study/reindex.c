@@ -256,6 +256,7 @@ static fracas_err exchange(const reindexing *r)
         whole = stat(path, &info) < 0 || info.st_size == 0 || strcmp(tail[t], "-shm") == 0;
     }
     if (!whole) TRY(move_old(r));
+    TRY(fracas_disk_sync_folder(r->old)); /* no log of the old one may come back beside the new */
     if (rename(r->fresh, r->old) < 0) return fracas_disk_fail("rename to", r->old);
     TRY(fracas_disk_sync_folder(r->old));
     return clear_nursery(r);

@@ -1,0 +1,30 @@
+# 108 000 disk states that a power cut may leave of four campaigns, opened in process, and 1000 ended by the same command.
+# ctest-labels: storm
+# ctest-timeout: 14400
+. tests/support/campaigns.sh
+. "$source/tests/support/power_loss.sh"
+seed=${FRACAS_STORM_SEED:-1}
+opened=${FRACAS_POWER_STATES:-27000}
+ended=${FRACAS_POWER_ENDED:-250}
+
+# storm NAME CAMPAIGN [MORE]: `fracas run` of the campaign ends every study with the bytes of whole-NAME.
+storm()
+{
+    states "$1" "$2" "whole-$1/study.h5" "$opened" "$seed" 2 || fail "$1: a power cut loses what was done"
+    states "$1" "$2" "whole-$1/study.h5" "$ended" "$seed" 2 \
+        "${3:-$fracas} run $(pwd)/$2 --study study --jobs 1 ${4-} > said 2>&1 || { s=\$?; [ \$s -eq ${5:-0} ] || { cat said; exit \$s; }; }" ||
+        fail "$1: the same command does not end well"
+}
+
+record_bar
+storm bar bar-long.yaml
+record_rule
+export FRACAS_TEST_FAULT=crash:0:1
+storm rule rule.yaml "$faulty" '' 1
+unset FRACAS_TEST_FAULT
+record_surfaces
+export DISK_NETWORK=1
+storm surfaces surfaces.yaml "env LD_PRELOAD=$recorder $fracas" --force
+unset DISK_NETWORK
+record_upkeep
+storm upkeep upkeep-long.yaml
