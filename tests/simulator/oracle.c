@@ -1,0 +1,329 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tests/simulator/oracle.h"
+
+#include "tests/simulator/calls.h"
+#include "tests/simulator/farm.h"
+
+#include "campaigns/scheduler/director/state.h"
+#include "campaigns/scheduler/session/prepare.h"
+#include "campaigns/store/file/disk.h"
+#include "campaigns/store/index/index.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_HOLDS = 4, MOST_HURT = 1 };
+static const double OVERDUE = 10; /* s after which a lease may be given to a second worker */
+
+/* A realization with a server. */
+typedef struct {
+    const process *server;
+    uint64_t lease;
+    size_t place; /* in the lease */
+    double since; /* by the monotonic clock */
+} hold;
+
+typedef struct {
+    bool settled; /* done, or failed for good */
+    int hurt;     /* attempts that faults have taken */
+    hold hold[MOST_HOLDS];
+    size_t next;
+} realization;
+
+static struct {
+    const fracas_campaign *campaign;
+    realization **of; /* by point and replica */
+    int64_t *room;    /* replicas of each point */
+    int64_t settled;
+    char **segment; /* names in the index */
+    size_t nsegments, segments_room;
+    run *run;
+    double asked; /* when the scheduler chose the present lease [s] */
+} oracle;
+
+static realization *of(uint64_t point, int64_t replica)
+{
+    if (replica < 0 || replica >= oracle.room[point])
+        broken("replica %lld of point %llu", (long long)replica, (unsigned long long)point);
+    return &oracle.of[point][replica];
+}
+
+static uint64_t point_of(const fracas_hash *hash)
+{
+    for (size_t p = 0; p < oracle.campaign->npoints; p++)
+        if (fracas_hash_equal(&oracle.campaign->point[p].hash, hash)) return p;
+    broken("a row of no point");
+}
+
+void oracle_begin(const fracas_campaign *campaign)
+{
+    memset(&oracle, 0, sizeof oracle);
+    oracle.campaign = campaign;
+    oracle.of = calloc(campaign->npoints, sizeof *oracle.of);
+    oracle.room = calloc(campaign->npoints, sizeof *oracle.room);
+    for (size_t p = 0; oracle.of && oracle.room && p < campaign->npoints; p++) {
+        const fracas_point_row *row = &campaign->table.point[p];
+        oracle.room[p] = row->most > row->replicas ? row->most : row->replicas;
+        oracle.of[p] = calloc((size_t)oracle.room[p], sizeof **oracle.of);
+        if (!oracle.of[p]) abort();
+    }
+}
+
+void oracle_run_begins(run *r)
+{
+    oracle.run = r;
+}
+
+void oracle_power_failed(void)
+{
+    oracle.run = NULL;
+}
+
+int64_t oracle_settled(void)
+{
+    return oracle.settled;
+}
+
+static void settle(uint64_t point, int64_t replica)
+{
+    realization *r = of(point, replica);
+    oracle.settled += !r->settled;
+    r->settled = true;
+}
+
+bool oracle_may_hurt(const process *child)
+{
+    for (int pass = 0; pass < 2; pass++)
+        for (size_t p = 0; p < oracle.campaign->npoints; p++)
+            for (int64_t i = 0; i < oracle.room[p]; i++) {
+                realization *r = of(p, i);
+                for (size_t h = 0; h < MOST_HOLDS; h++) {
+                    if (!r->hold[h].server || r->hold[h].server->pid != child->parent) continue;
+                    if (pass) r->hurt++;
+                    else if (r->hurt >= MOST_HURT) return false;
+                    break;
+                }
+            }
+    return true;
+}
+
+/* ---- leases ---- */
+
+/* The server has it still: it lives, and has not given it back. */
+static bool holds(const hold *h)
+{
+    return h->server && h->server->alive && !h->server->gave_up && h->server->run == oracle.run;
+}
+
+/* A first part of a lease may be done when its server dies, or is late with the rest. */
+static bool may_be_in_part(const realization *r, uint64_t lease)
+{
+    for (size_t h = 0; h < MOST_HOLDS; h++) {
+        const hold *held = &r->hold[h];
+        const bool late = held->lease == lease && oracle.asked - held->since >= OVERDUE;
+        if (held->server && held->server->run == oracle.run && (late || !holds(held))) return true;
+    }
+    return false;
+}
+
+static void lease_one(const process *server, const fracas_lease *lease, size_t i)
+{
+    const int64_t replica = lease->replica[i];
+    realization *r = of(lease->point, replica);
+    const double now = oracle.asked;
+    if (r->settled && !may_be_in_part(r, lease->id))
+        broken("replica %lld of point %llu is leased, and is done", (long long)replica,
+               (unsigned long long)lease->point);
+    for (size_t h = 0; h < MOST_HOLDS; h++)
+        if (holds(&r->hold[h]) && now - r->hold[h].since < OVERDUE)
+            broken("replica %lld of point %llu is leased to rank %d, and %s has had it for %.3f s",
+                   (long long)replica, (unsigned long long)lease->point, server->number,
+                   process_name(r->hold[h].server), now - r->hold[h].since);
+    r->hold[r->next++ % MOST_HOLDS] = (hold){server, lease->id, i, now};
+}
+
+fracas_err __real_fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now,
+                                        fracas_lease *lease, bool *given);
+fracas_err __wrap_fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now,
+                                        fracas_lease *lease, bool *given)
+{
+    oracle.asked = now;
+    return __real_fracas_scheduler_next(scheduler, worker, now, lease, given);
+}
+
+void __real_fracas_scheduler_overdue(fracas_scheduler *scheduler, size_t worker, double now,
+                                     fracas_lease *lease, size_t *late, bool *given);
+void __wrap_fracas_scheduler_overdue(fracas_scheduler *scheduler, size_t worker, double now,
+                                     fracas_lease *lease, size_t *late, bool *given)
+{
+    oracle.asked = now;
+    __real_fracas_scheduler_overdue(scheduler, worker, now, lease, late, given);
+}
+
+fracas_err __real_fracas_director_post(fracas_director *director, size_t worker,
+                                       fracas_packet_kind kind, const void *body, size_t size);
+fracas_err __wrap_fracas_director_post(fracas_director *director, size_t worker,
+                                       fracas_packet_kind kind, const void *body, size_t size)
+{
+    struct servers *servers = &world.current->run->servers[worker];
+    const fracas_lease *lease = body;
+    trace("message %d to rank %zu", (int)kind, worker);
+    if (kind == FRACAS_PACKET_FRESH) servers->known++;
+    if (kind == FRACAS_PACKET_LEASE) {
+        trace("  lease %llu: %llu of point %llu from replica %lld", (unsigned long long)lease->id,
+              (unsigned long long)lease->count, (unsigned long long)lease->point,
+              (long long)lease->replica[0]);
+        for (size_t i = 0; i < lease->count; i++)
+            lease_one(servers->started[servers->known], lease, i);
+    }
+    return __real_fracas_director_post(director, worker, kind, body, size);
+}
+
+/* A server gives back what comes behind the first `kept` of a lease. */
+static void give_back(const fracas_lease_failure *failure)
+{
+    for (size_t p = 0; p < oracle.campaign->npoints; p++)
+        for (int64_t i = 0; i < oracle.room[p]; i++)
+            for (size_t h = 0; h < MOST_HOLDS; h++) {
+                hold *held = &of(p, i)->hold[h];
+                if (held->server == world.current && held->lease == failure->lease &&
+                    held->place >= failure->kept)
+                    *held = (hold){0};
+            }
+}
+
+fracas_err __real_fracas_packet_send(int fd, fracas_packet_kind kind, const void *body,
+                                     size_t size);
+fracas_err __wrap_fracas_packet_send(int fd, fracas_packet_kind kind, const void *body, size_t size)
+{
+    process *p = world.current;
+    trace("sends message %d", (int)kind);
+    if (p->role == SERVER && kind == FRACAS_PACKET_FAILED) give_back(body);
+    if (p->role == SERVER && (kind == FRACAS_PACKET_TROUBLE || kind == FRACAS_PACKET_ENDED))
+        p->gave_up = true;
+    if (kind == FRACAS_PACKET_TROUBLE || kind == FRACAS_PACKET_FAULT)
+        trace("  %s", ((const fracas_trouble *)body)->text);
+    if (kind == FRACAS_PACKET_FAILED) trace("  %s", ((const fracas_lease_failure *)body)->reason);
+    return __real_fracas_packet_send(fd, kind, body, size);
+}
+
+/* ---- commits ---- */
+
+static void check_segment(const char *name, const fracas_file_seal *seal)
+{
+    char path[512];
+    snprintf(path, sizeof path, DISK_ROOT "/study/segments/%s", name);
+    if (!disk_is_durable(path)) broken("%s is in the index, and is not durable", path);
+    const node *n = disk_find(path);
+    if (n->size != seal->bytes || fracas_checksum_of(n->data, n->size) != seal->checksum)
+        broken("%s is in the index with other bytes", path);
+}
+
+static bool knows(const char *name)
+{
+    for (size_t s = 0; s < oracle.nsegments; s++)
+        if (!strcmp(oracle.segment[s], name)) return true;
+    return false;
+}
+
+static void know(const char *name)
+{
+    if (knows(name)) return;
+    if (fracas_grow(&oracle.segment, sizeof *oracle.segment, oracle.nsegments,
+                    &oracle.segments_room, "segments"))
+        abort();
+    oracle.segment[oracle.nsegments++] = strdup(name);
+}
+
+fracas_err __real_fracas_index_commit(fracas_index *index, const char *segment,
+                                      const fracas_file_seal *seal, const fracas_segment_row *row,
+                                      size_t count, const char *provenance);
+fracas_err __wrap_fracas_index_commit(fracas_index *index, const char *segment,
+                                      const fracas_file_seal *seal, const fracas_segment_row *row,
+                                      size_t count, const char *provenance)
+{
+    TRY(__real_fracas_index_commit(index, segment, seal, row, count, provenance));
+    trace("commits %s: %zu realizations", segment, count);
+    check_segment(segment, seal);
+    know(segment);
+    for (size_t i = 0; i < count; i++) settle(point_of(&row[i].point), row[i].replica);
+    return FRACAS_OK;
+}
+
+fracas_err __real_fracas_index_fail(fracas_index *index, const fracas_hash *point, int64_t replica,
+                                    const char *reason, bool final);
+fracas_err __wrap_fracas_index_fail(fracas_index *index, const fracas_hash *point, int64_t replica,
+                                    const char *reason, bool final)
+{
+    TRY(__real_fracas_index_fail(index, point, replica, reason, final));
+    const uint64_t p = point_of(point);
+    trace("replica %lld of point %llu failed%s: %s", (long long)replica, (unsigned long long)p,
+          final ? " for good" : "", reason);
+    if (final && farm_curse(p, replica) == SOUND)
+        broken("replica %lld of point %llu failed for good: %s", (long long)replica,
+               (unsigned long long)p, reason);
+    if (final) settle(p, replica);
+    return FRACAS_OK;
+}
+
+void oracle_removes(const char *path)
+{
+    const char *name = strrchr(path, '/') + 1;
+    if (disk_find(path) && knows(name)) broken("%s is removed or written over", path);
+}
+
+/* ---- a study that is opened again ---- */
+
+static bool ends(const char *name, const char *end)
+{
+    const size_t length = strlen(name), size = strlen(end);
+    return length > size && !strcmp(name + length - size, end) && *name != '.';
+}
+
+static void check_files(void)
+{
+    const node *folder = disk_find(DISK_ROOT "/study/segments");
+    for (size_t e = 0; e < folder->nentries; e++) {
+        const char *name = folder->entry[e].name;
+        if (ends(name, ".damaged")) broken("%s: a segment was damaged", name);
+        if (ends(name, ".h5") && !knows(name)) broken("%s is left out", name);
+    }
+}
+
+static void check_rows(fracas_index *index)
+{
+    fracas_index_row *row;
+    fracas_point_table table = oracle.campaign->table;
+    size_t count;
+    if (fracas_index_rows(index, &table, &row, &count)) broken("the index: %s", fracas_message());
+    for (size_t i = 0; i < count; i++) {
+        const bool settled = row[i].status == FRACAS_DONE || row[i].status == FRACAS_FAILED_ROW;
+        if (of(row[i].point, row[i].replica)->settled && !settled)
+            broken("replica %lld of point %zu was done, and is not", (long long)row[i].replica,
+                   row[i].point);
+        if (settled) settle(row[i].point, row[i].replica);
+    }
+    free(row);
+}
+
+fracas_err __real_fracas_study_prepare(const char *study, const fracas_campaign *campaign,
+                                       bool force, int *lock, fracas_index **index, char **report);
+fracas_err __wrap_fracas_study_prepare(const char *study, const fracas_campaign *campaign,
+                                       bool force, int *lock, fracas_index **index, char **report)
+{
+    FRACAS_CLEARED(fracas_known_segments) known = {0};
+    TRY(__real_fracas_study_prepare(study, campaign, force, lock, index, report));
+    trace("the study is open: %s", *report);
+    if (fracas_index_segments_by_id(*index, &known)) broken("the index: %s", fracas_message());
+    for (size_t s = 0; s < known.count; s++) {
+        check_segment(known.segment[s].name, &known.segment[s].seal);
+        know(known.segment[s].name);
+    }
+    for (size_t s = 0; s < oracle.nsegments; s++)
+        if (!fracas_segment_of_name(&known, oracle.segment[s]) && known.count == 0)
+            broken("the index has lost its segments");
+    check_rows(*index);
+    check_files();
+    return FRACAS_OK;
+}
