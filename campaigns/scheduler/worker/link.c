@@ -15,7 +15,7 @@ static fracas_err report_death(fracas_link *link, int rank, fracas_packet **mess
                               rank);
     char *text = trouble.text + used;
     const size_t room = sizeof trouble.text - (size_t)used;
-    link->fresh = false;
+    bool replaced = false;
     if (fracas_supervisor_reap(&link->supervisor, how, sizeof how)) {
         snprintf(text, room, "%s", fracas_message());
         trouble.again = 1;
@@ -28,10 +28,11 @@ static fracas_err report_death(fracas_link *link, int rank, fracas_packet **mess
         snprintf(text, room, "%s, and there is no new one: %.400s", how, fracas_message());
     } else {
         snprintf(text, room, "%s; a new one goes on", how);
-        link->fresh = true;
+        link->unknown++;
+        replaced = true;
     }
-    link->ended = !link->fresh;
-    return fracas_packet_create(link->fresh ? FRACAS_PACKET_REPLACED : FRACAS_PACKET_LOST, &trouble,
+    link->ended = !replaced;
+    return fracas_packet_create(replaced ? FRACAS_PACKET_REPLACED : FRACAS_PACKET_LOST, &trouble,
                                 sizeof trouble, message);
 }
 
@@ -60,8 +61,8 @@ fracas_err fracas_link_receive(fracas_link *link, int rank, int wait, fracas_pac
 
 void fracas_link_send(fracas_link *link, const fracas_packet *message)
 {
-    if (message->kind == FRACAS_PACKET_FRESH) link->fresh = false;
-    else if (!link->fresh && link->supervisor.server >= 0 &&
+    if (message->kind == FRACAS_PACKET_FRESH) link->unknown--;
+    else if (!link->unknown && link->supervisor.server >= 0 &&
              fracas_packet_write(link->supervisor.server, message))
         return;
 }

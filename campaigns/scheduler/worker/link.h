@@ -11,8 +11,8 @@
 typedef struct {
     fracas_supervisor supervisor; /* with the connection */
     bool ended;                   /* the server has sent its last message: ENDED or TROUBLE */
-    bool fresh; /* rank 0 does not know the new server: its messages are for the former one */
-    int deaths; /* servers lost since the last segment or failure report */
+    int unknown; /* new servers that rank 0 does not know of: its messages are for a former one */
+    int deaths;  /* servers lost since the last segment or failure report */
 } fracas_link;
 
 /* Waits up to `wait` ms for a message of the server; *message, freed by the caller, is NULL if none
@@ -22,8 +22,9 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_link_receive(fracas_link *link, int rank, int wait,
                                                fracas_packet **message);
 
-/* Sends a message of rank 0 to the server, unless it is for the server before. FRACAS_PACKET_FRESH
- * ends here: rank 0 knows of the new one. fracas_link_receive will notice if the server is gone. */
+/* Sends a message of rank 0 to the server, unless it is for a server before. FRACAS_PACKET_FRESH
+ * ends here: rank 0 knows of one new server more, of which two may have died meanwhile.
+ * fracas_link_receive will notice if the server is gone. */
 void fracas_link_send(fracas_link *link, const fracas_packet *message);
 
 #endif
