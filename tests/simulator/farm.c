@@ -20,7 +20,6 @@ static struct {
     int starts, most_starts;
     bool finished;
     int64_t settled; /* when the user looked last */
-    int seen_starts;
 } watch;
 
 static const double LOOK = 4000; /* s between two looks of the user */
@@ -57,10 +56,13 @@ static bool any_living(void)
 void farm_user_ended(const process *p)
 {
     const int status = WIFEXITED(p->status) ? WEXITSTATUS(p->status) : -1;
-    watch.finished = status == FRACAS_OK || status == FRACAS_SOME_FAILED;
+    watch.finished |= status == FRACAS_OK || status == FRACAS_SOME_FAILED;
+    if (p != watch.user) return;
     /* On a network disk a lock torn by a power cut may be another host's: the user looks. */
     farm.options.force = status == FRACAS_IN_USE && !any_living();
-    if (!watch.finished) world_at(world.now + roll_between(DICE_FARM, 0.5, 100), start, NULL, 0);
+    const double patience = status == FRACAS_IN_USE ? 10 : 1;
+    const double rest = patience * roll_between(DICE_FARM, 0.5, 100);
+    if (!watch.finished) world_at(world.now + rest, start, NULL, 0);
 }
 
 void farm_power_failed(void)
@@ -79,15 +81,15 @@ static bool any_frozen(void)
 static void look(void *what, uint64_t number)
 {
     (void)what, (void)number;
-    const bool moved = oracle_settled() > watch.settled || watch.starts > watch.seen_starts;
+    const bool moved = oracle_settled() > watch.settled;
     watch.settled = oracle_settled();
-    watch.seen_starts = watch.starts;
     world_at(world.now + LOOK, look, NULL, 0);
     if (moved) return;
-    if (!any_frozen()) broken("nothing has happened for %g s", LOOK);
+    if (!any_frozen()) broken("nothing has been done for %g s", LOOK);
     trace("THE USER ENDS WHAT HANGS");
     for (size_t i = 0; i < world.nprocesses; i++)
         if (world.process[i]->alive) process_end(world.process[i], SIGKILL);
+    world_at(world.now + 10, start, NULL, 0);
 }
 
 /* ---- what befalls it ---- */
@@ -159,11 +161,18 @@ static void ask_to_end(void)
     if (chance(DICE_FAULT, 0.2)) machine_signal(p, SIGINT);
 }
 
+/* Somebody runs the same command beside the present run. */
+static void run_another(void)
+{
+    trace("FAULT: another run starts: %s",
+          process_name(process_start(USER_RUN, 0, NULL, user_main, NULL)));
+}
+
 static void befall(void *mean, uint64_t number)
 {
     (void)number;
     if (farm.faults-- <= 0) return;
-    switch (roll_below(DICE_FAULT, 12)) {
+    switch (roll_below(DICE_FAULT, 13)) {
     case 0:
     case 1:
     case 2:
@@ -184,7 +193,8 @@ static void befall(void *mean, uint64_t number)
         trace("FAULT: the disk is slow until %g", disk.slow_until);
         break;
     case 10: chance(DICE_FAULT, 0.5) ? jump() : slow_messages(); break;
-    default: ask_to_end(); break;
+    case 11: ask_to_end(); break;
+    default: run_another(); break;
     }
     world_at(world.now - *(double *)mean * log(roll(DICE_FAULT)), befall, mean, 0);
 }

@@ -38,8 +38,8 @@ static struct {
     int64_t settled;
     char **segment; /* names in the index */
     size_t nsegments, segments_room;
-    run *run;
-    double asked; /* when the scheduler chose the present lease [s] */
+    const run *run; /* that has the study */
+    double asked;   /* when the scheduler chose the present lease [s] */
 } oracle;
 
 static realization *of(uint64_t point, int64_t replica)
@@ -68,11 +68,6 @@ void oracle_begin(const fracas_campaign *campaign)
         oracle.of[p] = calloc((size_t)oracle.room[p], sizeof **oracle.of);
         if (!oracle.of[p]) abort();
     }
-}
-
-void oracle_run_begins(run *r)
-{
-    oracle.run = r;
 }
 
 void oracle_power_failed(void)
@@ -281,13 +276,24 @@ static bool ends(const char *name, const char *end)
     return length > size && !strcmp(name + length - size, end) && *name != '.';
 }
 
+/* A server of an earlier run lives, and may write its last segment. */
+static bool any_late(void)
+{
+    for (size_t i = 0; i < world.nprocesses; i++) {
+        const process *p = world.process[i];
+        if (p->alive && p->role == SERVER && p->run != oracle.run) return true;
+    }
+    return false;
+}
+
 static void check_files(void)
 {
+    const bool late = any_late();
     const node *folder = disk_find(DISK_ROOT "/study/segments");
     for (size_t e = 0; e < folder->nentries; e++) {
         const char *name = folder->entry[e].name;
         if (ends(name, ".damaged")) broken("%s: a segment was damaged", name);
-        if (ends(name, ".h5") && !knows(name)) broken("%s is left out", name);
+        if (ends(name, ".h5") && !knows(name) && !late) broken("%s is left out", name);
     }
 }
 
@@ -315,6 +321,7 @@ fracas_err __wrap_fracas_study_prepare(const char *study, const fracas_campaign 
     FRACAS_CLEARED(fracas_known_segments) known = {0};
     TRY(__real_fracas_study_prepare(study, campaign, force, lock, index, report));
     trace("the study is open: %s", *report);
+    oracle.run = world.current->run;
     if (fracas_index_segments_by_id(*index, &known)) broken("the index: %s", fracas_message());
     for (size_t s = 0; s < known.count; s++) {
         check_segment(known.segment[s].name, &known.segment[s].seal);

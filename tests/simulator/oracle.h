@@ -15,7 +15,6 @@
 #include "campaigns/campaign.h"
 
 void oracle_begin(const fracas_campaign *campaign);
-void oracle_run_begins(run *r);
 void oracle_power_failed(void);
 void oracle_removes(const char *path);
 
