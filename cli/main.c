@@ -139,8 +139,19 @@ static void open_standard_streams(void)
     }
 }
 
+/* HDF5 ends the program by exit(-1) where it has no memory to note an error. */
+static void say_why_hdf5_ends(int status, void *unused)
+{
+    static const char text[] = "fracas: no memory for HDF5; free some, or use fewer --jobs\n";
+    (void)unused;
+    if ((status & 0xff) != 0xff) return;
+    fputs(text, stderr);
+    _exit(FRACAS_ENVIRONMENT);
+}
+
 int main(int argc, char **argv)
 {
+    on_exit(say_why_hdf5_ends, NULL);
     open_standard_streams();
     if (!getenv(FRACAS_LAUNCHER_MARK)) fracas_text_guard_stdout(); /* else the status channel */
     fracas_err code = dispatch(argc, argv);

@@ -3,6 +3,7 @@
 
 #include "base/units.h"
 
+#include <ctype.h>
 #include <inttypes.h>
 #include <string.h>
 #include <strings.h>
@@ -63,6 +64,20 @@ void fracas_lines_field(fracas_lines *lines, char field[FRACAS_FIELD])
     if (stop < lines->stop && *stop == ',') stop++;
     while (stop < lines->stop && is_blank(*stop)) stop++;
     lines->start = stop;
+}
+
+bool fracas_lines_is_decimal_comma(const fracas_lines *lines)
+{
+    const size_t length = (size_t)(lines->stop - lines->start);
+    const char *comma = memchr(lines->start, ',', length);
+    if (lines->columns || !comma || comma == lines->start || comma + 1 == lines->stop) return false;
+    if (!isdigit((unsigned char)comma[-1]) || !isdigit((unsigned char)comma[1]) ||
+        memchr(comma + 1, ',', (size_t)(lines->stop - comma - 1)))
+        return false;
+    const char *from = comma, *to = comma;
+    while (from > lines->start && !is_blank(from[-1])) from--;
+    while (to < lines->stop && !is_blank(*to)) to++;
+    return !memchr(from, '.', (size_t)(to - from));
 }
 
 fracas_err fracas_lines_refuse(const fracas_lines *lines, const char *found, const char *expected)

@@ -17,6 +17,7 @@ typedef struct {
     const char *start, *stop; /* the line without outer blanks; fracas_lines_field shortens it */
     int64_t line;             /* its number, from 1 */
     bool first;               /* it is the first one: it may be a line of headings */
+    bool columns;             /* a first line of headings has a comma */
 } fracas_lines;
 
 fracas_lines fracas_lines_begin(const fracas_attachment *file);
@@ -30,6 +31,9 @@ bool fracas_lines_next_row(fracas_lines *lines);
  * none, or if it holds bytes that no text has. */
 void fracas_lines_last_field(const fracas_lines *lines, char field[FRACAS_FIELD]);
 void fracas_lines_field(fracas_lines *lines, char field[FRACAS_FIELD]);
+/* True of a line that may hold a decimal comma: its only comma stands between digits, and next to
+ * no decimal point, where no line of headings says that there are columns. */
+bool fracas_lines_is_decimal_comma(const fracas_lines *lines);
 /* FRACAS_USAGE: "FILE:LINE: found `found`; expected ...". */
 FRACAS_MUST_USE fracas_err fracas_lines_refuse(const fracas_lines *lines, const char *found,
                                                const char *expected);

@@ -16,14 +16,15 @@ void *__libc_memalign(size_t alignment, size_t size);
 void __libc_free(void *old);
 
 /* Volatile: the compiler believes that malloc changes nothing of ours. */
-static volatile long countdown; /* allocations until one fails; 0: none does */
-static volatile bool has_failed;
-static volatile long held; /* allocations that nobody has freed */
+static volatile long countdown;           /* allocations until one fails; 0: none does */
+static volatile bool has_failed, lasting; /* lasting: all after the first that fails do, too */
+static volatile long held;                /* allocations that nobody has freed */
 
 static bool fails(void)
 {
     if (countdown == 0 || --countdown > 0) return false;
     has_failed = true;
+    if (lasting) countdown = 1;
     errno = ENOMEM;
     return true;
 }

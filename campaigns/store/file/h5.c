@@ -5,6 +5,7 @@
 #include "base/own.h"
 #include "base/param.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,7 +32,8 @@ static herr_t look_at_error(unsigned n, const H5E_error2_t *error, void *context
 
 fracas_err fracas_h5_fail(const fracas_h5 *h5, const char *what)
 {
-    error_walk walk = {.text = "it is not as it should be"};
+    /* malloc says so in errno, and nothing resets it: HDF5 may find out later, and otherwise. */
+    error_walk walk = {.text = "it is not as it should be", .memory = errno == ENOMEM};
     (void)H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look_at_error, &walk);
     (void)H5Eclear2(H5E_DEFAULT);
     if (h5->error)

@@ -136,6 +136,7 @@ static fracas_err start(fracas_h5 *h5, const char *path, bool writing)
     *h5 = FRACAS_H5_CLOSED;
     h5->path = path;
     h5->writing = writing;
+    errno = 0; /* for fracas_h5_fail */
     (void)H5dont_atexit();
     if (H5open() >= 0 && H5Eset_auto2(H5E_DEFAULT, NULL, NULL) >= 0)
         h5->driver = H5FDregister(&driver);
