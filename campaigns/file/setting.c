@@ -212,8 +212,15 @@ static void write_range(const fracas_param *param, char *text, size_t size)
 fracas_err fracas_setting_check(const fracas_file *file, const fracas_setting *setting,
                                 const fracas_param *param)
 {
+    static const double greatest = 1e100; /* products of three still fit a double */
     double value = setting->value;
     if (fracas_param_is_text(param)) return FRACAS_OK;
+    if (value != 0 && isfinite(value) && (fabs(value) > greatest || fabs(value) * greatest < 1))
+        return fracas_file_error(file, setting->node,
+                                 "`%s`: %g%s%s is beyond what can be computed with: 0, or 1e-100 "
+                                 "to 1e100 in SI units",
+                                 setting->leaf->key, value, strcmp(param->unit, "1") ? " " : "",
+                                 strcmp(param->unit, "1") ? param->unit : "");
     if ((param->minimum_open ? value > param->minimum : value >= param->minimum) &&
         value <= param->maximum)
         return FRACAS_OK;

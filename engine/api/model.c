@@ -23,12 +23,18 @@ static fracas_err check_steps(const fracas_model *model)
 {
     const double step = model->time_step, end = model->spec.time.end;
     if (!(step > 0 && isfinite(step)))
-        return fracas_fail(FRACAS_USAGE, "time step %g s: check material, mesh and time.safety",
-                           step);
-    if (end / step > MOST_STEPS)
         return fracas_fail(FRACAS_USAGE,
-                           "time.end %g s is %.3g time steps of %.3g s; %g are allowed", end,
-                           end / step, step, MOST_STEPS);
+                           "a critical time step of %s: are young, density and all lengths in the "
+                           "units meant? A bare number is SI",
+                           isnan(step) ? "no number"
+                           : step > 0  ? "more seconds than can be counted"
+                                       : "0 s");
+    if (end / step > MOST_STEPS)
+        return fracas_fail(
+            FRACAS_USAGE,
+            "time.end %g s is %.3g time steps of %.3g s; %g are allowed: are time.end, "
+            "young, density and all lengths in the units meant? A bare number is SI",
+            end, end / step, step, MOST_STEPS);
     if (most_steps(model) <= MOST_STEPS) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "time.end %g s is %.3g of the finest time steps, refined twice by "

@@ -19,7 +19,8 @@ static fracas_err try_batch(const fracas_campaign *campaign, const fracas_run_op
     OWN(fracas_model) model = NULL;
     OWN(fracas_batch) batch = NULL;
     fracas_batch_options batch_options = {.width = options->width, .isa = options->isa};
-    TRY(fracas_point_model_create(campaign, 0, &model));
+    const fracas_err err = fracas_point_model_create(campaign, 0, &model);
+    if (err) return fracas_fail_within(err, "point 0");
     return fracas_batch_create(model, 1, &batch_options, &batch);
 }
 

@@ -84,7 +84,7 @@ static fracas_err bar_check_strength(const fracas_model *model, double strength)
         return fracas_fail(
             FRACAS_USAGE,
             "contact penalty %.4g Pa/m of strength %g Pa exceeds the elements' stiffness %.4g "
-            "Pa/m: raise mesh.elements above %.0f",
+            "Pa/m: raise mesh.elements above %.15g",
             penalty, strength, bar.young / h,
             ceil(h / model->element_size * model->spec.geometry.length * penalty / bar.young));
     return FRACAS_OK;

@@ -89,10 +89,16 @@ fracas_err fracas_chain_check_strength(const fracas_model *model, double strengt
     double margin = 2 * (cohesive->beta * young / h) * energy / strength - steep;
     double most = 2 * cohesive->beta * young * energy / (strength * steep);
     if (margin > 0 && isfinite(margin)) return FRACAS_OK;
+    if (!isfinite(margin) || !isfinite(most))
+        return fracas_fail(FRACAS_USAGE,
+                           "strength %g Pa and cohesive.fracture_energy %g J/m2 give no critical "
+                           "opening that can be computed with: are both in the units meant? A "
+                           "bare number is SI",
+                           strength, energy);
     const double needed = ceil((double)model->elements * h / most);
     return fracas_fail(FRACAS_USAGE,
                        "strength %g Pa needs elements shorter than %.4g m, they are %.4g m: raise "
-                       "mesh.elements above %.0f (or cohesive.beta)%s",
+                       "mesh.elements above %.15g (or cohesive.beta)%s",
                        strength, most, h, needed,
                        needed < 1e7
                            ? ""

@@ -76,7 +76,7 @@ static fracas_err ring_model_init(fracas_model *model)
         return fracas_fail(
             FRACAS_USAGE,
             "cohesive.zone is %.4g m, but elements are %.4g m long, so that it holds no other "
-            "interface: raise it, or mesh.elements above %.0f, or leave it out",
+            "interface: raise it, or mesh.elements above %.15g, or leave it out",
             zone, model->element_size, ceil(fracas_spec_length(&model->spec) / zone));
     double *table = model->table = malloc(n * RING_TABLE * sizeof *table);
     if (!table) return fracas_no_memory("the mesh of a ring");

@@ -112,7 +112,13 @@ static fracas_err largest_frequency(const fracas_model *model, int contact, doub
     fill_start(t, start);
     TRY(fracas_lanczos(&(fracas_lanczos_problem){apply, multiply_by_mass, op, n}, start, &square));
     *omega = sqrt(square);
-    if (square > 0) return FRACAS_OK;
+    if (square > 0 && isfinite(square)) return FRACAS_OK;
+    for (size_t i = 0; i < n; i++)
+        if (start[i] != 0)
+            return fracas_fail(FRACAS_USAGE,
+                               "the highest frequency of the mesh cannot be computed: are young, "
+                               "density, thickness and all lengths in the units meant? A bare "
+                               "number is SI");
     return fracas_fail(FRACAS_USAGE,
                        "every node of the mesh is held: leave an edge free, or refine the mesh");
 }

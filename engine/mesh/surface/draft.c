@@ -40,7 +40,7 @@ fracas_err fracas_surface_draft_init(fracas_surface_draft *draft, double nvertic
     /* Twice as many edges as vertices make four times as many nodes of the second order. */
     if (!(4.0 * nvertices <= (double)FRACAS_SURFACE_LARGEST))
         return fracas_fail(FRACAS_USAGE,
-                           "a surface would have %.0f elements, more than %zu: take a larger size",
+                           "a surface would have %.15g elements, more than %zu: take a larger size",
                            nelements, FRACAS_SURFACE_LARGEST / 2);
     *draft = (fracas_surface_draft){
         .nvertices = (size_t)nvertices, .nelements = (size_t)nelements, .ntags = (size_t)ntags};
