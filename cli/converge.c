@@ -143,7 +143,7 @@ static fracas_err predict(const converging *c, double *time)
     OWNED fracas_forecast *forecast = calloc(campaign->npoints, sizeof *forecast);
     if (!forecast) return fracas_no_memory("the plan");
     *time = 0;
-    TRY(fracas_forecast_all(campaign, jobs, forecast));
+    TRY(fracas_forecast_all(campaign, jobs, false, forecast));
     for (size_t p = 0; p < campaign->npoints; p++) *time += forecast[p].time;
     return FRACAS_OK;
 }

@@ -8,6 +8,7 @@
 #include <limits.h>
 
 static const fracas_option options[] = {{"json", NULL, "print it as JSON"},
+                                        {"quick", NULL, "estimate large surfaces, unchecked"},
                                         {"jobs", "N", "processes that would compute (one a core)"},
                                         {0}};
 
@@ -17,7 +18,8 @@ static fracas_err plan(const fracas_arguments *arguments)
     TRY(fracas_arguments_integer(arguments, "jobs", 1, INT_MAX, &jobs));
     OWN(fracas_campaign) campaign = NULL;
     TRY(fracas_campaign_read(arguments->operand, &campaign));
-    return fracas_plan_print(campaign, jobs, stdout, fracas_given(arguments, "json"));
+    return fracas_plan_print(campaign, jobs, fracas_given(arguments, "quick"), stdout,
+                             fracas_given(arguments, "json"));
 }
 
 const fracas_command fracas_command_plan = {

@@ -177,10 +177,11 @@ static fracas_err extent_of_body(const fracas_model *model, double *diagonal)
     return FRACAS_OK;
 }
 
-static fracas_err describe(const fracas_point *point, const fracas_model *model,
+static fracas_err describe(const fracas_point *point, const fracas_model *model, bool estimated,
                            fracas_forecast *forecast)
 {
     *forecast = (fracas_forecast){
+        .estimated = estimated,
         .elements = (int64_t)fracas_model_elements(model),
         .interfaces = (int64_t)fracas_model_interfaces(model),
         .steps = fracas_model_steps(model),
@@ -214,22 +215,36 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
                             forecast->time_step;
     if (fracas_shape_of(spec)->round) describe_ring(spec, forecast);
     forecast->repeated = fracas_strength_is_given(&point->strength) && point->replicas > 1;
-    return check_strengths(model, point, extent.least, factor.most);
+    return estimated ? FRACAS_OK : check_strengths(model, point, extent.least, factor.most);
 }
 
 /* The forecast and its model. */
-static fracas_err forecast_with(const fracas_campaign *campaign, size_t point,
+static fracas_err forecast_with(const fracas_campaign *campaign, size_t index, bool quick,
                                 fracas_forecast *forecast, fracas_model **model)
 {
-    TRY(fracas_point_model_create(campaign, point, model));
-    return describe(&campaign->point[point], *model, forecast);
+    fracas_point point = campaign->point[index];
+    double coarser = 1;
+    if (quick && point.spec.mesh.divisions > FRACAS_FORECAST_QUICK &&
+        !fracas_strength_is_given(&point.strength)) {
+        coarser = (double)point.spec.mesh.divisions / FRACAS_FORECAST_QUICK;
+        point.spec.mesh.divisions = FRACAS_FORECAST_QUICK;
+    }
+    TRY(fracas_point_model_like(campaign, index, &point.spec, model));
+    TRY(describe(&point, *model, coarser > 1, forecast));
+    if (coarser == 1) return FRACAS_OK;
+    forecast->elements = llround((double)forecast->elements * coarser * coarser);
+    forecast->interfaces = llround((double)forecast->interfaces * coarser * coarser);
+    forecast->steps = llround((double)forecast->steps * coarser);
+    forecast->time_step /= coarser;
+    forecast->element /= coarser;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
                                 fracas_forecast *forecast)
 {
     OWN(fracas_model) model = NULL;
-    fracas_err err = forecast_with(campaign, point, forecast, &model);
+    fracas_err err = forecast_with(campaign, point, false, forecast, &model);
     return err ? fracas_fail_within(err, "point %zu", point) : FRACAS_OK;
 }
 
@@ -368,20 +383,36 @@ static double speed_of_similar(const fracas_campaign *campaign, const fracas_for
 /* ---- all points ---- */
 
 /* Forecast p with its speed, given the forecasts before it. */
-static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p,
+static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p, bool quick,
                                  fracas_forecast *forecast)
 {
     OWN(fracas_model) model = NULL;
-    TRY(forecast_with(campaign, p, &forecast[p], &model));
+    TRY(forecast_with(campaign, p, quick, &forecast[p], &model));
     forecast[p].speed = speed_of_similar(campaign, forecast, p);
     return forecast[p].speed > 0 ? FRACAS_OK : time_point(campaign, p, model, &forecast[p]);
 }
 
-fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, fracas_forecast *forecast)
+/* Says which point comes next, where that may take long, or after each second of patience. */
+static void say_next(const fracas_campaign *campaign, size_t p, bool quick, double *said)
 {
+    enum { LARGE = 150 /* divisions: a second or two */ };
+    static const double patience = 2; /* s of this process */
+    const bool large = !quick && campaign->point[p].spec.mesh.divisions > LARGE;
+    if (!large && seconds() - *said < patience) return;
+    fprintf(stderr, "fracas: point %zu of %zu is looked at%s\n", p, campaign->npoints,
+            large ? "; the critical step of its mesh takes long (`fracas plan --quick` estimates)"
+                  : "");
+    *said = seconds();
+}
+
+fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, bool quick,
+                               fracas_forecast *forecast)
+{
+    double said = seconds();
     for (size_t p = 0; p < campaign->npoints; p++) {
         const fracas_point *point = &campaign->point[p];
-        fracas_err err = forecast_timed(campaign, p, forecast);
+        say_next(campaign, p, quick, &said);
+        fracas_err err = forecast_timed(campaign, p, quick, forecast);
         if (err) return fracas_fail_within(err, "point %zu", p);
         const double work = (double)forecast[p].elements * (double)forecast[p].steps *
                             (double)fracas_point_most(point);

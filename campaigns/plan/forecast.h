@@ -24,9 +24,10 @@ typedef struct {
     bool repeated;      /* several replicas with strengths from a file: all are equal */
     double mean;        /* strength of an interface [Pa] */
     double element;     /* mean element size [m] */
-    double extent; /* diagonal of the box around all interfaces [m], for correlated strengths */
-    bool flat;     /* a factor of the strengths is the same at all interfaces */
-    double bound;  /* on the stress in the uncracked body until time.end [Pa], or INFINITY */
+    double extent;  /* diagonal of the box around all interfaces [m], for correlated strengths */
+    bool flat;      /* a factor of the strengths is the same at all interfaces */
+    bool estimated; /* from a coarser mesh, without a check of strengths */
+    double bound;   /* on the stress in the uncracked body until time.end [Pa], or INFINITY */
 } fracas_forecast;
 
 /* The forecast of one point, without speed, time and bytes. FRACAS_USAGE if strengths from a file
@@ -35,9 +36,13 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
                                                 fracas_forecast *forecast);
 
-/* Forecasts of all points, timed. */
+/* Forecasts of all points, timed. quick: those of surfaces with more than FRACAS_FORECAST_QUICK
+ * divisions are estimated from a mesh of so many, r times as coarse: elements and interfaces grow
+ * by r^2, steps by r, and strengths are not checked. After some seconds, and before large meshes,
+ * it says on stderr where it is. */
+enum { FRACAS_FORECAST_QUICK = 64 };
 FRACAS_MUST_USE fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs,
-                                               fracas_forecast *forecast);
+                                               bool quick, fracas_forecast *forecast);
 
 /* Writes a warning; false, with any text, if it does not apply. */
 typedef bool fracas_plan_warning(const fracas_point *point, const fracas_forecast *forecast,

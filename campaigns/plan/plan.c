@@ -40,7 +40,8 @@ static double least_part(const fracas_point *point)
 }
 
 /* The caller clears the plan, also after an error. */
-static fracas_err plan_init(const fracas_campaign *campaign, int jobs, campaign_plan *made)
+static fracas_err plan_init(const fracas_campaign *campaign, int jobs, bool quick,
+                            campaign_plan *made)
 {
     const fracas_point_table *table = &campaign->table;
     *made = (campaign_plan){
@@ -48,7 +49,7 @@ static fracas_err plan_init(const fracas_campaign *campaign, int jobs, campaign_
     made->forecast = malloc(table->npoints * sizeof *made->forecast);
     made->varied = malloc(table->ncolumns * sizeof *made->varied);
     if (!made->forecast || !made->varied) return fracas_no_memory("the plan");
-    TRY(fracas_forecast_all(campaign, jobs, made->forecast));
+    TRY(fracas_forecast_all(campaign, jobs, quick, made->forecast));
     for (size_t c = 0; c < table->ncolumns; c++)
         if (fracas_point_table_varies(table, c)) made->varied[made->nvaried++] = c;
     for (size_t p = 0; p < table->npoints; p++) {
@@ -147,6 +148,7 @@ static void put_range(text_sheet *sheet, size_t row, size_t column, double least
 /* Warning `which` of point p, with its number; false if it does not apply. */
 static bool warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
 {
+    if (plan->forecast[p].estimated) return false;
     int begin = snprintf(text, size, "point %zu: ", p);
     return fracas_plan_warnings[which](&plan->campaign->point[p], &plan->forecast[p], text + begin,
                                        size - (size_t)begin);
@@ -252,6 +254,14 @@ static fracas_err print_text(const campaign_plan *plan, FILE *out)
     if (plan->most > plan->realizations)
         fprintf(out, "Replicas are added until replicas.until holds: from the least to the "
                      "most, with their times and sizes.\n");
+    size_t estimated = 0;
+    for (size_t p = 0; p < points; p++) estimated += plan->forecast[p].estimated;
+    if (estimated > 0)
+        fprintf(out,
+                "Estimated (--quick) from meshes of %d divisions: elements, time step, steps, time "
+                "and size of %zu point%s.\nTheir strengths are not checked, and warnings are left "
+                "out.\n",
+                FRACAS_FORECAST_QUICK, estimated, estimated == 1 ? "" : "s");
     if (any_surface_field(plan))
         fprintf(out, "Correlated fields of surfaces are made once a point by each process, "
                      "which is not in these times: some seconds for 10 000 interfaces.\n");
@@ -280,6 +290,7 @@ static void print_json_point(const campaign_plan *plan, size_t p, fracas_json *j
     fracas_json_integer(json, "elements", forecast->elements);
     fracas_json_real(json, "time_step", forecast->time_step);
     fracas_json_integer(json, "steps", forecast->steps);
+    fracas_json_boolean(json, "estimated", forecast->estimated);
     fracas_json_real(json, "element_steps_per_second", forecast->speed);
     fracas_json_real(json, "seconds", forecast->time);
     fracas_json_real(json, "bytes", forecast->bytes);
@@ -308,12 +319,13 @@ static void print_json(const campaign_plan *plan, FILE *out)
     fracas_json_end(&json);
 }
 
-fracas_err fracas_plan_print(const fracas_campaign *campaign, int jobs, FILE *out, bool json)
+fracas_err fracas_plan_print(const fracas_campaign *campaign, int jobs, bool quick, FILE *out,
+                             bool json)
 {
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     if (jobs <= 0) jobs = cores > 0 ? (int)cores : 1;
     FRACAS_CLEARED(campaign_plan) plan = {0};
-    TRY(plan_init(campaign, jobs, &plan));
+    TRY(plan_init(campaign, jobs, quick, &plan));
     if (json) print_json(&plan, out);
     else TRY(print_text(&plan, out));
     if (fflush(out) == 0 && !ferror(out)) return FRACAS_OK;

@@ -21,9 +21,10 @@ FRACAS_MUST_USE fracas_err fracas_plan_cost(const fracas_campaign *campaign, siz
  *   speed     element-steps per second of one free core, timed on a short batch of the point's size
  *   size      bytes of the rows of study.h5, with one fragment for every
  *             FRACAS_PLAN_ELEMENTS_PER_FRAGMENT elements
- * Errors as fracas_plan_cost, and FRACAS_ENVIRONMENT when `out` cannot be written. */
-FRACAS_MUST_USE fracas_err fracas_plan_print(const fracas_campaign *campaign, int jobs, FILE *out,
-                                             bool json);
+ * With `quick` large surfaces are estimated (fracas_forecast_all), without warnings, and it says
+ * so. Errors as fracas_plan_cost, and FRACAS_ENVIRONMENT when `out` cannot be written. */
+FRACAS_MUST_USE fracas_err fracas_plan_print(const fracas_campaign *campaign, int jobs, bool quick,
+                                             FILE *out, bool json);
 
 #define FRACAS_PLAN_ELEMENTS_PER_FRAGMENT 20
 

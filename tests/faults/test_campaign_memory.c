@@ -101,7 +101,7 @@ static fracas_err print_plan(const void *context)
 {
     FILE *out = fopen("/dev/null", "w");
     if (!out) return fracas_no_memory("a stream");
-    fracas_err err = fracas_plan_print(context, 1, out, false);
+    fracas_err err = fracas_plan_print(context, 1, false, out, false);
     fclose(out);
     return err;
 }

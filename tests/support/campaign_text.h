@@ -86,7 +86,7 @@ static inline char *write_text(const fracas_campaign *campaign)
 static inline char *plan_text(const fracas_campaign *campaign, int jobs, bool json)
 {
     FILE *out = text_begin();
-    OK(fracas_plan_print(campaign, jobs, out, json));
+    OK(fracas_plan_print(campaign, jobs, false, out, json));
     return text_end(out);
 }
 

@@ -9,12 +9,12 @@ cat > plate.yaml <<END
 name: plate
 seed: 1
 model: membrane
-geometry: {shape: rectangle, length: 10 mm, width: 10 mm, thickness: 1 mm}
-mesh: {spacing: regular, divisions: 4}
+geometry: {shape: plate, height: 10 mm, width: 10 mm, thickness: 1 mm}
+mesh: {divisions: 4}
 material: {young: 275 GPa, density: 2750 kg/m3, poisson: 0.25}
 cohesive: {law: nitsche, fracture_energy: 100 J/m2}
 strength: {distribution: uniform, minimum: 299 MPa, maximum: 301 MPa}
-loading: {type: edge-velocity, velocity: 10 m/s}
+loading: {type: expansion, rate: 1e4 1/s}
 time: {stop: time, end: 300 ns, safety: 0.25}
 replicas: 1
 END

@@ -241,7 +241,7 @@ static void test_refused(void **state)
         "", "sweep:\n  - cohesive.fracture_energy: [100, 1e-9]\n");
     FILE *out = fopen("/dev/null", "w");
     assert_non_null(out);
-    FAILS(fracas_plan_print(campaign, 1, out, false), FRACAS_USAGE, "point 1: ");
+    FAILS(fracas_plan_print(campaign, 1, false, out, false), FRACAS_USAGE, "point 1: ");
     fclose(out);
 }
 
@@ -293,7 +293,7 @@ static void test_write_fails(void **state)
     OWN(fracas_campaign) campaign = read_text(plain_campaign);
     FILE *full = fopen("/dev/full", "w");
     assert_non_null(full);
-    FAILS(fracas_plan_print(campaign, 1, full, true), FRACAS_ENVIRONMENT, "No space left");
+    FAILS(fracas_plan_print(campaign, 1, false, full, true), FRACAS_ENVIRONMENT, "No space left");
     fclose(full);
 }
 

@@ -1,0 +1,26 @@
+#!/bin/sh
+# What `plan` says of a large mesh before it is done with it, and how it estimates one.
+. tests/support/campaigns.sh
+
+paper=$source/campaigns/examples/sphere-paper.yaml # its critical steps take minutes
+status=0
+timeout 2 "$fracas" plan "$paper" > out 2> said || status=$?
+[ $status -eq 124 ] || fail "status $status: it was to be stopped"
+said '^fracas: point 0 of 4 is looked at; .*--quick'
+
+expect 0 "$fracas" plan "$paper" --quick
+said '^ *0  settling-1e4 .* 145161 '
+said '^Estimated (--quick) from meshes of 64 divisions: .* of 4 points'
+
+# An estimate beside the figures themselves: as many elements, and steps to a tenth.
+sed '/^sweep/,/^ .*peak-1e4/d; s/expansion/&, rate: 1e4/; s/safety/stop: time, end: 9 ns, &/; s/divisions: 381/divisions: 66/; s/0.1 mm/0.01 mm/' \
+    "$paper" > smaller.yaml
+"$fracas" plan smaller.yaml --quick --json > quick.json
+"$fracas" plan smaller.yaml --json > whole.json
+python3 - <<'END' || fail "the estimate is far off"
+import json
+quick, whole = (json.load(open(name)) for name in ("quick.json", "whole.json"))
+(a,), (b,) = quick["point"], whole["point"]
+assert a["estimated"] and not b["estimated"] and not quick["warnings"] and abs(a["elements"] - b["elements"]) <= 1, (a, b)
+assert 0.9 < a["time_step"] / b["time_step"] < 1.1, (a, b)
+END
