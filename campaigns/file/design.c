@@ -262,7 +262,7 @@ static fracas_err draw(const fracas_file *file, const fracas_node *node, const r
         fracas_choice *choice = &axis->choice[i / d];
         fracas_setting setting = {.leaf = read->leaf[j], .node = read->node[j], .drawn = number};
         const double drawn = fracas_uncertain_quantile(&read->uncertain[j], p[i]);
-        if (!isfinite(drawn))
+        if (!fracas_setting_computable(drawn))
             return fracas_file_error(
                 file, setting.node,
                 "`%s`: point %zu of the design is beyond all numbers; narrow its distribution",

@@ -209,13 +209,18 @@ static void write_range(const fracas_param *param, char *text, size_t size)
                  blank, unit);
 }
 
+bool fracas_setting_computable(double value)
+{
+    const double size = fabs(value);
+    return size == 0 || (size <= FRACAS_GREATEST && size >= 1 / FRACAS_GREATEST);
+}
+
 fracas_err fracas_setting_check(const fracas_file *file, const fracas_setting *setting,
                                 const fracas_param *param)
 {
-    static const double greatest = 1e100; /* products of three still fit a double */
     double value = setting->value;
     if (fracas_param_is_text(param)) return FRACAS_OK;
-    if (value != 0 && isfinite(value) && (fabs(value) > greatest || fabs(value) * greatest < 1))
+    if (!fracas_setting_computable(value))
         return fracas_file_error(file, setting->node,
                                  "`%s`: %g%s%s is beyond what can be computed with: 0, or 1e-100 "
                                  "to 1e100 in SI units",

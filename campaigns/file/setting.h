@@ -49,7 +49,13 @@ FRACAS_MUST_USE fracas_err fracas_settings_add_section(const fracas_file *file,
                                                        const fracas_node *node,
                                                        fracas_settings *settings);
 
-/* FRACAS_USAGE unless the value lies in the range of `param`. */
+/* Products of three values that are not 0 are numbers, too, if each lies within this and its
+ * inverse.
+ */
+#define FRACAS_GREATEST 1e100
+bool fracas_setting_computable(double value);
+
+/* FRACAS_USAGE unless the value lies in the range of `param`, and can be computed with. */
 FRACAS_MUST_USE fracas_err fracas_setting_check(const fracas_file *file,
                                                 const fracas_setting *setting,
                                                 const fracas_param *param);

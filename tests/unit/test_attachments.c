@@ -516,7 +516,8 @@ static void test_noise(void **state)
     fracas_point_mesh_noise(campaign, 1, 10, begin);
     assert_true(begin[0] != noise[0]); /* of the point */
     fracas_forecast forecast[2];
-    OK(fracas_forecast_all(campaign, 1, forecast)); /* which times a shorter mesh of the second */
+    OK(fracas_forecast_all(campaign, 1, false,
+                           forecast)); /* which times a shorter mesh of the second */
     assert_int_equal(forecast[1].elements, 200000);
     assert_null(campaign->point[0].spec.mesh.noise);
 }

@@ -385,8 +385,8 @@ static void test_bytes(void **state)
     OWN(fracas_campaign) without = read_membrane("", ""),
                          *with = read_membrane("", "output: {interfaces: true}\n");
     fracas_forecast a, b;
-    OK(fracas_forecast_all(without, 1, &a));
-    OK(fracas_forecast_all(with, 1, &b));
+    OK(fracas_forecast_all(without, 1, false, &a));
+    OK(fracas_forecast_all(with, 1, false, &b));
     assert_true(b.bytes - a.bytes == 2.0 * 84 * sizeof(fracas_interface_row));
     assert_true(a.speed > 0 && a.time == 64.0 * (double)a.steps * 2 / a.speed);
 }
