@@ -29,6 +29,7 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import study_rows  # noqa: E402
+from process_tree import Tree, read  # noqa: E402
 from study_rows import done_rows  # noqa: E402
 
 CAMPAIGN = """\
@@ -56,70 +57,6 @@ MERGES = 0.07  # of the kills are left for when only study.h5 is to be written
 def end(text):
     print(f"FAILED: {text}", flush=True)
     sys.exit(1)
-
-
-def read(path):
-    try:
-        with open(path, "rb") as file:
-            return file.read().decode(errors="replace")
-    except (FileNotFoundError, ProcessLookupError):
-        return ""
-
-
-class Tree:
-    """The processes of a session."""
-
-    supervisor = False  # there are supervisors: some process was four below a rank's mpirun
-
-    def __init__(self, session, program):
-        self.program = program[:15]  # as much as the kernel keeps of its name
-        self.name, self.above, self.rank = {}, {}, {}
-        for path in glob.glob("/proc/[0-9]*/stat"):
-            text = read(path)
-            head, _, tail = text.rpartition(")")
-            words = tail.split()
-            # zombies have nothing left, but for one whose other threads still die: it holds files, and so the lock
-            if not words or int(words[3]) != session or (words[0] == "Z" and int(words[17]) <= 1):
-                continue
-            pid = int(head.split()[0])
-            self.name[pid], self.above[pid] = head.split("(", 1)[1], int(words[1])
-
-    def below(self, pid):
-        found = {pid}
-        while True:
-            more = {p for p, above in self.above.items() if above in found} - found
-            if not more:
-                return found
-            found |= more
-
-    def depth(self, pid):
-        """Steps from a rank down to this process; -1 if it is below none."""
-        steps = 0
-        while pid in self.name:
-            if self.name.get(self.above[pid]) == "mpirun":
-                return steps if self.name[pid] == self.program else -1
-            pid, steps = self.above[pid], steps + 1
-        return -1
-
-    def kinds(self, session):
-        found = {}
-        for pid in self.name:
-            depth = self.depth(pid)
-            Tree.supervisor |= depth >= 3
-            if pid == session:
-                kind = "parent"
-            elif self.name[pid] == "mpirun":
-                kind = "mpirun"
-            elif depth == 0:
-                number = [w for w in read(f"/proc/{pid}/environ").split("\0") if w.startswith("OMPI_COMM_WORLD_RANK=")]
-                kind = "other rank" if number and number[0][21:] != "0" else "rank 0"
-            elif depth > 0:
-                kind = ([] if not Tree.supervisor else ["supervisor"] * (depth > 0)) + ["server", "child"]
-                kind = kind[min(depth, len(kind)) - 1]
-            else:
-                continue
-            found.setdefault(kind, []).append(pid)
-        return found
 
 
 class Storm:
