@@ -339,8 +339,9 @@ static fracas_err recover(const void *context, FILE *report)
     const recovery *r = context;
     OWNED char *folder = NULL;
     TRY(fracas_disk_join(r->study, "segments", &folder));
+    const bool there = access(folder, F_OK) == 0;
     if (!fracas_folder_create(folder)) return fracas_disk_fail("create", folder);
-    TRY(fracas_disk_sync_folder(folder));
+    if (!there) TRY(fracas_disk_sync_folder(folder));
     TRY(sweep(r->study, report));
     TRY(forget_lost(r->study, r->index, report));
     return adopt_orphans(folder, r->table, r->index, &r->identity, report);
