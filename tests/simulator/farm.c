@@ -121,7 +121,8 @@ static void freeze_one(void)
 {
     static const role roles[] = {LEASE_CHILD, SERVER, SERVER, RANK, RANK};
     process *p = pick(roles[roll_below(DICE_FAULT, sizeof roles / sizeof *roles)]);
-    if (!p || (p->role == LEASE_CHILD && !oracle_may_hurt(p))) return;
+    if (!p || p->frozen_until > world.now) return;
+    if (p->role == LEASE_CHILD && !oracle_may_hurt(p)) return;
     const bool for_ever = chance(DICE_FAULT, 0.2);
     p->frozen_until = for_ever ? INFINITY : world.now + roll_between(DICE_FAULT, 0.1, 30);
     trace("FAULT: %s hangs until %g", process_name(p), p->frozen_until);
