@@ -170,6 +170,13 @@ static void enter(void)
     abort();
 }
 
+static void give_stack(void *stack)
+{
+    if (!stack) return;
+    if (nspare == sizeof spare / sizeof *spare) munmap(stack, STACK);
+    else spare[nspare++] = stack;
+}
+
 static void resume(void *what, uint64_t turn)
 {
     process *p = what;
@@ -182,7 +189,8 @@ static void resume(void *what, uint64_t turn)
     world.current = p;
     swapcontext(&loop, &p->context);
     world.current = NULL;
-    if (corpse) spare[nspare++] = corpse, corpse = NULL;
+    give_stack(corpse);
+    corpse = NULL;
 }
 
 static void *new_stack(void)
@@ -265,7 +273,7 @@ void process_end(process *p, int status)
     if (status && !world.dark) trace("%s ends with %x", process_name(p), (unsigned)status);
     machine_ended(p);
     if (p != world.current) {
-        if (p->stack) spare[nspare++] = p->stack;
+        give_stack(p->stack);
         p->stack = NULL;
         return;
     }
