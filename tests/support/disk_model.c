@@ -420,13 +420,12 @@ static disk_names choose_names(const disk *d, uint64_t seed)
     return names;
 }
 
-/* Sectors that a change touches, [*first, *last). `size`: of the file before it. */
-static void touched(const disk_change *c, size_t size, size_t *first, size_t *last)
+/* Sectors that a change writes, [*first, *last). */
+static void touched(const disk_change *c, size_t *first, size_t *last)
 {
-    const bool cuts = c->entry->kind == DISK_TRUNCATE;
-    const size_t to = cuts ? size : c->entry->at + c->entry->size;
-    *first = c->entry->at / SECTOR;
-    *last = to > c->entry->at ? (to + SECTOR - 1) / SECTOR : *first;
+    const disk_entry *e = c->entry;
+    *first = e->at / SECTOR;
+    *last = e->size ? (e->at + e->size + SECTOR - 1) / SECTOR : *first;
 }
 
 static void count_changes(const disk_file *f, size_t *size, size_t *most, unsigned *count,
@@ -439,22 +438,19 @@ static void count_changes(const disk_file *f, size_t *size, size_t *most, unsign
         size[c + 1] = e->kind == DISK_TRUNCATE ? e->at : to > size[c] ? to : size[c];
         if (size[c + 1] > *most) *most = size[c + 1];
         size_t first, last;
-        touched(f->change[c], size[c], &first, &last);
+        touched(f->change[c], &first, &last);
         for (size_t s = first; count && s < last && s < sectors; s++) count[s]++;
     }
 }
 
-/* The part of a change within a sector. */
-static void change_sector(unsigned char *bytes, size_t room, const disk_change *c, size_t sector)
+/* The part of a write within a sector. */
+static void change_sector(unsigned char *bytes, const disk_change *c, size_t sector)
 {
-    size_t from = sector * SECTOR, to = from + SECTOR < room ? from + SECTOR : room;
-    if (from < c->entry->at) from = c->entry->at;
-    if (c->entry->kind == DISK_TRUNCATE) {
-        if (to > from) memset(bytes + from, 0, to - from);
-        return;
-    }
-    if (to > c->entry->at + c->entry->size) to = c->entry->at + c->entry->size;
-    if (to > from) memcpy(bytes + from, c->bytes + (from - c->entry->at), to - from);
+    const disk_entry *e = c->entry;
+    size_t from = sector * SECTOR, to = from + SECTOR;
+    if (from < e->at) from = e->at;
+    if (to > e->at + e->size) to = e->at + e->size;
+    if (to > from) memcpy(bytes + from, c->bytes + (from - e->at), to - from);
 }
 
 static unsigned tenths_of_bytes(disk_style style, uint64_t seed, size_t node)
@@ -499,9 +495,11 @@ static unsigned char *choose_bytes(const disk_file *f, size_t node, uint64_t see
     }
     for (size_t c = 0; c < f->nchanges; c++) {
         size_t first, to;
-        touched(f->change[c], size[c], &first, &to);
+        touched(f->change[c], &first, &to);
         for (size_t s = first; s < to && s < sectors; s++)
-            if (++seen[s] <= count[s]) change_sector(bytes, most, f->change[c], s);
+            if (++seen[s] <= count[s]) change_sector(bytes, f->change[c], s);
+        if (f->change[c]->entry->kind == DISK_TRUNCATE && c < last && size[c + 1] < most)
+            memset(bytes + size[c + 1], 0, most - size[c + 1]); /* whole, with the size */
     }
     free(size);
     free(count);

@@ -128,3 +128,13 @@ record_upkeep()
     expect 0 recorded "$fracas" gc upkeep/study
     same upkeep/study whole-upkeep
 }
+
+# A second cut: the run that follows a state of the bar at POINT with SEED. To be judged as the bar.
+record_twice()
+{
+    rm -rf twice
+    "$power_loss" build bar.log "$1" "$2" twice
+    tape twice
+    expect 0 recorded "$fracas" run bar-long.yaml --study twice/study --jobs 2 $segment_each
+    same twice/study whole-bar
+}

@@ -146,6 +146,21 @@ static void size_may_come_without_bytes(void **state)
     assert_int_equal(count_states("a", "", 0, &absent), SEEDS);
 }
 
+static void truncation_is_whole(void **state)
+{
+    static char bytes[3 * SECTOR];
+    int absent;
+    memset(bytes, 'x', sizeof bytes);
+    create(A, ROOT, "a");
+    write_at(A, 0, bytes, sizeof bytes);
+    sync_node(A);
+    sync_node(ROOT);
+    change(DISK_TRUNCATE, (disk_entry){.node = A, .at = 0}, "", "", NULL);
+    const int old = count_states("a", bytes, sizeof bytes, &absent);
+    assert_in_range(old, 1, SEEDS - 1);
+    assert_int_equal(old + count_states("a", "", 0, &absent), SEEDS);
+}
+
 /* A name is that of one file or the other at all times. */
 static void rename_is_atomic(void **state)
 {
@@ -187,4 +202,5 @@ static void folders_need_their_own_name(void **state)
 }
 
 TESTS_RUN(make_folder, remove_folder, begin, end, synced_is_there, unsynced_may_be_lost_by_sectors,
-          size_may_come_without_bytes, rename_is_atomic, folders_need_their_own_name)
+          size_may_come_without_bytes, truncation_is_whole, rename_is_atomic,
+          folders_need_their_own_name)
