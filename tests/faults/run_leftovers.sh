@@ -58,8 +58,6 @@ end()
 campaign small.yaml 60 '3e4 1/s, 1e5 1/s'
 begin
 nothing_left "a run that computes"
-end "an interrupted run" TERM
-begin
 end "the kill of the parent" KILL
 begin
 kill -9 "$(children mpirun "$session")"
@@ -74,7 +72,7 @@ nothing_left "the kill of everything"
 # Before the ranks have started: within the first moments, which the number of files tells.
 campaign small.yaml 1 '1e5 1/s'
 held=0
-for files in 1 6 12 18; do
+for files in 1 9 18; do
     rm -rf study
     start small.yaml --study study --jobs 2
     while [ -n "$(processes)" ] && [ ! -e study/study.h5 ] && [ "$(left | wc -l)" -lt $files ]; do :; done
