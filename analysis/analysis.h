@@ -27,8 +27,7 @@ FRACAS_OWNER(fracas_analysis, fracas_analysis_destroy)
 
 /* The result table, one line a point, for a terminal. */
 void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out);
-/* The same numbers, all other statistics and the fits of STUDY/fits.csv as one JSON document.
- * Errors as fracas_fits_read. */
+/* The same numbers, all other statistics and the fits of STUDY/fits.csv as one JSON document. */
 FRACAS_MUST_USE fracas_err fracas_analysis_write_json(const fracas_analysis *analysis,
                                                       const char *study, FILE *out);
 

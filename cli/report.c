@@ -43,18 +43,16 @@ fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign,
     return fracas_analysis_create(study, &(*campaign)->hash, &(*campaign)->table, analysis);
 }
 
-/* Tells readers of the table about outdated fits, as the page does. */
-static fracas_err print_stale(const fracas_analysis *analysis, const char *study)
+/* Tells readers of the table about fits that are not shown, as the page does. */
+static fracas_err print_hidden_fits(const fracas_analysis *analysis, const char *study)
 {
-    OWN(fracas_fits) fits = NULL;
-    size_t stale;
-    TRY(fracas_fits_read(study, &fits));
-    if (!fits) return FRACAS_OK;
-    fracas_fits_keep(fits, analysis, &stale);
-    if (stale > 0)
+    FRACAS_CLEARED(fracas_shown_fits) shown = {0};
+    TRY(fracas_shown_fits_read(study, analysis, &shown));
+    if (shown.left_out) printf("warning: %s\n", shown.left_out);
+    if (shown.stale > 0)
         printf("fits of %zu point%s in %s/" FRACAS_FITS_FILE
                " are of other realizations and not shown: `fracas fit %s` makes them again\n",
-               stale, stale == 1 ? "" : "s", study, study);
+               shown.stale, shown.stale == 1 ? "" : "s", study, study);
     return FRACAS_OK;
 }
 
@@ -67,7 +65,7 @@ fracas_err fracas_cli_report(const char *study, bool json)
     else fracas_analysis_print_table(analysis, stdout);
     TRY(fracas_report_write(analysis, study));
     if (json) return FRACAS_OK;
-    TRY(print_stale(analysis, study));
+    TRY(print_hidden_fits(analysis, study));
     printf("report: %s/report/index.html\n", study);
     return FRACAS_OK;
 }

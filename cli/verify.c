@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
+#include "analysis/fit/fits.h"
 #include "base/json.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
@@ -54,25 +55,22 @@ static void report(verification *v, const char *problem)
     v->problems++;
 }
 
-/* Some realizations are not computed yet. */
+/* Some realizations are not computed yet, or a run is at work. */
 static bool is_growing(const char *study)
 {
     OWN(fracas_index) index = NULL;
     fracas_index_counts counts = {0};
+    char holder[FRACAS_HOLDER_TEXT];
+    if (fracas_study_lock_state(study, holder) == FRACAS_LOCK_HELD) return true;
     return !fracas_index_open(study, false, &index) && !fracas_index_count(index, &counts) &&
            fracas_index_missing(&counts) > 0;
 }
 
 /* The campaign file of the study against study.h5, where there is one. */
-static void verify_campaign(verification *v)
+static void verify_campaign(verification *v, const fracas_campaign *campaign)
 {
-    OWN(fracas_campaign) campaign = NULL;
     OWN(fracas_reader) reader = NULL;
     char file[PATH_MAX];
-    if (fracas_cli_read_campaign(v->study, &campaign)) {
-        report(v, fracas_message());
-        return;
-    }
     snprintf(file, sizeof file, "%s/study.h5", v->study);
     if (access(file, F_OK) || v->problems || fracas_reader_open(file, &reader)) return;
     const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
@@ -91,12 +89,32 @@ static void verify_campaign(verification *v)
     }
 }
 
+/* fits.csv, where there is one. */
+static void verify_fits(verification *v)
+{
+    OWN(fracas_fits) fits = NULL;
+    if (!fracas_fits_read(v->study, &fits)) return;
+    if (!fracas_fits_older(v->study)) report(v, fracas_message());
+    else fprintf(v->notes, "%s%c", fracas_message(), '\0');
+}
+
 static fracas_err verify_all(verification *v)
 {
-    const fracas_verify_options how = {
-        .full = v->full, .say = print_problem, .note = keep_note, .context = v};
+    OWN(fracas_campaign) campaign = NULL;
+    OWNED char *fault = NULL;
+    if (fracas_cli_read_campaign(v->study, &campaign)) {
+        fault = strdup(fracas_message());
+        if (!fault) return fracas_no_memory("a message");
+    }
+    const fracas_verify_options how = {.full = v->full,
+                                       .table = campaign ? &campaign->table : NULL,
+                                       .say = print_problem,
+                                       .note = keep_note,
+                                       .context = v};
     TRY(fracas_study_verify(v->study, &how, &v->problems));
-    verify_campaign(v);
+    if (fault) report(v, fault);
+    else verify_campaign(v, campaign);
+    verify_fits(v);
     return FRACAS_OK;
 }
 

@@ -38,6 +38,8 @@ typedef struct {
     int64_t fragments, broken;
 } fracas_history_row;
 
+#define FRACAS_MOST_HISTORY 1000000 /* intervals of time.end in a history: output.history */
+
 typedef struct {
     double strength;   /* Pa; the least of its Gauss points */
     double damage;     /* delta_max/delta_c, 0 to 1 */

@@ -117,8 +117,10 @@ void fracas_csv_real(double value, FILE *out)
 
 void fracas_csv_text(const char *text, FILE *out)
 {
-    bool quote = strpbrk(text, ",\"\n\r") != NULL;
+    const bool formula = *text && strchr("=+-@\t\r", *text); /* to a spreadsheet */
+    const bool quote = formula || strpbrk(text, ",\"\n\r");
     if (quote) putc('"', out);
+    if (formula) putc('\'', out);
     for (; *text; text++) {
         if (*text == '"') putc('"', out);
         putc(*text, out);

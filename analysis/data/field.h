@@ -79,7 +79,8 @@ void fracas_fields_reference(const fracas_fields *fields, bool nested, FILE *out
 
 /* A comma and the value, to 15 digits. */
 void fracas_csv_real(double value, FILE *out);
-/* The text, in quotes where it needs them. */
+/* The text, in quotes where it needs them; behind an apostrophe where a spreadsheet would take it
+ * for a formula: it begins with = + - @, a tab or a carriage return. */
 void fracas_csv_text(const char *text, FILE *out);
 
 #endif

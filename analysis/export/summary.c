@@ -315,7 +315,7 @@ void fracas_analysis_reference(FILE *out)
     }
 }
 
-void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fits, size_t stale,
+void fracas_summary_write(const fracas_analysis *analysis, const fracas_shown_fits *shown,
                           FILE *out)
 {
     char seed[24];
@@ -330,14 +330,16 @@ void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fi
     fracas_json_boolean(&json, "complete", analysis->header.complete);
     fracas_json_boolean(&json, "partial", fracas_results_partial(analysis->results));
     fracas_fields_json_object(&json, "progress", &fracas_progress_fields, &progress);
-    fracas_json_integer(&json, "stale_fits", (int64_t)stale);
+    fracas_json_integer(&json, "stale_fits", (int64_t)shown->stale);
+    fracas_json_text(&json, "fits_left_out", shown->left_out);
     fracas_json_array(&json, "varying");
     for (size_t i = 0; i < analysis->shown.count; i++)
         fracas_json_text(&json, NULL, analysis->table->column[analysis->shown.column[i]].path);
     fracas_json_close(&json);
     write_units(&json, analysis->table);
     fracas_json_array(&json, "points");
-    for (size_t p = 0; p < analysis->table->npoints; p++) write_point(&json, analysis, p, fits);
+    for (size_t p = 0; p < analysis->table->npoints; p++)
+        write_point(&json, analysis, p, shown->fits);
     fracas_json_close(&json);
     write_lists(&json, analysis);
     fracas_json_end(&json);
@@ -345,10 +347,8 @@ void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fi
 
 fracas_err fracas_analysis_write_json(const fracas_analysis *analysis, const char *study, FILE *out)
 {
-    OWN(fracas_fits) fits = NULL;
-    size_t stale = 0;
-    TRY(fracas_fits_read(study, &fits));
-    if (fits) fracas_fits_keep(fits, analysis, &stale);
-    fracas_summary_write(analysis, fits, stale, out);
+    FRACAS_CLEARED(fracas_shown_fits) shown = {0};
+    TRY(fracas_shown_fits_read(study, analysis, &shown));
+    fracas_summary_write(analysis, &shown, out);
     return FRACAS_OK;
 }

@@ -71,9 +71,8 @@ FRACAS_MUST_USE fracas_err fracas_table_empty(size_t count, size_t columns, cons
 void fracas_table_print(const fracas_result_table *table, const char *indent, unsigned left,
                         bool units, FILE *out);
 
-/* The JSON summary of a study (docs/formats/summary.md). `fits`: rows of STUDY/fits.csv kept by
- * fracas_fits_keep, NULL without any; `stale`: number of points without kept rows. */
-void fracas_summary_write(const fracas_analysis *analysis, const fracas_fits *fits, size_t stale,
+/* The JSON summary of a study (docs/formats/summary.md). */
+void fracas_summary_write(const fracas_analysis *analysis, const fracas_shown_fits *shown,
                           FILE *out);
 
 /* Label of a point, as a format. */

@@ -254,6 +254,24 @@ void fracas_fits_keep(fracas_fits *fits, const fracas_analysis *analysis, size_t
     fits->n = kept;
 }
 
+fracas_err fracas_shown_fits_read(const char *study, const fracas_analysis *analysis,
+                                  fracas_shown_fits *shown)
+{
+    *shown = (fracas_shown_fits){0};
+    if (!fracas_fits_read(study, &shown->fits)) {
+        if (shown->fits) fracas_fits_keep(shown->fits, analysis, &shown->stale);
+        return FRACAS_OK;
+    }
+    return fracas_path(&shown->left_out, "the fits are left out: %s", fracas_message());
+}
+
+void fracas_shown_fits_clear(fracas_shown_fits *shown)
+{
+    fracas_fits_destroy(shown->fits);
+    free(shown->left_out);
+    *shown = (fracas_shown_fits){0};
+}
+
 fracas_err fracas_fits_complete(fracas_fits *fits, const fracas_fits *older)
 {
     const size_t own = fits->n;

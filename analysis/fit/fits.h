@@ -49,13 +49,29 @@ FRACAS_MUST_USE fracas_err fracas_fits_append(fracas_fits *fits, const fracas_fi
 
 /* STUDY/fits.csv, whole: temporary, synced, renamed. */
 FRACAS_MUST_USE fracas_err fracas_fits_write(const fracas_fits *fits, const char *study);
-/* *fits: NULL if there is no file. FRACAS_DAMAGED, saying which line, if it is none of ours. */
+/* *fits: NULL if there is no file. FRACAS_DAMAGED for a file that is not as it was written, and for
+ * one of an older version, which nothing can check. */
 FRACAS_MUST_USE fracas_err fracas_fits_read(const char *study, fracas_fits **fits);
+/* True if there is a file of an older version, without a seal. */
+bool fracas_fits_older(const char *study);
 /* Keeps the rows of points of the analysis, by hash and under their numbers in it, if their usable
  * realizations are the fitted ones; the others go. *stale: fitted points that are gone. It does not
  * matter whether the study is complete, where its realizations were read from and which other
  * points it has. */
 void fracas_fits_keep(fracas_fits *fits, const fracas_analysis *analysis, size_t *stale);
+/* The fits of a study as its reports show them. */
+typedef struct {
+    fracas_fits *fits; /* fracas_fits_keep; NULL if there are none */
+    size_t stale;
+    char *left_out; /* why the file is left out, with the remedy; NULL: it is not */
+} fracas_shown_fits;
+
+/* Reads them; a file that cannot be read or believed is left out. Cleared by the caller. */
+FRACAS_MUST_USE fracas_err fracas_shown_fits_read(const char *study,
+                                                  const fracas_analysis *analysis,
+                                                  fracas_shown_fits *shown);
+void fracas_shown_fits_clear(fracas_shown_fits *shown);
+
 /* Takes over the rows of `older` for points without rows in `fits`; both must be of the same
  * analysis. */
 FRACAS_MUST_USE fracas_err fracas_fits_complete(fracas_fits *fits, const fracas_fits *older);

@@ -131,7 +131,7 @@ static void say_what(const fracas_analysis *analysis, char *text, size_t size)
 /* ---- files ---- */
 
 static fracas_err write_tables(const fracas_analysis *analysis, const char *folder,
-                               const fracas_fits *fits, size_t stale)
+                               const fracas_shown_fits *shown)
 {
     static const fracas_csv_table *const table[] = {
         &fracas_csv_table_points, &fracas_csv_table_slopes, &fracas_csv_table_energies,
@@ -140,21 +140,20 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
     for (size_t i = 0; i < FRACAS_COUNT(table); i++)
         TRY(fracas_csv_file(table[i], analysis, folder));
     TRY(fracas_output_open(folder, "summary.json", &output));
-    fracas_summary_write(analysis, fits, stale, output.file);
+    fracas_summary_write(analysis, shown, output.file);
     return fracas_output_close(&output, FRACAS_OK);
 }
 
 fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study)
 {
     OWNED char *folder = NULL;
-    OWN(fracas_fits) fits = NULL;
-    size_t stale = 0;
+    FRACAS_CLEARED(fracas_shown_fits) shown = {0};
     char lead[512];
     TRY(fracas_output_folder_in(study, "report", &folder));
-    TRY(fracas_fits_read(study, &fits));
-    if (fits) fracas_fits_keep(fits, analysis, &stale);
-    TRY(write_tables(analysis, folder, fits, stale));
+    TRY(fracas_shown_fits_read(study, analysis, &shown));
+    TRY(write_tables(analysis, folder, &shown));
     say_what(analysis, lead, sizeof lead);
-    fracas_page page = {.analysis = analysis, .folder = folder, .fits = fits, .stale = stale};
+    fracas_page page = {
+        .analysis = analysis, .folder = folder, .fits = shown.fits, .shown = &shown};
     return fracas_page_write(&page, analysis->name, lead, sections, FRACAS_COUNT(sections));
 }

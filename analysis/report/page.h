@@ -20,13 +20,13 @@ enum { FRACAS_DRAWING = 72 };
 
 typedef struct {
     const fracas_analysis *analysis;
-    const char *folder;      /* for the report */
-    const fracas_fits *fits; /* NULL: there are none */
-    size_t stale;            /* points whose fits are of other results, and not shown */
-    const void *of;          /* subject of the sections of a page other than a study's */
-    const char *source;      /* source of its figures; NULL: the study */
-    FILE *out;               /* for the section */
-    int figures, tables;     /* numbered so far */
+    const char *folder;             /* for the report */
+    const fracas_fits *fits;        /* NULL: there are none */
+    const fracas_shown_fits *shown; /* these; NULL on a page other than a study's */
+    const void *of;                 /* subject of the sections of a page other than a study's */
+    const char *source;             /* source of its figures; NULL: the study */
+    FILE *out;                      /* for the section */
+    int figures, tables;            /* numbered so far */
     size_t ndrawings, room;
     char (*drawing)[FRACAS_DRAWING]; /* SVG files, without their ending, to become PDF */
     const char *grid; /* class of the grid to open with the next figure; NULL: none, or open */

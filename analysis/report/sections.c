@@ -108,11 +108,13 @@ fracas_err fracas_section_fits(fracas_page *page)
 {
     fracas_chart chart;
     fracas_result_table table = {0};
-    if (page->stale)
+    const fracas_shown_fits *shown = page->shown;
+    if (shown->stale)
         fprintf(page->out,
                 "<p>What <code>fracas fit</code> kept of %zu point%s is not of these results: run "
                 "it again.</p>\n",
-                page->stale, page->stale == 1 ? "" : "s");
+                shown->stale, shown->stale == 1 ? "" : "s");
+    if (shown->left_out) fracas_markup(page->out, "<p>%s.</p>\n", shown->left_out);
     const bool any = page->fits && page->fits->n > 0;
     if (any) {
         put_whole_bodies(page);

@@ -2,6 +2,7 @@
 #include "campaigns/file/catalog.h"
 
 #include "base/units.h"
+#include "engine/record.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,7 +12,7 @@ static const fracas_param output_params[] = {
     {"history", FRACAS_INTEGER, "1",
      "equal intervals of time.end at which energies are kept; 0: only at onset, energy peak and "
      "end",
-     100, 0, 1e6, false, offsetof(fracas_output, history)},
+     100, 0, FRACAS_MOST_HISTORY, false, offsetof(fracas_output, history)},
     {"interfaces", FRACAS_BOOLEAN, "1",
      "keep strength, damage, onset and break time of every interface", 0, 0, 1, false,
      offsetof(fracas_output, interfaces)},

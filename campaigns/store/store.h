@@ -208,8 +208,8 @@ typedef struct {
 
 /* Opens (with `create`: creates) STUDY/index.sqlite. Journal: WAL with synchronous FULL on local
  * filesystems, TRUNCATE with FULL and exclusive locking on network ones; the mode is read back.
- * Without `create`, a study without write access is opened to read. A file without a table counts
- * as none. FRACAS_DAMAGED says how to go on. */
+ * Without `create` it is opened to read, and no statement can change it. A file without a table
+ * counts as none. FRACAS_DAMAGED says how to go on. */
 FRACAS_MUST_USE fracas_err fracas_index_open(const char *study, bool create, fracas_index **index);
 void fracas_index_close(fracas_index *index); /* NULL is allowed */
 FRACAS_OWNER(fracas_index, fracas_index_close)
@@ -379,12 +379,16 @@ FRACAS_MUST_USE fracas_err fracas_study_merge(const char *study, fracas_index *i
 FRACAS_MUST_USE fracas_err fracas_study_sealed(const char *study, fracas_index *index,
                                                bool *sealed);
 
+/* False if somebody has moved or removed the index since it was opened, or one of its segments. */
+bool fracas_study_is_kept(const char *study, fracas_index *index);
+
 /* True if every byte of a sealed study fits the checksums in the index. A study that takes long to
  * read is not read, and counts as sound. */
 FRACAS_MUST_USE fracas_err fracas_study_sound(const char *study, fracas_index *index, bool *sound);
 
 typedef struct {
-    bool full; /* every dataset and every row, too */
+    bool full;                       /* every dataset and every row, too */
+    const fracas_point_table *table; /* the campaign's; NULL: not known */
     /* Called with each problem, its place and its remedy; `note`, which may be NULL, with
      * leftovers, which are no damage. */
     void (*say)(void *context, const char *problem);
@@ -392,15 +396,25 @@ typedef struct {
     void *context;
 } fracas_verify_options;
 
-/* Checks a study for `fracas verify`; *problems counts the problems. Quick: size, checksum, program
- * version, seed, history and interfaces of every segment and of study.h5 against the index;
- * quick_check of SQLite, and its rows against each other; the decisions in study.h5 against the
- * recorded ones. Full, in addition: every dataset of every segment, the index against the segments
- * row by row, integrity_check, study.h5 against the segments record by record, and the number of
- * interfaces in its meshes. Notes: a lock, temporary files, segments unknown or set aside. */
+/* Checks a study for `fracas verify`, at one moment of the index; *problems counts the problems.
+ * Quick: size, checksum, program version, seed, history and interfaces of every segment and of
+ * study.h5 against the index, and their points against the campaign's; quick_check of SQLite, and
+ * its rows against each other; the decisions in study.h5 against the recorded ones. Full, in
+ * addition: every dataset of every segment, the index against the segments row by row,
+ * integrity_check, study.h5 against the segments record by record, and the number of interfaces in
+ * its meshes. Notes: a lock, temporary files, segments unknown or set aside. */
 FRACAS_MUST_USE fracas_err fracas_study_verify(const char *study,
                                                const fracas_verify_options *options,
                                                int64_t *problems);
+
+/* FRACAS_DAMAGED, naming dataset and attribute, unless every dataset has the unit of the schema
+ * and, in a file of this program version, its description. */
+FRACAS_MUST_USE fracas_err fracas_reader_check_schema(fracas_reader *reader);
+/* FRACAS_DAMAGED, naming column and point, unless the points of the file that `table` has are the
+ * same there: the values that their hashes are of, their units and, in a file of this program
+ * version, descriptions and derived values. */
+FRACAS_MUST_USE fracas_err fracas_reader_check_points(fracas_reader *reader,
+                                                      const fracas_point_table *table);
 
 /* FRACAS_DAMAGED, naming point and remedy, unless the meshes of the file equal `meshes`. */
 FRACAS_MUST_USE fracas_err fracas_reader_check_meshes(fracas_reader *reader,

@@ -129,3 +129,71 @@ for command in status report fit export verify picture merge reindex gc 'retry -
 done
 expect 2 "$fracas" merge-studies sound ''
 expect 2 "$fracas" compare '' sound
+
+# A study that is moved away under its run: nothing is said to be kept.
+campaign longer.yaml 60 '3e4 1/s, 1e5 1/s'
+start longer.yaml --study moved --jobs 2 --segment-size 0.01
+wait_segments moved 2
+mv moved gone
+status=0
+wait "$session" || status=$?
+session=
+[ $status -eq 6 ] || { cat background; fail "status $status of a run without its study"; }
+grep -q 'moved, or a part of it, was moved or removed' background || { cat background; fail "it is not said that the study is gone"; }
+grep -q 'done and kept' background && fail "something is said to be kept"
+
+# A study that is being computed is no damaged one.
+start longer.yaml --study busy --jobs 2 --segment-size 0.01
+wait_segments busy 2
+looks=0
+while [ -n "$(processes)" ]; do
+    status=0
+    "$fracas" verify --full busy > said 2>&1 || status=$?
+    [ $status -eq 0 ] || [ $status -eq 4 ] || { cat said; fail "status $status of verify beside a run"; }
+    looks=$((looks + 1))
+done
+wait "$session"
+session=
+[ $looks -gt 0 ] || fail "the run was over before it was looked at"
+expect 0 "$fracas" verify --full busy
+
+# Reading commands leave a study as it is: no byte and no name changes, also with a log that a killed run left.
+expect 0 "$fracas" fit sound --resamples 99
+bytes()
+{
+    (cd "$1" && find . -type f ! -path './report/*' ! -path './export/*' ! -name '*-shm' -exec sha256sum {} + | sort)
+}
+cp -r gone killed
+for study in sound killed; do
+    before=$(bytes $study)
+    for command in status report export verify 'verify --full' "compare sound"; do
+        "$fracas" $command $study > said 2>&1 || [ $? -eq 3 ] || [ $study = killed ] || { cat said; fail "$command $study"; }
+    done
+    [ "$before" = "$(bytes $study)" ] || { bytes $study; fail "$before: a reading command changed $study"; }
+done
+
+[ -z "$(find sound -name 'index.sqlite-*')" ] || fail "a reading command left a file of SQLite's"
+
+# fits.csv: a flipped bit is found, left out of reports with a word, and ends no run; a file of an older version, too.
+for what in flipped empty older unreadable; do
+    rm -rf fitted
+    cp -r sound fitted
+    case $what in
+    flipped) sed -i '0,/,m,0\.000/s//,m,1.000/' fitted/fits.csv ;;
+    empty) : > fitted/fits.csv ;;
+    older) sed -i '/^,,study,seal/d' fitted/fits.csv ;;
+    unreadable) rm fitted/fits.csv && mkdir fitted/fits.csv ;;
+    esac
+    cmp -s sound/fits.csv fitted/fits.csv && fail "fits.csv is not changed: $what"
+    expect 0 "$fracas" report fitted
+    said 'warning: the fits are left out: .*fits.csv'
+    grep -q 'the fits are left out' fitted/report/index.html || fail "the page does not say that fits are left out"
+    grep -q '"fits_left_out": "the fits are left out' fitted/report/summary.json || fail "nor does the summary"
+    expect 0 "$fracas" run small.yaml --study fitted
+    said 'warning: the fits are left out'
+    if [ $what = older ]; then expect 0 "$fracas" verify fitted; else expect 5 "$fracas" verify fitted; fi
+    said 'fits.csv'
+    [ $what = unreadable ] || expect 5 "$fracas" fit fitted --point 0 --resamples 99
+    [ $what = unreadable ] || expect 0 "$fracas" fit fitted --resamples 99
+    [ $what = unreadable ] || cmp sound/fits.csv fitted/fits.csv
+done

@@ -494,7 +494,7 @@ static void full_disk_leaves_the_index_as_it_was(void **state)
 /* Commits until it is killed; says each commit into the pipe after it is done. */
 static void commit_until_killed(int out)
 {
-    OK(fracas_index_open(study, false, &index_));
+    OK(fracas_index_open(study, true, &index_));
     for (int64_t r = 0;; r++) {
         OK(commit_one(r));
         assert_int_equal(write(out, &r, sizeof r), sizeof r);

@@ -202,7 +202,9 @@ static inline char *sample_path(const char *folder, const char *name)
 
 static inline void sample_remove_tree(const char *path)
 {
-    DIR *folder = opendir(path);
+    struct stat info;
+    if (lstat(path, &info)) return;
+    DIR *folder = S_ISDIR(info.st_mode) ? opendir(path) : NULL; /* never through a link */
     for (struct dirent *entry; folder && (entry = readdir(folder));) {
         char *inner;
         if (!strcmp(entry->d_name, ".") || !strcmp(entry->d_name, "..")) continue;

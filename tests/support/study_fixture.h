@@ -158,7 +158,7 @@ static inline int64_t verify_as(bool full, bool notes, char text[8192])
     text[0] = '\0';
     fracas_index_close(index_);
     OK(fracas_study_verify(study, &how, &problems));
-    OK(fracas_index_open(study, false, &index_));
+    OK(fracas_index_open(study, true, &index_));
     return problems;
 }
 

@@ -4,6 +4,7 @@
  * tests/unit/test_analysis_*.c. */
 #include "tests/support/report.h"
 
+#include "analysis/data/field.h"
 #include "analysis/export/sha256.h"
 
 /* A file of so many bytes, all values among them; sha256sum must find what we find. */
@@ -42,6 +43,32 @@ static void file_that_is_not_there(void **state)
                      FRACAS_ENVIRONMENT); /* opens, and cannot be read */
 }
 
+/* No text is a formula to a spreadsheet; numbers are as they were. */
+static void texts_are_no_formulas(void **state)
+{
+    static const char *const pairs[][2] = {{"plain", "plain"},
+                                           {"", ""},
+                                           {"a,b", "\"a,b\""},
+                                           {"a=b", "a=b"},
+                                           {"@SUM(1)", "\"'@SUM(1)\""},
+                                           {"=1+1", "\"'=1+1\""},
+                                           {"+1", "\"'+1\""},
+                                           {"-1", "\"'-1\""},
+                                           {"\tx", "\"'\tx\""},
+                                           {"\r=1", "\"'\r=1\""},
+                                           {"=\"a\"", "\"'=\"\"a\"\"\""}};
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        FILE *out = text_begin();
+        fracas_csv_text(pairs[i][0], out);
+        OWNED char *text = text_end(out);
+        assert_string_equal(text, pairs[i][1]);
+    }
+    FILE *out = text_begin();
+    fracas_csv_real(-1.5, out);
+    OWNED char *text = text_end(out);
+    assert_string_equal(text, ",-1.5");
+}
+
 static void page_shows_every_key(void **state)
 {
     FILE *out = text_begin();
@@ -64,4 +91,4 @@ static void page_shows_every_key(void **state)
 }
 
 TESTS_ALL(report_make_root, report_remove_root, digests_are_those_of_sha256sum,
-          file_that_is_not_there, page_shows_every_key)
+          texts_are_no_formulas, file_that_is_not_there, page_shows_every_key)

@@ -233,6 +233,15 @@ static void one_point(void **state)
     fracas_fits_destroy(all);
 }
 
+/* Writes these lines with the seal that belongs to them. */
+static void write_sealed(const char *path, const char *lines)
+{
+    char all[600];
+    snprintf(all, sizeof all, "%s,,study,seal,,,,,,%016llx\n", lines,
+             (unsigned long long)fracas_checksum_of(lines, strlen(lines)));
+    write_bytes(path, all, strlen(all));
+}
+
 static void damaged_files(void **state)
 {
     static const char *const line[] = {
@@ -249,12 +258,44 @@ static void damaged_files(void **state)
     fracas_fits *fits;
     snprintf(path, sizeof path, "%s/fits.csv", report_root);
     for (size_t i = 0; i < sizeof line / sizeof *line; i++) {
-        write_bytes(path, line[i], strlen(line[i]));
+        write_sealed(path, line[i]);
         FAILS(fracas_fits_read(report_root, &fits), FRACAS_DAMAGED,
               i ? "line 2 is none of ours" : "line 1 is not");
         assert_null(fits);
     }
 }
 
+/* No flipped bit, lost end or added line of fits.csv passes, and none becomes an older file. */
+static void every_flipped_bit_is_found(void **state)
+{
+    fracas_fits_row row = {.family = "gamma", .quantity = "k", .unit = "1", .value = 1.5e-4};
+    fracas_fits made = {.n = 1, .row = &row}, *fits;
+    char path[340], bytes[1024];
+    memcpy(row.hash, "0123456789abcdef0123456789abcdef", sizeof row.hash);
+    snprintf(path, sizeof path, "%s/fits.csv", report_root);
+    OK(fracas_fits_write(&made, report_root));
+    OK(fracas_fits_read(report_root, &fits));
+    assert_true(fits->n == 1 && fits->row->value == 1.5e-4);
+    fracas_fits_destroy(fits);
+    FILE *in = fopen(path, "r");
+    assert_non_null(in);
+    const size_t size = fread(bytes, 1, sizeof bytes, in);
+    fclose(in);
+    for (size_t bit = 0; bit < 8 * size; bit++) {
+        bytes[bit / 8] ^= (char)(1 << bit % 8);
+        write_bytes(path, bytes, size);
+        FAILS(fracas_fits_read(report_root, &fits), FRACAS_DAMAGED, "damaged: its last line");
+        assert_false(fracas_fits_older(report_root));
+        bytes[bit / 8] ^= (char)(1 << bit % 8);
+    }
+    for (size_t left = 0; left < size; left++) {
+        write_bytes(path, bytes, left);
+        FAILS(fracas_fits_read(report_root, &fits), FRACAS_DAMAGED, "fracas fit");
+    }
+    memcpy(bytes + size, "0,aa,gamma,k,1,2,,,,\n", 21);
+    write_bytes(path, bytes, size + 21);
+    FAILS(fracas_fits_read(report_root, &fits), FRACAS_DAMAGED, "damaged: its last line");
+}
+
 TESTS_ALL(report_make_root, report_remove_root, fits_of_a_study, fits_of_the_same_realizations,
-          one_point, damaged_files)
+          one_point, damaged_files, every_flipped_bit_is_found)

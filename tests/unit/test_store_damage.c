@@ -215,7 +215,7 @@ static void flipped_bytes_of_the_index_make_no_wrong_study(void **state)
     assert_true(refused > 2);
     write_bytes(path, bytes, size);
     free(bytes);
-    OK(fracas_index_open(study, false, &index_));
+    OK(fracas_index_open(study, true, &index_));
 }
 
 TESTS_EACH(set_up, tear_down, a_flipped_byte_of_a_segment_is_computed_again,

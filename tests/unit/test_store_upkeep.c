@@ -52,7 +52,8 @@ static void a_lost_or_damaged_index_is_made_anew(void **state)
         assert_int_equal(after.done, before.done);
         assert_int_equal(after.planned, before.planned + 1);
         failures_are("");
-        assert_int_equal(sample_files(study, "index.sqlite.before"), damage);
+        /* with the log of the second, and what SQLite reads that by */
+        assert_int_equal(sample_files(study, "index.sqlite.before"), damage ? damage + 2 : 0);
         if (damage) says("cannot be used");
         verify_finds(0, "");
     }

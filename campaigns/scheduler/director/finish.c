@@ -78,14 +78,13 @@ static fracas_err unfinished(const fracas_director *director, const fracas_count
 {
     const long long kept = (long long)(count->done + count->failed),
                     total = (long long)count->total;
+    const char *study = director->setup.study;
     if (director->setup.channel->again) return fracas_trouble_fail(&director->trouble);
-    if (!fracas_index_exists(director->setup.study))
-        return fracas_fail(
-            FRACAS_ENVIRONMENT,
-            "%s has lost its index.sqlite while it was computed (was the folder moved or "
-            "removed?), "
-            "and may have lost more: the same command computes all that is not there",
-            director->setup.study);
+    if (!fracas_study_is_kept(study, director->index))
+        return fracas_fail(FRACAS_ENVIRONMENT,
+                           "%s (%s, or a part of it, was moved or removed while it was computed; "
+                           "the same command computes again what is not there)",
+                           director->trouble.code ? director->trouble.text : "stopped", study);
     if (director->trouble.code)
         return fracas_fail(
             (fracas_err)director->trouble.code,

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/version.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/store.h"
 #include "campaigns/store/file/table.h"
@@ -77,6 +78,7 @@ static fracas_err read_header(fracas_reader *reader)
         return damaged(reader, "campaign", "it is no hash");
     TRY(fracas_h5_get_integer(&reader->h5, "/", "seed", H5T_STD_U64LE, &header->seed));
     TRY(fracas_h5_get_integer(&reader->h5, "/", "history", H5T_STD_I64LE, &history));
+    if (history > FRACAS_MOST_HISTORY) return damaged(reader, "history", "it is out of range");
     header->history = (int64_t)history;
     TRY(read_truth(reader, "interfaces", &header->interfaces));
     TRY(read_text_attribute(reader, "program_version", sizeof header->version, header->version));
@@ -412,5 +414,35 @@ fracas_err fracas_reader_check_meshes(fracas_reader *reader, const fracas_mesh_s
                                "file and run again",
                                reader->path, p);
     }
+    return FRACAS_OK;
+}
+
+/* ---- the schema ---- */
+
+static fracas_err check_attribute(const fracas_reader *reader, const fracas_store_column *column,
+                                  const char *name, const char *wanted)
+{
+    OWNED char *found = NULL;
+    TRY(fracas_h5_get_text(&reader->h5, column->path, name, &found));
+    if (!strcmp(found, wanted)) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s: %s: its %s is `%.40s`, not `%.40s`", reader->path,
+                       column->path, name, found, wanted);
+}
+
+static fracas_err check_attributes(const fracas_reader *reader, const fracas_store_column *column)
+{
+    TRY(check_attribute(reader, column, "unit", column->unit));
+    if (strcmp(reader->header.version, FRACAS_VERSION) != 0) return FRACAS_OK;
+    return check_attribute(reader, column, "description", column->description);
+}
+
+fracas_err fracas_reader_check_schema(fracas_reader *reader)
+{
+    TRY(check_attributes(reader, &fracas_store_point_hash));
+    TRY(check_attributes(reader, &fracas_store_point_replicas));
+    for (int s = 0; s < FRACAS_NSETS; s++)
+        for (size_t c = 0; c < fracas_store_sets[s].ncolumns; c++)
+            if (reader->set[s].dataset[c] > 0) /* it is in this file */
+                TRY(check_attributes(reader, &fracas_store_sets[s].column[c]));
     return FRACAS_OK;
 }

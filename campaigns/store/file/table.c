@@ -185,6 +185,9 @@ fracas_err fracas_table_read(const fracas_h5 *h5, fracas_stored_table *stored)
         return fracas_fail(FRACAS_DAMAGED,
                            "%s: /point: damaged: it has not the columns that it says", h5->path);
     size_t ncolumns = columns, npoints = stored->table.npoints;
+    if (ncolumns && npoints > h5->bytes / ncolumns) /* each value takes a byte at least */
+        return fracas_fail(FRACAS_DAMAGED, "%s: /point: damaged: it has more values than bytes",
+                           h5->path);
     stored->column = calloc(ncolumns + 1, sizeof *stored->column);
     stored->text = calloc(ncolumns + 1, sizeof *stored->text);
     stored->value = calloc(npoints * ncolumns + 1, sizeof *stored->value);

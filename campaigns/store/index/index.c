@@ -43,6 +43,7 @@ fracas_err fracas_index_error(const fracas_index *index, const char *doing)
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
     case SQLITE_FORMAT:
+    case SQLITE_TOOBIG:
         return fracas_fail(FRACAS_DAMAGED, "%s: cannot %s: damaged: %s; %s", index->path, doing,
                            text, remedy);
     case SQLITE_ERROR:
@@ -212,9 +213,55 @@ static fracas_err pragma(fracas_index *index, const char *text, const char *want
                        text, found ? found : "", wanted);
 }
 
+/* Limits on a database that somebody else may have made (docs/decisions/trust.md). A log that was
+ * there stays as it is when a reader ends. The schema is trusted: SQLite does not count json_valid,
+ * which ours calls, among the functions that any schema may call. */
+static fracas_err set_limits(fracas_index *index, bool keep_log)
+{
+    enum { TEXT_MIB = 64, COLUMNS = 64, DEPTH = 100, NATTACHED = 1 };
+    sqlite3 *db = index->db;
+    sqlite3_limit(db, SQLITE_LIMIT_LENGTH, TEXT_MIB << 20);
+    sqlite3_limit(db, SQLITE_LIMIT_COLUMN, COLUMNS);
+    sqlite3_limit(db, SQLITE_LIMIT_EXPR_DEPTH, DEPTH);
+    sqlite3_limit(db, SQLITE_LIMIT_ATTACHED, NATTACHED);
+    int code = sqlite3_db_config(db, SQLITE_DBCONFIG_DEFENSIVE, 1, NULL);
+    if (!code) code = sqlite3_db_config(db, SQLITE_DBCONFIG_ENABLE_VIEW, 0, NULL);
+    if (!code) code = sqlite3_db_config(db, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, keep_log, NULL);
+    if (!code && index->reading)
+        code = sqlite3_exec(db, "PRAGMA query_only = ON", NULL, NULL, NULL);
+    return check(index, code);
+}
+
+/* Runs a query of one text that must find none. */
+static fracas_err check_none(fracas_index *index, const char *query)
+{
+    OWNED char *text = NULL;
+    TRY(fracas_sql_text(index, query, NULL, 0, &text));
+    if (!text) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED, "%s has a %.100s, as no index of fracas has; %s",
+                       index->path, text, remedy);
+}
+
+/* Tables alone, whose columns are stored: nothing that runs when it is read. */
+static fracas_err check_objects(fracas_index *index)
+{
+    TRY(check_none(index, "SELECT CASE type WHEN 'table' THEN 'virtual table' ELSE type END || ' ' "
+                          "|| name FROM sqlite_master WHERE type NOT IN ('table', 'index') OR "
+                          "rootpage = 0 LIMIT 1"));
+    return check_none(index, "SELECT 'computed column ' || m.name || '.' || c.name FROM "
+                             "sqlite_master m, pragma_table_xinfo(m.name) c WHERE m.type = 'table' "
+                             "AND c.hidden <> 0 LIMIT 1");
+}
+
+static fracas_err set_locking(fracas_index *index)
+{
+    const bool shared = index->local || sqlite3_db_readonly(index->db, "main");
+    return shared ? FRACAS_OK : pragma(index, "PRAGMA locking_mode = EXCLUSIVE", "exclusive");
+}
+
 static fracas_err set_durability(fracas_index *index)
 {
-    if (!index->local) TRY(pragma(index, "PRAGMA locking_mode = EXCLUSIVE", "exclusive"));
+    TRY(set_locking(index));
     TRY(index->local ? pragma(index, "PRAGMA journal_mode = WAL", "wal")
                      : pragma(index, "PRAGMA journal_mode = TRUNCATE", "truncate"));
     TRY(pragma(index, "PRAGMA synchronous = FULL", NULL));
@@ -309,6 +356,26 @@ static bool can_write(const char *path)
     return faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) == 0;
 }
 
+/* A rollback journal that ends with the name of another file makes SQLite look there, and remove
+ * it. fracas writes to one database at a time, whose journals name none. */
+static fracas_err check_journal(const char *path)
+{
+    static const unsigned char mark[8] = {0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7};
+    unsigned char end[sizeof mark];
+    struct stat info;
+    size_t got;
+    OWN_FD fd = fracas_file_open(path);
+    if (fd < 0) return errno == ENOENT ? FRACAS_OK : fracas_disk_fail("open", path);
+    if (fstat(fd, &info) < 0) return fracas_disk_fail("read", path);
+    if (info.st_size < (off_t)sizeof end) return FRACAS_OK;
+    if (!fracas_disk_read(fd, (uint64_t)info.st_size - sizeof end, end, sizeof end, &got))
+        return fracas_disk_fail("read", path);
+    if (got < sizeof end || memcmp(end, mark, sizeof mark) != 0) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s names another file, as no journal of fracas does; move it away, and %s",
+                       path, remedy);
+}
+
 /* The database, and SQLite's files beside it, are files and no links: SQLite would follow the one,
  * and wait for a pipe. */
 static fracas_err check_names(const char *path)
@@ -318,6 +385,7 @@ static fracas_err check_names(const char *path)
         OWNED char *name = NULL;
         TRY(fracas_path(&name, "%s%s", path, tail[t]));
         if (!fracas_file_is_own(name)) return fracas_disk_fail("open", name);
+        if (t == FRACAS_COUNT(tail) - 1) TRY(check_journal(name));
     }
     return FRACAS_OK;
 }
@@ -330,12 +398,16 @@ static fracas_err connect_to(fracas_index *index, const char *study, bool create
                            "%s is not there; `fracas reindex` makes it from the segments of a "
                            "study, `fracas run` a new study",
                            index->path);
-    index->reading = !create && !(can_write(index->path) && can_write(study));
-    if (index->reading) return connect_to_read(index);
-    int flags = SQLITE_OPEN_READWRITE | (create ? SQLITE_OPEN_CREATE : 0);
-    return sqlite3_open_v2(index->path, &index->db, flags, NULL) == SQLITE_OK
-               ? FRACAS_OK
-               : fracas_index_error(index, "open");
+    index->reading = !create;
+    const bool keep_log = index->reading && has_log(index->path);
+    if (create || (can_write(index->path) && can_write(study))) {
+        /* A reader, too: only so does SQLite take the files away that it reads by. */
+        int flags = SQLITE_OPEN_READWRITE | (create ? SQLITE_OPEN_CREATE : 0);
+        TRY(check(index, sqlite3_open_v2(index->path, &index->db, flags, NULL)));
+    } else {
+        TRY(connect_to_read(index));
+    }
+    return set_limits(index, keep_log);
 }
 
 /* Counts the tables, and the ones called `meta`. */
@@ -354,7 +426,7 @@ static fracas_err open_database(fracas_index *index, const char *study, bool cre
     sqlite3_busy_timeout(index->db, 5000);
     /* 8 MiB: as fast as 64, and less of rank 0's memory fills as realizations get done */
     TRY(pragma(index, "PRAGMA cache_size = -8192", NULL));
-    if (!index->reading) TRY(set_durability(index));
+    TRY(index->reading ? set_locking(index) : set_durability(index));
     TRY(count_tables(index, &all, &meta));
     if (!all && !create)
         return fracas_fail(FRACAS_DAMAGED, "%s holds no index yet; `fracas run` makes one",
@@ -365,6 +437,7 @@ static fracas_err open_database(fracas_index *index, const char *study, bool cre
         TRY(run_printed(index, print_creation, "create its tables"));
         TRY(fracas_disk_sync_folder(index->path));
     }
+    TRY(check_objects(index));
     TRY(check_version(index));
     TRY(run_printed(index, fracas_index_print_check, "read its tables"));
     index->opened = true;

@@ -38,7 +38,7 @@ struct fracas_index {
     sqlite3 *db;
     char *path;
     bool local;   /* WAL: a filesystem of this machine */
-    bool reading; /* the study cannot be written */
+    bool reading; /* nothing is changed */
     bool opened;  /* false while fracas_index_open is at work */
     fracas_statement *statement;
     size_t nstatements, room;

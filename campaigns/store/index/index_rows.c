@@ -338,7 +338,8 @@ static fracas_err load_segments(fracas_index *index, const char *select,
         fracas_file_seal seal = {(uint64_t)sqlite3_column_int64(s, 2),
                                  hex ? strtoull(hex, &end, 16) : 0};
         int64_t rows = sqlite3_column_int64(s, 4);
-        if (!name || strchr(name, '/') || !hex || strlen(hex) != 16 || *end || rows < 0)
+        if (!name || strchr(name, '/') || *name == '.' || !hex || strlen(hex) != 16 || *end ||
+            rows < 0)
             return fracas_fail(FRACAS_DAMAGED, "%s: a row of its table `segment` is damaged; %s",
                                index->path, remedy);
         fracas_known_segment *new = &known->segment[known->count++];

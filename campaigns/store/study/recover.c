@@ -183,6 +183,19 @@ fracas_err fracas_study_sound(const char *study, fracas_index *index, bool *soun
     return *sound ? err : FRACAS_OK;
 }
 
+bool fracas_study_is_kept(const char *study, fracas_index *index)
+{
+    FRACAS_CLEARED(fracas_known_segments) known = {0};
+    int moved = 0;
+    bool there = true;
+    if (!sqlite3_file_control(index->db, "main", SQLITE_FCNTL_HAS_MOVED, &moved) && moved)
+        return false;
+    if (fracas_index_segments_by_id(index, &known)) return true;
+    for (size_t s = 0; there && s < known.count; s++)
+        if (fracas_segment_is_there(study, &known.segment[s], &there)) there = true;
+    return there;
+}
+
 /* ---- segments unknown to the index ---- */
 
 /* Finds a realization in the index, or plans it if a rule may have asked for it before the index

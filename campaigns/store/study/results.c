@@ -158,14 +158,20 @@ static fracas_err read_decisions(fracas_results *results, fracas_index *index)
 }
 
 /* The header of its segments, from the identity of the study. */
-static void read_header(const fracas_identity *identity, const fracas_hash *campaign,
-                        fracas_file_header *header)
+static fracas_err read_header(const fracas_index *index, const fracas_identity *identity,
+                              const fracas_hash *campaign, fracas_file_header *header)
 {
     *header = (fracas_file_header){.campaign = *campaign};
     snprintf(header->version, sizeof header->version, "%s", identity->value[0]);
     header->seed = strtoull(identity->value[1], NULL, 10);
     header->history = strtoll(identity->value[2], NULL, 10);
     header->interfaces = !strcmp(identity->value[3], "1");
+    if (header->history >= 0 && header->history <= FRACAS_MOST_HISTORY) return FRACAS_OK;
+    return fracas_fail(
+        FRACAS_DAMAGED,
+        "%s: its history, `%s`, is out of range; `fracas reindex` makes it anew from "
+        "the segments",
+        index->path, identity->value[2]);
 }
 
 /* Within a transaction, at one moment. */
@@ -176,7 +182,7 @@ static fracas_err read_index(const char *study, fracas_index *index, const fraca
     TRY(take_file(study, index, campaign, results));
     if (results->reader) return FRACAS_OK;
     TRY(fracas_index_identity(index, &identity));
-    read_header(&identity, campaign, &results->header);
+    TRY(read_header(index, &identity, campaign, &results->header));
     for (size_t p = 0; p < results->table.npoints; p++) TRY(read_rows(results, index, p));
     TRY(read_decisions(results, index));
     return fracas_segments_create(study, index, &identity, true, &results->segments);

@@ -301,6 +301,7 @@ fracas_err fracas_study_each_planned(fracas_segments *segments, fracas_index *in
     fracas_want all = *want;
     all.next = next_planned;
     all.source = &planned;
+    if (!sqlite3_get_autocommit(index->db)) return fracas_study_each(segments, &all);
     TRY(fracas_index_begin_reading(index)); /* one lock for all its look-ups */
     return fracas_index_end(index, fracas_study_each(segments, &all));
 }

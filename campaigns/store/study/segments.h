@@ -82,7 +82,7 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_study_each(fracas_segments *segments, const fracas_want *want);
 
 /* The same for every realization of want->table in plan order, with places from the index;
- * want->next is not used. */
+ * want->next is not used. In a transaction of its own, if the caller has begun none. */
 FRACAS_MUST_USE fracas_err fracas_study_each_planned(fracas_segments *segments, fracas_index *index,
                                                      const fracas_want *want);
 

@@ -3,6 +3,7 @@
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
 
+#include "base/file.h"
 #include "base/param.h"
 
 #include <errno.h>
@@ -20,6 +21,7 @@ typedef struct {
     fracas_identity identity; /* the study's */
     fracas_reader *merged;    /* study.h5, NULL if it is not there or not sound */
     bool there;               /* study.h5 is there */
+    bool held;                /* a run has the study */
     fracas_record record;     /* as read last */
     size_t row;               /* next one of study.h5 */
     const fracas_verify_options *options;
@@ -82,6 +84,10 @@ static const struct {
      "AS first, max(row) AS last FROM realization WHERE segment IS NOT NULL GROUP BY segment) g "
      "JOIN segment s ON s.id = g.segment WHERE g.places < g.n OR g.first < 0 OR g.last >= s.rows",
      "segments with realizations in the same row, or in rows that they have not"},
+    {"SELECT count(*) FROM point WHERE replicas < (SELECT count(*) FROM realization r WHERE "
+     "r.point "
+     "= point.id)",
+     "points with more realizations than they were planned to have"},
     {"SELECT count(*) FROM (SELECT min(replica) AS first, max(replica) AS last, count(*) AS n FROM "
      "realization GROUP BY point) WHERE first <> 0 OR last + 1 <> n",
      "points that lack replicas"},
@@ -94,6 +100,21 @@ static fracas_err check_consistency(verification *v)
         TRY(fracas_sql_numbers(v->index, never[q].query, NULL, 0, &count, NULL));
         if (count)
             TRY(found(v, "%s: %" PRId64 " %s; " REINDEX, v->index->path, count, never[q].what));
+    }
+    return FRACAS_OK;
+}
+
+/* ---- places ---- */
+
+/* Whatever lies in the place of what a command writes, and is refused there. */
+static fracas_err check_places(verification *v)
+{
+    static const char *const name[] = {"lock", "segments", "attachments", "report"};
+    for (size_t n = 0; n < FRACAS_COUNT(name); n++) {
+        OWNED char *path = NULL;
+        TRY(fracas_disk_join(v->study, name[n], &path));
+        if (!(n ? fracas_folder_is_own : fracas_file_is_own)(path))
+            TRY(problem(v, fracas_disk_fail("write", path)));
     }
     return FRACAS_OK;
 }
@@ -112,12 +133,15 @@ static void note(const verification *v, const char *format, ...)
     v->options->note(v->options->context, text);
 }
 
-static void note_lock(const verification *v)
+static void note_lock(verification *v)
 {
     char holder[FRACAS_HOLDER_TEXT];
     switch (fracas_study_lock_state(v->study, holder)) {
     case FRACAS_LOCK_FREE: break;
-    case FRACAS_LOCK_HELD: note(v, "%s is being computed: %s", v->study, holder); break;
+    case FRACAS_LOCK_HELD:
+        v->held = true;
+        note(v, "%s is being computed: %s", v->study, holder);
+        break;
     case FRACAS_LOCK_LEFT:
         note(v, "%s/lock: left by a run that died: %s; the next run takes it over", v->study,
              holder);
@@ -156,6 +180,7 @@ static fracas_err note_leftovers(verification *v)
     note_lock(v);
     TRY(problem(v, fracas_index_segments_by_name(v->index, &l.known)));
     fracas_err err = fracas_disk_join(v->study, "segments", &folder);
+    if (v->held) return err; /* its files come and go */
     if (!err) err = fracas_disk_each(v->study, note_file, &l);
     l.inner = true;
     if (!err) err = fracas_disk_each(folder, note_file, &l);
@@ -172,12 +197,27 @@ static fracas_err pass(void *context, fracas_result *result)
     return FRACAS_OK;
 }
 
+/* Facts of a file beside its records, which reports and exports use. */
+static fracas_err check_facts(const verification *v, fracas_reader *reader)
+{
+    TRY(fracas_reader_check_schema(reader));
+    return v->options->table ? fracas_reader_check_points(reader, v->options->table) : FRACAS_OK;
+}
+
 static fracas_err check_segment(verification *v, int64_t id)
 {
     fracas_reader *reader;
     TRY(fracas_segments_open(v->segments, id, &reader));
+    fracas_err err = check_facts(v, reader);
+    if (!err && fracas_reader_header(reader)->complete)
+        err = fracas_fail(FRACAS_DAMAGED, "it says that it is complete, as no segment is");
+    if (err == FRACAS_DAMAGED)
+        return fracas_fail_within(err,
+                                  "to compute its realizations again, move segment %s away and run "
+                                  "again",
+                                  fracas_segments_name(v->segments, id));
     /* also rows of the index from another segment */
-    return v->options->full ? fracas_reader_each(reader, FRACAS_READ_ALL, pass, NULL) : FRACAS_OK;
+    return err || !v->options->full ? err : fracas_reader_each(reader, FRACAS_READ_ALL, pass, NULL);
 }
 
 static fracas_err check_segments(verification *v)
@@ -311,7 +351,7 @@ static fracas_err check_merged_whole(verification *v)
 {
     fracas_index_counts counts;
     TRY(fracas_index_count(v->index, &counts));
-    if (counts.planned || counts.leased || !counts.realizations) return FRACAS_OK;
+    if (counts.planned || counts.leased || !counts.realizations || v->held) return FRACAS_OK;
     if (!v->merged || (int64_t)fracas_reader_realizations(v->merged) != counts.realizations)
         return found(v,
                      "%s: every realization is computed, but study.h5 is not there or older; "
@@ -330,6 +370,11 @@ static fracas_err check_merged_seal(verification *v, const char *path)
     bool sealed;
     fracas_file_seal wanted;
     TRY(fracas_index_study_seal(v->index, &sealed, &wanted));
+    if (v->held && (!sealed || fracas_disk_check_seal(path, &wanted) == FRACAS_DAMAGED))
+        return fracas_fail(FRACAS_IN_USE,
+                           "%s is not as its seal says: the run that has the study may be writing "
+                           "it; verify again when it has ended",
+                           path);
     if (!sealed)
         return fracas_fail(FRACAS_DAMAGED,
                            "%s has no seal: its merge was interrupted, or the index is newer; "
@@ -346,8 +391,15 @@ static fracas_err check_merged_header(verification *v)
     fracas_identity has;
     char text[FRACAS_DIFFERENCE_TEXT];
     fracas_identity_of(fracas_reader_header(v->merged), &has);
-    if (!fracas_identity_differs(&has, &v->identity, text)) return FRACAS_OK;
-    return found(v, "%s/study.h5: not of this study: %s; " REMAKE, v->study, text);
+    if (fracas_identity_differs(&has, &v->identity, text))
+        return found(v, "%s/study.h5: not of this study: %s; " REMAKE, v->study, text);
+    const fracas_err err = check_facts(v, v->merged);
+    return problem(v, err == FRACAS_DAMAGED
+                          ? fracas_fail_within(err,
+                                               "to make it again, remove %s/study.h5, and "
+                                               "`fracas merge` it",
+                                               v->study)
+                          : err);
 }
 
 static fracas_err open_merged(verification *v)
@@ -360,14 +412,34 @@ static fracas_err open_merged(verification *v)
     return fracas_reader_open(path, &v->merged);
 }
 
-static fracas_err verify(verification *v)
+/* The replicas in the index against its rows and the campaign, which a run may be extending. */
+static fracas_err check_plan(verification *v)
+{
+    const fracas_point_table *table = v->options->table;
+    for (size_t p = 0; table && !v->held && p < table->npoints; p++) {
+        const fracas_point_row *point = &table->point[p];
+        int64_t replicas, known;
+        TRY(fracas_sql_numbers(v->index, "SELECT replicas, 1 FROM point WHERE hash = ?1",
+                               SQL_VALUES(SQL_HASH(&point->hash)), &replicas, &known));
+        if (known && replicas > (point->most ? point->most : point->replicas))
+            TRY(found(v,
+                      "%s: point %zu has %" PRId64
+                      " replicas, more than the campaign asks for; " REINDEX,
+                      v->index->path, p, replicas));
+    }
+    return FRACAS_OK;
+}
+
+/* Within a transaction: a run may be at work. */
+static fracas_err verify_all(verification *v)
 {
     const bool full = v->options->full;
-    TRY(fracas_index_open(v->study, false, &v->index));
     TRY(problem(v, check_database(v, full ? "PRAGMA integrity_check" : "PRAGMA quick_check")));
     TRY(problem(v, check_database(v, "PRAGMA foreign_key_check")));
     TRY(problem(v, check_consistency(v)));
     TRY(note_leftovers(v));
+    TRY(check_places(v));
+    TRY(check_plan(v));
     TRY(fracas_index_identity(v->index, &v->identity));
     TRY(problem(v, open_merged(v)));
     if (v->merged) TRY(check_merged_header(v));
@@ -378,6 +450,13 @@ static fracas_err verify(verification *v)
     if (v->merged) TRY(problem(v, check_decisions(v)));
     if (full && v->merged) TRY(check_meshes(v));
     return v->there && !v->merged ? FRACAS_OK : check_merged_whole(v); /* said already */
+}
+
+static fracas_err verify(verification *v)
+{
+    TRY(fracas_index_open(v->study, false, &v->index));
+    TRY(fracas_index_begin_reading(v->index));
+    return fracas_index_end(v->index, verify_all(v));
 }
 
 fracas_err fracas_study_verify(const char *study, const fracas_verify_options *options,
