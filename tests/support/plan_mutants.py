@@ -25,11 +25,11 @@ def limited():
 def judge(done):
     """How it went; None where it went wrong."""
     text, error = done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
-    lines = [line for line in error.splitlines() if not line.startswith("warning: ")]
+    lines = [line for line in error.splitlines() if not re.match(r"warning: |fracas: point \d+ of \d+ is looked at$", line)]
     if done.returncode == 0:
         return "planned" if re.search(r"^Campaign .*: \d+ points?", text, re.M) and not lines else None
     if done.returncode == 2:
-        place = re.match(r"fracas: (c\.yaml:\d+:\d+: |point \d+: |c\.yaml: )", error)
+        place = re.match(r"fracas: (c\.yaml:\d+:\d+: |point \d+: |c\.yaml: )", lines[0] if lines else "")
         return "refused" if len(lines) == 1 and place else None
     return "too large" if done.returncode == 6 and len(lines) == 1 and "memory" in error else None
 
