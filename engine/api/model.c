@@ -66,6 +66,7 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
     model->spec = *spec;
     model->formulation = (const fracas_formulation *)(const void *)spec->formulation;
     model->strengths = 1;
+    model->tolerance = 0.05;
     TRY(model->formulation->model_init(model));
     model->spec.mesh.noise = NULL; /* the caller's, and done with, as is a file */
     model->spec.geometry.file = NULL;

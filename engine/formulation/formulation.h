@@ -25,6 +25,8 @@ struct fracas_model {
     double critical_closed, critical_cracked; /* s: all interfaces uncracked; broken, in contact */
     double critical_step;                     /* s, the smaller of the two */
     double time_step;                         /* s */
+    double tolerance;                         /* 1, of the energy guard: 0.05; tests have others */
+    fracas_motion idle; /* the whole body's, which load and supports keep from becoming strain */
 };
 
 #define FRACAS_ENERGY_LANES(key, role, unit, meaning) double key[FRACAS_LANES_MAX];
@@ -82,6 +84,12 @@ struct fracas_formulation {
     void (*advance)(const fracas_model *model, fracas_step *step);
     /* Number of fragments of a lane after a step. */
     int64_t (*fragment_count)(const fracas_model *model, fracas_step *step, int lane);
+    /* Labels the fragment of each element in the step's partition; returns their number. */
+    size_t (*partition)(const fracas_model *model, fracas_step *step, int lane);
+    /* Adds nodes and strain energies of all elements to the sums of their fragments, by the
+     * partition's labels; velocities less the fragments' motions, unless those are NULL. */
+    void (*add_up)(const fracas_model *model, const fracas_step *step, int lane,
+                   const fracas_fragment_motion *motion, fracas_fragment_sums *sums);
     /* Fragments, momentum and (if kept) interface rows of one lane, into the record. */
     fracas_err (*harvest)(const fracas_model *model, fracas_step *step, int lane,
                           fracas_record *record);

@@ -69,10 +69,26 @@ double *fracas_batch_strength(fracas_batch *batch, size_t lane, size_t *stride)
     return batch->model->formulation->strength(batch->model, &batch->step, (int)lane, stride);
 }
 
+/* A lane before its first step; `last` stays. */
+static void begin_lane(fracas_batch *batch, size_t l)
+{
+    fracas_lane *lane = &batch->lane[l];
+    fracas_step *step = &batch->step;
+    batch->model->formulation->lane_init(batch->model, step, (int)l);
+    *lane = (fracas_lane){
+        .history = lane->history, .last = lane->last, .running = l < batch->count, .counted = -1};
+    fracas_history_begin(&lane->history);
+    for (int e = 0; e < FRACAS_ENERGIES; e++) step->energy[e][l] = 0;
+    step->driven[l] = 0;
+    step->first_onset[l] = NAN;
+    step->cracked[l] = step->broken[l] = 0;
+}
+
 fracas_err fracas_batch_begin(fracas_batch *batch)
 {
     const fracas_model *model = batch->model;
     fracas_step *step = &batch->step;
+    batch->steps = 0;
     const size_t width = (size_t)step->width, strengths = model->interfaces * model->strengths;
     for (size_t l = 0; l < width; l++) {
         size_t stride;
@@ -85,10 +101,7 @@ fracas_err fracas_batch_begin(fracas_batch *batch)
                 return fracas_fail_within(code, "realization %zu of the batch, interface %zu", l,
                                           k / model->strengths);
         }
-        model->formulation->lane_init(model, step, (int)l);
-        step->first_onset[l] = NAN;
-        batch->lane[l].running = l < batch->count;
-        batch->lane[l].counted = -1;
+        begin_lane(batch, l);
         for (size_t i = 0; step->onset_time && i < model->interfaces; i++)
             step->onset_time[i * width + l] = step->break_time[i * width + l] = NAN;
     }
@@ -126,20 +139,30 @@ static int64_t count_fragments(fracas_batch *batch, size_t l)
                                                                        (int)l);
 }
 
-/* True when the lane is over. */
-static bool is_over(fracas_batch *batch, size_t l, fracas_outcome *outcome)
+/* *running: the lane is not over. */
+static fracas_err check_end(fracas_batch *batch, size_t l, fracas_outcome *outcome, bool *running)
 {
     fracas_lane *lane = &batch->lane[l];
-    const fracas_step *step = &batch->step;
+    fracas_step *step = &batch->step;
     const fracas_ledger *ledger = &lane->ledger;
     const fracas_progress progress = {.time = step->time[l],
                                       .elastic = ledger->elastic,
                                       .dissipated = fracas_energy_lost(ledger->energy),
                                       .cracked = step->cracked[l],
                                       .broken = step->broken[l]};
-    *outcome = isfinite(ledger->residual) ? FRACAS_ENERGY_DRIFT : FRACAS_NONFINITE;
-    return !isfinite(ledger->residual) || fracas_ledger_drifts(ledger, batch->steps) ||
-           fracas_stop_check(&lane->stop, &batch->model->spec.time, &progress, outcome);
+    bool drifts,
+        over = fracas_stop_check(&lane->stop, &batch->model->spec.time, &progress, outcome);
+    *running = false;
+    if (!isfinite(ledger->residual)) {
+        *outcome = FRACAS_NONFINITE;
+        return FRACAS_OK;
+    }
+    TRY(fracas_guard_check(&lane->guard, ledger, batch->model, step, (int)l, batch->steps, over,
+                           &drifts));
+    if (drifts) *outcome = FRACAS_ENERGY_DRIFT;
+    else if (lane->last > 0 && batch->steps == lane->last) *outcome = FRACAS_TIME_LIMIT;
+    else *running = !over;
+    return FRACAS_OK;
 }
 
 /* One lane after a step: ledger, history, stop. */
@@ -154,7 +177,7 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
     fracas_history_row row = {
         .time = step->time[l], .residual = ledger->residual, .broken = step->broken[l]};
     memcpy(row.energy, ledger->energy, sizeof row.energy);
-    lane->running = !is_over(batch, l, &outcome);
+    TRY(check_end(batch, l, &outcome, &lane->running));
     if (!lane->running || fracas_history_keeps(&lane->history, &row, cracked))
         row.fragments = count_fragments(batch, l);
     fracas_history_observe(&lane->history, batch->steps, &row, cracked);
@@ -195,10 +218,36 @@ fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record, size_t 
     return FRACAS_OK;
 }
 
-fracas_err fracas_batch_run(fracas_batch *batch, fracas_record *record)
+/* Computes all lanes until they are over. */
+static fracas_err run_lanes(fracas_batch *batch, fracas_record *record)
 {
-    TRY(fracas_batch_begin(batch));
     size_t running = batch->count;
     while (running > 0) TRY(fracas_batch_step(batch, record, &running));
     return FRACAS_OK;
+}
+
+/* Computes lanes that drifted after their fragments were final once more, until their balance was
+ * last sound: the state of that time is in nobody's memory. */
+static fracas_err run_again(fracas_batch *batch, fracas_record *record)
+{
+    bool again = false;
+    for (size_t l = 0; l < batch->count; l++) {
+        fracas_lane *lane = &batch->lane[l];
+        if (record[l].outcome == FRACAS_ENERGY_DRIFT && lane->guard.final) {
+            lane->last = lane->guard.sound;
+            fracas_record_clear(&record[l]);
+            again = true;
+        }
+    }
+    if (!again) return FRACAS_OK;
+    TRY(fracas_batch_begin(batch));
+    for (size_t l = 0; l < batch->count; l++) batch->lane[l].running = batch->lane[l].last > 0;
+    return run_lanes(batch, record);
+}
+
+fracas_err fracas_batch_run(fracas_batch *batch, fracas_record *record)
+{
+    TRY(fracas_batch_begin(batch));
+    TRY(run_lanes(batch, record));
+    return run_again(batch, record);
 }

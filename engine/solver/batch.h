@@ -5,6 +5,7 @@
 #define FRACAS_ENGINE_SOLVER_BATCH_H
 
 #include "engine/formulation/formulation.h"
+#include "engine/solver/guard.h"
 #include "engine/solver/history.h"
 #include "engine/solver/ledger.h"
 #include "engine/solver/stop.h"
@@ -13,6 +14,9 @@ typedef struct {
     fracas_ledger ledger;
     fracas_history history;
     fracas_stop stop;
+    fracas_guard guard;
+    int64_t
+        last; /* step at which it ends without its rule: its numbers were final; 0: by its rule */
     double pace;   /* s, time step of the last steps ... */
     double since;  /* s, ... since this time ... */
     int64_t paces; /* ... and how many: time = since + paces pace, without the round-off of a sum */

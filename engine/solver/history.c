@@ -7,13 +7,9 @@
 
 fracas_err fracas_history_init(fracas_history *history, int64_t intervals, double end)
 {
-    *history = (fracas_history){.intervals = intervals,
-                                .end = end,
-                                .peak = -INFINITY,
-                                .onset.step = -1,
-                                .highest.step = -1,
-                                .last.step = -1};
+    *history = (fracas_history){.intervals = intervals, .end = end};
     history->entry = malloc(((size_t)intervals + 1) * sizeof *history->entry);
+    fracas_history_begin(history);
     return history->entry ? FRACAS_OK : fracas_no_memory("the history of a realization");
 }
 
@@ -21,6 +17,17 @@ void fracas_history_clear(fracas_history *history)
 {
     free(history->entry);
     *history = (fracas_history){0};
+}
+
+void fracas_history_begin(fracas_history *history)
+{
+    *history = (fracas_history){.intervals = history->intervals,
+                                .end = history->end,
+                                .entry = history->entry,
+                                .peak = -INFINITY,
+                                .onset.step = -1,
+                                .highest.step = -1,
+                                .last.step = -1};
 }
 
 static bool is_due(const fracas_history *history, double time)

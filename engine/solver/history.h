@@ -30,6 +30,9 @@ FRACAS_MUST_USE fracas_err fracas_history_init(fracas_history *history, int64_t 
                                                double end);
 void fracas_history_clear(fracas_history *history);
 
+/* Empties it for a run from the start. */
+void fracas_history_begin(fracas_history *history);
+
 /* True if observing this row would keep it for more than the last one. */
 bool fracas_history_keeps(const fracas_history *history, const fracas_history_row *row,
                           bool cracked);

@@ -19,11 +19,3 @@ void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int la
     if (!(fabs(ledger->residual) <= ledger->largest_residual))
         ledger->largest_residual = fabs(ledger->residual);
 }
-
-/* (bar.15) */
-bool fracas_ledger_drifts(const fracas_ledger *ledger, int64_t step)
-{
-    double held = fracas_energy_held(ledger->energy, 1); /* all but kinetic */
-    double scale = fmax(fmax(ledger->kinetic, held), fabs(ledger->work));
-    return step >= FRACAS_ENERGY_START && fabs(ledger->residual) > FRACAS_ENERGY_TOLERANCE * scale;
-}

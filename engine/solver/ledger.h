@@ -21,12 +21,4 @@ typedef struct {
  * `first`: the ledger starts with this step. */
 void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int lane, bool first);
 
-/* From the step FRACAS_ENERGY_START on, true when
- *   |residual| > FRACAS_ENERGY_TOLERANCE max(kinetic, stored + sinks, |work|)            (bar.15)
- * Such a run no longer computes its model. In the first steps energies of a body at rest are near
- * 0, and the residual has no measure. */
-#define FRACAS_ENERGY_TOLERANCE 0.05
-#define FRACAS_ENERGY_START 16
-bool fracas_ledger_drifts(const fracas_ledger *ledger, int64_t step);
-
 #endif

@@ -265,6 +265,7 @@ static fracas_model *moved_model(const fracas_model *model, bool mirrored)
         spec.loading.ratio = 1 / model->spec.loading.ratio;
     }
     fracas_model *moved = mesh_model(spec, &s);
+    moved->tolerance = 1e300;
     free(node);
     return moved;
 }

@@ -219,8 +219,8 @@ static void consistent_masses_turn_as_the_triangle_does(void **unused)
             carried = plus(plus(carried, share, centre), share, y[l]);
             momentum = plus(plus(momentum, share, speed), share, turned(omega, y[l]));
         }
-        const vector x = plus(centre, 1, y[k]);
-        fracas_fragment_sums_add_coupled(&coupled, mass / 3, x.at, carried.at, momentum.at);
+        const vector x = plus(centre, 1, y[k]), v = plus(speed, 1, turned(omega, y[k]));
+        fracas_fragment_sums_add_coupled(&coupled, mass / 3, x.at, v.at, carried.at, momentum.at);
     }
     const fracas_fragment a = only(&lumped), b = only(&coupled);
     const vector quarter = plus(
@@ -284,7 +284,79 @@ static void no_number_has_no_spin(void **unused)
     for (int i = 0; i < 3; i++) assert_true(isnan(f.spin[i]));
 }
 
+/* ---- motions ---- */
+
+enum { SIDE = 4, CUBE = SIDE * SIDE * SIDE };
+
+/* Node k of a cube of side 3 about `centre`; its axes are those of space, all second moments alike:
+ * 64 x 1.25 of masses 1. */
+static vector cube_node(int k, vector centre)
+{
+    const vector y = {{k % SIDE - 1.5, k / SIDE % SIDE - 1.5, k / SIDE / SIDE - 1.5}};
+    return plus(centre, 1, y);
+}
+
+/* Kinetic energy of masses 1 at x with velocities v, beside the motion of this kind. */
+static double beside(const vector *x, const vector *v, int count, fracas_motion kind)
+{
+    fracas_fragment_sums all = {.elements = 2}, rest = {0};
+    for (int k = 0; k < count; k++) fracas_fragment_sums_add(&all, 1, x[k].at, v[k].at);
+    const fracas_fragment_motion motion = fracas_fragment_motion_of(&all, kind);
+    for (int k = 0; k < count; k++) {
+        vector left = v[k];
+        fracas_fragment_motion_take_off(&motion, x[k].at, left.at);
+        fracas_fragment_sums_add(&rest, 1, x[k].at, left.at);
+    }
+    return rest.kinetic;
+}
+
+/* A rigid motion leaves nothing beside it, of either kind; a homogeneous one its strain rates
+ * beside the rigid motion, 64 x 1.25/2 sum of D_ij^2, D the symmetric part of its gradient;
+ * velocities +1 and -1 in turn are across all of these and keep their 64/2 a direction. The rests
+ * of velocities of 100 are some ten roundings of 1e-14: energies of 64 x 1e-26 at most. */
+static void what_is_beside_a_motion(void **unused)
+{
+    const vector centre = {{2, -1, 0.5}}, speed = {{30, -20, 60}}, omega = {{3, 20, -10}};
+    const double gradient[3][3] = {{20, 3, -4}, {7, -15, 2}, {1, 9, 5}};
+    vector x[CUBE], rigid[CUBE], homogeneous[CUBE], all[CUBE];
+    double strain = 0;
+    for (int i = 0; i < 9; i++) {
+        const double rate = 0.5 * (gradient[i / 3][i % 3] + gradient[i % 3][i / 3]);
+        strain += 0.5 * CUBE * 1.25 * rate * rate;
+    }
+    for (int k = 0; k < CUBE; k++) {
+        const vector y = cube_node(k, (vector){{0}});
+        const double sign = (k + k / SIDE + k / SIDE / SIDE) % 2 ? -1 : 1;
+        x[k] = plus(centre, 1, y);
+        rigid[k] = plus(speed, 1, turned(omega, y));
+        homogeneous[k] = speed;
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) homogeneous[k].at[i] += gradient[i][j] * y.at[j];
+        all[k] = plus(homogeneous[k], sign, (vector){{1, 1, 1}});
+    }
+    const double least = 1e-24;
+    assert_true(beside(x, rigid, CUBE, FRACAS_MOTION_RIGID) < least);
+    assert_true(beside(x, rigid, CUBE, FRACAS_MOTION_HOMOGENEOUS) < least);
+    assert_true(beside(x, homogeneous, CUBE, FRACAS_MOTION_HOMOGENEOUS) < least);
+    assert_true(fabs(beside(x, homogeneous, CUBE, FRACAS_MOTION_RIGID) / strain - 1) < 1e-12);
+    /* the cross term of a rest of 1e-13 and of 96 */
+    assert_true(fabs(beside(x, all, CUBE, FRACAS_MOTION_HOMOGENEOUS) - 96) < 1e-10);
+    assert_true(beside(x, all, CUBE, FRACAS_MOTION_NONE) > 1e5);
+}
+
+/* In directions without extent there is no gradient: two nodes part along their line and turn about
+ * their middle, one node flies, and nothing is left. */
+static void points_and_lines_have_motions(void **unused)
+{
+    const vector x[2] = {{{1, 2, 3}}, {{2, 0, 1}}}, v[2] = {{{5, -7, 2}}, {{-3, 1, 4}}};
+    assert_true(beside(x, v, 1, FRACAS_MOTION_HOMOGENEOUS) == 0);
+    assert_true(beside(x, v, 2, FRACAS_MOTION_HOMOGENEOUS) < 1e-28);
+    /* rigid: what is along the line, 2 x 1/2 (|dv . dx|/|dx|/2)^2, dv . dx = -8 - 16 - 4 */
+    const double along_line = 28.0 * 28.0 / 9 / 4;
+    assert_true(fabs(beside(x, v, 2, FRACAS_MOTION_RIGID) - along_line) < 1e-12 * along_line);
+}
+
 TESTS(a_plate_that_turns, a_box_that_turns, what_lies_on_a_line_does_not_turn_about_it,
       a_rounding_is_no_body, in_the_plane_the_spin_is_upright,
       consistent_masses_turn_as_the_triangle_does, momenta_are_those_of_the_nodes,
-      no_number_has_no_spin)
+      no_number_has_no_spin, what_is_beside_a_motion, points_and_lines_have_motions)

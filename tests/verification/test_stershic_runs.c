@@ -296,7 +296,7 @@ static double residual_of(one_run *run)
         const fracas_ledger *ledger = &run->batch->lane[0].ledger;
         const double held = ledger->elastic + ledger->cohesive + ledger->dissipated;
         const double scale = fmax(fmax(ledger->kinetic, held), fabs(ledger->work));
-        if (run->batch->steps > FRACAS_ENERGY_START)
+        if (run->batch->steps > FRACAS_GUARD_START)
             worst = fmax(worst, fabs(ledger->residual) / scale);
     }
     return worst;
@@ -340,37 +340,33 @@ static void the_ledger_closes_as_the_time_step_falls(void **unused)
 }
 
 /* Contact a hundred times as stiff as an element, at a time step that is not refined, 0.8 h/c: 8
- * times beyond the stability of such a contact. The realization ends as ENERGY_DRIFT, with a
- * residual of the size of all its energy. A mesh so coarse that all links open in one step, far
- * beyond their strengths, exceeds the paper's 1 % and stays below its 5 %: a warning, no end. */
+ * times beyond the stability of such a contact. The realization ends as ENERGY_DRIFT. So does one
+ * without refinement on a mesh so coarse that all links open in one step, far beyond their
+ * strengths: its residual is below 5 % of the largest energy, the expansion's, and above that of
+ * the energy that breaks it. Refined, it goes on. */
 static void the_energy_guard_ends_what_has_drifted(void **unused)
 {
-    double least = INFINITY, lowest = INFINITY, highest = 0;
+    double highest = 0;
     for (uint64_t replica = 0; replica < 8; replica++) {
         fracas_spec spec = ring_stershic(400, 1e4, 1.2e-6);
         spec.cohesive.refinement = 1;
         spec.cohesive.penalty = 100;
         one_run run = scattered(&spec, 1.0 / 30, replica);
-        const double drifted = residual_of(&run);
+        finish_run(&run);
         assert_int_equal(run.record.outcome, FRACAS_ENERGY_DRIFT);
         assert_true(run.record.end_time < 0.5 * spec.time.end);
-        least = fmin(least, drifted);
         clear_run(&run);
-        fracas_spec mild = ring_stershic(100, 1e4, 1.2e-6);
-        mild.cohesive.refinement = 1;
-        run = scattered(&mild, 1.0 / 30, replica);
-        const double warned = residual_of(&run);
-        assert_int_equal(run.record.outcome, FRACAS_FRAGMENTED);
-        assert_true(run.record.end_time >= mild.time.end);
-        lowest = fmin(lowest, warned);
-        highest = fmax(highest, warned);
-        clear_run(&run);
+        for (int refined = 0; refined < 2; refined++) {
+            fracas_spec coarse = ring_stershic(refined ? 400 : 100, 1e4, 1.2e-6);
+            if (!refined) coarse.cohesive.refinement = 1;
+            run = scattered(&coarse, 1.0 / 30, replica);
+            highest = fmax(highest, residual_of(&run));
+            assert_int_equal(run.record.outcome, refined ? FRACAS_FRAGMENTED : FRACAS_ENERGY_DRIFT);
+            clear_run(&run);
+        }
     }
-    print_message("[  figures ] residual by the largest energy: at least %.3f; on the coarse mesh "
-                  "%.4f to %.4f\n",
-                  least, lowest, highest);
-    assert_true(least > 0.05);
-    assert_true(lowest > 0.01 && highest < 0.05);
+    print_message("[  figures ] residual by the largest energy at most %.4f\n", highest);
+    assert_true(highest < 0.05);
 }
 
 /* The paper's critical zones leave out links that close again on steep secants: with strengths from

@@ -67,6 +67,7 @@ static fracas_err bar_model_init(fracas_model *model)
 {
     TRY(fracas_chain_model_init(model, &chain, 2));
     TRY(fill_sizes(model));
+    if (!fracas_chain_is_closed(model)) model->idle = FRACAS_MOTION_NONE;
     /* check_strength keeps a stiffness of contact by strength below the elements'. */
     return fracas_chain_critical_step(model);
 }
@@ -108,18 +109,55 @@ static double mean_of(const fracas_model *model, const fracas_step *step, size_t
                   *fracas_chain_field(model, step, e, right, lane));
 }
 
-/* Adds up the elements of each fragment, moved as (bar.1). Elements after the last break of a
- * closed bar are in the fragment of element 0: they are taken one circumference back. */
+/* Elements from here on are after the last break of a closed bar, in the fragment of element 0:
+ * they are taken one circumference back. */
+static size_t taken_back(const fracas_model *model, const fracas_step *step, int lane)
+{
+    size_t back = model->elements;
+    while (fracas_chain_is_closed(model) && back > 0 &&
+           !fracas_chain_is_broken(model, step, back - 1, lane))
+        back--;
+    return back;
+}
+
+/* The peculiar motion, with masses at the nodes. */
+static void bar_add_up(const fracas_model *model, const fracas_step *step, int lane,
+                       const fracas_fragment_motion *motion, fracas_fragment_sums *sums)
+{
+    const fracas_spec *spec = &model->spec;
+    const size_t back = taken_back(model, step, lane);
+    const double stretch = 1 + spec->loading.rate * step->time[lane];
+    double start = 0;
+    for (size_t e = 0; e < model->elements; e++) {
+        const size_t f = step->partition.label[e];
+        const double h = fracas_chain_size(model, e), volume = spec->geometry.area * h,
+                     mass = 0.5 * spec->material.density * volume;
+        const double strain = stretch - 1 +
+                              (*fracas_chain_field(model, step, e, BAR_W_RIGHT, lane) -
+                               *fracas_chain_field(model, step, e, BAR_W_LEFT, lane)) /
+                                  h;
+        sums[f].elements++;
+        sums[f].strain_energy += 0.5 * spec->material.young * strain * strain * volume;
+        for (int side = 0; side < 2; side++) {
+            const double at = start + side * h - (e >= back ? spec->geometry.length : 0);
+            const double x[3] = {at * stretch +
+                                 *fracas_chain_field(model, step, e, BAR_W_LEFT + side, lane)};
+            double v[3] = {*fracas_chain_field(model, step, e, BAR_V_LEFT + side, lane)};
+            if (motion) fracas_fragment_motion_take_off(&motion[f], x, v);
+            fracas_fragment_sums_add(&sums[f], mass, x, v);
+        }
+        start += h;
+    }
+}
+
+/* Adds up the elements of each fragment, moved as (bar.1). */
 static void add_elements(const fracas_model *model, const fracas_step *step, int lane,
                          fracas_fragment *fragment)
 {
     const fracas_spec *spec = &model->spec;
     const double mass_per_length = spec->material.density * spec->geometry.area;
     const double time = step->time[lane], rate = spec->loading.rate, length = spec->geometry.length;
-    size_t back = model->elements; /* elements from here on are taken back */
-    while (fracas_chain_is_closed(model) && back > 0 &&
-           !fracas_chain_is_broken(model, step, back - 1, lane))
-        back--;
+    const size_t back = taken_back(model, step, lane);
     double node = 0;
     for (size_t e = 0; e < model->elements; e++) {
         fracas_fragment *f = &fragment[step->partition.label[e]];
@@ -179,5 +217,6 @@ const fracas_formulation fracas_formulation_bar = {
     .interface_positions = bar_interface_positions,
     .lane_init = fracas_chain_lane_init,
     .advance = bar_advance,
+    .add_up = bar_add_up,
     .harvest = bar_harvest,
     FRACAS_CHAIN_FORMULATION};

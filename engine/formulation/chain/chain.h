@@ -51,7 +51,8 @@ void fracas_chain_lane_init(const fracas_model *model, const fracas_step *step, 
 
 #define FRACAS_CHAIN_FORMULATION                                                              \
     .interface_volume = fracas_chain_interface_volume, .state_size = fracas_chain_state_size, \
-    .strength = fracas_chain_strength, .fragment_count = fracas_chain_fragment_count
+    .strength = fracas_chain_strength, .fragment_count = fracas_chain_fragment_count,         \
+    .partition = fracas_chain_partition
 
 /* FRACAS_USAGE unless the strength [Pa], for a law with flux, lets the longest element soften as
  * slowly as the law asks, K > sigma_c/delta_c  (cohesive.7). */

@@ -87,6 +87,8 @@ static fracas_err ring_model_init(fracas_model *model)
         table[e * RING_TABLE + RING_COS_MIDDLE] = fracas_cospi(middle);
         table[e * RING_TABLE + RING_SIN_MIDDLE] = fracas_sinpi(middle);
     }
+    const bool held = motion_of(model).drive == FRACAS_RING_HELD; /* a free spin stretches, too */
+    model->idle = held ? FRACAS_MOTION_HOMOGENEOUS : FRACAS_MOTION_NONE;
     return fracas_chain_critical_step(model);
 }
 
@@ -146,9 +148,27 @@ static void ring_advance(const fracas_model *model, fracas_step *step)
 
 /* ---- fragments ---- */
 
-/* Adds one element's two nodes to its fragment's sums. */
+/* [J] */
+static double strain_energy(const fracas_model *model, const fracas_step *step, int lane, size_t e)
+{
+    const fracas_spec *spec = &model->spec;
+    const double *table = model->table + e * RING_TABLE, h = model->element_size;
+    const double start[2] = {-h * table[RING_SIN_MIDDLE], h * table[RING_COS_MIDDLE]};
+    double square = 0;
+    for (int i = 0; i < 2; i++) {
+        const double side = start[i] + *fracas_chain_field(model, step, e, RING_U_RIGHT + i, lane) -
+                            *fracas_chain_field(model, step, e, RING_U_LEFT + i, lane);
+        square += side * side;
+    }
+    const double strain = sqrt(square) / h - 1;
+    const double stress = has_flux(model) ? spec->material.young * strain
+                                          : *fracas_chain_field(model, step, e, RING_STRESS, lane);
+    return 0.5 * spec->geometry.area * h * stress * strain;
+}
+
+/* Adds one element's two nodes to its fragment's sums, less a motion, unless that is NULL. */
 static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e,
-                        fracas_fragment_sums *f)
+                        const fracas_fragment_motion *motion, fracas_fragment_sums *f)
 {
     const double radius = vertex_radius(model);
     const double mass = 0.5 * model->spec.material.density * model->spec.geometry.area *
@@ -156,17 +176,28 @@ static void add_element(const fracas_model *model, const fracas_step *step, int 
     const double before = f->mass;
     f->elements++;
     f->size += model->element_size;
+    f->strain_energy += strain_energy(model, step, lane, e);
     for (size_t side = 0; side < 2; side++) {
         const double *table = model->table + (e + side) % model->elements * RING_TABLE;
         const int u = side ? RING_U_RIGHT : RING_U_LEFT, v = side ? RING_V_RIGHT : RING_V_LEFT;
         const double x[3] = {
             radius * table[RING_COS] + *fracas_chain_field(model, step, e, u, lane),
             radius * table[RING_SIN] + *fracas_chain_field(model, step, e, u + 1, lane)};
-        const double w[3] = {*fracas_chain_field(model, step, e, v, lane),
-                             *fracas_chain_field(model, step, e, v + 1, lane)};
+        double w[3] = {*fracas_chain_field(model, step, e, v, lane),
+                       *fracas_chain_field(model, step, e, v + 1, lane)};
+        if (motion) fracas_fragment_motion_take_off(motion, x, w);
         fracas_fragment_sums_add(f, mass, x, w);
     }
     f->mass = before + 2 * mass; /* rounded once an element */
+}
+
+static void ring_add_up(const fracas_model *model, const fracas_step *step, int lane,
+                        const fracas_fragment_motion *motion, fracas_fragment_sums *sums)
+{
+    for (size_t e = 0; e < model->elements; e++) {
+        const size_t f = step->partition.label[e];
+        add_element(model, step, lane, e, motion ? &motion[f] : NULL, &sums[f]);
+    }
 }
 
 /* Fragments as (bar.17), in the plane  (ring.18). */
@@ -176,8 +207,7 @@ static fracas_err ring_harvest(const fracas_model *model, fracas_step *step, int
     const size_t count = fracas_chain_partition(model, step, lane);
     OWNED fracas_fragment_sums *sums = calloc(count, sizeof *sums);
     if (!sums) return fracas_no_memory("the fragments of a realization");
-    for (size_t e = 0; e < model->elements; e++)
-        add_element(model, step, lane, e, &sums[step->partition.label[e]]);
+    ring_add_up(model, step, lane, NULL, sums);
     TRY(fracas_fragments_take(sums, count, 1, record));
     return fracas_chain_harvest_interfaces(model, step, lane, record);
 }
@@ -197,5 +227,6 @@ const fracas_formulation fracas_formulation_ring = {
     .interface_positions = ring_interface_positions,
     .lane_init = ring_lane_init,
     .advance = ring_advance,
+    .add_up = ring_add_up,
     .harvest = ring_harvest,
     FRACAS_CHAIN_FORMULATION};

@@ -125,7 +125,7 @@ static void add_node(const fracas_surface_tables *t, size_t e, size_t k, const d
             momentum[i] += share * v[l][i];
         }
     }
-    fracas_fragment_sums_add_coupled(sums, mass, x[k], carried, momentum);
+    fracas_fragment_sums_add_coupled(sums, mass, x[k], v[k], carried, momentum);
 }
 
 static const double layer[] = {1.0};

@@ -112,6 +112,17 @@ static void measure(fracas_model *model)
             : sqrt(model->mass / (model->spec.material.density * model->spec.geometry.thickness));
 }
 
+/* A free body flies and turns as one, edges that move along hold all of its expansion, and what
+ * stands on a fixed edge can use up all of its motion. */
+static fracas_motion idle_motion(const fracas_model *model)
+{
+    const fracas_surface_tables *t = tables_of(model);
+    if (t->moves && stretch_of(model).moving) return FRACAS_MOTION_HOMOGENEOUS;
+    for (size_t e = 0; e < t->nelements; e++)
+        if (t->held[e]) return FRACAS_MOTION_NONE;
+    return FRACAS_MOTION_RIGID;
+}
+
 fracas_err fracas_surface_model_init(fracas_model *model)
 {
     const fracas_surface_body *body = model->formulation->kind.traits;
@@ -130,6 +141,7 @@ fracas_err fracas_surface_model_init(fracas_model *model)
         model->strengths = (size_t)SURFACE_EDGE(model->surface->order);
     TRY(fracas_surface_tables_create(model, &t));
     model->plan = t;
+    model->idle = idle_motion(model);
     if (body->check_tables) TRY(body->check_tables(model));
     TRY(check_motion(model));
     const size_t nodes = (size_t)SURFACE_NODES(t->order);
@@ -260,8 +272,7 @@ static double damage_of(const fracas_surface_constants *c, const fracas_step *st
     return broken ? 1.0 : fmin(damage, 1.0 - 0x1p-53);
 }
 
-/* Labels connected elements; the number of fragments. */
-static size_t partition(const fracas_model *model, fracas_step *step, int lane)
+size_t fracas_surface_partition(const fracas_model *model, fracas_step *step, int lane)
 {
     const fracas_surface_constants c = fracas_surface_constants_of(model);
     fracas_partition_reset(&step->partition);
@@ -275,7 +286,7 @@ static size_t partition(const fracas_model *model, fracas_step *step, int lane)
 
 int64_t fracas_surface_fragment_count(const fracas_model *model, fracas_step *step, int lane)
 {
-    return step->broken[lane] == 0 ? 1 : (int64_t)partition(model, step, lane);
+    return step->broken[lane] == 0 ? 1 : (int64_t)fracas_surface_partition(model, step, lane);
 }
 
 /* The least of an interface's strengths. */
@@ -309,34 +320,47 @@ static fracas_err harvest_interfaces(const fracas_model *model, const fracas_ste
 }
 
 static void add_element(const fracas_model *model, const fracas_surface_constants *c,
-                        const fracas_step *step, int lane, size_t e, fracas_fragment_sums *sums)
+                        const fracas_step *step, int lane, size_t e,
+                        const fracas_fragment_motion *motion, fracas_fragment_sums *sums)
 {
     const size_t nodes = model->surface->corners, dimension = (size_t)c->tables->body->dimension;
-    double x[6][3] = {{0}}, v[6][3] = {{0}};
-    for (size_t k = 0; k < nodes; k++)
+    double x[6][3] = {{0}}, v[6][3] = {{0}}, u[SURFACE_UNKNOWNS_MOST];
+    for (size_t k = 0; k < nodes; k++) {
         for (size_t i = 0; i < dimension; i++) {
             const size_t unknown = dimension * k + i;
-            x[k][i] = fracas_surface_node(model->surface, e, k)[i] +
-                      *element_value(c, step, e, SURFACE_U, unknown, lane);
+            u[unknown] = *element_value(c, step, e, SURFACE_U, unknown, lane);
+            x[k][i] = fracas_surface_node(model->surface, e, k)[i] + u[unknown];
             v[k][i] = *element_value(c, step, e, SURFACE_V, unknown, lane);
         }
+        if (motion) fracas_fragment_motion_take_off(motion, x[k], v[k]);
+    }
     sums->elements++;
+    sums->strain_energy +=
+        (*c->tables->body->kernels)[FRACAS_ISA_BASELINE][1]->strain[c->tables->order - 1](c, e, u);
     for (size_t k = 0; k < nodes; k++)
         c->tables->body->add_node(c->tables, e, k, (const double(*)[3])x, (const double(*)[3])v,
                                   sums);
+}
+
+void fracas_surface_add_up(const fracas_model *model, const fracas_step *step, int lane,
+                           const fracas_fragment_motion *motion, fracas_fragment_sums *sums)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    for (size_t e = 0; e < model->elements; e++) {
+        const size_t f = step->partition.label[e];
+        add_element(model, &c, step, lane, e, motion ? &motion[f] : NULL, &sums[f]);
+    }
 }
 
 /* (membrane.19) */
 fracas_err fracas_surface_harvest(const fracas_model *model, fracas_step *step, int lane,
                                   fracas_record *record)
 {
-    const fracas_surface_constants c = fracas_surface_constants_of(model);
-    const size_t count = partition(model, step, lane);
+    const size_t count = fracas_surface_partition(model, step, lane);
     const double surface_density = model->spec.material.density * model->spec.geometry.thickness;
     OWNED fracas_fragment_sums *sums = calloc(count, sizeof *sums);
     if (!sums) return fracas_no_memory("the fragments of a realization");
-    for (size_t e = 0; e < model->elements; e++)
-        add_element(model, &c, step, lane, e, &sums[step->partition.label[e]]);
+    fracas_surface_add_up(model, step, lane, NULL, sums);
     for (size_t f = 0; f < count; f++) sums[f].size = sqrt(sums[f].mass / surface_density);
     TRY(fracas_fragments_take(sums, count, 2, record));
     return step->onset_time ? harvest_interfaces(model, step, lane, record) : FRACAS_OK;

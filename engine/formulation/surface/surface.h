@@ -116,6 +116,10 @@ typedef struct {
 typedef void fracas_surface_look(const fracas_surface_constants *constants, size_t interface,
                                  fracas_surface_view *view);
 
+/* Strain energy of an element with displacements u [J]. */
+typedef double fracas_surface_strain(const fracas_surface_constants *constants, size_t element,
+                                     double *u);
+
 /* Number of the linear operator's sweep, after those of the laws. */
 enum { SURFACE_OPERATOR = FRACAS_LAWS, SURFACE_SWEEPS };
 
@@ -124,10 +128,11 @@ typedef void fracas_surface_sweep(const fracas_surface_constants *constants, fra
                                   int first);
 
 /* A unit: [law][order - 1]. Units of one lane alone have the operator's sweep, which leaves
- * M^-1 (-f)(u) where velocities are, and views. */
+ * M^-1 (-f)(u) where velocities are, views and strain energies. */
 typedef struct {
     fracas_surface_sweep *sweep[SURFACE_SWEEPS][2];
     fracas_surface_look *look[2];
+    fracas_surface_strain *strain[2];
 } fracas_surface_kernel;
 typedef const fracas_surface_kernel
     *const fracas_surface_kernels[FRACAS_NISAS][FRACAS_LANES_MAX + 1];
@@ -260,6 +265,9 @@ double *fracas_surface_strength(const fracas_model *model, const fracas_step *st
 void fracas_surface_lane_init(const fracas_model *model, const fracas_step *step, int lane);
 void fracas_surface_advance(const fracas_model *model, fracas_step *step);
 int64_t fracas_surface_fragment_count(const fracas_model *model, fracas_step *step, int lane);
+size_t fracas_surface_partition(const fracas_model *model, fracas_step *step, int lane);
+void fracas_surface_add_up(const fracas_model *model, const fracas_step *step, int lane,
+                           const fracas_fragment_motion *motion, fracas_fragment_sums *sums);
 FRACAS_MUST_USE fracas_err fracas_surface_harvest(const fracas_model *model, fracas_step *step,
                                                   int lane, fracas_record *record);
 
@@ -270,6 +278,7 @@ FRACAS_MUST_USE fracas_err fracas_surface_harvest(const fracas_model *model, fra
     .plan_destroy = fracas_surface_tables_destroy, .state_size = fracas_surface_state_size,   \
     .strength = fracas_surface_strength, .lane_init = fracas_surface_lane_init,               \
     .advance = fracas_surface_advance, .fragment_count = fracas_surface_fragment_count,       \
+    .partition = fracas_surface_partition, .add_up = fracas_surface_add_up,                   \
     .harvest = fracas_surface_harvest
 
 #endif

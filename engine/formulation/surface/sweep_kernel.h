@@ -306,6 +306,16 @@ LANES_FUNCTION void surface_look(const fracas_surface_constants *s, int order, s
         view->opening[p] = plane_opening(s->law, &interface, &in, point);
     }
 }
+
+LANES_FUNCTION double surface_strain(const fracas_surface_constants *s, int order, size_t e,
+                                     double *u)
+{
+    surface_context c = {.constants = s, .tables = s->tables};
+    double slot[BODY_SLOT(2)], energy;
+    surface_enter(&c, order, e, u, slot);
+    lanes_store(&energy, c.strain_energy);
+    return 0.5 * energy;
+}
 #endif
 
 #define SURFACE_SWEEP(name, order, law)                                                       \
@@ -318,6 +328,11 @@ LANES_FUNCTION void surface_look(const fracas_surface_constants *s, int order, s
                      fracas_surface_view *view)                           \
     {                                                                     \
         surface_look(constants, order, i, view);                          \
+    }
+#define SURFACE_STRAIN(name, order, law)                                                     \
+    static double name(const fracas_surface_constants *constants, size_t element, double *u) \
+    {                                                                                        \
+        return surface_strain(constants, order, element, u);                                 \
     }
 #if BODY_PLANE
 #define SURFACE_ORDERS(DEFINE, name, law) \
@@ -341,6 +356,7 @@ LANES_FUNCTION void surface_look(const fracas_surface_constants *s, int order, s
 #if LANES == 1
 SURFACE_ORDERS(SURFACE_SWEEP, operator, SURFACE_OPERATOR)
 SURFACE_ORDERS(SURFACE_LOOK, look, )
+SURFACE_ORDERS(SURFACE_STRAIN, strain, )
 #endif
 
 #define FRACAS_LAW(name, bar, ring, membrane, shell) \
@@ -348,6 +364,7 @@ SURFACE_ORDERS(SURFACE_LOOK, look, )
 const fracas_surface_kernel LANES_UNIT(BODY_OF(fracas, BODY_NAME)) = {
 #if LANES == 1
     .look = SURFACE_ENTRY(look),
+    .strain = SURFACE_ENTRY(strain),
 #endif
     .sweep = {
 #if LANES == 1

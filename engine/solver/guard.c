@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "engine/solver/guard.h"
+
+#include "base/own.h"
+
+#include <float.h>
+#include <math.h>
+
+/* (fragments.6) */
+fracas_err fracas_guard_beside(const fracas_model *model, fracas_step *step, int lane,
+                               double *energy)
+{
+    const fracas_formulation *body = model->formulation;
+    const bool whole = step->broken[lane] == 0;
+    const size_t count = body->partition(model, step, lane);
+    OWNED fracas_fragment_sums *sums = calloc(2 * count, sizeof *sums);
+    OWNED fracas_fragment_motion *motion = malloc(count * sizeof *motion);
+    if (!sums || !motion) return fracas_no_memory("the energy guard");
+    body->add_up(model, step, lane, NULL, sums);
+    for (size_t f = 0; f < count; f++)
+        motion[f] = fracas_fragment_motion_of(&sums[f],
+                                              whole ? model->idle : FRACAS_MOTION_HOMOGENEOUS);
+    body->add_up(model, step, lane, motion, sums + count);
+    *energy = 0;
+    for (size_t f = 0; f < count; f++)
+        *energy += !whole && sums[f].elements == 1 ? -sums[f].strain_energy
+                                                   : sums[count + f].kinetic;
+    return FRACAS_OK;
+}
+
+/* Remembers the last step with a sound balance, and whether fragments were final then: nothing had
+ * broken over the last third of the time. */
+static void note(fracas_guard *guard, const fracas_step *step, int lane, int64_t now, bool sound)
+{
+    if (step->broken[lane] > guard->broken) {
+        guard->broken = step->broken[lane];
+        guard->broke = step->time[lane];
+    }
+    if (!sound) return;
+    guard->sound = now;
+    guard->final = guard->broken > 0 && step->time[lane] >= FRACAS_GUARD_QUIET * guard->broke;
+}
+
+/* (bar.15) */
+fracas_err fracas_guard_check(fracas_guard *guard, const fracas_ledger *ledger,
+                              const fracas_model *model, fracas_step *step, int lane, int64_t now,
+                              bool ends, bool *drifts)
+{
+    const bool whole = step->broken[lane] == 0;
+    const double held = fracas_energy_held(ledger->energy, 1), /* all but kinetic */
+        sure = whole ? held : fracas_energy_lost(ledger->energy), residual = fabs(ledger->residual);
+    *drifts = false;
+    note(guard, step, lane, now, residual <= FRACAS_GUARD_SOUND * sure);
+    if ((whole && now < FRACAS_GUARD_START) || residual <= model->tolerance * sure)
+        return FRACAS_OK;
+    const bool fresh = guard->measured > 0 && now < guard->measured + FRACAS_GUARD_EVERY;
+    if (fresh && !ends && residual <= model->tolerance * (held + guard->beside)) return FRACAS_OK;
+    TRY(fracas_guard_beside(model, step, lane, &guard->beside));
+    guard->measured = now;
+    /* Idle motion may have many times the elastic energy of a whole body: the rounding of its sum
+     * is no drift. */
+    const double rounding = whole ? DBL_EPSILON * (double)model->elements * fabs(ledger->kinetic)
+                                  : 0;
+    *drifts = residual > model->tolerance * (held + guard->beside) + rounding;
+    return FRACAS_OK;
+}
