@@ -130,7 +130,9 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
         .rate = fracas_columns_real(table, point, "derived.strain_rate"),
         .length = fracas_columns_real(table, point, "derived.length"),
         .radius = fracas_columns_real(table, point, "derived.radius"),
+        .end = fracas_columns_real(table, point, "time.end"),
         .surface = fracas_columns_surface(table, point),
+        .kept_at = {INFINITY, 0},
         .scales = fracas_scales_of(fracas_columns_real(table, point, "material.young"),
                                    fracas_columns_real(table, point, "material.density"),
                                    fracas_columns_real(table, point, "derived.strength_mean"),
@@ -197,7 +199,7 @@ static const fracas_fragment *largest_of(const fracas_record *record, double *ma
     return record->nfragment ? largest : NULL;
 }
 
-/* As the energy guard has it, but over the energies at the end. */
+/* Against the largest energy of any kind at the end. */
 static void add_balance(fracas_point_statistics *statistics, const fracas_record *record)
 {
     const double stored = fracas_energy_held(record->energy, 1);
@@ -224,6 +226,11 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
         return FRACAS_OK;
     }
     statistics->usable++;
+    if (record->outcome == FRACAS_TIME_LIMIT && record->end_time < statistics->end) {
+        statistics->kept++;
+        statistics->kept_at[0] = fmin(statistics->kept_at[0], record->end_time);
+        statistics->kept_at[1] = fmax(statistics->kept_at[1], record->end_time);
+    }
     const fracas_ring_motion still = {NAN, NAN, NAN, NAN},
                              motion = statistics->radius > 0
                                           ? fracas_ring_motion_of(record, statistics->radius)

@@ -27,6 +27,7 @@ typedef struct {
     double rate;   /* 1/s, NaN where the point has none */
     double length; /* m, of a ring its circumference */
     double radius; /* m, of a ring; NaN of anything else */
+    double end;    /* s, time.end */
     bool surface;  /* sizes are square roots of areas, and scaling laws say nothing */
     fracas_scales scales;
     double law[FRACAS_SCALING_LAWS]; /* m, mean size by each law; NaN of surfaces */
@@ -39,10 +40,12 @@ typedef struct {
 #define FRACAS_MEMBER(key, unit, doc) fracas_estimate key; /* mean over usable realizations */
     FRACAS_REALIZATION_NUMBERS(FRACAS_MEMBER)
 #undef FRACAS_MEMBER
-    double residual; /* largest over replicas of (largest |residual| over the run)/dissipated */
-    double created;  /* largest over replicas of created/dissipated */
-    double drift;    /* largest over replicas of |residual|/(largest energy at the end) */
-    int64_t drifted; /* usable realizations with a drift above FRACAS_DRIFT_LIMIT */
+    int64_t kept;      /* TIME_LIMIT before time.end: they lost their energy balance later ... */
+    double kept_at[2]; /* s, ... than these times, the first and the last */
+    double residual;   /* largest over replicas of (largest |residual| over the run)/dissipated */
+    double created;    /* largest over replicas of created/dissipated */
+    double drift;      /* largest over replicas of |residual|/(largest energy at the end) */
+    int64_t drifted;   /* usable realizations with a drift above FRACAS_DRIFT_LIMIT */
 
     fracas_ensemble ensemble; /* the usable realizations */
 

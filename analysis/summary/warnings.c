@@ -23,7 +23,7 @@ static const double dust_limit = 0.05;     /* share of all fragments */
 static const double rise_limit = 0.01;     /* part of the dissipated energy */
 static const double zone_limit = 0.25;     /* part of a mean fragment (docs/results/ring.md) */
 
-enum { WARNINGS_PER_POINT = 17, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
+enum { WARNINGS_PER_POINT = 18, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
 
 typedef struct {
     size_t count;
@@ -54,11 +54,20 @@ static void warn_of_outcomes(const fracas_point_statistics *statistics, size_t p
              "%lld of %lld realizations ended INTACT, nothing broken: if that is unexpected, load "
              "harder or raise time.end",
              (long long)statistics->outcome[FRACAS_INTACT], all);
-    if (statistics->outcome[FRACAS_TIME_LIMIT] > 0)
+    if (statistics->kept > 0)
+        warn(
+            list, p,
+            "%lld of %lld realizations lost their energy balance and count as they were before, at "
+            "%s to %s (TIME_LIMIT), when nothing had broken for a third of that time: let time.end "
+            "be earlier, or lower time.safety if that mends it",
+            (long long)statistics->kept, all,
+            fracas_with_unit(statistics->kept_at[0], 3, "s", false).text,
+            fracas_with_unit(statistics->kept_at[1], 3, "s", false).text);
+    if (statistics->outcome[FRACAS_TIME_LIMIT] > statistics->kept)
         warn(list, p,
              "%lld of %lld realizations were stopped by time.end with cracks still running "
              "(TIME_LIMIT): raise time.end",
-             (long long)statistics->outcome[FRACAS_TIME_LIMIT], all);
+             (long long)(statistics->outcome[FRACAS_TIME_LIMIT] - statistics->kept), all);
 }
 
 static void warn_of_point(const fracas_point_statistics *statistics, size_t p, warning_list *list)
@@ -73,8 +82,7 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
     if (statistics->drifted > 0)
         warn(list, p,
              "energy drift above 1 %%: %lld of %lld usable realizations, their |residual| up to %s "
-             "%% of their largest energy: lower time.safety (above 5 %% during its run a "
-             "realization ends ENERGY_DRIFT)",
+             "%% of their largest energy: lower time.safety",
              (long long)statistics->drifted, (long long)statistics->usable,
              fracas_digits(100 * statistics->drift, 2).text);
     if (statistics->created > created_limit)

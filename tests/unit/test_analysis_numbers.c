@@ -339,7 +339,9 @@ static void warnings_at_their_limits(void **state)
         {.size.mean = 1e-4,
          .realizations = 9,
          .usable = 5,
-         .outcome = {3, 1, 1, 2, 1, 1},
+         .outcome = {2, 1, 2, 2, 1, 1},
+         .kept = 1,
+         .kept_at = {1.5e-6, 2e-6},
          .residual = 1.01e-3,
          .created = 1.01e-2,
          .elements = 9.9,
@@ -356,6 +358,9 @@ static void warnings_at_their_limits(void **state)
         "1 of 9 realizations ended ENERGY_DRIFT",
         "1 of 9 realizations ended FAILED",
         "1 of 9 realizations ended INTACT",
+        "1 of 9 realizations lost their energy balance and count as they were before, at 1.50 us "
+        "to "
+        "2.00 us",
         "1 of 9 realizations were stopped",
         "ledger residual up to 1.0e-3",
         "energy drift above 1 %: 2 of 5 usable realizations, their |residual| up to 2.1 %",
