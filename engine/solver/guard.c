@@ -53,14 +53,16 @@ fracas_err fracas_guard_check(fracas_guard *guard, const fracas_ledger *ledger,
     note(guard, step, lane, now, residual <= FRACAS_GUARD_SOUND * sure);
     if ((whole && now < FRACAS_GUARD_START) || residual <= model->tolerance * sure)
         return FRACAS_OK;
-    const bool fresh = guard->measured > 0 && now < guard->measured + FRACAS_GUARD_EVERY;
+    const bool fresh = guard->measured > 0 && guard->whole == whole &&
+                       now < guard->measured + FRACAS_GUARD_EVERY;
     if (fresh && !ends && residual <= model->tolerance * (held + guard->beside)) return FRACAS_OK;
     TRY(fracas_guard_beside(model, step, lane, &guard->beside));
     guard->measured = now;
+    guard->whole = whole;
     /* Idle motion may have many times the elastic energy of a whole body: the rounding of its sum
      * is no drift. */
     const double rounding = whole ? DBL_EPSILON * (double)model->elements * fabs(ledger->kinetic)
                                   : 0;
-    *drifts = residual > model->tolerance * (held + guard->beside) + rounding;
+    *drifts = !(residual <= model->tolerance * (held + guard->beside) + rounding);
     return FRACAS_OK;
 }

@@ -13,7 +13,8 @@ enum { FRACAS_GUARD_START = 16, FRACAS_GUARD_EVERY = 16 }; /* steps */
 /* All 0 at first. */
 typedef struct {
     double beside;    /* J, of fracas_guard_beside, when it was last computed ... */
-    int64_t measured; /* ... at this step */
+    int64_t measured; /* ... at this step ... */
+    bool whole;       /* ... of a body without a break */
     int64_t broken;   /* interfaces broken so far ... */
     double broke;     /* s, ... the last of them seen at this time */
     int64_t sound;    /* last step with a sound balance; fragments were final then ... */
