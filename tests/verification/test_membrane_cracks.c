@@ -220,9 +220,9 @@ static void run_points(fracas_batch *batch, const fate f[2], fracas_record *reco
 }
 
 /* Runs it until it is broken, while it all moves with 100 m/s along x and y: that does not matter.
- * Every quantity that times are found from is linear in t: round-off as above, and of a break the time of a
- * crossing of something up to 10 times the strength; the motion adds 1.1e-16 of 100 times the
- * displacements; 1e-11. */
+ * Every quantity that times are found from is linear in t: round-off as above, and of a break the
+ * time of a crossing of something up to 10 times the strength; the motion adds 1.1e-16 of 100 times
+ * the displacements; 1e-11. */
 static void check_fate(fracas_model *model, double velocity[2][6], const double strength[2],
                        double *worst)
 {
