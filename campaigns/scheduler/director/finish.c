@@ -80,11 +80,11 @@ static fracas_err unfinished(const fracas_director *director, const fracas_count
                     total = (long long)count->total;
     const char *study = director->setup.study;
     if (director->setup.channel->again) return fracas_trouble_fail(&director->trouble);
-    if (!fracas_study_is_kept(study, director->index))
+    if (director->trouble.code && !fracas_study_is_kept(study, director->index))
         return fracas_fail(FRACAS_ENVIRONMENT,
                            "%s (%s, or a part of it, was moved or removed while it was computed; "
                            "the same command computes again what is not there)",
-                           director->trouble.code ? director->trouble.text : "stopped", study);
+                           director->trouble.text, study);
     if (director->trouble.code)
         return fracas_fail(
             (fracas_err)director->trouble.code,
