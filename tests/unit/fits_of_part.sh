@@ -31,8 +31,8 @@ grep -q 'kept of 1 point is not of these results' $page || fail "fits of half a 
 # Fitted alone that point joins the others, and all is what the complete study gives.
 expect 0 "$fracas" fit part --point 2 --resamples 99
 expect 0 "$fracas" fit whole --resamples 99
-sort part/fits.csv > part.sorted
-sort whole/fits.csv | diff - part.sorted || fail "the fits of a study depend on when they were made"
+for study in part whole; do sed '$d' $study/fits.csv | sort > $study.sorted; done # without the seal of their order
+diff whole.sorted part.sorted || fail "the fits of a study depend on when they were made"
 
 # What was computed is kept though nobody reads what is printed.
 rm part/fits.csv

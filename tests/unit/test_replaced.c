@@ -134,7 +134,7 @@ static void one_that_dies_while_a_run_drains_is_stopped(void **state)
 static void one_that_dies_while_nothing_can_be_noted_is_stopped(void **state)
 {
     fracas_index *index;
-    OK(fracas_index_open(study, false, &index));
+    OK(fracas_index_open(study, true, &index));
     OK(fracas_sql_script(index, "DROP TABLE event"));
     fracas_index_close(index);
     replaced(0);

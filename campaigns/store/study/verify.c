@@ -178,9 +178,9 @@ static fracas_err note_leftovers(verification *v)
     OWNED char *folder = NULL;
     leftovers l = {.v = v};
     note_lock(v);
+    if (v->held) return FRACAS_OK; /* its files come and go */
     TRY(problem(v, fracas_index_segments_by_name(v->index, &l.known)));
     fracas_err err = fracas_disk_join(v->study, "segments", &folder);
-    if (v->held) return err; /* its files come and go */
     if (!err) err = fracas_disk_each(v->study, note_file, &l);
     l.inner = true;
     if (!err) err = fracas_disk_each(folder, note_file, &l);
