@@ -19,7 +19,7 @@ int fracas_file_create(const char *path);
 /* A stream of such a descriptor, which it takes over; NULL and errno, also for -1. */
 FILE *fracas_file_stream(int fd, const char *mode);
 
-/* True for a file that may be written: it is not there, or is a file and no link. False, and errno.
+/* True where a file may be written: nothing is there, or a file and no link. False, and errno.
  */
 bool fracas_file_is_own(const char *path);
 /* The same for a folder. */

@@ -6,7 +6,7 @@
 #include <inttypes.h>
 #include <math.h>
 
-/* UTF-8, whatever the text has: a byte that is none becomes "\\xNN". Control characters, which a
+/* UTF-8, whatever the text has: any other byte becomes "\\xNN". Control characters, which a
  * terminal might obey, are escaped as JSON has it. */
 static void write_text(FILE *out, const char *text)
 {

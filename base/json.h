@@ -26,7 +26,7 @@ void fracas_json_close(fracas_json *json); /* the innermost of them */
 void fracas_json_real(fracas_json *json, const char *key, double value);
 void fracas_json_integer(fracas_json *json, const char *key, int64_t value);
 void fracas_json_boolean(fracas_json *json, const char *key, bool value);
-/* NULL is null; a byte that is not UTF-8 becomes the four characters \xNN. */
+/* NULL is null; a byte outside UTF-8 becomes the four characters \xNN. */
 void fracas_json_text(fracas_json *json, const char *key, const char *value);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Text from files and folder names, as terminals and pages may show it. It can hold anything: bytes
- * that are not UTF-8, control characters that drive a terminal, directions that turn words around.
+ * outside UTF-8, control characters for a terminal, directions to turn words around.
  */
 #ifndef FRACAS_BASE_TEXT_H
 #define FRACAS_BASE_TEXT_H
@@ -11,7 +11,7 @@
 #include <stdio.h>
 
 /* Number of bytes of the first character of `text`, which is not empty and ends with a NUL; *code:
- * its code point. A byte that begins no UTF-8 counts as one, with *code -1. */
+ * its code point. A byte outside UTF-8 counts as one, with *code -1. */
 size_t fracas_text_character(const char *text, int32_t *code);
 
 /* True of -1, C0 but for tab and newline, DEL, C1, and bidirectional controls (U+202A to U+202E,
@@ -26,7 +26,7 @@ size_t fracas_text_show_character(const char *text, char shown[FRACAS_TEXT_SHOWN
 /* Writes `text` into `shown` with each byte of hidden characters as \xNN, cut to `size` bytes. */
 void fracas_text_show(const char *text, char *shown, size_t size);
 
-/* Replaces stdout by a stream that does the same to all that is written, until fclose(stdout).
+/* Replaces stdout by a stream with the same rule, until fclose(stdout).
  * Without memory stdout stays as it is. */
 void fracas_text_guard_stdout(void);
 

@@ -43,7 +43,7 @@ fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign,
     return fracas_analysis_create(study, &(*campaign)->hash, &(*campaign)->table, analysis);
 }
 
-/* Tells readers of the table about fits that are not shown, as the page does. */
+/* Tells readers of the table about fits left out, as the page does. */
 static fracas_err print_hidden_fits(const fracas_analysis *analysis, const char *study)
 {
     FRACAS_CLEARED(fracas_shown_fits) shown = {0};

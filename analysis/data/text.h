@@ -20,8 +20,8 @@ typedef struct {
 void fracas_append(char *text, size_t size, const char *separator, const char *format, ...)
     FRACAS_PRINTF(4, 5);
 
-/* Writes `format` into HTML or SVG, with the texts for its %s escaped: &, <, > and ", and what a
- * terminal would not show either, as fracas_text_show does. It has no other directive. */
+/* Writes `format` into HTML or SVG, with the texts for its %s escaped: &, <, > and ", and
+ * hidden characters as fracas_text_show has them. It has no other directive. */
 void fracas_markup(FILE *out, const char *format, ...) FRACAS_PRINTF(2, 3);
 
 #endif

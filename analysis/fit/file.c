@@ -18,7 +18,7 @@ enum { LINE = 1024, FIELDS = 10, MOST_MIB = 256 };
 static const char HEAD[] = "point,hash,family,quantity,unit,value,low,high,resamples,note\n";
 
 /* The last line ends with the checksum of all bytes before it, 16 hexadecimal digits; one of the
- * first says that it does, so that a file that has lost its end is not taken for an older one. */
+ * first names it, or a file without its end would pass for an older one. */
 static const char SEALED[] = ",,study,sealed,,,,,,by the checksum in the last line\n";
 static const char SEAL[] = ",,study,seal,,,,,,";
 enum { SEAL_LINE = sizeof SEAL - 1 + 16 + 1 };

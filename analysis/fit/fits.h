@@ -49,7 +49,7 @@ FRACAS_MUST_USE fracas_err fracas_fits_append(fracas_fits *fits, const fracas_fi
 
 /* STUDY/fits.csv, whole: temporary, synced, renamed. */
 FRACAS_MUST_USE fracas_err fracas_fits_write(const fracas_fits *fits, const char *study);
-/* *fits: NULL if there is no file. FRACAS_DAMAGED for a file that is not as it was written, and for
+/* *fits: NULL if there is no file. FRACAS_DAMAGED for a file unlike its seal, and for
  * one of an older version, which nothing can check. */
 FRACAS_MUST_USE fracas_err fracas_fits_read(const char *study, fracas_fits **fits);
 /* True if there is a file of an older version, without a seal. */
@@ -66,7 +66,7 @@ typedef struct {
     char *left_out; /* why the file is left out, with the remedy; NULL: it is not */
 } fracas_shown_fits;
 
-/* Reads them; a file that cannot be read or believed is left out. Cleared by the caller. */
+/* Reads them; a file unreadable or unlike its seal is left out. Cleared by the caller. */
 FRACAS_MUST_USE fracas_err fracas_shown_fits_read(const char *study,
                                                   const fracas_analysis *analysis,
                                                   fracas_shown_fits *shown);

@@ -410,8 +410,8 @@ FRACAS_MUST_USE fracas_err fracas_study_verify(const char *study,
 /* FRACAS_DAMAGED, naming dataset and attribute, unless every dataset has the unit of the schema
  * and, in a file of this program version, its description. */
 FRACAS_MUST_USE fracas_err fracas_reader_check_schema(fracas_reader *reader);
-/* FRACAS_DAMAGED, naming column and point, unless the points of the file that `table` has are the
- * same there: the values that their hashes are of, their units and, in a file of this program
+/* FRACAS_DAMAGED, naming column and point, unless the points of the file in `table` are the
+ * same there: the hashed values, their units and, in a file of this program
  * version, descriptions and derived values. */
 FRACAS_MUST_USE fracas_err fracas_reader_check_points(fracas_reader *reader,
                                                       const fracas_point_table *table);

@@ -83,7 +83,7 @@ typedef struct {
 } fracas_joined;
 
 /* Takes segments of `from` with realizations not done in `into` (all planned there) over into it,
- * by link or by copy (of what a symbolic link leads to), and their rows; then the failures of
+ * by link or by copy (of the target of a symbolic link), and their rows; then the failures of
  * realizations not done there. Only after fracas_study_compare. `table`: of `from`. */
 FRACAS_MUST_USE fracas_err fracas_study_join(const char *into, fracas_index *into_index,
                                              const char *from, fracas_index *from_index,

@@ -134,7 +134,7 @@ static void inertia_of(const fracas_fragment_sums *sums, const double centre[3],
  * places rounded to 1e-16 |X| leave 1e-32 m X.X. */
 static const double no_inertia = 1e-12;
 
-/* The moment on the diagonal that counts as 0, of a fragment of this mass and place. */
+/* The greatest moment on the diagonal to count as 0, of a fragment of this mass and place. */
 static double least_moment(const double moment[3][3], double mass, const double centre[3])
 {
     double largest = 0, away = 0;

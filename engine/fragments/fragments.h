@@ -42,7 +42,7 @@ void fracas_fragment_sums_add_coupled(fracas_fragment_sums *sums, double mass, c
                                       const double v[3], const double carried[3],
                                       const double momentum[3]);
 
-/* The motion of this kind that leaves the least kinetic energy beside it  (fragments.5). In a
+/* The motion of this kind with the least kinetic energy beside it  (fragments.5). In a
  * direction in which the fragment has no extent there is no gradient. */
 fracas_fragment_motion fracas_fragment_motion_of(const fracas_fragment_sums *sums,
                                                  fracas_motion kind);

@@ -226,8 +226,8 @@ static fracas_err run_lanes(fracas_batch *batch, fracas_record *record)
     return FRACAS_OK;
 }
 
-/* Computes lanes that drifted after their fragments were final once more, until their balance was
- * last sound: the state of that time is in nobody's memory. */
+/* Computes lanes with final fragments before their drift once more, until their balance was last
+ * sound: no state of then is in memory. */
 static fracas_err run_again(fracas_batch *batch, fracas_record *record)
 {
     bool again = false;

@@ -16,7 +16,7 @@ at_once()
     expect "$wanted" timeout -s KILL 20 "$@"
 }
 
-# content STUDY...: all that it holds.
+# content STUDY...: all of it.
 content()
 {
     find "$@" ! -name 'index*' -printf '%p %y %l\n' | sort
@@ -24,7 +24,7 @@ content()
     for study; do sqlite3 "$study/index.sqlite" .dump; done
 }
 
-# Segments that are links to a store: merge-studies takes their bytes.
+# Segments as links to a store: merge-studies takes their bytes.
 mkdir store
 mv part2/segments/*.h5 store
 for file in store/*; do ln -s "../../$file" part2/segments/; done
@@ -70,7 +70,7 @@ said 'pipe is no file'
 at_once 5 "$fracas" submit small.yaml --time 1:00:00 --script pipe
 said 'it is a pipe'
 
-# A link in the place of each file or folder that is written: what it leads to stays.
+# A link in the place of each file or folder to be written: its target stays.
 mkdir elsewhere
 echo precious > elsewhere/victim
 for name in lock index.sqlite index.sqlite-wal index.sqlite-shm index.sqlite-journal; do
@@ -116,7 +116,7 @@ grep -q precious elsewhere/victim || fail "the victim of a link is gone"
 [ "$(wc -c < elsewhere/victim)" -eq 9 ] || fail "the victim of a link was written"
 cmp sound/campaign.yaml elsewhere/campaign
 
-# A study that the user reaches by a link is fine.
+# The user may reach a study by a link.
 ln -s sound reached
 expect 0 "$fracas" report reached
 expect 0 "$fracas" run small.yaml --study reached
@@ -130,7 +130,7 @@ done
 expect 2 "$fracas" merge-studies sound ''
 expect 2 "$fracas" compare '' sound
 
-# A study that is moved away under its run: nothing is said to be kept.
+# A study moved away under its run: nothing is said to be kept.
 campaign longer.yaml 60 '3e4 1/s, 1e5 1/s'
 start longer.yaml --study moved --jobs 2 --segment-size 0.01
 wait_segments moved 2
@@ -142,7 +142,7 @@ session=
 grep -q 'moved, or a part of it, was moved or removed' background || { cat background; fail "it is not said that the study is gone"; }
 grep -q 'done and kept' background && fail "something is said to be kept"
 
-# A study that is being computed is no damaged one.
+# A study is not damaged because a run computes it.
 start longer.yaml --study busy --jobs 2 --segment-size 0.01
 wait_segments busy 2
 looks=0
@@ -157,7 +157,7 @@ session=
 [ $looks -gt 0 ] || fail "the run was over before it was looked at"
 expect 0 "$fracas" verify --full busy
 
-# Reading commands leave a study as it is: no byte and no name changes, also with a log that a killed run left.
+# Reading commands change no byte and no name of a study, also beside the log of a killed run.
 expect 0 "$fracas" fit sound --resamples 99
 bytes()
 {

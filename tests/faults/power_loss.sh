@@ -18,7 +18,7 @@ one()
 
 one right 400 || fail "a power cut loses what was done"
 
-# planted PATTERN WHAT: an fsync that does nothing.
+# planted PATTERN WHAT: an fsync without effect.
 planted()
 {
     export DISK_SWALLOW="$1"

@@ -24,7 +24,7 @@ nothing_left()
     [ -z "$(left)" ] || fail "$1 leaves $(left)"
 }
 
-# begin: a run that computes.
+# begin: a run, computing.
 begin()
 {
     rm -rf study
@@ -89,7 +89,7 @@ others=$(find tmp -mindepth 1 ! -name fracas-mine ! -name .fracas-mpi-of-others)
 rm -r tmp/.f* tmp/f* 2>/dev/null || true
 nothing_left "the next run"
 
-# Folders that are not there, or too small.
+# Folders missing, or too small.
 expect 0 env TMPDIR="$work/none" "$fracas" run small.yaml --study elsewhere
 [ ! -e none ] || fail "$(find none) is left"
 mount -t tmpfs -o size=1m tmpfs /dev/shm

@@ -32,7 +32,7 @@ grep -q fracas: all-closed/lock && fail "a message went into the lock"
 cp small.yaml :
 expect 0 env -i "$fracas" run : --study bare --jobs 1
 same undisturbed bare
-# A setting of Open MPI that cannot work. (A busy machine may lose its words, and MPI is started again.)
+# A setting of Open MPI without effect. (A busy machine may lose its words, and MPI is started again.)
 expect 6 env OMPI_MCA_btl=nonexist "$fracas" run small.yaml --study setting --jobs 1
 said '^fracas: Open MPI has no component `nonexist` of `btl`: correct OMPI_MCA_btl'
 expect 6 env TMPDIR="$PWD/small.yaml" "$fracas" run small.yaml --study setting --jobs 1

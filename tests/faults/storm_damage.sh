@@ -1,6 +1,6 @@
 # 1000 damages (flipped bits, bytes, cuts, zeros, bytes more, no file) of every kind of file of a study folder: finished, with fits,
 # report and export; with a rule for replicas; with strengths and a mesh from files; interrupted; killed; without its index.
-# tests/support/damage.py says what must hold of each.
+# tests/support/damage.py has the demands on each.
 # ctest-labels: storm
 # ctest-timeout: 14400
 . tests/support/campaigns.sh

@@ -50,7 +50,7 @@ static inline void campaign_start(void)
     snprintf(place, sizeof place, "%s:", campaign_path);
 }
 
-/* What was read is written, and read again from there: the same campaign. */
+/* The campaign, written and read again, is the same. */
 static inline void check_round_trip(const fracas_campaign *campaign)
 {
     char path[160];
@@ -117,7 +117,7 @@ static inline void check_plan(const fracas_campaign *campaign, size_t point)
     else FUZZ_DEMAND(isfinite(cost) && cost > 0 && isfinite(bytes) && bytes > 0, "a plan");
 }
 
-/* What the folder holds, as the header says. */
+/* The folder's content, by the header. */
 static inline void check_campaign(void)
 {
     enum { MOST_POINTS = 4 };

@@ -35,7 +35,7 @@ static void lay_out(const char *text, size_t size)
     write_named("c.yaml", text, first < size ? first + 1 : size);
 }
 
-/* ---- mutants that stay campaigns more often ---- */
+/* ---- mild mutants ---- */
 
 /* Of libFuzzer; replays of the corpus have none. */
 size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t most) __attribute__((weak));

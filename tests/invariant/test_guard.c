@@ -26,7 +26,7 @@ static fracas_spec body_of(bool sphere, bool shell, int64_t order, int64_t divis
     return spec;
 }
 
-/* ---- the energy that can break things ---- */
+/* ---- energy able to break things ---- */
 
 /* Energy beside stored and lost ones, as if nothing were broken, or as if something far off were.
  */
@@ -167,7 +167,7 @@ static void absurd_runs_end_as_drift(void **unused)
     }
 }
 
-/* ---- what it keeps ---- */
+/* ---- numbers kept ---- */
 
 /* A ring under pressure slides apart at its cracks and folds, long after its last break. Its
  * numbers are kept as they were with a sound balance, and are those of a run that was to end there.

@@ -20,7 +20,7 @@
 
 /* ---- descriptors ---- */
 
-/* One side of a connection: what has come to it. */
+/* One side of a connection: the messages there. */
 typedef struct channel {
     struct channel *peer;
     process *reader, *writer; /* who waits */
@@ -493,7 +493,7 @@ time_t __wrap_time(time_t *t)
     return (time_t)calls_day();
 }
 
-/* A rank that rests looks for messages; it is woken by one. */
+/* A resting rank looks for messages; one wakes it. */
 int __wrap_nanosleep(const struct timespec *time, struct timespec *left)
 {
     (void)left;

@@ -73,7 +73,7 @@ fracas_err __wrap_fracas_campaign_read(const char *path, fracas_campaign **campa
     return FRACAS_OK;
 }
 
-/* Those that were read are for all processes. */
+/* Once read, they are for all processes. */
 void __wrap_fracas_campaign_destroy(fracas_campaign *campaign)
 {
     (void)campaign;
@@ -114,7 +114,7 @@ void farm_prepare(void)
     disturbed = true;
 }
 
-/* ---- what the system tells ---- */
+/* ---- answers of the system ---- */
 
 fracas_err __wrap_fracas_allocation_jobs(int wanted, int *jobs)
 {
@@ -154,7 +154,7 @@ fracas_err __wrap_fracas_timings_note(const fracas_timings *timings, fracas_inde
     return FRACAS_OK;
 }
 
-/* ---- what the user sees ---- */
+/* ---- the user's view ---- */
 
 void __wrap_fracas_progress_init(fracas_progress *progress, FILE *out)
 {

@@ -17,7 +17,7 @@ typedef struct node node;
 typedef struct {
     char *name; /* of a rename: the new one */
     node *to;
-    char *from; /* of a rename: the one that goes */
+    char *from; /* of a rename: the old name */
 } entry;
 
 /* One change of a file: `bytes` NULL is a truncation to `at`. */

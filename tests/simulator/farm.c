@@ -77,7 +77,7 @@ static bool any_frozen(void)
     return false;
 }
 
-/* Nothing has happened for long: the user ends what hangs. Without a hung process nothing may. */
+/* Nothing has happened for long: the user ends hung processes; without any, the farm fails. */
 static void look(void *what, uint64_t number)
 {
     (void)what, (void)number;
@@ -92,7 +92,7 @@ static void look(void *what, uint64_t number)
     world_at(world.now + 10, start, NULL, 0);
 }
 
-/* ---- what befalls it ---- */
+/* ---- its faults ---- */
 
 static process *pick(role as)
 {
@@ -226,7 +226,7 @@ static void draw(int workers)
         o->walltime = roll_between(DICE_FARM, 30, 200);
 }
 
-/* The last run has said that all is well: study.h5 has the bytes of the undisturbed one. */
+/* After status 0 study.h5 has the bytes of the undisturbed one. */
 static void check_study(void)
 {
     const node *n = disk_find(DISK_ROOT "/study/study.h5");

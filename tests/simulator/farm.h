@@ -9,7 +9,7 @@
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/types/options.h"
 
-/* A realization that is cursed does the same at every attempt. */
+/* A cursed realization does the same at every attempt. */
 typedef enum { SOUND, CRASHES, LACKS_MEMORY, NEVER_ENDS } curse;
 
 enum { MOST_CAMPAIGNS = 8 };
@@ -31,7 +31,7 @@ extern struct farm {
     fracas_run_options options;
     int hosts;
     double seconds; /* of a realization, about */
-    int64_t faults; /* that may still come */
+    int64_t faults; /* still to come, at most */
     bool jumped;    /* the clock, far enough to end every lease */
 } farm;
 

@@ -299,7 +299,7 @@ struct fracas_letter {
     bool taken;
 };
 
-enum { EAGER = 4096 }; /* bytes of a message that MPI takes at once */
+enum { EAGER = 4096 }; /* bytes of a message taken by MPI at once */
 
 bool machine_mail(void)
 {

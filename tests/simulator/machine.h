@@ -12,7 +12,7 @@
 struct run {
     process *launcher, *mpirun;
     int jobs, nopen, nclosed, nended; /* ranks: all, behind MPI_Init, in MPI_Finalize, ended */
-    int living;                       /* processes that the launcher can reap */
+    int living;                       /* processes for the launcher to reap */
     bool failing;                     /* mpirun is about to kill it */
     process **rank, **keeper;         /* by rank */
     struct servers {

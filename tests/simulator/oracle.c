@@ -26,7 +26,7 @@ typedef struct {
 
 typedef struct {
     bool settled; /* done, or failed for good */
-    int hurt;     /* attempts that faults have taken */
+    int hurt;     /* attempts lost to faults */
     hold hold[MOST_HOLDS];
     size_t next;
 } realization;
@@ -38,7 +38,7 @@ static struct {
     int64_t settled;
     char **segment; /* names in the index */
     size_t nsegments, segments_room;
-    const run *run; /* that has the study */
+    const run *run; /* the holder of the study */
     double asked;   /* when the scheduler chose the present lease [s] */
 } oracle;
 
@@ -175,7 +175,7 @@ fracas_err __wrap_fracas_director_post(fracas_director *director, size_t worker,
     return __real_fracas_director_post(director, worker, kind, body, size);
 }
 
-/* A server gives back what comes behind the first `kept` of a lease. */
+/* A server gives back all behind the first `kept` of a lease. */
 static void give_back(const fracas_lease_failure *failure)
 {
     for (size_t p = 0; p < oracle.campaign->npoints; p++)
@@ -268,7 +268,7 @@ void oracle_removes(const char *path)
     if (disk_find(path) && knows(name)) broken("%s is removed or written over", path);
 }
 
-/* ---- a study that is opened again ---- */
+/* ---- a study opened again ---- */
 
 static bool ends(const char *name, const char *end)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What must hold whatever befalls a farm, looked at when it could cease to:
+/* Invariants of a farm, each checked when it could break:
  *
  * - a commit returns: its segment and the segment's name are durable, with the bytes of the seal;
  * - a segment in the index is never removed or written over;

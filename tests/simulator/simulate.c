@@ -51,7 +51,7 @@ static pid_t start(uint64_t seed, int64_t faults, loudness loud)
     const pid_t pid = fork();
     if (pid < 0) exit(70);
     if (pid) return pid;
-    const int null = open("/dev/null", O_WRONLY); /* the launcher repeats what mpirun has said */
+    const int null = open("/dev/null", O_WRONLY); /* the launcher repeats the words of mpirun */
     if (null >= 0) dup2(null, STDERR_FILENO);
     if (null >= 0 && loud == SILENT) dup2(null, STDOUT_FILENO);
     const uint64_t hash = farm_run(seed, asked.workers, faults, loud == TRACE);
@@ -68,7 +68,7 @@ static bool holds(uint64_t seed, int64_t faults, loudness loud)
     return waitpid(pid, &status, 0) == pid && status == 0;
 }
 
-/* The seed of the first that failed, UINT64_MAX if none did. */
+/* The seed of the first failure, UINT64_MAX without any. */
 static uint64_t run_many(void)
 {
     struct {
@@ -94,7 +94,7 @@ static uint64_t run_many(void)
 
 /* ---- study.h5 of an undisturbed farm ---- */
 
-/* Of the campaign that the seed draws. */
+/* Drawn by the seed: the campaign. */
 static void compute(uint64_t seed, int workers)
 {
     struct {

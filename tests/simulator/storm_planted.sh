@@ -1,6 +1,6 @@
 #!/bin/sh
 # ctest-labels: storm
-# Plants faults in the scheduler and the store, one at a time and in the simulator alone, and demands that 1000 farms show each.
+# Plants faults in the scheduler and the store, one at a time and in the simulator alone: 1000 farms must show each.
 # The source as changed is compiled beside the build and linked in front of it, as tools/fuzz-planted does.
 set -eu
 build=$1

@@ -124,7 +124,7 @@ static int vfs_size(sqlite3_file *file, sqlite3_int64 *size)
 
 /* ---- locks of the database ---- */
 
-/* The highest lock that another one has. */
+/* The highest lock of another one. */
 static int others(const vfs_file *f)
 {
     int most = SQLITE_LOCK_NONE;
@@ -193,7 +193,7 @@ static int vfs_map(sqlite3_file *file, int number, int size, int extend, void vo
     vfs_locks *locks = locks_of(f->file);
     *to = NULL;
     if (size != REGION) abort();
-    if (!any_mapped(f)) /* what dead ones left is void */
+    if (!any_mapped(f)) /* leavings of the dead are void */
         for (size_t r = 0; r < locks->nregions; r++) memset(locks->region[r], 0, REGION);
     f->mapped = true;
     while (locks->nregions <= (size_t)number) {

@@ -20,7 +20,7 @@ struct world world;
 enum { STACK = 640 << 10, MOST_EVENTS = 20000000 };
 
 static ucontext_t loop; /* of world_step */
-static void *corpse;    /* stack of a process that ended itself */
+static void *corpse;    /* stack of a process after its own end */
 static void *spare[4096];
 static size_t nspare;
 
@@ -52,7 +52,7 @@ double roll_between(dice of, double least, double most)
     return least * exp(roll(of) * log(most / least));
 }
 
-/* ---- what is told ---- */
+/* ---- messages and traces ---- */
 
 static void say(const char *format, va_list arguments)
 {

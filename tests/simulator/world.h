@@ -36,7 +36,7 @@ typedef struct process {
     double frozen_until; /* it does nothing before */
     int doom;            /* calls until it dies; 0: none */
     int alarm;           /* number of its last timer */
-    bool drain;          /* signals that came */
+    bool drain;          /* signals received */
     int asked;
     int error; /* its errno and its last message while others run */
     char message[MESSAGE];
@@ -47,7 +47,7 @@ typedef struct process {
     size_t descriptors; /* the first of its own: calls.c */
     letter *inbox, **inbox_end;
     double last_out, last_in; /* when the last message to, and from, rank 0 comes */
-    bool gave_up;             /* a server: it has said that it ends */
+    bool gave_up;             /* a server: it has announced its end */
 } process;
 
 typedef struct {
@@ -84,7 +84,7 @@ uint64_t roll_below(dice of, uint64_t bound); /* 0 to bound - 1 */
 bool chance(dice of, double probability);
 double roll_between(dice of, double least, double most); /* by its logarithm */
 
-/* ---- what is told ---- */
+/* ---- messages and traces ---- */
 void trace(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* An invariant does not hold: says so and ends this process. */
 _Noreturn void broken(const char *format, ...) __attribute__((format(printf, 1, 2)));
@@ -93,7 +93,7 @@ _Noreturn void broken(const char *format, ...) __attribute__((format(printf, 1, 
 void world_at(double time, void (*act)(void *what, uint64_t number), void *what, uint64_t number);
 /* Acts on the next event; false without any. */
 bool world_step(void);
-/* All processes die and what the disk had not synced is lost. */
+/* All processes die; unsynced changes are lost. */
 void world_blackout(void);
 
 /* ---- processes ---- */
@@ -107,7 +107,7 @@ void process_sleep(double until);
 void process_wake(process *p, double delay);
 /* Ends a process, the present one too, as waitpid tells it. */
 void process_end(process *p, int status);
-/* At every call that another system would see: it may be the last of this process. */
+/* At every call visible to another system: it may be the last of this process. */
 void call(const char *name);
 
 #endif

@@ -139,7 +139,7 @@ def put(path, data):
             out.write(data)
 
 
-# ---- what counts ----
+# ---- numbers of a study ----
 
 def content(study):
     """What counts in the index: text of each table, and each row that is done. None if SQLite cannot read it, or finds it damaged."""
@@ -195,7 +195,7 @@ def without_state(numbers):
     return {key: value for key, value in numbers.items() if key not in ("warnings", "partial", "complete")}
 
 
-# ---- doing what messages say ----
+# ---- remedies of messages ----
 
 def obey(of, said):
     """Does what a message says to do with ./case."""

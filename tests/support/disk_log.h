@@ -17,7 +17,7 @@ typedef enum {
     DISK_REMOVE,   /* a name in `folder`, of a file or an empty folder */
     DISK_PROMISE,  /* what an index calls durable, and its path, as texts (disk_recorder.c) */
     DISK_BEGIN,    /* a process of the program starts */
-    DISK_UNKNOWN,  /* a call that the model does not have */
+    DISK_UNKNOWN,  /* a call unknown to the model */
     DISK_NKINDS
 } disk_kind;
 
@@ -33,7 +33,7 @@ typedef struct {
     char mark[8];
     uint64_t end;   /* of the last entry [bytes] */
     uint64_t root;  /* node of the folder */
-    uint32_t owner; /* thread that is adding an entry, 0: none */
+    uint32_t owner; /* thread adding an entry, 0: none */
     uint32_t rest;
 } disk_log_head;
 

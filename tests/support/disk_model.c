@@ -100,7 +100,7 @@ typedef struct {
     size_t count;
 } disk_names;
 
-/* A change of names that waits for the sync of a folder. */
+/* A change of names, waiting for the sync of a folder. */
 typedef struct {
     disk_kind kind;
     size_t node, folder, other; /* `other`: of the second name; NONE: there is one name */
@@ -301,7 +301,7 @@ unsigned char *disk_latest(const disk *d, size_t node, size_t *size)
     return copy.bytes;
 }
 
-/* Calls `visit` with every name below a folder, folders before what is in them. */
+/* Calls `visit` with every name below a folder, folders before their content. */
 static void walk(const disk *d, const disk_names *names, size_t folder, const char *path,
                  void (*visit)(void *context, const char *path, const disk_name *name),
                  void *context)
@@ -343,7 +343,7 @@ void disk_each_durable(const disk *d, void (*visit)(void *context, const char *p
     walk(d, &d->durable, 0, "", visit_durable, &w);
 }
 
-/* ---- what a power cut leaves ---- */
+/* ---- after a power cut ---- */
 
 #define TEXT(name, meaning) meaning,
 const char *const disk_style_text[DISK_NSTYLES] = {DISK_EACH_STYLE(TEXT)};
@@ -353,7 +353,7 @@ disk_style disk_style_of(uint64_t seed)
     return (disk_style)(disk_random(seed, 0) % DISK_NSTYLES);
 }
 
-/* What is asked of a seed, each with its own numbers. */
+/* Questions to a seed, each with its own numbers. */
 typedef enum {
     ABOUT_NAME = 1,
     ABOUT_BOUND,
@@ -420,7 +420,7 @@ static disk_names choose_names(const disk *d, uint64_t seed)
     return names;
 }
 
-/* Sectors that a change writes, [*first, *last). */
+/* Sectors of a change, [*first, *last). */
 static void touched(const disk_change *c, size_t *first, size_t *last)
 {
     const disk_entry *e = c->entry;

@@ -4,7 +4,7 @@
  *
  *   DISK_LOG      a log with its head (power_loss begin)
  *   DISK_ROOT     the folder: a path without links
- *   DISK_SWALLOW  an fsync of a path that fits this pattern (fnmatch) does nothing: a fault
+ *   DISK_SWALLOW  an fsync of a path like this pattern (fnmatch) does nothing: a fault
  *   DISK_NETWORK  set: all filesystems are of the network
  *
  * A seccomp filter stops the calls, whoever makes them: C library, SQLite, HDF5. After each COMMIT
@@ -105,7 +105,7 @@ static bool is_shared_memory(const char *path)
     return end && (!end[4] || end[4] == ' ');
 }
 
-/* The path of a file that is recorded. */
+/* The path of a recorded file. */
 static bool is_recorded(long fd, char path[PATH_MAX])
 {
     return path_of(fd, path) && !is_shared_memory(path);
@@ -158,7 +158,7 @@ static long go_on(const call *c)
     return really(c->number, c->a[0], c->a[1], c->a[2], c->a[3], c->a[4]);
 }
 
-/* Of a file below the folder: the call is none that the model knows. */
+/* The model does not know this call on a file below the folder. */
 static long unknown(const call *c, const char *name)
 {
     take();
@@ -287,7 +287,7 @@ static long others(const call *c)
     return is_recorded(c->a[0], path) ? unknown(c, path) : go_on(c);
 }
 
-/* Calls by a path that the model does not have. */
+/* Calls by a path, unknown to the model. */
 static long others_by_path(const call *c, long at, long path)
 {
     const place p = look(at, (const char *)path);
@@ -390,7 +390,7 @@ static void watch_calls(void)
 
 /* ---- beside the calls ---- */
 
-/* Memory of a file that others would see. */
+/* Memory of a file, visible to others. */
 void *mmap64(void *at, size_t size, int rights, int flags, int fd, off_t offset)
     __attribute__((alias("mmap")));
 void *mmap(void *at, size_t size, int rights, int flags, int fd, off_t offset)
@@ -406,7 +406,7 @@ void *mmap(void *at, size_t size, int rights, int flags, int fd, off_t offset)
     return real(at, size, rights, flags, fd, offset);
 }
 
-/* A thread that blocks our signal would die of it: those of Open MPI block all. */
+/* A thread blocking our signal would die of it: Open MPI's block all. */
 int pthread_sigmask(int how, const sigset_t *given, sigset_t *before)
 {
     static int (*real)(int, const sigset_t *, sigset_t *);

@@ -17,8 +17,8 @@ void __libc_free(void *old);
 
 /* Volatile: the compiler believes that malloc changes nothing of ours. */
 static volatile long countdown;           /* allocations until one fails; 0: none does */
-static volatile bool has_failed, lasting; /* lasting: all after the first that fails do, too */
-static volatile long held;                /* allocations that nobody has freed */
+static volatile bool has_failed, lasting; /* lasting: after the first failure all fail */
+static volatile long held;                /* allocations not yet freed */
 
 static bool fails(void)
 {

@@ -68,7 +68,7 @@ void __wrap_fracas_units_destroy(fracas_units *units)
     (void)units;
 }
 
-/* ---- what workers share ---- */
+/* ---- shared by workers ---- */
 
 enum { FAULTS_MAX = 20 };
 
@@ -191,7 +191,7 @@ static const index_row *find_row(const index_state *state, const char *line)
     return bsearch(&wanted, state->row, state->count, sizeof wanted, by_line);
 }
 
-/* Every row that is done has its bytes, which are the right ones. */
+/* Every done row has its bytes, the right ones. */
 static bool check_rows(const worker *w, const index_state *state)
 {
     for (size_t r = 0; r < state->count; r++) {
@@ -232,7 +232,7 @@ typedef struct {
     bool good;
 } durability;
 
-/* A segment that was durable under its name when the power went: its realizations are done. */
+/* A segment durable under its name at the cut: its realizations are done. */
 static void check_durable(void *context, const char *path, size_t node)
 {
     durability *c = context;
@@ -304,7 +304,7 @@ static bool is_good_report(const worker *w, const char *report)
     return true;
 }
 
-/* As `run` begins: what the launcher does, then what rank 0 does. */
+/* As `run` begins: the launcher's part, then rank 0's. */
 static bool open_study(const worker *w, bool force)
 {
     const storm *s = w->s;
@@ -471,7 +471,7 @@ static void add(disk_entry entry, const char *name, const char *other, const voi
     put(bytes, entry.size);
 }
 
-/* A file that is there: made under another name, filled, synced and renamed. */
+/* A file made under another name, filled, synced and renamed. */
 static void add_present(const char *path, uint64_t folder, const char *name)
 {
     struct stat info;

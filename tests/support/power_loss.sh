@@ -80,7 +80,7 @@ record_bar()
     same bar/study whole-bar
 }
 
-# A rule for replicas, and a realization that FAILED.
+# A rule for replicas, and a FAILED realization.
 record_rule()
 {
     tiny rule.yaml 8 '3e4 1/s, 1e5 1/s'

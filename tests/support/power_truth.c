@@ -85,7 +85,7 @@ static void read_file(const char *path, reading *r, fracas_result_visit *visit)
 
 /* ---- files ---- */
 
-/* A name that a file gets when it is whole. */
+/* The name of a whole file. */
 static bool is_of_interest(const char *name)
 {
     const size_t length = strlen(name);
@@ -152,7 +152,7 @@ const power_file *power_truth_next(const power_truth *truth, const char *name,
     return NULL;
 }
 
-/* Inodes of files that had the right bytes, and that nobody changes in place. */
+/* Inodes of files with the right bytes, never changed in place. */
 static struct {
     uint64_t node;
     size_t size;

@@ -11,7 +11,7 @@ typedef struct {
     plane_memory rubbed; /* with friction, by the law that test_plane_laws verifies */
 } layer;
 
-/* What a layer does in a step. */
+/* A step of a layer. */
 typedef struct {
     double t[2], s[2], flux, stored, dissipated, created, rubbed, spent, midway[2];
     int cracked, loads, broken, breaks, cut, pressed;

@@ -1,10 +1,10 @@
 #!/bin/sh
-# Text of files and folder names that would drive a terminal, or is no UTF-8: escaped wherever it is printed, and JSON stays JSON.
+# Control characters, and bytes outside UTF-8, of files and folder names: escaped wherever it is printed, and JSON stays JSON.
 . tests/support/campaigns.sh
 
 awkward=$(printf '\342\200\256') folder=$(printf 'st\377udy')
 
-# clean FILE: neither ESC nor C1 nor a direction nor a byte that is not UTF-8.
+# clean FILE: neither ESC nor C1 nor a direction nor a byte outside UTF-8.
 clean()
 {
     python3 - "$1" <<'END_OF_PYTHON' || fail "$1 drives a terminal"

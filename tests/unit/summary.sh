@@ -79,7 +79,7 @@ summary = json.load(open("other/report/summary.json"))
 assert summary["points"][0]["fits"] is None and summary["stale_fits"] == 1
 END
 
-# A file of fits that is none is left out, with the reason.
+# A false file of fits is left out, with the reason.
 echo nonsense > other/fits.csv
 "$fracas" report other --json > json
 /usr/bin/python3 -c 'import json

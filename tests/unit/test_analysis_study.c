@@ -220,7 +220,7 @@ static void table_of_awkward_points(void **state)
     report_check(folder);
 }
 
-/* Texts of a study.h5 that somebody made by hand: neither markup nor what drives a terminal. */
+/* Texts of a study.h5 made by hand: neither markup nor control characters. */
 static void texts_of_a_file_are_no_markup(void **state)
 {
     char folder[512];

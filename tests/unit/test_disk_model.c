@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The disk that forgets: what may be lost, and what may not. */
+/* The forgetful disk: losses allowed and not allowed. */
 #define FOLDER "fracas-disk-model"
 #include "tests/support/folder.h"
 
@@ -161,7 +161,7 @@ static void truncation_is_whole(void **state)
     assert_int_equal(old + count_states("a", "", 0, &absent), SEEDS);
 }
 
-/* A name is that of one file or the other at all times. */
+/* A name leads to one file or the other at all times. */
 static void rename_is_atomic(void **state)
 {
     int absent, lost;

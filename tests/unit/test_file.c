@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files by name: what is no file is refused at once, and nothing is written through a link. */
+/* Files by name: anything else is refused at once, and nothing is written through a link. */
 #include "base/file.h"
 
 #include "base/own.h"

@@ -233,7 +233,7 @@ static void one_point(void **state)
     fracas_fits_destroy(all);
 }
 
-/* Writes these lines with the seal that belongs to them. */
+/* Writes these lines with their seal. */
 static void write_sealed(const char *path, const char *lines)
 {
     char all[600];

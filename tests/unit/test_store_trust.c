@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files of a study that somebody else may have made (docs/decisions/trust.md). */
+/* Files of a stranger's study (docs/decisions/trust.md). */
 #include "base/version.h"
 #include "campaigns/store/file/h5.h"
 #include "tests/support/study_fixture.h"

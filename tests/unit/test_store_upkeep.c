@@ -52,7 +52,7 @@ static void a_lost_or_damaged_index_is_made_anew(void **state)
         assert_int_equal(after.done, before.done);
         assert_int_equal(after.planned, before.planned + 1);
         failures_are("");
-        /* with the log of the second, and what SQLite reads that by */
+        /* with the log of the second, and its -shm */
         assert_int_equal(sample_files(study, "index.sqlite.before"), damage ? damage + 2 : 0);
         if (damage) says("cannot be used");
         verify_finds(0, "");

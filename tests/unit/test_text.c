@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Text that may hold anything: characters, what is hidden of it, messages, JSON, stdout. */
+/* Text with anything in it: characters, hidden ones, messages, JSON, stdout. */
 #include "base/text.h"
 
 #include "base/err.h"
@@ -96,7 +96,7 @@ static void stdout_is_guarded(void **unused)
             putchar(*c);
             fflush(stdout);
         }
-        fputs("\xe2\x82", stdout); /* a character that is never finished */
+        fputs("\xe2\x82", stdout); /* an unfinished character */
         _exit(fclose(stdout) != 0);
     }
     close(ends[1]);

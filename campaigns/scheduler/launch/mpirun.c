@@ -26,7 +26,7 @@ static void set_environment(void)
         /* No warning where a fast network is compiled in and not there. */
         {"OMPI_MCA_btl_base_warn_component_unused", "0"},
         {"OMPI_MCA_orte_base_help_aggregate", "1"},
-        /* A rank that crashes dies: the backtrace of Open MPI hung where memory was short. */
+        /* A crashed rank dies at once: the backtrace of Open MPI hung where memory was short. */
         {"OMPI_MCA_opal_signal", ""},
         /* hwloc warns of contradictory firmware tables; nothing is bound here. */
         {"HWLOC_HIDE_ERRORS", "2"},

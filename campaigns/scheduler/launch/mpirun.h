@@ -24,8 +24,8 @@ FRACAS_MUST_USE fracas_err fracas_mpirun_start(int jobs, int argc, char **argv,
                                                const fracas_scratch *scratch,
                                                fracas_mpirun *mpirun);
 
-/* True, with the reason and its remedy in `text`, if the output says that no further start can
- * help: a component of Open MPI that is asked for and not there. */
+/* True, with the reason and its remedy in `text`, if no further start can help: the output names
+ * a missing component of Open MPI. */
 bool fracas_mpirun_hopeless(const char *output, char *text, size_t size);
 
 /* The reason for an early end: the most telling line of the output of mpirun and the ranks; ""

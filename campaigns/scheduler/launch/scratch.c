@@ -46,7 +46,7 @@ static int lock_folder(const char *path, int wait)
     return -1;
 }
 
-/* Removes what killed runs have left in a folder: nobody has its lock. */
+/* Removes the folders of killed runs: nobody holds their locks. */
 static void sweep(const char *base)
 {
     DIR *all = opendir(base);

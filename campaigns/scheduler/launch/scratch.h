@@ -19,7 +19,7 @@ typedef struct {
  * otherwise. FRACAS_ENVIRONMENT: no `session`, or no room in it. */
 FRACAS_MUST_USE fracas_err fracas_scratch_create(fracas_scratch *scratch);
 
-/* In the process that becomes mpirun: names the folders to it and to the ranks. */
+/* In the process about to become mpirun: names the folders to it and to the ranks. */
 void fracas_scratch_export(const fracas_scratch *scratch);
 
 /* In a rank, before MPI_Init. */

@@ -16,7 +16,7 @@ typedef struct task {
     bool isolated;
     bool done;         /* durable, by whichever worker was first */
     size_t held, kept; /* numbers of workers: computing it, with it in memory */
-    size_t returned;   /* times that it failed while another worker had it */
+    size_t returned;   /* failures while another worker had it */
     size_t count;
     int64_t replica[];
 } task;
@@ -304,7 +304,7 @@ static task *cut(fracas_scheduler *s, double now)
 
 /* Time from which a task is overdue, had by one worker since `since` and `kept` seconds in its
  * memory at most; INFINITY: never. After each failure elsewhere it has the time of another lease:
- * that worker's attempt must end alone, or two would take turns with what never ends. */
+ * this worker's attempt must end alone, or two would take turns with an endless one. */
 static double overdue_at(const fracas_scheduler *s, const task *t, double since, double kept)
 {
     const double expected = predicted(s, t);

@@ -26,7 +26,7 @@ void fracas_mailbox_abort(void);
  */
 FRACAS_MUST_USE fracas_err fracas_mailbox_post(fracas_mailbox *box, int to,
                                                const fracas_packet *message);
-/* Frees the messages that have been taken; box->outbox is NULL when none is under way. */
+/* Frees the delivered messages; box->outbox is NULL when none is under way. */
 FRACAS_MUST_USE fracas_err fracas_mailbox_clear(fracas_mailbox *box);
 
 /* *message, freed by the caller, is NULL when none has come. */

@@ -11,7 +11,7 @@
 typedef struct {
     fracas_supervisor supervisor; /* with the connection */
     bool ended;                   /* the server has sent its last message: ENDED or TROUBLE */
-    int unknown; /* new servers that rank 0 does not know of: its messages are for a former one */
+    int unknown; /* new servers unknown to rank 0: its messages are for a former one */
     int deaths;  /* servers lost since the last segment or failure report */
 } fracas_link;
 

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A file and a campaign, and the row or column of one that belongs to that of the other. */
+/* A file and a campaign, and for each row or column of one its partner in the other. */
 typedef struct {
     const fracas_point_table *found, *wanted;
     bool same_program; /* its descriptions and derived values are comparable, too */

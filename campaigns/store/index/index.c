@@ -213,7 +213,7 @@ static fracas_err pragma(fracas_index *index, const char *text, const char *want
                        text, found ? found : "", wanted);
 }
 
-/* Limits on a database that somebody else may have made (docs/decisions/trust.md). A log that was
+/* Limits on a stranger's database (docs/decisions/trust.md). A log that was
  * there stays as it is when a reader ends. The schema is trusted: SQLite does not count json_valid,
  * which ours calls, among the functions that any schema may call. */
 static fracas_err set_limits(fracas_index *index, bool keep_log)
@@ -232,7 +232,7 @@ static fracas_err set_limits(fracas_index *index, bool keep_log)
     return check(index, code);
 }
 
-/* Runs a query of one text that must find none. */
+/* Runs a query of one text, which must find none. */
 static fracas_err check_none(fracas_index *index, const char *query)
 {
     OWNED char *text = NULL;
@@ -242,7 +242,7 @@ static fracas_err check_none(fracas_index *index, const char *query)
                        index->path, text, remedy);
 }
 
-/* Tables alone, whose columns are stored: nothing that runs when it is read. */
+/* Tables alone, whose columns are stored: nothing runs when they are read. */
 static fracas_err check_objects(fracas_index *index)
 {
     TRY(check_none(index, "SELECT CASE type WHEN 'table' THEN 'virtual table' ELSE type END || ' ' "
@@ -356,7 +356,7 @@ static bool can_write(const char *path)
     return faccessat(AT_FDCWD, path, W_OK, AT_EACCESS) == 0;
 }
 
-/* A rollback journal that ends with the name of another file makes SQLite look there, and remove
+/* A rollback journal ending with the name of another file makes SQLite look there, and remove
  * it. fracas writes to one database at a time, whose journals name none. */
 static fracas_err check_journal(const char *path)
 {
@@ -401,7 +401,7 @@ static fracas_err connect_to(fracas_index *index, const char *study, bool create
     index->reading = !create;
     const bool keep_log = index->reading && has_log(index->path);
     if (create || (can_write(index->path) && can_write(study))) {
-        /* A reader, too: only so does SQLite take the files away that it reads by. */
+        /* A reader, too: only so does SQLite take its -wal and -shm away. */
         int flags = SQLITE_OPEN_READWRITE | (create ? SQLITE_OPEN_CREATE : 0);
         TRY(check(index, sqlite3_open_v2(index->path, &index->db, flags, NULL)));
     } else {

@@ -122,7 +122,7 @@ static fracas_err copy_to(int from, const fracas_file_seal *seal, const char *te
     return fsync(to) < 0 ? fracas_disk_fail("sync", path) : FRACAS_OK;
 }
 
-/* A file that lies there itself, not a link to a store whose owner may empty it. */
+/* A file of the folder itself, not a link to a store whose owner may empty it. */
 static bool is_plain(const char *path)
 {
     struct stat info;

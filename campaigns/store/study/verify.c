@@ -106,7 +106,7 @@ static fracas_err check_consistency(verification *v)
 
 /* ---- places ---- */
 
-/* Whatever lies in the place of what a command writes, and is refused there. */
+/* Links and other things in the place of files and folders of ours. */
 static fracas_err check_places(verification *v)
 {
     static const char *const name[] = {"lock", "segments", "attachments", "report"};
