@@ -273,19 +273,16 @@ htri_t __wrap_H5Lexists(hid_t id, const char *path, hid_t list)
     return find(&h5, path) != NULL;
 }
 
-ssize_t __wrap_H5Lget_name_by_idx(hid_t id, const char *group, H5_index_t by, H5_iter_order_t order,
-                                  hsize_t number, char *name, size_t size, hid_t list)
+fracas_err __wrap_fracas_h5_link_names(const fracas_h5 *h5, const char *group, size_t most,
+                                       char **name, size_t *count)
 {
-    (void)group, (void)by, (void)order, (void)list;
-    if (number >= file[id]->npoints) return -1;
-    return snprintf(name, size, "%s", file[id]->point[number] + strlen("/point/"));
-}
-
-herr_t __wrap_H5Gget_info_by_name(hid_t id, const char *group, H5G_info_t *info, hid_t list)
-{
-    (void)group, (void)list;
-    info->nlinks = file[id]->npoints;
-    return 0;
+    const columns *of = file[h5->id];
+    for (*count = 0; *count < of->npoints; ++*count) {
+        if (*count == most) return __wrap_fracas_h5_fail(h5, group);
+        name[*count] = strdup(of->point[*count] + strlen("/point/"));
+        if (!name[*count]) return fracas_no_memory("the names of a group");
+    }
+    return FRACAS_OK;
 }
 
 /* ---- datasets: their handle is their place in the list ---- */

@@ -158,6 +158,43 @@ fracas_err fracas_h5_create_group(const fracas_h5 *h5, const char *path)
     return group < 0 ? fracas_h5_fail(h5, path) : FRACAS_OK;
 }
 
+typedef struct {
+    char **name;
+    size_t count, most;
+    bool no_memory;
+} link_names;
+
+static herr_t take_link(hid_t group, const char *name, const H5L_info_t *info, void *taken)
+{
+    (void)group, (void)info;
+    link_names *names = taken;
+    if (names->count == names->most) return -1;
+    names->no_memory = !(names->name[names->count] = strdup(name));
+    if (names->no_memory) return -1;
+    names->count++;
+    return 0;
+}
+
+static int by_bytes(const void *a, const void *b)
+{
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+fracas_err fracas_h5_link_names(const fracas_h5 *h5, const char *group, size_t most, char **name,
+                                size_t *count)
+{
+    link_names names = {name, 0, most, false};
+    /* HDF5 1.10 sorts links in a table, and frees what it never set there once a link is damaged.
+     */
+    const herr_t status = H5Literate_by_name(h5->id, group, H5_INDEX_NAME, H5_ITER_NATIVE, NULL,
+                                             take_link, &names, H5P_DEFAULT);
+    *count = names.count;
+    if (names.no_memory) return fracas_no_memory("the names of a group");
+    if (status < 0) return fracas_h5_fail(h5, group);
+    qsort(name, names.count, sizeof *name, by_bytes);
+    return FRACAS_OK;
+}
+
 fracas_err fracas_h5_text_width(const fracas_h5 *h5, const char *path, size_t *width)
 {
     OWN_ID dataset = H5Dopen2(h5->id, path, H5P_DEFAULT);

@@ -66,6 +66,10 @@ FRACAS_MUST_USE fracas_err fracas_h5_get_integer(const fracas_h5 *h5, const char
                                                  uint64_t *value);
 
 FRACAS_MUST_USE fracas_err fracas_h5_create_group(const fracas_h5 *h5, const char *path);
+/* Names of the *count links of a group in byte order, at most `most`, each freed by the caller,
+ * after an error too. FRACAS_DAMAGED if there are more. */
+FRACAS_MUST_USE fracas_err fracas_h5_link_names(const fracas_h5 *h5, const char *group, size_t most,
+                                                char **name, size_t *count);
 /* Bytes of the texts of a dataset, 0 if it holds none. */
 FRACAS_MUST_USE fracas_err fracas_h5_text_width(const fracas_h5 *h5, const char *path,
                                                 size_t *width);

@@ -160,53 +160,54 @@ static fracas_err read_values(const fracas_h5 *h5, const char *name, fracas_stor
     return err;
 }
 
-/* Name of link `n` of /point in byte order; false for the two that are no columns of the table. */
-static fracas_err column_name(const fracas_h5 *h5, hsize_t n, char name[240], bool *is_column)
+static bool is_column(const char *link)
 {
-    ssize_t length = H5Lget_name_by_idx(h5->id, "/point", H5_INDEX_NAME, H5_ITER_INC, n, name, 240,
-                                        H5P_DEFAULT);
-    if (length <= 0 || length >= 240) return fracas_h5_fail(h5, "/point");
-    *is_column = strcmp(name, strrchr(fracas_store_point_hash.path, '/') + 1) != 0 &&
-                 strcmp(name, strrchr(fracas_store_point_replicas.path, '/') + 1) != 0;
+    return strcmp(link, strrchr(fracas_store_point_hash.path, '/') + 1) != 0 &&
+           strcmp(link, strrchr(fracas_store_point_replicas.path, '/') + 1) != 0;
+}
+
+static fracas_err read_columns(const fracas_h5 *h5, fracas_stored_table *stored, char **link,
+                               size_t nlinks)
+{
+    size_t c = 0;
+    for (size_t n = 0; n < nlinks; n++) {
+        if (!is_column(link[n])) continue;
+        if (c == stored->table.ncolumns) return fracas_h5_fail(h5, "/point");
+        TRY(read_values(h5, link[n], stored, c));
+        c++;
+    }
     return FRACAS_OK;
 }
 
 fracas_err fracas_table_read(const fracas_h5 *h5, fracas_stored_table *stored)
 {
-    H5G_info_t info;
-    if (H5Gget_info_by_name(h5->id, "/point", &info, H5P_DEFAULT) < 0)
-        return fracas_h5_fail(h5, "/point");
     TRY(fracas_table_read_points(h5, stored));
-    /* After a bad checksum in a part of a group's header HDF5 1.10 may go on without the links in
-     * it. */
     uint64_t columns;
     TRY(fracas_h5_get_integer(h5, "/point", "columns", H5T_STD_I64LE, &columns));
-    if (info.nlinks < 2 || info.nlinks > h5->bytes || info.nlinks - 2 != columns)
-        return fracas_fail(FRACAS_DAMAGED,
-                           "%s: /point: damaged: it has not the columns that it says", h5->path);
-    size_t ncolumns = columns, npoints = stored->table.npoints;
-    if (ncolumns && npoints > h5->bytes / ncolumns) /* each value takes a byte at least */
+    const size_t ncolumns = columns, npoints = stored->table.npoints;
+    /* each link takes a byte at least, and each value */
+    if (columns > h5->bytes || (ncolumns && npoints > h5->bytes / ncolumns))
         return fracas_fail(FRACAS_DAMAGED, "%s: /point: damaged: it has more values than bytes",
                            h5->path);
     stored->column = calloc(ncolumns + 1, sizeof *stored->column);
     stored->text = calloc(ncolumns + 1, sizeof *stored->text);
     stored->value = calloc(npoints * ncolumns + 1, sizeof *stored->value);
-    if (!stored->column || !stored->text || !stored->value)
+    OWNED char **link = calloc(ncolumns + 2, sizeof *link);
+    if (!stored->column || !stored->text || !stored->value || !link)
         return fracas_no_memory("the point table");
     stored->table.column = stored->column;
     stored->table.ncolumns = ncolumns;
-    size_t c = 0;
-    for (hsize_t n = 0; n < info.nlinks; n++) {
-        char name[240];
-        bool is_column = false;
-        TRY(column_name(h5, n, name, &is_column));
-        if (!is_column) continue;
-        if (c == ncolumns) return fracas_h5_fail(h5, "/point");
-        TRY(read_values(h5, name, stored, c));
-        c++;
-    }
-    for (size_t p = 0; p < npoints; p++) stored->point[p].value = stored->value + p * ncolumns;
-    return FRACAS_OK;
+    size_t nlinks = 0;
+    fracas_err err = fracas_h5_link_names(h5, "/point", ncolumns + 2, link, &nlinks);
+    /* After a bad checksum in a part of a group's header HDF5 1.10 may go on without its links. */
+    if (!err && nlinks != ncolumns + 2)
+        err = fracas_fail(FRACAS_DAMAGED,
+                          "%s: /point: damaged: it has not the columns that it says", h5->path);
+    if (!err) err = read_columns(h5, stored, link, nlinks);
+    for (size_t n = 0; n < nlinks; n++) free(link[n]);
+    for (size_t p = 0; !err && p < npoints; p++)
+        stored->point[p].value = stored->value + p * ncolumns;
+    return err;
 }
 
 void fracas_table_clear(fracas_stored_table *stored)
