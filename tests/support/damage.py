@@ -162,7 +162,7 @@ def content(study):
                 "SELECT point, replica, status, ifnull(outcome, -1), ifnull(segment, -1), ifnull(row, -1), ifnull(fragments, -1),"
                 " ifnull(fragments_dust, -1), ifnull(steps, -1), quote(dissipated), quote(residual), quote(size) FROM realization")}
             return tables, rows
-        except sqlite3.Error:
+        except (sqlite3.Error, UnicodeDecodeError):  # a message may quote damaged bytes
             return None
         finally:
             base.close()
