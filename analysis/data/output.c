@@ -11,13 +11,13 @@
 
 fracas_err fracas_output_folder(const char *folder)
 {
-    struct stat what;
+    struct stat what = {0};
     if (!mkdir(folder, 0777)) return FRACAS_OK;
-    const int reason = errno;
-    if (reason == EEXIST && !stat(folder, &what) && S_ISDIR(what.st_mode)) return FRACAS_OK;
-    if (reason == EEXIST)
+    if (errno == EEXIST && (!stat(folder, &what) || errno == ENOENT || errno == ELOOP)) {
+        if (S_ISDIR(what.st_mode)) return FRACAS_OK;
         return fracas_fail(FRACAS_USAGE, "%s is no folder; move it away or name another", folder);
-    return fracas_fail_system(reason, "cannot make the folder %s", folder);
+    }
+    return fracas_fail_system(errno, "cannot make the folder %s", folder);
 }
 
 fracas_err fracas_output_folder_in(const char *study, const char *name, char **folder)

@@ -122,7 +122,10 @@ static _Noreturn void child(const char *folder, char (*name)[FRACAS_DRAWING], si
     fracas_err err = load(&lib);
     for (size_t i = 0; i < count && !err; i++) err = convert(&lib, folder, name[i]);
     const char *message = err ? fracas_message() : "";
-    if (write(pipe_end, message, strlen(message)) < 0) err = FRACAS_ENVIRONMENT;
+    ssize_t n;
+    do n = write(pipe_end, message, strlen(message));
+    while (n < 0 && errno == EINTR);
+    if (n < 0) err = FRACAS_ENVIRONMENT;
     _exit(err); /* not through the exit handlers of the parent */
 }
 

@@ -3,31 +3,40 @@
 #include "tests/support/failing_calls.h"
 #include "tests/support/own_calls.h"
 
+#include <dirent.h>
 #include <dlfcn.h>
+#include <execinfo.h>
 #include <fcntl.h>
 #include <mpi.h>
+#include <poll.h>
+#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <sys/wait.h>
 #include <ucontext.h>
 #include <unistd.h>
 
-static const char *const class_name[FAILING_NCLASSES] = {"disk", "read",   "sqlite", "hdf5",
-                                                         "mpi",  "memory", "process"};
+static const char *const class_name[FAILING_NCLASSES] = {
+    "disk", "read", "sqlite", "hdf5", "mpi", "memory", "process", "wait", "system"};
 static const struct {
     const char *name;
     int code;
-} errors[] = {{"EIO", EIO},       {"ENOSPC", ENOSPC}, {"EDQUOT", EDQUOT},
-              {"ENOMEM", ENOMEM}, {"EAGAIN", EAGAIN}, {"EMFILE", EMFILE}};
+} errors[] = {{"EIO", EIO},       {"ENOSPC", ENOSPC}, {"EDQUOT", EDQUOT}, {"ENOMEM", ENOMEM},
+              {"EAGAIN", EAGAIN}, {"EMFILE", EMFILE}, {"EINTR", EINTR}};
 
 static failing_state *state; /* NULL: nothing is counted */
 static failing_class wanted;
 static int where, wanted_where; /* failing_state.count */
-static uint64_t wanted_at;
+static uint64_t wanted_at, wanted_site;
 static int error;
-static bool kills, tears, is_late;
+static bool kills, tears, is_late, is_short, by_site;
 static const char *under;
 
 static void die(void)
@@ -48,12 +57,48 @@ static void note(const char *what, const char *on)
     state->failed[at] = '\0';
 }
 
+/* The place in the program that calls: its innermost return addresses, so that a function that
+ * many call is many places. 0: none. */
+static uint64_t site_of_call(void)
+{
+    enum { INNERMOST = 3, FRAMES = 32 };
+    void *frame[FRAMES];
+    const int n = backtrace(frame, FRAMES);
+    uint64_t key = 0;
+    for (int i = 0, found = 0; i < n && found < INNERMOST; i++)
+        if (failing_by_program(frame[i])) {
+            key = (key ^ failing_in_program(frame[i])) * 0x100000001b3 + 1;
+            found++;
+        }
+    return key;
+}
+
+/* How often this place has called now; the first call enters it. */
+static uint64_t count_at(uint64_t key)
+{
+    for (size_t at = key % FAILING_SITES, n = 0; n < FAILING_SITES;
+         at = (at + 1) % FAILING_SITES, n++) {
+        uint64_t found = 0;
+        if (__atomic_compare_exchange_n(&state->site[at].key, &found, key, false, __ATOMIC_SEQ_CST,
+                                        __ATOMIC_SEQ_CST) ||
+            found == key)
+            return __atomic_add_fetch(&state->site[at].count, 1, __ATOMIC_SEQ_CST);
+    }
+    return 0;
+}
+
 /* Counts; true if this is the call. */
 static bool is_it(failing_class class, const char *what, const char *on)
 {
     if (!state) return false;
-    const uint64_t number = __atomic_add_fetch(&state->count[where][class], 1, __ATOMIC_SEQ_CST);
-    if (class != wanted || where != wanted_where || number != wanted_at) return false;
+    uint64_t number = __atomic_add_fetch(&state->count[where][class], 1, __ATOMIC_SEQ_CST);
+    if (class != wanted || where != wanted_where) return false;
+    if (by_site) {
+        const uint64_t site = site_of_call();
+        number = site ? count_at(site) : 0;
+        if (site != wanted_site) return false;
+    }
+    if (number != wanted_at) return false;
     note(what, on);
     return true;
 }
@@ -199,7 +244,7 @@ static void find_code(void)
         uintptr_t from, to;
         if (sscanf(line, "%lx-%lx %7s", &from, &to, rights) != 3 || rights[2] != 'x') continue;
         for (size_t o = 0; o < sizeof owner / sizeof *owner; o++) {
-            const bool left_out = where == 0 && strcmp(owner[o], "/libhdf5") == 0;
+            const bool left_out = by_site ? o > 0 : where == 0 && strcmp(owner[o], "/libhdf5") == 0;
             if (ncode == sizeof code / sizeof *code || left_out || !strstr(line, owner[o]))
                 continue;
             code[ncode].from = from;
@@ -220,6 +265,11 @@ static bool is_ours(const void *caller)
 bool failing_by_program(const void *caller)
 {
     return ncode > 0 && (uintptr_t)caller >= code[0].from && (uintptr_t)caller < code[0].to;
+}
+
+uint64_t failing_in_program(const void *caller)
+{
+    return (uintptr_t)caller - code[0].from;
 }
 
 static bool no_memory(const char *what, const void *caller)
@@ -296,6 +346,67 @@ int socketpair(int domain, int type, int protocol, int fd[2])
     return no_process("socketpair", EMFILE) ? -1 : real(domain, type, protocol, fd);
 }
 
+/* ---- calls that wait, and others that the system may refuse ---- */
+
+/* Of the program's own calls: 0, the error, or SHORT. */
+enum { SHORT = -1 };
+enum { MAY_WAIT = 1, MAY_FAIL = 2, MAY = MAY_WAIT | MAY_FAIL };
+static int refusal(int may, const char *what, const void *caller)
+{
+    if (!state || !failing_by_program(caller)) return 0;
+    if ((may & MAY_WAIT) && failing_call(FAILING_WAIT, what, NULL)) return is_short ? SHORT : EINTR;
+    return (may & MAY_FAIL) && failing_call(FAILING_SYSTEM, what, NULL) ? error : 0;
+}
+
+/* `bad` is what it returns then; `shorten` what a short call does first. */
+#define REFUSED(may, type, bad, name, parameters, arguments, shorten)     \
+    type name parameters                                                  \
+    {                                                                     \
+        static type(*real) parameters;                                    \
+        if (!real) real = (type(*) parameters)dlsym(RTLD_NEXT, #name);    \
+        const int why = refusal(may, #name, __builtin_return_address(0)); \
+        if (why > 0) return errno = why, bad;                             \
+        if (why == SHORT) {                                               \
+            shorten;                                                      \
+        }                                                                 \
+        return real arguments;                                            \
+    }
+#define HALF(size) size -= size / 2
+REFUSED(MAY, ssize_t, -1, read, (int fd, void *to, size_t size), (fd, to, size), HALF(size))
+REFUSED(MAY, ssize_t, -1, write, (int fd, const void *from, size_t size), (fd, from, size),
+        HALF(size))
+REFUSED(MAY, ssize_t, -1, send, (int fd, const void *from, size_t size, int flags),
+        (fd, from, size, flags), HALF(size))
+REFUSED(MAY, ssize_t, -1, sendmsg, (int fd, const struct msghdr *from, int flags),
+        (fd, from, flags), )
+REFUSED(MAY, ssize_t, -1, recvmsg, (int fd, struct msghdr *to, int flags), (fd, to, flags), )
+REFUSED(MAY, int, -1, poll, (struct pollfd * of, nfds_t n, int wait), (of, n, wait), )
+REFUSED(MAY, int, -1, ppoll,
+        (struct pollfd * of, nfds_t n, const struct timespec *wait, const sigset_t *mask),
+        (of, n, wait, mask), )
+REFUSED(MAY_WAIT, pid_t, -1, waitpid, (pid_t pid, int *status, int how), (pid, status, how), )
+REFUSED(MAY_WAIT, int, -1, waitid, (idtype_t what, id_t id, siginfo_t *info, int how),
+        (what, id, info, how), )
+REFUSED(MAY_FAIL, ssize_t, -1, pread, (int fd, void *to, size_t size, off_t at),
+        (fd, to, size, at), )
+REFUSED(MAY_FAIL, ssize_t, -1, readlink, (const char *path, char *to, size_t size),
+        (path, to, size), )
+REFUSED(MAY_FAIL, DIR *, NULL, opendir, (const char *path), (path), )
+REFUSED(MAY_FAIL, char *, NULL, mkdtemp, (char *path), (path), )
+REFUSED(MAY_FAIL, int, -1, statvfs, (const char *path, struct statvfs *info), (path, info), )
+REFUSED(MAY_FAIL, int, -1, stat, (const char *path, struct stat *info), (path, info), )
+REFUSED(MAY_FAIL, int, -1, lstat, (const char *path, struct stat *info), (path, info), )
+REFUSED(MAY_FAIL, int, -1, fstat, (int fd, struct stat *info), (fd, info), )
+REFUSED(MAY_FAIL, int, -1, flock, (int fd, int how), (fd, how), )
+REFUSED(MAY_FAIL, int, -1, memfd_create, (const char *name, unsigned flags), (name, flags), )
+REFUSED(MAY_FAIL, int, -1, ftruncate, (int fd, off_t size), (fd, size), )
+REFUSED(MAY_FAIL, int, -1, sched_getaffinity, (pid_t pid, size_t size, cpu_set_t *set),
+        (pid, size, set), )
+REFUSED(MAY_FAIL, int, -1, getrlimit, (enum __rlimit_resource what, struct rlimit *limit),
+        (what, limit), )
+REFUSED(MAY_FAIL, int, -1, setrlimit, (enum __rlimit_resource what, const struct rlimit *limit),
+        (what, limit), )
+
 /* ---- MPI ---- */
 
 #define MPI(name, parameters, arguments)                                               \
@@ -313,8 +424,11 @@ MPI(Comm_size, (MPI_Comm comm, int *size), (comm, size))
 MPI(Iprobe, (int source, int tag, MPI_Comm comm, int *flag, MPI_Status *status),
     (source, tag, comm, flag, status))
 MPI(Get_count, (const MPI_Status *status, MPI_Datatype type, int *count), (status, type, count))
-MPI(Send, (const void *buffer, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm),
-    (buffer, count, type, to, tag, comm))
+MPI(Isend,
+    (const void *buffer, int count, MPI_Datatype type, int to, int tag, MPI_Comm comm,
+     MPI_Request *request),
+    (buffer, count, type, to, tag, comm, request))
+MPI(Test, (MPI_Request * request, int *flag, MPI_Status *status), (request, flag, status))
 MPI(Recv,
     (void *buffer, int count, MPI_Datatype type, int from, int tag, MPI_Comm comm,
      MPI_Status *status),
@@ -327,6 +441,7 @@ static void read_how(const char *how)
 {
     kills = strcmp(how, "kill") == 0;
     tears = strcmp(how, "torn") == 0;
+    is_short = strcmp(how, "short") == 0;
     is_late = strcmp(how, "late") == 0;
     error = EIO;
     for (size_t e = 0; e < sizeof errors / sizeof *errors; e++)
@@ -344,15 +459,19 @@ __attribute__((constructor)) static void start(void)
     const char *what = getenv("FAILING_CALLS"), *file = getenv("FAILING_STATE"),
                *rank = getenv("OMPI_COMM_WORLD_RANK");
     char class[16], place[16], how[16];
-    unsigned long long at;
+    unsigned long long at, site;
     under = getenv("FAILING_UNDER");
     if (!what || !file || !under || strcmp(program_invocation_short_name, "fracas") != 0) return;
-    if (sscanf(what, "%15s %15s %llu %15s", class, place, &at, how) != 4) return;
+    by_site = sscanf(what, "%15s %15s %llx@%llu %15s", class, place, &site, &at, how) == 5;
+    if (!by_site && sscanf(what, "%15s %15s %llu %15s", class, place, &at, how) != 4) return;
     for (int c = 0; c < FAILING_NCLASSES; c++)
         if (strcmp(class, class_name[c]) == 0) wanted = (failing_class)c;
     wanted_where = where_of(place);
     wanted_at = at;
+    wanted_site = by_site ? site : 0;
     read_how(how);
+    void *none[1];
+    if (by_site) backtrace(none, 1); /* which allocates the first time */
     if (rank && atoi(rank) >= FAILING_RANKS) return;
     where = rank ? 1 + atoi(rank) * FAILING_DEPTHS : 0;
     find_code();

@@ -2,7 +2,8 @@
 
     failing_calls.py FRACAS FAILING_CALLS.SO FOLDER [WHAT ...]
 
-WHAT is CLASS:WHERE:HOW[:SAMPLES], or nothing for the few of the ordinary suite. After each failure:
+WHAT is CLASS:WHERE:HOW[:SAMPLES], or CLASS:WHERE:HOW:sites[SAMPLES]: the first call from each place in the program. WHERE may be
+`launcher`: the parent when it starts MPI. After each failure:
   - the program has ended by itself with status 0, 3 or 6, or died of the kill; never with 70, never by a signal of its own;
   - a status that is not 0 has a message, and that names the study or what failed;
   - status 0 means the bytes of an undisturbed run;
@@ -25,11 +26,12 @@ import time
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from study_rows import done_rows  # noqa: E402
 
-CLASSES = ["disk", "read", "sqlite", "hdf5", "mpi", "memory", "process"]
+CLASSES = ["disk", "read", "sqlite", "hdf5", "mpi", "memory", "process", "wait", "system"]
+SITES = 4096
 RANKS = DEPTHS = 4
 NWHERES = 1 + RANKS * DEPTHS
 SEED = int(os.environ.get("FRACAS_STORM_SEED", "1"))
-LIMIT = 600  # s that a run may take: a fault must not make it wait for ever
+LIMIT = 200  # s that a run may take: a fault must not make it wait for ever
 
 # One rank without mpirun, and without the parts of Open MPI that look for networks: a tenth of a second.
 ALONE = {"OMPI_COMM_WORLD_RANK": "0", "OMPI_MCA_ess_singleton_isolated": "1", "OMPI_MCA_pml": "ob1", "OMPI_MCA_btl": "self",
@@ -50,6 +52,12 @@ time: {stop: settled, end: 30 ns, quiet: 5 ns, safety: 0.25}
 replicas: 2
 output: {history: 2, interfaces: true}
 """
+# For the failures of each place: a file, two designs, and a rule for the replicas, so that most places are passed.
+FULL = CAMPAIGN.replace("{distribution: uniform, minimum: 299 MPa, maximum: 301 MPa}", "{distribution: file, file: strengths.txt}").replace(
+    "replicas: 2\n", "replicas: {minimum: 8, maximum: 9, until: {quantity: dissipated, relative-half-width: 1e-6}}\n") + """\
+sweep:
+  - cases: [{name: slow}, {name: fast, loading.rate: 2e5 1/s}]
+"""
 # A segment for each realization; hdf5 calls are so many that one segment must do.
 SMALL = ["--lanes", "1", "--lease-time", "0", "--segment-size", "1e-6"]
 WHOLE = ["--segment-age", "100"]
@@ -62,7 +70,8 @@ def end(text):
 class State:
     """failing_state of failing_calls.h."""
 
-    SIZE = 8 * NWHERES * len(CLASSES) + 8 + 232
+    COUNTS = 8 * NWHERES * len(CLASSES)
+    SIZE = COUNTS + 16 * SITES + 8 + 232
 
     def __init__(self, path):
         self.path = path
@@ -73,6 +82,7 @@ class State:
         with open(self.path, "rb") as file:
             data = file.read()
         numbers = struct.unpack_from(f"<{NWHERES * len(CLASSES)}Q", data)
+        self.sites = {key: count for key, count in struct.iter_unpack("<QQ", data[self.COUNTS:self.COUNTS + 16 * SITES]) if key}
         self.failed = data[-232:].split(b"\0")[0].decode(errors="replace")
         self.count = {}
         for w in range(NWHERES):
@@ -82,11 +92,13 @@ class State:
 
 
 class Storm:
-    def __init__(self, fracas, library, folder):
+    def __init__(self, fracas, library, folder, campaign):
         self.fracas, self.library, self.folder = fracas, library, folder
         self.campaign = os.path.join(folder, "tiny.yaml")
         with open(self.campaign, "w") as file:
-            file.write(CAMPAIGN)
+            file.write(campaign)
+        with open(os.path.join(folder, "strengths.txt"), "w") as file:
+            file.write("".join(f"{299 + k / 10}e6\n" for k in range(20)))
         self.number = 0
         self.lock = threading.Lock()
         self.failures = []
@@ -112,7 +124,7 @@ class Storm:
             environment["OMPI_MCA_orte_tmpdir_base"] = mpi = self.mpi_folder(study)
             os.makedirs(mpi, exist_ok=True)
         if fault:
-            environment.update(FAILING_CALLS=fault, FAILING_STATE=state.path, FAILING_UNDER=os.path.basename(study),
+            environment.update(FAILING_CALLS=fault.replace("launcher", "parent"), FAILING_STATE=state.path, FAILING_UNDER=os.path.basename(study),
                                LD_PRELOAD=self.library)
             if os.path.exists(f"{study}/study.h5"):
                 environment["FAILING_ALONE"] = "1"
@@ -135,6 +147,8 @@ class Storm:
 
     def setting(self, kind, where):
         """Where the study is from, whether without mpirun, and with which options the campaign is run."""
+        if where == "launcher":
+            return False, {"alone": False, "options": SMALL}
         if where == "parent" and kind != "process":
             return True, {"alone": False}  # of a settled study, so that it starts no mpirun
         if kind in ("mpi", "memory") or where == "parent" or where[0] != "0":  # under a parent, which tells of a rank that a library crashes without memory
@@ -148,15 +162,18 @@ class Storm:
             shutil.copytree(self.complete, study)
         return study, how
 
-    def count(self, kind, where):
+    def count(self, kind, where, sites):
+        """The calls to fail, as FAILING_CALLS names them."""
         study, how = self.begin(kind, where)
         state = State(study + ".state")
-        status, text = self.run(study, fault=f"{kind} {where} 0 EIO", state=state, **how)
+        status, text = self.run(study, fault=f"{kind} {where} {'0@0' if sites else 0} EIO", state=state, **how)
         if status:
             end(f"a run that was only watched: status {status}\n{text}")
-        count = state.read().count[where][kind]
+        state.read()
         self.clean_up(study)
-        return count
+        if sites:
+            return [f"{key:x}@1" for key in sorted(state.sites)]
+        return range(1, state.count[where][kind] + 1)
 
     def clean_up(self, study):
         shutil.rmtree(study, ignore_errors=True)
@@ -169,6 +186,8 @@ class Storm:
         killed = way in ("kill", "torn")
         if not state.failed:
             return "not reached" if status == 0 else f"status {status} and nothing failed"
+        if kind == "wait" and way in ("EINTR", "short") and status:
+            return f"status {status}"
         if status == 0:
             return "" if self.same(study) else "status 0, but study.h5 is not that of an undisturbed run"
         if killed and status in (-9, 137):
@@ -182,7 +201,7 @@ class Storm:
         if not said:
             return f"status {status} without a message"
         names = [os.path.basename(study), call, "memory", "MPI", "mpirun", "process", "server", "HDF5",
-                 os.strerror(11), os.strerror(24)]
+                 "tiny.yaml", "strengths.txt", "this program", os.strerror(11), os.strerror(24)]
         if not any(name in line for name in names for line in said):
             return f"status {status}, and the message does not name what failed"
         return ""
@@ -239,15 +258,19 @@ class Storm:
         return "" if status == 0 else f"verify ended with {status}\n{text}"
 
     def sweep(self, what, jobs):
-        """CLASS:WHERE:HOW[:SAMPLES]: every call, or so many of them."""
+        """CLASS:WHERE:HOW[:SAMPLES]: every call, or so many of them; :sites[SAMPLES]: from each place the first."""
         kind, where, way, *samples = what.split(":")
         began = time.monotonic()
-        count = self.count(kind, where)
-        points = range(1, count + 1)
-        if samples and "-" in samples[0]:  # from one to another, to look at them again
-            points = range(*map(int, samples[0].split("-")))
-        elif samples and int(samples[0]) < count:
-            points = sorted(random.Random(f"{SEED} {what}").sample(points, int(samples[0])))
+        sites = bool(samples) and samples[0].startswith("sites")
+        wanted = samples[0][5 * sites:] if samples else ""
+        points = self.count(kind, where, sites)
+        count = len(points)
+        if "-" in wanted:  # from one to another, to look at them again
+            points = range(*map(int, wanted.split("-")))
+        elif "@" in wanted:
+            points = [wanted]
+        elif wanted and int(wanted) < count:
+            points = sorted(random.Random(f"{SEED} {what}").sample(points, int(wanted)))
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             results = list(pool.map(self.try_often, [f"{kind} {where} {k} {way}" for k in points]))
         statuses = collections.Counter(status for status, _ in results)
@@ -262,7 +285,7 @@ class Storm:
 
 def main():
     fracas, library, folder, *what = sys.argv[1:]
-    storm = Storm(fracas, library, folder)
+    storm = Storm(fracas, library, folder, FULL if any(":sites" in one for one in what) else CAMPAIGN)
     jobs = int(os.environ.get("FRACAS_STORM_JOBS", "2"))
     print(f"seed {SEED} (FRACAS_STORM_SEED)", flush=True)
     for one in what:

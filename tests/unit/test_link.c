@@ -34,4 +34,24 @@ static void a_server_hears_nothing_that_is_for_one_before_it(void **state)
     close(pair[1]);
 }
 
-TESTS(a_server_hears_nothing_that_is_for_one_before_it)
+/* Half a message, or none, and a server that waits for it would be a run without end. */
+static void a_server_ends_that_a_message_cannot_be_sent_to(void **state)
+{
+    const fracas_packet flush = {.kind = FRACAS_PACKET_FLUSH};
+    char bytes[4096];
+    int pair[2];
+    assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0, pair), 0);
+    while (write(pair[0], bytes, sizeof bytes) > 0)
+        ;
+    fracas_link link = {.supervisor = {.control = -1, .server = pair[0]}};
+    fracas_link_send(&link, &flush);
+    ssize_t n;
+    while ((n = read(pair[1], bytes, sizeof bytes)) > 0)
+        ;
+    assert_int_equal(n, 0); /* the end of the stream */
+    close(pair[0]);
+    close(pair[1]);
+}
+
+TESTS(a_server_hears_nothing_that_is_for_one_before_it,
+      a_server_ends_that_a_message_cannot_be_sent_to)

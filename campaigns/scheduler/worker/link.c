@@ -3,6 +3,7 @@
 
 #include <poll.h>
 #include <stdio.h>
+#include <sys/socket.h>
 
 enum { DEATHS_MAX = 5 /* servers lost in a row with nothing settled in between */ };
 
@@ -64,5 +65,5 @@ void fracas_link_send(fracas_link *link, const fracas_packet *message)
     if (message->kind == FRACAS_PACKET_FRESH) link->unknown--;
     else if (!link->unknown && link->supervisor.server >= 0 &&
              fracas_packet_write(link->supervisor.server, message))
-        return;
+        shutdown(link->supervisor.server, SHUT_WR); /* without memory: it would wait for the rest */
 }

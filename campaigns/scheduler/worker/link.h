@@ -24,7 +24,8 @@ FRACAS_MUST_USE fracas_err fracas_link_receive(fracas_link *link, int rank, int 
 
 /* Sends a message of rank 0 to the server, unless it is for a server before. FRACAS_PACKET_FRESH
  * ends here: rank 0 knows of one new server more, of which two may have died meanwhile.
- * fracas_link_receive will notice if the server is gone. */
+ * If it cannot be sent, the connection is closed, so that the server ends. fracas_link_receive will
+ * notice if the server is gone. */
 void fracas_link_send(fracas_link *link, const fracas_packet *message);
 
 #endif

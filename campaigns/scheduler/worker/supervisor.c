@@ -201,20 +201,22 @@ static void release(fracas_supervisor *one, int *status)
     *one = (fracas_supervisor){.control = -1, .server = -1};
 }
 
-static fracas_err supervisor_gone(fracas_supervisor *one)
+/* `whose`: subject of the message, which the caller may have written already. */
+static fracas_err supervisor_gone(fracas_supervisor *one, const char *whose)
 {
     char how[256];
     int status = 0;
     release(one, &status);
     fracas_process_end_text(status, how, sizeof how);
-    return fracas_fail(FRACAS_ENVIRONMENT, "went with its supervisor, which %s", how);
+    return fracas_fail(FRACAS_ENVIRONMENT, "%swent with its supervisor, which %s", whose, how);
 }
 
 /* The connection to the next server. */
 static fracas_err take_server(fracas_supervisor *one)
 {
     fracas_trouble trouble;
-    if (!receive(one->control, &trouble, &one->server)) return supervisor_gone(one);
+    if (!receive(one->control, &trouble, &one->server))
+        return supervisor_gone(one, "a compute server ");
     if (!trouble.code && one->server >= 0) return FRACAS_OK; /* else the kernel dropped it */
     fracas_supervisor_end(one);
     if (!trouble.code) return fracas_fail_system(EMFILE, "no connection to a compute server");
@@ -251,14 +253,15 @@ fracas_err fracas_supervisor_reap(fracas_supervisor *one, char *how, size_t size
     int none;
     if (one->server >= 0) close(one->server);
     one->server = -1;
-    if (!receive(one->control, &trouble, &none)) return supervisor_gone(one);
+    if (!receive(one->control, &trouble, &none)) return supervisor_gone(one, "");
     snprintf(how, size, "%s", trouble.text);
     return FRACAS_OK;
 }
 
 fracas_err fracas_supervisor_restart(fracas_supervisor *one)
 {
-    if (send(one->control, "", 1, MSG_NOSIGNAL) != 1) return supervisor_gone(one);
+    if (send(one->control, "", 1, MSG_NOSIGNAL) != 1)
+        return supervisor_gone(one, "a compute server ");
     return take_server(one);
 }
 
