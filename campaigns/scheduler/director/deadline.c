@@ -52,16 +52,16 @@ static fracas_err lease_overdue(fracas_director *director, double time)
     return FRACAS_OK;
 }
 
-/* Some worker has a lease, or may get one before the deadline. */
+/* Some worker has a lease, or may get one before the deadline. Not all have ended. */
 static bool goes_on(const fracas_director *director, double time)
 {
-    size_t idle = SIZE_MAX; /* any: all would get the same */
+    size_t idle = 0; /* any: all would get the same */
     for (size_t worker = 0; worker < director->setup.workers; worker++) {
         if (director->phase[worker] == ENDED) continue;
         if (!fracas_scheduler_idles(director->scheduler, worker)) return true;
         idle = worker;
     }
-    return idle == SIZE_MAX || !fracas_director_too_late(director, idle, time);
+    return !fracas_director_too_late(director, idle, time);
 }
 
 static void mind_deadline(fracas_director *director, double time)
@@ -72,7 +72,7 @@ static void mind_deadline(fracas_director *director, double time)
     director->late = director->late || !director->stopping;
     director->overtime = over;
     if (!director->stopping) fracas_director_drain(director);
-    else if (over)
+    else
         for (size_t worker = 0; worker < director->setup.workers; worker++)
             if (director->phase[worker] == STOPPING) fracas_director_stop_worker(director, worker);
 }

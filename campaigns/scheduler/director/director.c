@@ -50,7 +50,7 @@ static fracas_err announce(fracas_director *director, const char *report)
              director->setup.campaign->npoints, director->setup.campaign->npoints == 1 ? "" : "s",
              director->rounds.open ? ", and more as rules ask for them" : "",
              director->setup.workers, director->setup.workers == 1 ? "" : "s");
-    if (report && *report) TRY(fracas_director_announce(director, "recovered", report));
+    if (*report) TRY(fracas_director_announce(director, "recovered", report));
     fracas_channel_message(director->setup.channel, "%s: %s", director->setup.study, text);
     fracas_channel_progress(director->setup.channel, &count);
     return fracas_index_event(director->index, count.done ? "resumed" : "started", text);
@@ -125,7 +125,6 @@ fracas_err fracas_director_create(const fracas_director_setup *setup, fracas_dir
 
 void fracas_director_destroy(fracas_director *director)
 {
-    if (!director) return;
     fracas_scheduler_destroy(director->scheduler);
     fracas_rounds_clear(&director->rounds);
     fracas_index_close(director->index);
@@ -350,8 +349,8 @@ static fracas_err on_end(fracas_director *director, size_t worker, const fracas_
     return FRACAS_OK;
 }
 
-/* The worker's server died, and READY of a new one follows. The leases of the dead one wait again;
- * if they were the last ones and all workers had been stopped, this worker goes on. */
+/* The worker's server died, and READY of a new one follows. The leases of the dead one wait again.
+ */
 static fracas_err on_replaced(fracas_director *director, size_t worker,
                               const fracas_packet *message)
 {
@@ -360,10 +359,6 @@ static fracas_err on_replaced(fracas_director *director, size_t worker,
     fracas_scheduler_lost(director->scheduler, worker);
     director->phase[worker] = STARTING;
     director->flushing[worker] = false;
-    if (director->needless && !fracas_director_computed(director)) {
-        director->needless = false;
-        director->stopping = director->drained || director->trouble.code;
-    }
     /* First: without it the new server hears nothing, not even STOP after an error below. */
     TRY(fracas_director_post(director, worker, FRACAS_PACKET_FRESH, NULL, 0));
     TRY(fracas_director_announce(director, "server replaced", trouble.text));

@@ -91,20 +91,16 @@ static fracas_err unfinished(const fracas_director *director, const fracas_count
             "%s (%lld of %lld realizations are done and kept; the same command goes on from there)",
             director->trouble.text, kept, total);
     return fracas_fail(
-        director->drained ? FRACAS_INTERRUPTED : FRACAS_ENVIRONMENT,
+        FRACAS_INTERRUPTED,
         "%s: %lld of %lld realizations are done and kept; the same command goes on from there",
-        !director->drained ? "a compute server died at the end"
-        : director->late   ? "the walltime is nearly over"
-                           : "interrupted",
-        kept, total);
+        director->late ? "the walltime is nearly over" : "interrupted", kept, total);
 }
 
 /* Merges, or fails with the reason not to. */
 static fracas_err conclude(fracas_director *director)
 {
     const fracas_counts count = fracas_scheduler_count(director->scheduler);
-    const bool computed = !director->trouble.code && count.done + count.failed == count.total &&
-                          director->rounds.open == 0;
+    const bool computed = !director->trouble.code && count.done + count.failed == count.total;
     fracas_err err = computed ? check_parts(director, &count) : unfinished(director, &count);
     if (!err) err = check_merge_time(director);
     if (!err) return merge(director, &count);

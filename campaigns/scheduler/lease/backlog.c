@@ -12,7 +12,7 @@ enum { NONE = UINT32_MAX };
 
 typedef struct {
     int64_t *replica;
-    size_t from, to, room;
+    size_t from, to;
     double seconds; /* total over `measured` realizations */
     int64_t measured;
 } point_state;
@@ -144,19 +144,15 @@ fracas_err fracas_backlog_add(fracas_backlog *backlog, size_t point, const int64
 {
     point_state *p = &backlog->point[point];
     if (!count) return FRACAS_OK;
-    if (p->to + count > p->room) {
-        const size_t left = p->to - p->from, room = left + count;
-        int64_t *moved = malloc(room * sizeof *moved);
-        if (!moved) return fracas_no_memory("the plan");
-        if (left) memcpy(moved, p->replica + p->from, left * sizeof *moved);
-        free(p->replica);
-        p->replica = moved;
-        p->from = 0;
-        p->to = left;
-        p->room = room;
-    }
-    memcpy(p->replica + p->to, replica, count * sizeof *replica);
-    p->to += count;
+    const size_t left = p->to - p->from;
+    int64_t *all = malloc((left + count) * sizeof *all);
+    if (!all) return fracas_no_memory("the plan");
+    if (left) memcpy(all, p->replica + p->from, left * sizeof *all);
+    memcpy(all + left, replica, count * sizeof *replica);
+    free(p->replica);
+    p->replica = all;
+    p->from = 0;
+    p->to = left + count;
     update(backlog, point);
     return FRACAS_OK;
 }
@@ -185,7 +181,7 @@ const int64_t *fracas_backlog_take(fracas_backlog *backlog, size_t point, size_t
 void fracas_backlog_measure(fracas_backlog *backlog, size_t point, size_t count, double seconds)
 {
     point_state *p = &backlog->point[point];
-    if (!count || !(seconds >= 0)) return;
+    if (!(seconds >= 0)) return;
     p->seconds += seconds;
     p->measured += (int64_t)count;
     backlog->seconds += seconds;
@@ -217,7 +213,6 @@ size_t fracas_backlog_longest(const fracas_backlog *backlog)
 size_t fracas_backlog_any(const fracas_backlog *backlog, uint64_t *state)
 {
     const range *r = backlog->range;
-    if (!r[1].points) return SIZE_MAX;
     size_t skip = (size_t)(fracas_backlog_random(state) % r[1].points), i = 1;
     while (i < backlog->nleaves) {
         i *= 2;

@@ -41,7 +41,7 @@ double fracas_backlog_work(const fracas_backlog *backlog); /* sum_p waiting_p es
 /* Point with the largest est_p among those with waiting replicas, first among the `first`
  * points. Ties: the lower number. SIZE_MAX if nothing waits. */
 size_t fracas_backlog_longest(const fracas_backlog *backlog);
-/* A random point with waiting replicas, all equally likely; SIZE_MAX if nothing waits. */
+/* A random point with waiting replicas, all equally likely. Something waits. */
 size_t fracas_backlog_any(const fracas_backlog *backlog, uint64_t *state);
 
 /* splitmix64 (Steele, Lea and Flood 2014). It only orders work, so the sampler's streams are not

@@ -98,10 +98,10 @@ static task *take_again(fracas_scheduler *s)
     return t;
 }
 
-/* A worker computes it, and none has done so before. */
+/* No worker has computed it before the one that holds it. */
 static bool is_open(const task *t)
 {
-    return t->held && !t->kept && !t->done;
+    return !t->kept && !t->done;
 }
 
 static void destroy_if_unused(task *t)

@@ -48,8 +48,7 @@ static fracas_err get(const void *context, size_t point, fracas_stored_mesh *mes
     if (!fracas_spec_is_surface(&campaign->point[point].spec)) return FRACAS_OK;
     OWN(fracas_model) model = NULL;
     TRY(fracas_point_model_create(campaign, point, &model));
-    const fracas_surface *surface = fracas_model_surface(model);
-    return surface ? copy_surface(surface, mesh) : FRACAS_OK;
+    return copy_surface(fracas_model_surface(model), mesh);
 }
 
 fracas_mesh_source fracas_campaign_meshes(const fracas_campaign *campaign)

@@ -107,7 +107,7 @@ fracas_err fracas_study_settled(const char *study, fracas_index *index,
     TRY(fracas_study_sealed(study, index, &sealed));
     if (!sealed) return FRACAS_OK;
     OWN(fracas_reader) reader = NULL;
-    if (access(path, R_OK) || fracas_reader_open(path, &reader)) return FRACAS_OK; /* merge again */
+    if (fracas_reader_open(path, &reader)) return FRACAS_OK; /* merge again */
     if (!fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash))
         return FRACAS_OK;
     fracas_index_counts counts;

@@ -27,10 +27,10 @@ static fracas_err try_batch(const fracas_campaign *campaign, const fracas_run_op
 fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run_options *options,
                                double **cost, double **bytes)
 {
-    OWNED double *c = malloc((campaign->npoints + 1) * sizeof *c);
-    OWNED double *b = malloc((campaign->npoints + 1) * sizeof *b);
+    OWNED double *c = malloc(campaign->npoints * sizeof *c);
+    OWNED double *b = malloc(campaign->npoints * sizeof *b);
     if (!c || !b) return fracas_no_memory("the plan");
-    if (campaign->npoints) TRY(try_batch(campaign, options));
+    TRY(try_batch(campaign, options));
     for (size_t i = 0; i < campaign->npoints; i++) TRY(fracas_plan_cost(campaign, i, &c[i], &b[i]));
     *cost = c;
     c = NULL;
@@ -82,8 +82,7 @@ fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign
     }
     read_progress(study, &done, &measured);
     const double part = options->parts > 1 ? 1.0 / options->parts : 1.0;
-    const double left = fmax(0, planned * part - done),
-                 each = fmax(measured, planned > 0 ? all / planned : 0);
+    const double left = fmax(0, planned * part - done), each = fmax(measured, all / planned);
     const double in_segments =
         left > 0 ? left * (each + ROW) + EMPTY * fmin(left, fmax(1, options->jobs)) : 0;
     const double in_merged = options->parts > 1 ? 0 : all + EMPTY,
@@ -120,9 +119,7 @@ fracas_err fracas_limits_check(const fracas_run_options *options)
 {
     enum { FILES = 40, FILES_A_JOB = 5, FILE_SIZE = 8 << 20, MOST_JOBS = 1024 /* on a machine */ };
     const long cores = sysconf(_SC_NPROCESSORS_ONLN), jobs = options->jobs ? options->jobs : cores;
-    const rlim_t files = FILES + FILES_A_JOB * (rlim_t)(jobs < 1           ? 1
-                                                        : jobs > MOST_JOBS ? MOST_JOBS
-                                                                           : jobs);
+    const rlim_t files = FILES + FILES_A_JOB * (rlim_t)(jobs > MOST_JOBS ? MOST_JOBS : jobs);
     struct rlimit limit;
     if (!getrlimit(RLIMIT_NOFILE, &limit) && limit.rlim_cur < files) {
         const struct rlimit raised = {limit.rlim_max < 2 * files ? limit.rlim_max : 2 * files,

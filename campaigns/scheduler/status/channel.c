@@ -74,7 +74,7 @@ bool fracas_channel_receive(char *line, fracas_progress *progress, fracas_ending
     } else if (!strncmp(line, "say ", 4)) {
         replace(line, '\v', '\n');
         fracas_progress_message(progress, line + 4);
-    } else if (sscanf(line, "end %d %d %d%n", &code, &ran, &again, &text) == 3 && text) {
+    } else if (sscanf(line, "end %d %d %d%n", &code, &ran, &again, &text) == 3) {
         replace(line, '\v', '\n');
         *ending = (fracas_ending){
             .ended = true, .ran = ran != 0, .again = again != 0, .err = (fracas_err)code};
