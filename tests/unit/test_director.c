@@ -72,6 +72,7 @@ static void prepare(const char *replicas, const char *sweep)
     campaign = read_text(text);
     fracas_run_options_init(&options);
     options.width = 8;
+    channel = (fracas_channel){0};
     fracas_channel_init(&channel);
     study = sample_folder();
     memset(worker, 0, sizeof worker);
@@ -310,9 +311,8 @@ static void a_worker_that_does_not_start_is_given_up(void **state)
 
 /* ---- the deadline ---- */
 
-/* Leases of 1 s until the next one would not end 2 s before the deadline; then nobody computes, and
- * the run drains in order. */
-static void no_lease_is_given_that_does_not_end_in_time(void **state)
+/* Leases of 1 s until the next one would not end 2 s before the deadline. */
+static void compute_until_late(void)
 {
     prepare("replicas: 160", "");
     begin_ready(1000 + 6.5);
@@ -324,8 +324,14 @@ static void no_lease_is_given_that_does_not_end_in_time(void **state)
         pass(0);
     }
     assert_true(time_ == 1004); /* a fifth lease would end at 1005, later than 1004.5 */
+    assert_stops(1, 0);
+}
+
+/* Then nobody computes, and the run drains in order. */
+static void no_lease_is_given_that_does_not_end_in_time(void **state)
+{
+    compute_until_late();
     assert_leases(4, 4);
-    assert_int_equal(worker[0].kill, 0);
     for (size_t w = 0; w < WORKERS; w++) {
         segment(w, 0, 3, 1000);
         say_ended(w);
@@ -368,6 +374,28 @@ static void what_runs_at_the_deadline_is_killed(void **state)
     assert_false(fracas_director_over(director));
     pass(0.4);
     assert_result(FRACAS_INTERRUPTED, "the walltime is nearly over: 8 of 16 realizations are done");
+}
+
+/* Nobody has a lease, and what is computed is not yet durable. */
+static void a_lull_is_no_end(void **state)
+{
+    half_done(1000 + 60);
+    computed(0, 0, 1);
+    pass(1);
+    assert_int_equal(worker[0].stops + worker[1].stops, 0);
+}
+
+/* No lease would end in time, so both drain; then the time is over for the one that still does. */
+static void what_is_late_is_killed_at_last(void **state)
+{
+    compute_until_late();
+    say_ended(0);
+    pass(0.6);
+    assert_int_equal(worker[0].stops, 1);
+    assert_int_equal(worker[1].stops, 2);
+    assert_int_equal(worker[1].kill, 1);
+    say_ended(1);
+    assert_result(FRACAS_INTERRUPTED, "the walltime is nearly over: 0 of 160 realizations");
 }
 
 static void what_drains_at_the_deadline_is_killed(void **state)
@@ -470,6 +498,116 @@ static void points_with_failures_are_named(void **state)
     fracas_index_close(index);
 }
 
+/* ---- workers that are lost, and messages that do not fit ---- */
+
+static const fracas_trouble gone = {
+    .code = FRACAS_ENVIRONMENT, .again = 1, .text = "its server is gone"};
+
+static void say_lost(size_t from)
+{
+    hear(from, FRACAS_PACKET_LOST, &gone, sizeof gone);
+}
+
+static void the_last_worker_ends_the_run(void **state)
+{
+    prepare("replicas: 16", "");
+    begin_ready(1000 + 60);
+    computed(1, 0, 1);
+    say_lost(0);
+    assert_int_equal(worker[1].nleases, 2); /* of the lost one */
+    pass(1);
+    assert_int_equal(worker[1].stops, 0); /* it has a lease, and time */
+    say_lost(1);
+    assert_result(FRACAS_ENVIRONMENT, "its server is gone (0 of 16 realizations are done and kept");
+    assert_false(channel.again);
+    half_done(0);
+    channel.launcher = true; /* which can start MPI again */
+    say_lost(0);
+    say_lost(1);
+    assert_true(channel.again);
+    assert_result(FRACAS_ENVIRONMENT, "its server is gone");
+    assert_string_equal(fracas_message(), gone.text); /* the launcher goes on from there */
+}
+
+/* After an error nothing that a worker says makes a realization done. */
+static void an_error_comes_before_what_is_flushed(void **state)
+{
+    prepare("replicas: 16", "");
+    begin_ready(0);
+    computed(1, 0, 1);
+    hear(0, FRACAS_PACKET_TROUBLE, &gone, sizeof gone);
+    hear(1, FRACAS_PACKET_FLUSHED, NULL, 0);
+    say_ended(1);
+    assert_result(FRACAS_ENVIRONMENT, "its server is gone (0 of 16 realizations are done and kept");
+}
+
+/* A rank asks for the end though its own server is gone. */
+static void the_signal_of_any_rank_drains(void **state)
+{
+    half_done(0);
+    say_lost(1);
+    hear(1, FRACAS_PACKET_DRAIN, NULL, 0);
+    assert_stops(1, 0);
+    hear(1, FRACAS_PACKET_DRAIN, NULL, 0);
+    assert_stops(1, 0); /* once */
+    say_ended(0);
+    assert_result(FRACAS_INTERRUPTED, "interrupted: 8 of 16 realizations are done");
+}
+
+/* A copy of an overdue lease: the first one is not harmed. */
+static void a_copy_that_fails_is_no_failure(void **state)
+{
+    half_done(0);
+    pass(11);
+    failed(1, 1);
+    OK(fracas_index_open(study, false, &index_));
+    assert_int_equal(number("SELECT count(*) FROM event WHERE kind = 'copy failed'"), 1);
+    assert_int_equal(number("SELECT count(*) FROM event WHERE kind LIKE '%failed'"), 1);
+    fracas_index_close(index_);
+    computed(0, 0, 1);
+    segment(0, 0, 0, 1000);
+    for (size_t w = 0; w < WORKERS; w++) say_ended(w);
+    assert_merged();
+}
+
+/* Each stops the run, which keeps what is done. */
+static void a_message_that_does_not_fit_ends_the_run(void **state)
+{
+    struct {
+        fracas_segment_note note;
+        fracas_segment_row row;
+        char text[8];
+    } body;
+    static const struct {
+        fracas_packet_kind kind;
+        uint64_t rows;
+        size_t size;
+        int last; /* byte of the body */
+        fracas_err code;
+        const char *said;
+    } wrong[] = {
+        {99, 0, 0, 0, FRACAS_BUG, "rank 0 got a message of kind 99"},
+        {FRACAS_PACKET_COMPUTED, 0, 4, 0, FRACAS_BUG, "has 4 bytes"},
+        {FRACAS_PACKET_SEGMENT, 0, offsetof(typeof(body), row), 0, FRACAS_BUG, "is damaged"},
+        {FRACAS_PACKET_SEGMENT, 2, sizeof body, 0, FRACAS_BUG, "is damaged"},
+        {FRACAS_PACKET_SEGMENT, UINT64_MAX, sizeof body, 0, FRACAS_BUG, "is damaged"},
+        {FRACAS_PACKET_SEGMENT, 1, sizeof body, 'x', FRACAS_BUG, "is damaged"},
+        {FRACAS_PACKET_READY, 0, sizeof(fracas_hash), 1, FRACAS_ENVIRONMENT,
+         "rank 1 read another campaign"},
+    };
+    for (size_t i = 0; i < FRACAS_COUNT(wrong); i++) {
+        prepare("replicas: 16", "");
+        begin_ready(0);
+        memset(&body, 0, sizeof body);
+        body.note.rows = wrong[i].rows;
+        if (wrong[i].size) ((char *)&body)[wrong[i].size - 1] = (char)wrong[i].last;
+        hear(1, wrong[i].kind, &body, wrong[i].size);
+        assert_stops(1, 0);
+        for (size_t w = 0; w < WORKERS; w++) say_ended(w);
+        assert_result(wrong[i].code, wrong[i].said);
+    }
+}
+
 TESTS_EACH(NULL, end, nobody_waits_for_records_of_one_that_computes,
            what_rounds_wait_for_goes_first, an_overdue_lease_is_offered_when_time_passes,
            a_look_at_the_time_is_rare, a_worker_that_is_not_needed_is_given_up,
@@ -477,4 +615,7 @@ TESTS_EACH(NULL, end, nobody_waits_for_records_of_one_that_computes,
            no_lease_is_given_that_does_not_end_in_time, commits_take_time_as_well,
            what_runs_at_the_deadline_is_killed, what_drains_at_the_deadline_is_killed,
            a_merge_that_would_not_end_is_not_begun, a_part_is_every_so_many_th,
-           the_only_part_is_merged, points_with_failures_are_named)
+           the_only_part_is_merged, points_with_failures_are_named, the_last_worker_ends_the_run,
+           an_error_comes_before_what_is_flushed, the_signal_of_any_rank_drains,
+           a_copy_that_fails_is_no_failure, a_message_that_does_not_fit_ends_the_run,
+           a_lull_is_no_end, what_is_late_is_killed_at_last)

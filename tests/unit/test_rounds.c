@@ -170,6 +170,11 @@ static void a_decision_that_does_not_follow_is_damage(void **state)
           "lacks a decision on the replicas of point 1");
     OK(fracas_rounds_advance(&rounds, index_, 1));
     OK(fracas_rounds_check(campaign, index_));
+    sql("CREATE TABLE kept AS SELECT * FROM decision");
+    sql("UPDATE decision SET round = 1 WHERE point = 2");
+    sql("INSERT INTO decision SELECT * FROM kept WHERE point = 2");
+    FAILS(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "or has one too many");
+    sql("DELETE FROM decision WHERE round = 1");
     sql("UPDATE decision SET half_width = half_width * (1 + 1e-15) WHERE point = 2");
     FAILS(fracas_rounds_check(campaign, index_), FRACAS_DAMAGED, "round 0 of point 1");
     FAILS(fracas_rounds_init(&again, campaign, index_), FRACAS_DAMAGED, "round 0 of point 1");
@@ -201,6 +206,34 @@ static void a_stronger_rule_decides_again(void **state)
     look(0, 1);
     assert_int_equal(decision[0].stop, FRACAS_GO_ON);
     assert_int_equal(decision[0].maximum, 100);
+}
+
+/* A recorded decision counts for its own rule alone; that it is wrong is found only there. */
+static void a_rule_that_differs_anywhere_decides_anew(void **state)
+{
+    static const char *const other[] = {
+        "{minimum: 9, maximum: 24, until: {quantity: dissipated, relative-half-width: 0.1}}",
+        "{minimum: 8, maximum: 25, until: {quantity: dissipated, relative-half-width: 0.1}}",
+        "{minimum: 8, maximum: 24, until: {quantity: mean-size, relative-half-width: 0.1}}",
+        "{minimum: 8, maximum: 24, until: {quantity: dissipated, relative-half-width: 0.2}}",
+        "{minimum: 8, maximum: 24, until: {quantity: dissipated, relative-half-width: 0.1, "
+        "confidence: 0.9}}"};
+    fracas_rounds again;
+    for (size_t p = 0; p < 2; p++) commit(p, 0, 7, 0.05, FRACAS_FRAGMENTED);
+    for (size_t i = 0; i < FRACAS_COUNT(other); i++) {
+        sql("DELETE FROM decision");
+        OK(fracas_rounds_init(&again, campaign, index_));
+        fracas_rounds_clear(&again);
+        sql("UPDATE decision SET half_width = 7");
+        FAILS(fracas_rounds_init(&again, campaign, index_), FRACAS_DAMAGED, "round 0 of point 0");
+        fracas_rounds_clear(&again);
+        OWN(fracas_campaign) now = make(other[i]);
+        OK(fracas_index_plan(index_, &now->table));
+        OK(fracas_rounds_init(&again, now, index_));
+        assert_int_equal(again.open, i == 0 ? 2 : 0); /* the first asks for one more */
+        fracas_rounds_clear(&again);
+        if (i > 0) OK(fracas_rounds_check(now, index_));
+    }
 }
 
 static void mean_size_by_hand(void **state)
@@ -307,5 +340,6 @@ static void points_of_a_segment_are_decided_together(void **state)
 TESTS_EACH(begin, end, rounds_go_on_until_they_are_narrow, what_failed_does_not_count,
            rounds_that_are_there_already_are_decided_at_once,
            a_decision_that_does_not_follow_is_damage, a_stronger_rule_decides_again,
-           mean_size_by_hand, a_larger_maximum_goes_on, a_rule_looks_at_its_quantity,
-           a_mean_of_nothing_is_known, points_of_a_segment_are_decided_together)
+           a_rule_that_differs_anywhere_decides_anew, mean_size_by_hand, a_larger_maximum_goes_on,
+           a_rule_looks_at_its_quantity, a_mean_of_nothing_is_known,
+           points_of_a_segment_are_decided_together)

@@ -271,6 +271,26 @@ static void a_shuffle_changes_order_and_sizes(void **state)
     assert_counts(shuffled, 0, POINTS * 11, 0);
 }
 
+/* A shuffled lease is predicted as twice a batch at most; a measured time that is no time counts
+ * for nothing. */
+static void a_shuffled_lease_is_predicted(void **state)
+{
+    OWNED fracas_index_row *row = rows(1, 64);
+    fracas_scheduler_options options = options_for(1);
+    options.shuffle = true;
+    fracas_lease lease;
+    for (size_t i = 0; i < 8; i++) row[i].status = FRACAS_DONE;
+    OWN(fracas_scheduler) scheduler = create_with(row, 64, &options);
+    assert_true(next(scheduler, 0, 0, &lease));
+    computed(scheduler, 0, &lease, NAN);
+    assert_true(isnan(fracas_scheduler_predicted(scheduler, 0, 0)));
+    assert_true(next(scheduler, 0, 0, &lease));
+    computed(scheduler, 0, &lease, (double)lease.count);
+    assert_true(fracas_scheduler_predicted(scheduler, 0, 0) == 16);
+    OK(fracas_scheduler_add(scheduler, row, 8)); /* all of them done: none to shuffle */
+    assert_int_equal(fracas_scheduler_count(scheduler).done, 16);
+}
+
 /* ---- the plan ---- */
 
 /* A plan that grows: what is added waits like all else, longest first, and counts. */
@@ -340,4 +360,4 @@ TESTS(one_batch_while_nothing_is_measured, sizes_are_by_measured_cost,
       a_lease_has_a_largest_size, no_lease_time_means_one_batch, the_longest_go_first,
       some_points_go_first, one_lease_ahead_until_the_last_ones, what_comes_next_is_predicted,
       what_waits_again_is_predicted, a_lease_has_a_time_limit, a_shuffle_changes_order_and_sizes,
-      rows_are_added, rows_may_need_nothing)
+      a_shuffled_lease_is_predicted, rows_are_added, rows_may_need_nothing)

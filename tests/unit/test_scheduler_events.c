@@ -510,7 +510,24 @@ static void a_million_is_not_too_many(void **state)
     }
 }
 
-TESTS(an_overdue_lease_goes_to_an_idle_worker, two_do_not_take_turns_with_what_never_ends,
-      short_leases_are_overdue_after_10_s, a_lease_that_stays_in_memory_is_overdue,
-      a_loss_at_any_stage_loses_nothing, a_copy_that_fails_is_forgotten, any_course_of_events,
-      a_million_is_not_too_many)
+/* A worker without a lease, as it is where the next would be too late, gets no copy meanwhile. */
+static void what_nobody_has_goes_before_a_copy(void **state)
+{
+    OWN(fracas_scheduler) scheduler = create(1, 30, 2);
+    fracas_lease first, other;
+    size_t late;
+    bool given;
+    assert_true(next(scheduler, 0, 0, &first));
+    assert_true(next(scheduler, 1, 0, &other));
+    computed(scheduler, 1, &other, 8);
+    fracas_scheduler_overdue(scheduler, 1, 1000, &other, &late, &given);
+    assert_false(given);
+    while (next(scheduler, 1, 1000, &other)) computed(scheduler, 1, &other, 8);
+    copy_of(scheduler, 1, 1000, 0, &other);
+    assert_int_equal(other.id, first.id);
+}
+
+TESTS(an_overdue_lease_goes_to_an_idle_worker, what_nobody_has_goes_before_a_copy,
+      two_do_not_take_turns_with_what_never_ends, short_leases_are_overdue_after_10_s,
+      a_lease_that_stays_in_memory_is_overdue, a_loss_at_any_stage_loses_nothing,
+      a_copy_that_fails_is_forgotten, any_course_of_events, a_million_is_not_too_many)
