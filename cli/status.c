@@ -242,7 +242,7 @@ static fracas_err count(fracas_status *status)
     const fracas_campaign *campaign = status->campaign;
     TRY(fracas_index_count_points(status->index, &campaign->table, &status->all, status->point));
     TRY(count_part(status));
-    status->lock = fracas_study_lock_state(status->study, status->holder);
+    TRY(fracas_study_lock_state(status->study, &status->lock, status->holder));
     if (status->lock == FRACAS_LOCK_FREE || status->lock == FRACAS_LOCK_LEFT) {
         unlease(&status->all);
         for (size_t p = 0; p < campaign->npoints; p++) unlease(&status->point[p]);

@@ -60,8 +60,9 @@ static bool is_growing(const char *study)
 {
     OWN(fracas_index) index = NULL;
     fracas_index_counts counts = {0};
+    fracas_lock_state lock;
     char holder[FRACAS_HOLDER_TEXT];
-    if (fracas_study_lock_state(study, holder) == FRACAS_LOCK_HELD) return true;
+    if (!fracas_study_lock_state(study, &lock, holder) && lock == FRACAS_LOCK_HELD) return true;
     return !fracas_index_open(study, false, &index) && !fracas_index_count(index, &counts) &&
            fracas_index_missing(&counts) > 0;
 }

@@ -341,9 +341,10 @@ typedef enum {
     FRACAS_LOCK_LEFT,     /* by a dead process of this host */
     FRACAS_LOCK_ELSEWHERE /* by a process of another host, which may live */
 } fracas_lock_state;
-/* Looks at the lock without taking it; *text as above, "" if it is free. Not for the holder, who
- * would lose it. */
-fracas_lock_state fracas_study_lock_state(const char *study, char text[FRACAS_HOLDER_TEXT]);
+/* Looks at the lock without taking it; *text as above, "" if it is free, as it is without the file.
+ * Not for the holder, who would lose it. FRACAS_ENVIRONMENT if the file cannot be looked at. */
+FRACAS_MUST_USE fracas_err fracas_study_lock_state(const char *study, fracas_lock_state *state,
+                                                   char text[FRACAS_HOLDER_TEXT]);
 
 /* Removes the temporary files of a study; nobody may be writing one. *report: a line for each, ""
  * if none (freed by caller). */

@@ -18,6 +18,7 @@
 /* ---- SQLite ---- */
 
 static int injected; /* what sqlite3_errcode says until the next call that does not fail */
+static sqlite3_stmt *textless; /* a text of its row found no memory */
 
 #define SQLITE(name, code, parameters, arguments)                                      \
     int sqlite3_##name parameters                                                      \
@@ -29,7 +30,6 @@ static int injected; /* what sqlite3_errcode says until the next call that does 
         const int result = real arguments;                                             \
         return verdict ? code : result;                                                \
     }
-SQLITE(step, SQLITE_IOERR, (sqlite3_stmt * statement), (statement))
 SQLITE(exec, SQLITE_IOERR,
        (sqlite3 * db, const char *sql, int (*row)(void *, int, char **, char **), void *context,
         char **message),
@@ -42,6 +42,39 @@ SQLITE(bind_null, SQLITE_NOMEM, (sqlite3_stmt * statement, int n), (statement, n
 SQLITE(bind_text, SQLITE_NOMEM,
        (sqlite3_stmt * statement, int n, const char *text, int size, void (*destroy)(void *)),
        (statement, n, text, size, destroy))
+
+SQLITE(wal_checkpoint_v2, SQLITE_IOERR,
+       (sqlite3 * db, const char *name, int mode, int *frames, int *done),
+       (db, name, mode, frames, done))
+
+/* Without memory it gives no text, and the next step of the statement says why. */
+const unsigned char *sqlite3_column_text(sqlite3_stmt *statement, int column)
+{
+    REAL(const unsigned char *, sqlite3_column_text, (sqlite3_stmt *, int));
+    if (!FAILS(FAILING_SQLITE, "sqlite3_column_text", NULL)) return real(statement, column);
+    textless = statement;
+    injected = SQLITE_NOMEM;
+    return NULL;
+}
+
+int sqlite3_reset(sqlite3_stmt *statement)
+{
+    REAL(int, sqlite3_reset, (sqlite3_stmt *));
+    if (textless == statement) textless = NULL;
+    return real(statement);
+}
+
+int sqlite3_step(sqlite3_stmt *statement)
+{
+    REAL(int, sqlite3_step, (sqlite3_stmt *));
+    const failing_verdict verdict = FAILS(FAILING_SQLITE, "sqlite3_step", NULL);
+    const bool no_text = textless == statement;
+    if (no_text) textless = NULL;
+    injected = no_text ? SQLITE_NOMEM : verdict ? SQLITE_IOERR : 0;
+    if (no_text || verdict == FAILING_NOW) return injected;
+    const int result = real(statement);
+    return verdict ? injected : result;
+}
 
 /* On failure they give nothing, as the real ones do. */
 int sqlite3_prepare_v2(sqlite3 *db, const char *sql, int size, sqlite3_stmt **statement,
@@ -166,3 +199,18 @@ HDF5(herr_t, H5Pset_fletcher32, (hid_t id), (id))
 HDF5(herr_t, H5Pset_driver, (hid_t id, hid_t driver, const void *info), (id, driver, info))
 HDF5(herr_t, H5Pset_chunk_cache, (hid_t id, size_t slots, size_t bytes, double w0),
      (id, slots, bytes, w0))
+HDF5(herr_t, H5Pset_obj_track_times, (hid_t id, hbool_t on), (id, on))
+HDF5(herr_t, H5Pset_fill_time, (hid_t id, H5D_fill_time_t when), (id, when))
+HDF5(herr_t, H5Pset_libver_bounds, (hid_t id, H5F_libver_t low, H5F_libver_t high), (id, low, high))
+HDF5(herr_t, H5Pset_fclose_degree, (hid_t id, H5F_close_degree_t degree), (id, degree))
+HDF5(herr_t, H5Tset_strpad, (hid_t id, H5T_str_t pad), (id, pad))
+HDF5(herr_t, H5Tset_cset, (hid_t id, H5T_cset_t set), (id, set))
+HDF5(htri_t, H5Tequal, (hid_t a, hid_t b), (a, b))
+HDF5(htri_t, H5Lexists, (hid_t at, const char *name, hid_t list), (at, name, list))
+HDF5(htri_t, H5Aexists_by_name, (hid_t at, const char *object, const char *name, hid_t list),
+     (at, object, name, list))
+HDF5(int, H5Sget_simple_extent_ndims, (hid_t id), (id))
+HDF5(int, H5Sget_simple_extent_dims, (hid_t id, hsize_t *size, hsize_t *most), (id, size, most))
+HDF5(int, H5Pget_chunk, (hid_t id, int rank, hsize_t *size), (id, rank, size))
+HDF5(H5D_layout_t, H5Pget_layout, (hid_t id), (id))
+HDF5(int, H5Pget_nfilters, (hid_t id), (id))

@@ -94,7 +94,8 @@ static pid_t die_with_it(const char *host, const char *job, const char *restarts
 static fracas_lock_state state_is(const char *part)
 {
     char text[FRACAS_HOLDER_TEXT];
-    fracas_lock_state state = fracas_study_lock_state(study, text);
+    fracas_lock_state state;
+    OK(fracas_study_lock_state(study, &state, text));
     assert_has(text, part);
     return state;
 }

@@ -130,6 +130,11 @@ bool fracas_sql_next(fracas_index *index, sqlite3_stmt *statement, fracas_err *e
     return code == SQLITE_ROW;
 }
 
+fracas_err fracas_sql_whole(const fracas_index *index)
+{
+    return sqlite3_errcode(index->db) == SQLITE_NOMEM ? check(index, SQLITE_NOMEM) : FRACAS_OK;
+}
+
 void fracas_sql_end(sqlite3_stmt *statement)
 {
     if (statement) sqlite3_reset(statement); /* repeats the error of its last step */
@@ -164,10 +169,11 @@ fracas_err fracas_sql_text(fracas_index *index, const char *text, const fracas_s
     fracas_err err;
     *found = NULL;
     TRY(fracas_sql_start(index, text, value, count, &s));
-    const char *column = fracas_sql_next(index, s, &err) ? (const char *)sqlite3_column_text(s, 0)
-                                                         : NULL;
-    if (column) *found = strdup(column);
-    return column && !*found ? fracas_no_memory("a text of the index") : err;
+    if (!fracas_sql_next(index, s, &err)) return err;
+    const char *column = (const char *)sqlite3_column_text(s, 0);
+    if (!column) return fracas_sql_whole(index);
+    *found = strdup(column);
+    return *found ? FRACAS_OK : fracas_no_memory("a text of the index");
 }
 
 fracas_err fracas_sql_script(fracas_index *index, const char *text)

@@ -75,6 +75,9 @@ FRACAS_MUST_USE fracas_err fracas_sql_start(fracas_index *index, const char *tex
                                             sqlite3_stmt **statement);
 /* Steps it: true if a row is there to be read. It ends without one, and after an error. */
 bool fracas_sql_next(fracas_index *index, sqlite3_stmt *statement, fracas_err *err);
+/* FRACAS_ENVIRONMENT if a text of the row at hand found no memory: it was read as NULL then. The
+ * next step says so, too. */
+FRACAS_MUST_USE fracas_err fracas_sql_whole(const fracas_index *index);
 /* Ends it before its last row; NULL is allowed. */
 void fracas_sql_end(sqlite3_stmt *statement);
 FRACAS_OWNER(sqlite3_stmt, fracas_sql_end)

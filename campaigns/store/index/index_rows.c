@@ -158,7 +158,9 @@ fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *
         while (fracas_sql_next(index, s, &err)) {
             fracas_index_row row = {p, sqlite3_column_int64(s, 0), status_of(s, 1),
                                     sqlite3_column_int64(s, 2)};
-            say(context, &row, (const char *)sqlite3_column_text(s, 3));
+            const char *reason = (const char *)sqlite3_column_text(s, 3);
+            TRY(fracas_sql_whole(index));
+            say(context, &row, reason);
         }
         TRY(err);
     }
@@ -177,7 +179,7 @@ fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int
         SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(replica)), &s));
     if (fracas_sql_next(index, s, &err)) {
         *place = fracas_place_read(s, 0);
-        return FRACAS_OK;
+        return fracas_sql_whole(index);
     }
     TRY(err);
     return fracas_fail(FRACAS_DAMAGED,
@@ -201,6 +203,7 @@ fracas_err fracas_index_each_by_segment(fracas_index *index, fracas_place_visit 
         const char *hex = (const char *)sqlite3_column_text(s, 0);
         const bool valid = hex && fracas_hash_parse(hex, &point);
         const fracas_place place = fracas_place_read(s, 2);
+        TRY(fracas_sql_whole(index));
         TRY(visit(context, valid ? &point : NULL, sqlite3_column_int64(s, 1), &place));
     }
     return err;
@@ -334,6 +337,7 @@ static fracas_err load_segments(fracas_index *index, const char *select,
                         "the list of segments"));
         const char *name = (const char *)sqlite3_column_text(s, 1),
                    *hex = (const char *)sqlite3_column_text(s, 3);
+        TRY(fracas_sql_whole(index));
         char *end;
         fracas_file_seal seal = {(uint64_t)sqlite3_column_int64(s, 2),
                                  hex ? strtoull(hex, &end, 16) : 0};
@@ -498,7 +502,7 @@ fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point,
                          SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER((int64_t)count)), &s));
     while (found < count && fracas_sql_next(index, s, &err)) row[found++] = fracas_place_read(s, 0);
     if (found < count) TRY(err);
-    if (found == count) return FRACAS_OK;
+    if (found == count) return fracas_sql_whole(index);
     return fracas_fail(FRACAS_DAMAGED, "%s: %zu of the first %zu replicas of a point are there; %s",
                        index->path, found, count, remedy);
 }

@@ -160,6 +160,7 @@ static fracas_err choose_name(const joining *j, const fracas_known_segment *segm
     *name = *path = NULL;
     for (int other = 0; other < 2; other++) {
         fracas_file_seal seal;
+        struct stat info;
         free(*name);
         free(*path);
         *path = NULL;
@@ -167,8 +168,8 @@ static fracas_err choose_name(const joining *j, const fracas_known_segment *segm
                                 segment->seal.checksum)
                   : fracas_path(name, "%s", segment->name));
         TRY(fracas_disk_segment(j->into, *name, path));
-        *there = access(*path, F_OK) == 0;
-        if (!*there) return FRACAS_OK;
+        *there = lstat(*path, &info) == 0; /* a link to nowhere, too: it will not be replaced */
+        if (!*there) return errno == ENOENT ? FRACAS_OK : fracas_disk_fail("look at", *path);
         TRY(fracas_disk_seal_path(*path, &seal));
         if (seal.bytes == segment->seal.bytes && seal.checksum == segment->seal.checksum)
             return FRACAS_OK;

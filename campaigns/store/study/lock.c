@@ -79,14 +79,16 @@ static void parse(const char *text, holder *h)
     if (fields != 7) *h = (holder){.host = "unknown"};
 }
 
-/* False if the file says nothing. */
-static bool read_holder(int fd, holder *h)
+/* *named: the file says something. False, and errno, if it cannot be read. */
+static bool read_holder(int fd, holder *h, bool *named)
 {
     char text[TEXT] = "";
-    ssize_t got = pread(fd, text, sizeof text - 1, 0);
+    size_t got;
     *h = (holder){0};
-    if (got <= 0) return false;
-    parse(text, h);
+    *named = false;
+    if (!fracas_disk_read(fd, 0, text, sizeof text - 1, &got)) return false;
+    *named = got > 0;
+    if (*named) parse(text, h);
     return true;
 }
 
@@ -134,7 +136,7 @@ static fracas_err sign(int fd, const char *path, const holder *before)
         describe(before, left);
         length += snprintf(text + length, sizeof text - (size_t)length, "after %s\n", left);
     }
-    if (ftruncate(fd, 0) < 0 || pwrite(fd, text, (size_t)length, 0) != length)
+    if (ftruncate(fd, 0) < 0 || !fracas_disk_write(fd, 0, text, (size_t)length))
         return fracas_disk_fail("write", path);
     return fsync(fd) < 0 ? fracas_disk_fail("sync", path) : FRACAS_OK; /* whole after a power cut */
 }
@@ -144,7 +146,8 @@ static fracas_err in_use(int fd, const char *path, pid_t pid)
 {
     holder h;
     char text[FRACAS_HOLDER_TEXT];
-    read_holder(fd, &h);
+    bool named;
+    if (!read_holder(fd, &h, &named)) return fracas_disk_fail("read", path);
     if (pid > 0 && h.pid != pid)
         h = (holder){.pid = pid}, snprintf(h.host, sizeof h.host, "%s", this_process().host);
     describe(&h, text);
@@ -179,9 +182,9 @@ static bool is_passing(int fd)
 {
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     holder h;
-    if (fcntl(fd, F_GETLK, &lock) < 0) return false;
-    return lock.l_type == F_UNLCK || !read_holder(fd, &h) ||
-           (lock.l_pid > 0 && h.pid != lock.l_pid);
+    bool named;
+    if (fcntl(fd, F_GETLK, &lock) < 0 || !read_holder(fd, &h, &named)) return false;
+    return lock.l_type == F_UNLCK || !named || (lock.l_pid > 0 && h.pid != lock.l_pid);
 }
 
 /* False, and errno, if another process has the lock and keeps it. */
@@ -207,7 +210,8 @@ static fracas_err take(int fd, const char *path, bool force, bool signing)
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET}; /* for F_GETLK */
     holder before;
     if (try_lock(fd)) {
-        bool left = read_holder(fd, &before);
+        bool left;
+        if (!read_holder(fd, &before, &left)) return fracas_disk_fail("read", path);
         if (left) TRY(judge(path, &before, force));
         return signing ? sign(fd, path, left ? &before : NULL) : FRACAS_OK;
     }
@@ -264,21 +268,26 @@ bool fracas_study_took_over(int lock, char text[FRACAS_HOLDER_TEXT])
 
 /* ---- looking at it ---- */
 
-fracas_lock_state fracas_study_lock_state(const char *study, char text[FRACAS_HOLDER_TEXT])
+fracas_err fracas_study_lock_state(const char *study, fracas_lock_state *state,
+                                   char text[FRACAS_HOLDER_TEXT])
 {
     OWNED char *path = NULL;
     holder h, self = this_process();
-    fracas_lock_state state = FRACAS_LOCK_FREE;
+    *state = FRACAS_LOCK_FREE;
     *text = '\0';
-    if (fracas_disk_join(study, "lock", &path)) return state;
+    TRY(fracas_disk_join(study, "lock", &path));
     struct flock lock = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     OWN_FD fd = fracas_file_open(path);
-    if (fd < 0) return state;
-    bool held = fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK,
-         named = read_holder(fd, &h);
+    if (fd < 0) {
+        if (errno == ENOENT || errno == EACCES) return FRACAS_OK;
+        fracas_err err = fracas_disk_fail("open", path);
+        return err == FRACAS_DAMAGED ? FRACAS_OK : err; /* a link in its place is named elsewhere */
+    }
+    bool held = fcntl(fd, F_GETLK, &lock) == 0 && lock.l_type != F_UNLCK, named;
+    if (!read_holder(fd, &h, &named)) return fracas_disk_fail("read", path);
     if (held && lock.l_pid > 0 && h.pid != lock.l_pid) h = (holder){.pid = lock.l_pid};
     if (held || named) describe(&h, text);
-    if (held || (named && lives(&h, &self))) state = FRACAS_LOCK_HELD;
-    else if (named) state = same_kernel(&h, &self) ? FRACAS_LOCK_LEFT : FRACAS_LOCK_ELSEWHERE;
-    return state;
+    if (held || (named && lives(&h, &self))) *state = FRACAS_LOCK_HELD;
+    else if (named) *state = same_kernel(&h, &self) ? FRACAS_LOCK_LEFT : FRACAS_LOCK_ELSEWHERE;
+    return FRACAS_OK;
 }

@@ -4,6 +4,7 @@
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -57,7 +58,7 @@ static fracas_err open_file(const char *study, fracas_reader **reader)
 {
     OWNED char *path = NULL;
     TRY(fracas_disk_join(study, "study.h5", &path));
-    if (access(path, F_OK))
+    if (access(path, F_OK) && errno == ENOENT)
         return fracas_fail(FRACAS_DAMAGED, "%s is not there; `fracas run` makes it", path);
     return fracas_reader_open(path, reader);
 }
@@ -90,7 +91,7 @@ static fracas_err take_file_alone(const char *study, const fracas_hash *campaign
     OWNED char *path = NULL;
     if (!why) return fracas_no_memory("a message");
     TRY(fracas_disk_join(study, "study.h5", &path));
-    if (access(path, F_OK))
+    if (access(path, F_OK) && errno == ENOENT)
         return fracas_fail(FRACAS_DAMAGED, "%s; and there is no %s/study.h5", why, study);
     TRY(open_file(study, &results->reader));
     if (!fracas_hash_equal(&fracas_reader_header(results->reader)->campaign, campaign))

@@ -133,10 +133,12 @@ static void note(const verification *v, const char *format, ...)
     v->options->note(v->options->context, text);
 }
 
-static void note_lock(verification *v)
+static fracas_err note_lock(verification *v)
 {
     char holder[FRACAS_HOLDER_TEXT];
-    switch (fracas_study_lock_state(v->study, holder)) {
+    fracas_lock_state state;
+    TRY(fracas_study_lock_state(v->study, &state, holder));
+    switch (state) {
     case FRACAS_LOCK_FREE: break;
     case FRACAS_LOCK_HELD:
         v->held = true;
@@ -153,6 +155,7 @@ static void note_lock(verification *v)
              v->study, holder);
         break;
     }
+    return FRACAS_OK;
 }
 
 typedef struct {
@@ -177,7 +180,7 @@ static fracas_err note_leftovers(verification *v)
 {
     OWNED char *folder = NULL;
     leftovers l = {.v = v};
-    note_lock(v);
+    TRY(note_lock(v));
     if (v->held) return FRACAS_OK; /* its files come and go */
     TRY(problem(v, fracas_index_segments_by_name(v->index, &l.known)));
     fracas_err err = fracas_disk_join(v->study, "segments", &folder);
