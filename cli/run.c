@@ -48,6 +48,7 @@ fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas
     TRY(fracas_arguments_time(arguments, "walltime", &run->walltime));
     TRY(fracas_arguments_word(arguments, "isolation", fracas_isolation_name, 2, &isolation));
     run->isolation = (fracas_isolation)isolation;
+    TRY(fracas_arguments_real(arguments, "checkpoint-time", 1.0, &run->checkpoint_seconds));
     TRY(fracas_arguments_real(arguments, "lease-time", 1.0, &run->lease_seconds));
     TRY(fracas_arguments_time(arguments, "lease-limit", &run->lease_limit));
     TRY(fracas_arguments_real(arguments, "memory-limit", 1048576.0, &run->memory_limit));

@@ -18,6 +18,8 @@
         {"part", "K/N", "compute the K-th of N parts only, for `fracas merge-studies`"},      \
         {"walltime", "TIME", "have stopped, resumable, after TIME: 55m, 1h30m, 2:00:00"},     \
         {"isolation", "lease|none", "a process for each lease, or none (lease)"},             \
+        {"checkpoint-time", "S",                                                              \
+         "keep the state of what computes for longer than S seconds (120)"},                  \
         {"lease-time", "S", "lease so much that it takes S seconds; 0: one batch (1)"},       \
         {"lease-limit", "TIME", "kill a lease after TIME (10m and 50 times its prediction)"}, \
         {"memory-limit", "MB", "memory that a lease may allocate (the machine's)"},           \
@@ -32,7 +34,7 @@
     }
 
 /* These, --study first, for commands without any other. */
-enum { FRACAS_NRUN_OPTIONS = 16 };
+enum { FRACAS_NRUN_OPTIONS = 17 };
 extern const fracas_option fracas_cli_run_options[FRACAS_NRUN_OPTIONS + 1];
 #define FRACAS_STUDY_RUN_OPTIONS (fracas_cli_run_options + 1)
 

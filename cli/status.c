@@ -6,6 +6,7 @@
 #include "base/json.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/session/prepare.h"
+#include "campaigns/store/checkpoint.h"
 #include "campaigns/store/store.h"
 
 #include <inttypes.h>
@@ -78,6 +79,41 @@ static fracas_err write_decisions(fracas_json *json, const fracas_status *status
     return FRACAS_OK;
 }
 
+/* ---- realizations that compute for long ---- */
+
+typedef struct {
+    const fracas_status *status;
+    fracas_json *json; /* NULL: text */
+    bool any;
+} long_ones;
+
+static fracas_err tell_checkpoint(void *context, const fracas_checkpoint_head *head, double age)
+{
+    long_ones *l = context;
+    const fracas_point_table *table = &l->status->campaign->table;
+    size_t p = 0;
+    while (p < table->npoints && !fracas_hash_equal(&table->point[p].hash, &head->point)) p++;
+    if (p == table->npoints) return FRACAS_OK;
+    if (l->json) {
+        fracas_json_object(l->json, NULL);
+        fracas_json_integer(l->json, "point", (int64_t)p);
+        fracas_json_integer(l->json, "replica", head->replica);
+        fracas_json_integer(l->json, "steps", head->steps);
+        fracas_json_real(l->json, "time", head->time);
+        fracas_json_real(l->json, "end", head->end);
+        fracas_json_real(l->json, "age", age);
+        fracas_json_close(l->json);
+        return FRACAS_OK;
+    }
+    if (!l->any) fputs("\ncheckpoints   of realizations that compute for long\n", stdout);
+    l->any = true;
+    printf("  point %zu replica %" PRId64 ": %s, %.3g of at most %.3g us, %" PRId64
+           " steps, %.0f s ago\n",
+           p, head->replica, head->over ? "computed" : "computing", 1e6 * head->time,
+           1e6 * head->end, head->steps, age);
+    return FRACAS_OK;
+}
+
 static fracas_err write_json(const fracas_status *status)
 {
     fracas_json json;
@@ -105,6 +141,11 @@ static fracas_err write_json(const fracas_status *status)
         if (!code) code = write_decisions(&json, status, i);
         fracas_json_close(&json);
     }
+    fracas_json_close(&json);
+    fracas_json_array(&json, "checkpoints");
+    if (!code)
+        code = fracas_checkpoints_each(status->study, tell_checkpoint,
+                                       &(long_ones){status, &json, false});
     fracas_json_close(&json);
     fracas_json_array(&json, "failures");
     if (!code && status->all.failed)
@@ -207,6 +248,7 @@ static fracas_err print_text(const fracas_status *status)
     printf("\nsegments      %" PRId64 ", %.1f MB\n", all->segments, (double)all->bytes / 1e6);
     TRY(print_points(status));
     TRY(print_decisions(status));
+    TRY(fracas_checkpoints_each(status->study, tell_checkpoint, &(long_ones){status, NULL, false}));
     bool first = true;
     if (!all->failed) return FRACAS_OK;
     return fracas_index_failures(status->index, &status->campaign->table, print_failure, &first);

@@ -59,6 +59,7 @@ typedef struct {
     bool interfaces; /* keep one row an interface */
     int width;       /* lanes: 1, 4, 8; 0 chooses by the number of realizations */
     fracas_isa isa;  /* FRACAS_ISA_BEST: the best this CPU has */
+    const struct fracas_batch_watch *watch; /* NULL: nobody; must outlive the batch */
 } fracas_batch_options;
 
 /* A batch of `count` (1 to 8) realizations of `model`, which must outlive it. It makes all its
@@ -78,5 +79,34 @@ double *fracas_batch_strength(fracas_batch *batch, size_t lane, size_t *stride);
  * (fracas_record_init) and then belongs to the caller. A lane's record depends on its own strengths
  * alone. FRACAS_USAGE as fracas_model_check_strength. */
 FRACAS_MUST_USE fracas_err fracas_batch_run(fracas_batch *batch, fracas_record *record);
+
+/* ---- the state of a lane between two steps ---- */
+
+/* Takes the next `size` bytes, or fills them. */
+typedef fracas_err fracas_transfer(void *context, void *bytes, size_t size);
+
+/* All of a lane that its next step reads, as bytes of one program on one kind of processor. Loaded
+ * into any lane of a batch of the same model and options but width and instruction set, it goes on
+ * to the same record. FRACAS_DAMAGED if it is of another history; errors of the transfer. */
+FRACAS_MUST_USE fracas_err fracas_batch_save(fracas_batch *batch, size_t lane, fracas_transfer *put,
+                                             void *context);
+FRACAS_MUST_USE fracas_err fracas_batch_load(fracas_batch *batch, size_t lane, fracas_transfer *get,
+                                             void *context);
+
+typedef struct {
+    bool running; /* else its record is complete */
+    int64_t steps;
+    double time, end; /* s; time.end */
+} fracas_lane_progress;
+fracas_lane_progress fracas_batch_progress(const fracas_batch *batch, size_t lane);
+
+/* A look at a batch that runs; an error ends it. */
+typedef struct fracas_batch_watch {
+    /* Before the first step: lanes may be loaded, with the records of those that are over. */
+    fracas_err (*begin)(void *context, fracas_batch *batch, fracas_record *record);
+    /* Every 64 steps: lanes may be saved. */
+    fracas_err (*pause)(void *context, fracas_batch *batch, const fracas_record *record);
+    void *context;
+} fracas_batch_watch;
 
 #endif

@@ -37,6 +37,7 @@ fracas_err fracas_batch_create(const fracas_model *model, size_t count,
     *batch = (fracas_batch){
         .model = model,
         .count = count,
+        .watch = options->watch,
         .step = {.width = width, .lanes = fracas_isa_lanes(isa, width), .isa = isa}};
     const size_t lanes = (size_t)width;
     double **const array[] = {&batch->step.state, &batch->step.onset_time, &batch->step.break_time};
@@ -88,7 +89,6 @@ fracas_err fracas_batch_begin(fracas_batch *batch)
 {
     const fracas_model *model = batch->model;
     fracas_step *step = &batch->step;
-    batch->steps = 0;
     const size_t width = (size_t)step->width, strengths = model->interfaces * model->strengths;
     for (size_t l = 0; l < width; l++) {
         size_t stride;
@@ -117,7 +117,7 @@ static fracas_err finish_lane(fracas_batch *batch, size_t l, fracas_outcome outc
     *record = (fracas_record){.outcome = outcome,
                               .broken = batch->step.broken[l],
                               .cracked = batch->step.cracked[l],
-                              .steps = batch->steps,
+                              .steps = lane->steps,
                               .onset_time = batch->step.first_onset[l],
                               .end_time = batch->step.time[l],
                               .time_step = batch->model->time_step,
@@ -157,10 +157,10 @@ static fracas_err check_end(fracas_batch *batch, size_t l, fracas_outcome *outco
         *outcome = FRACAS_NONFINITE;
         return FRACAS_OK;
     }
-    TRY(fracas_guard_check(&lane->guard, ledger, batch->model, step, (int)l, batch->steps, over,
+    TRY(fracas_guard_check(&lane->guard, ledger, batch->model, step, (int)l, lane->steps, over,
                            &drifts));
     if (drifts) *outcome = FRACAS_ENERGY_DRIFT;
-    else if (lane->last > 0 && batch->steps == lane->last) *outcome = FRACAS_TIME_LIMIT;
+    else if (lane->last > 0 && lane->steps == lane->last) *outcome = FRACAS_TIME_LIMIT;
     else *running = !over;
     return FRACAS_OK;
 }
@@ -173,14 +173,14 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
     fracas_ledger *ledger = &lane->ledger;
     const bool cracked = step->cracked[l] > 0;
     fracas_outcome outcome;
-    fracas_ledger_update(ledger, step, (int)l, batch->steps == 0);
+    fracas_ledger_update(ledger, step, (int)l, lane->steps == 0);
     fracas_history_row row = {
         .time = step->time[l], .residual = ledger->residual, .broken = step->broken[l]};
     memcpy(row.energy, ledger->energy, sizeof row.energy);
     TRY(check_end(batch, l, &outcome, &lane->running));
     if (!lane->running || fracas_history_keeps(&lane->history, &row, cracked))
         row.fragments = count_fragments(batch, l);
-    fracas_history_observe(&lane->history, batch->steps, &row, cracked);
+    fracas_history_observe(&lane->history, lane->steps, &row, cracked);
     return lane->running ? FRACAS_OK : finish_lane(batch, l, outcome, record);
 }
 
@@ -190,9 +190,9 @@ static void advance_clock(fracas_batch *batch, int l)
     fracas_step *step = &batch->step;
     fracas_lane *lane = &batch->lane[l];
     const double base = batch->model->time_step;
-    step->drift[l] = batch->steps == 0 ? 0.0 : step->next[l];
+    step->drift[l] = lane->steps == 0 ? 0.0 : step->next[l];
     step->kick[l] = step->next[l] = base;
-    if (batch->steps == 0) {
+    if (lane->steps == 0) {
         lane->pace = base;
     } else if (step->drift[l] == lane->pace) {
         lane->paces++;
@@ -214,15 +214,22 @@ fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record, size_t 
         if (batch->lane[l].running) TRY(observe_lane(batch, l, &record[l]));
         *running += batch->lane[l].running;
     }
-    batch->steps++;
+    for (int l = 0; l < step->width; l++) batch->lane[l].steps++;
     return FRACAS_OK;
 }
 
 /* Computes all lanes until they are over. */
 static fracas_err run_lanes(fracas_batch *batch, fracas_record *record)
 {
-    size_t running = batch->count;
-    while (running > 0) TRY(fracas_batch_step(batch, record, &running));
+    enum { BETWEEN = 64 }; /* steps */
+    const fracas_batch_watch *watch = batch->watch;
+    size_t running = 0;
+    for (size_t l = 0; l < batch->count; l++) running += batch->lane[l].running;
+    for (int n = 1; running > 0; n++) {
+        TRY(fracas_batch_step(batch, record, &running));
+        if (watch && running > 0 && n % BETWEEN == 0)
+            TRY(watch->pause(watch->context, batch, record));
+    }
     return FRACAS_OK;
 }
 
@@ -230,24 +237,25 @@ static fracas_err run_lanes(fracas_batch *batch, fracas_record *record)
  * sound: no state of then is in memory. */
 static fracas_err run_again(fracas_batch *batch, fracas_record *record)
 {
-    bool again = false;
+    bool again = false, drifted[FRACAS_LANES_MAX] = {false};
     for (size_t l = 0; l < batch->count; l++) {
         fracas_lane *lane = &batch->lane[l];
-        if (record[l].outcome == FRACAS_ENERGY_DRIFT && lane->guard.final) {
+        if (record[l].outcome == FRACAS_ENERGY_DRIFT && lane->guard.final && !lane->last) {
             lane->last = lane->guard.sound;
             fracas_record_clear(&record[l]);
-            again = true;
+            again = drifted[l] = true;
         }
     }
     if (!again) return FRACAS_OK;
     TRY(fracas_batch_begin(batch));
-    for (size_t l = 0; l < batch->count; l++) batch->lane[l].running = batch->lane[l].last > 0;
+    for (size_t l = 0; l < batch->count; l++) batch->lane[l].running = drifted[l];
     return run_lanes(batch, record);
 }
 
 fracas_err fracas_batch_run(fracas_batch *batch, fracas_record *record)
 {
     TRY(fracas_batch_begin(batch));
+    if (batch->watch) TRY(batch->watch->begin(batch->watch->context, batch, record));
     TRY(run_lanes(batch, record));
     return run_again(batch, record);
 }

@@ -17,6 +17,7 @@ typedef struct {
     fracas_guard guard;
     int64_t
         last; /* step at which it ends without its rule: its numbers were final; 0: by its rule */
+    int64_t steps; /* done */
     double pace;   /* s, time step of the last steps ... */
     double since;  /* s, ... since this time ... */
     int64_t paces; /* ... and how many: time = since + paces pace, without the round-off of a sum */
@@ -28,7 +29,7 @@ struct fracas_batch {
     fracas_step step; /* first: it is aligned */
     const fracas_model *model;
     size_t count; /* realizations; lanes beyond them repeat lane 0 */
-    int64_t steps;
+    const fracas_batch_watch *watch;
     fracas_lane lane[FRACAS_LANES_MAX];
 };
 

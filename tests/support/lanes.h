@@ -38,10 +38,10 @@ static inline void poison_lane(fracas_batch *batch, size_t slot, size_t back)
     *strength = *(strength - back * (size_t)batch->step.lanes) = NAN;
 }
 
-static inline void run_lanes(const fracas_model *model, const lane_kind *kind,
-                             const lane_batch *plan, fracas_record *record)
+static inline fracas_batch *batch_of_plan(const fracas_model *model, const lane_kind *kind,
+                                          const lane_batch *plan)
 {
-    OWN(fracas_batch) batch = batch_with(
+    fracas_batch *batch = batch_with(
         model, plan->count,
         (fracas_batch_options){
             .history = 20, .interfaces = true, .width = plan->width, .isa = plan->isa});
@@ -50,11 +50,18 @@ static inline void run_lanes(const fracas_model *model, const lane_kind *kind,
         for (size_t k = 0;
              kind->fourth > 0 && (plan->first + l) % 4 == 3 && k < strengths_of(model); k++)
             bar_set_strength(batch, l, k, kind->fourth);
-        fracas_record_init(&record[l]);
     }
     OK(fracas_batch_begin(batch));
+    return batch;
+}
+
+static inline void run_lanes(const fracas_model *model, const lane_kind *kind,
+                             const lane_batch *plan, fracas_record *record)
+{
+    OWN(fracas_batch) batch = batch_of_plan(model, kind, plan);
+    for (size_t l = 0; l < plan->count; l++) fracas_record_init(&record[l]);
     for (size_t running = plan->count; running > 0;) {
-        if (batch->steps == 40 && plan->poisoned < plan->count)
+        if (batch->lane[0].steps == 40 && plan->poisoned < plan->count)
             poison_lane(batch, plan->poisoned, kind->back);
         OK(fracas_batch_step(batch, record, &running));
     }
@@ -86,6 +93,60 @@ static inline void compare_lanes(const fracas_model *model, const lane_kind *kin
     }
 }
 
+/* ---- lanes that go on in another batch ---- */
+
+/* States of lanes, one after another. */
+typedef struct {
+    char *byte;
+    size_t size, at;
+} lane_tape;
+
+static inline fracas_err put_on_tape(void *context, void *bytes, size_t size)
+{
+    lane_tape *tape = context;
+    tape->byte = realloc(tape->byte, tape->size + size + 1);
+    memcpy(tape->byte + tape->size, bytes, size);
+    tape->size += size;
+    return FRACAS_OK;
+}
+
+static inline fracas_err get_from_tape(void *context, void *bytes, size_t size)
+{
+    lane_tape *tape = context;
+    assert_true(tape->at + size <= tape->size);
+    memcpy(bytes, tape->byte + tape->at, size);
+    tape->at += size;
+    return FRACAS_OK;
+}
+
+/* Replicas of `from` compute for so many steps; then those of `to`, which has them all and one
+ * more, go on with their states, and that one begins. */
+static inline void compare_moved(const fracas_model *model, const lane_kind *kind,
+                                 const lane_batch *from, const lane_batch *to, int64_t steps,
+                                 const fracas_record alone[8])
+{
+    fracas_record record[9];
+    lane_tape tape = {0};
+    size_t running = from->count, last = from->first + from->count - to->first;
+    for (size_t l = 0; l < to->count; l++) fracas_record_init(&record[l]);
+    fracas_batch *batch = batch_of_plan(model, kind, from);
+    for (int64_t s = 0; s < steps && running > 0; s++)
+        OK(fracas_batch_step(batch, record + (from->first - to->first), &running));
+    for (size_t l = 0; l < from->count; l++) OK(fracas_batch_save(batch, l, put_on_tape, &tape));
+    fracas_batch_destroy(batch);
+    batch = batch_of_plan(model, kind, to);
+    for (size_t l = from->first - to->first; l < last; l++)
+        OK(fracas_batch_load(batch, l, get_from_tape, &tape));
+    assert_int_equal(tape.at, tape.size);
+    for (running = 1; running > 0;) OK(fracas_batch_step(batch, record, &running));
+    fracas_batch_destroy(batch);
+    free(tape.byte);
+    for (size_t l = 0; l < to->count; l++) {
+        assert_same_record(&alone[to->first + l], &record[l]);
+        fracas_record_clear(&record[l]);
+    }
+}
+
 /* All instruction sets and widths against what run_alone left, which is cleared. */
 static inline void check_lanes(const fracas_model *model, const lane_kind *kind,
                                fracas_record alone[8])
@@ -102,6 +163,12 @@ static inline void check_lanes(const fracas_model *model, const lane_kind *kind,
     }
     /* another place, and lanes repeating the first */
     compare_lanes(model, kind, (lane_batch){3, 5, 8, FRACAS_ISA_BEST, 0}, alone);
+    const lane_batch one = {5, 1, 1, FRACAS_ISA_BASELINE, 1}, four = {4, 3, 4, FRACAS_ISA_BEST, 3},
+                     eight = {3, 5, 8, FRACAS_ISA_BEST, 5};
+    const int64_t half = alone[5].steps / 2, nearly = alone[5].steps - 1;
+    compare_moved(model, kind, &one, &four, half, alone);
+    compare_moved(model, kind, &four, &eight, nearly, alone);
+    compare_moved(model, kind, &one, &one, 0, alone);
     for (size_t r = 0; r < 8; r++) fracas_record_clear(&alone[r]);
 }
 

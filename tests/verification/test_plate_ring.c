@@ -153,7 +153,7 @@ static membrane_errors turn_by(int64_t order, double size, const fracas_kind *ma
     print_message("%s, order %d, %s mass, size %.1f mm, %zu elements, %lld steps: hoop stress "
                   "within %.1e, displacement %.1e, residual %.1e\n",
                   integrator->name, (int)order, mass->name, size * 1e3, model->elements,
-                  (long long)batch->steps, errors.stress, errors.moved, errors.residual);
+                  (long long)batch->lane[0].steps, errors.stress, errors.moved, errors.residual);
     clear_run(&run);
     return errors;
 }

@@ -296,7 +296,7 @@ static double residual_of(one_run *run)
         const fracas_ledger *ledger = &run->batch->lane[0].ledger;
         const double held = ledger->elastic + ledger->cohesive + ledger->dissipated;
         const double scale = fmax(fmax(ledger->kinetic, held), fabs(ledger->work));
-        if (run->batch->steps > FRACAS_GUARD_START)
+        if (run->batch->lane[0].steps > FRACAS_GUARD_START)
             worst = fmax(worst, fabs(ledger->residual) / scale);
     }
     return worst;

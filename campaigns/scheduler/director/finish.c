@@ -3,6 +3,7 @@
 #include "campaigns/scheduler/session/failures.h"
 #include "campaigns/scheduler/session/meshes.h"
 #include "campaigns/scheduler/types/header.h"
+#include "campaigns/store/checkpoint.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -61,6 +62,7 @@ static fracas_err merge(fracas_director *director, const fracas_counts *count)
     TRY(fracas_rounds_check(campaign, director->index));
     TRY(fracas_study_merge(director->setup.study, director->index, &header, &director->rounds.table,
                            &meshes));
+    fracas_checkpoints_end(director->setup.study);
     director->timings.merging = director->setup.now() - began;
     if (count->duplicates) {
         snprintf(text, sizeof text,

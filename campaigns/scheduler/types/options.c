@@ -10,7 +10,8 @@ void fracas_run_options_init(fracas_run_options *options)
     *options = (fracas_run_options){.isa = FRACAS_ISA_BEST,
                                     .segment_age = 5,
                                     .segment_bytes = 64.0 * 1024 * 1024,
-                                    .lease_seconds = 1};
+                                    .lease_seconds = 1,
+                                    .checkpoint_seconds = 120};
 }
 
 size_t fracas_run_width(const fracas_run_options *options)

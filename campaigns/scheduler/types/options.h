@@ -29,15 +29,16 @@ typedef struct {
     double lease_seconds; /* target duration of a lease [s] */
     double lease_limit;   /* a lease is killed after this time [s]; 0: 600 s + 50 x predicted */
     double memory_limit;  /* bytes allocated for a lease, at most; 0: no limit */
-    double walltime;      /* the run has drained after this time [s]; 0: no limit */
-    int64_t replicas;     /* for every point; 0: the campaign file's */
-    int part, parts;      /* compute realizations part, part + parts, ...; parts 0 or 1: all */
-    bool force;           /* take over the lock of another host */
-    bool ignore_space;    /* start although the disk is predicted to be too small */
+    double checkpoint_seconds; /* between the checkpoints of a batch */
+    double walltime;           /* the run has drained after this time [s]; 0: no limit */
+    int64_t replicas;          /* for every point; 0: the campaign file's */
+    int part, parts;           /* compute realizations part, part + parts, ...; parts 0 or 1: all */
+    bool force;                /* take over the lock of another host */
+    bool ignore_space;         /* start although the disk is predicted to be too small */
 } fracas_run_options;
 
 /* Defaults: jobs 0, width 0, best instruction set, segment_age 5 s, segment_bytes 64 MiB,
- * lease_seconds 1, all else 0. */
+ * lease_seconds 1, checkpoint_seconds 120, all else 0. */
 void fracas_run_options_init(fracas_run_options *options);
 
 /* Lanes of the batches of a run, 1 to FRACAS_LANES_MAX: options->width, or the maximum if 0. */

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/segment.h"
 
+#include "campaigns/store/checkpoint.h"
+
 #include "base/json.h"
 #include "base/version.h"
 #include "campaigns/scheduler/types/clock.h"
@@ -161,6 +163,8 @@ fracas_err fracas_segment_write(fracas_segment *segment, const char *study,
     TRY(fracas_packet_create(FRACAS_PACKET_SEGMENT, NULL, sizeof head + rows + text, &made));
     TRY(write_file(segment, path, campaign, provenance,
                    (fracas_segment_row *)(made->body + sizeof head), &head.seal));
+    fracas_checkpoints_remove(study, (fracas_segment_row *)(made->body + sizeof head),
+                              segment->count);
     memcpy(made->body, &head, sizeof head);
     memcpy(made->body + sizeof head + rows, provenance, text);
     *note = made;

@@ -116,7 +116,7 @@ static fracas_err start_next(server *s)
     s->first = (s->first + 1) % FRACAS_LEASES_HELD;
     s->nwaiting--;
     fracas_computation computation = {
-        .campaign = s->campaign, .options = s->options, .lease = lease};
+        .campaign = s->campaign, .options = s->options, .study = s->study, .lease = lease};
     if (lease->isolated) return fracas_child_start(&s->child, &computation, &s->models, s->rank);
     set_alarm(fmax(lease->limit, 0));
     fracas_err err = fracas_models_get(&s->models, &computation);

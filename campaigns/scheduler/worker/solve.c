@@ -2,6 +2,7 @@
 #include "campaigns/scheduler/worker/solve.h"
 
 #include "campaigns/plan/point_model.h"
+#include "campaigns/scheduler/worker/interim.h"
 
 static fracas_err fill_strengths(const fracas_computation *computation, const int64_t *replica,
                                  size_t count, fracas_batch *batch)
@@ -20,10 +21,13 @@ static fracas_err fill_strengths(const fracas_computation *computation, const in
 fracas_err fracas_solve(const fracas_computation *computation, const int64_t *replica, size_t count,
                         fracas_record *record)
 {
-    const fracas_batch_options options = {.history = computation->campaign->output.history,
-                                          .interfaces = computation->campaign->output.interfaces,
-                                          .width = computation->options->width,
-                                          .isa = computation->options->isa};
+    fracas_interim interim;
+    const fracas_batch_options options = {
+        .history = computation->campaign->output.history,
+        .interfaces = computation->campaign->output.interfaces,
+        .width = computation->options->width,
+        .isa = computation->options->isa,
+        .watch = fracas_interim_watch(&interim, computation, replica, count)};
     OWN(fracas_batch) batch = NULL;
     TRY(fracas_batch_create(computation->model, count, &options, &batch));
     TRY(fill_strengths(computation, replica, count, batch));

@@ -12,6 +12,7 @@
 typedef struct {
     const fracas_campaign *campaign;
     const fracas_run_options *options;
+    const char *study;         /* NULL: no checkpoints */
     const fracas_model *model; /* at the lease's point ... */
     const fracas_field *field; /* ... and of its strengths: fracas_models_get */
     const fracas_lease *lease;

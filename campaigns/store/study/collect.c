@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Needless files of a study: found, and removed. */
 #include "base/file.h"
+#include "campaigns/store/checkpoint.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/index.h"
 #include "campaigns/store/upkeep.h"
@@ -81,7 +82,7 @@ static fate judge_study(const collection *c, const char *name, const char **why)
     static const char *const ours[] = {
         "campaign.yaml",        "index.sqlite", "index.sqlite-wal", "index.sqlite-shm",
         "index.sqlite-journal", "lock",         "study.h5",         "segments",
-        "attachments",          "report"};
+        "attachments",          "report",       FRACAS_CHECKPOINTS};
     (void)c;
     for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
         if (strcmp(name, ours[i]) == 0) return KEEP;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Sweeping a study after an interruption. */
 #include "base/file.h"
+#include "campaigns/store/checkpoint.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
 #include "campaigns/store/upkeep.h"
@@ -342,6 +343,7 @@ static fracas_err check_index(fracas_index *index, const fracas_point_table *tab
 
 typedef struct {
     const char *study;
+    const fracas_file_header *header;
     const fracas_point_table *table;
     fracas_index *index;
     fracas_identity identity;
@@ -357,14 +359,15 @@ static fracas_err recover(const void *context, FILE *report)
     if (!there) TRY(fracas_disk_sync_folder(folder));
     TRY(sweep(r->study, report));
     TRY(forget_lost(r->study, r->index, report));
-    return adopt_orphans(folder, r->table, r->index, &r->identity, report);
+    TRY(adopt_orphans(folder, r->table, r->index, &r->identity, report));
+    return fracas_checkpoints_sweep(r->study, r->header, r->index, report);
 }
 
 fracas_err fracas_study_recover(const char *study, fracas_index *index,
                                 const fracas_file_header *header, const fracas_point_table *table,
                                 char **report)
 {
-    recovery r = {.study = study, .table = table, .index = index};
+    recovery r = {.study = study, .header = header, .table = table, .index = index};
     fracas_identity_of(header, &r.identity);
     *report = NULL;
     TRY(check_index(index, table));       /* before anything is added to it */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The check of a study: segments against the index, study.h5 against the segments. */
+#include "campaigns/store/checkpoint.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
 
@@ -109,7 +110,8 @@ static fracas_err check_consistency(verification *v)
 /* Links and other things in the place of files and folders of ours. */
 static fracas_err check_places(verification *v)
 {
-    static const char *const name[] = {"lock", "segments", "attachments", "report"};
+    static const char *const name[] = {"lock", "segments", FRACAS_CHECKPOINTS, "attachments",
+                                       "report"};
     for (size_t n = 0; n < FRACAS_COUNT(name); n++) {
         OWNED char *path = NULL;
         TRY(fracas_disk_join(v->study, name[n], &path));

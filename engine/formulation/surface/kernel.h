@@ -61,7 +61,7 @@ typedef struct {
     size_t strengths_size, strength_step; /* doubles: an interface's; to next point, 0: shared */
     vd drift, kick;                       /* s */
     vd spin;                              /* membranes: w(t_n)^2 [1/s2] */
-    int begins;                           /* the first step of all */
+    vmask begins;                         /* the lane's first step */
     /* Sums over the body, for the ledger: twice the energies, dissipated [J]; power [W]; membranes:
      * sum of m r.v [kg m2/s]. */
     vd strain_energy, flux, stored, kinetic, dissipated, power, moment;
@@ -108,8 +108,8 @@ LANES_FUNCTION void surface_drift(const fracas_surface_motion *m, vd dt, int siz
 }
 
 /* Velocities of an element after its kick, from those before it, by the accelerations a of its
- * forces over `dt`. `begins`: in the first step of all. */
-LANES_FUNCTION void surface_kick(const fracas_surface_motion *m, vd dt, int begins, int size,
+ * forces over `dt`. `begins`: in a lane's first step. */
+LANES_FUNCTION void surface_kick(const fracas_surface_motion *m, vd dt, vmask begins, int size,
                                  double *at, const vd *a, const vd *v, vd *after)
 {
     UNROLL_FOR (int i = 0; i < size; i++) after[i] = v[i];
@@ -119,10 +119,11 @@ LANES_FUNCTION void surface_kick(const fracas_surface_motion *m, vd dt, int begi
             lanes_store(surface_at(at, SURFACE_V * size + i), after[i]);
         }
     } else { /* (membrane.14); the first acceleration is the force's own */
-        const vd keep = lanes_set(begins ? 0.0 : m->alpha_m),
-                 share = lanes_set(begins ? 1.0 : 1.0 - m->alpha_m);
+        const vd keep = lanes_select(begins, lanes_set(0.0), lanes_set(m->alpha_m)),
+                 share = lanes_select(begins, lanes_set(1.0), lanes_set(1.0 - m->alpha_m));
         UNROLL_FOR (int i = 0; i < size; i++) {
-            const vd old = begins ? a[i] : lanes_load(surface_at(at, SURFACE_A_NEXT * size + i));
+            const vd old = lanes_select(begins, a[i],
+                                        lanes_load(surface_at(at, SURFACE_A_NEXT * size + i)));
             lanes_store(surface_at(at, SURFACE_A * size + i), old);
             lanes_store(surface_at(at, SURFACE_A_NEXT * size + i), (a[i] - keep * old) / share);
         }

@@ -256,7 +256,7 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
                                .strength_step = s->strengths > 1 ? LANES : 0,
                                .drift = lanes_load(step->drift + first),
                                .kick = lanes_load(step->kick + first),
-                               .begins = !(step->drift[first] > 0),
+                               .begins = lanes_le(lanes_load(step->drift + first), zero),
                                .spin = zero,
                                .strain_energy = zero,
                                .flux = zero,
