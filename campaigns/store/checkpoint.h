@@ -11,7 +11,7 @@
 /* Head of a file. */
 typedef struct {
     char mark[8];
-    char version[32]; /* of the program */
+    char version[32]; /* the program's */
     fracas_hash point;
     int64_t replica;
     uint64_t seed;

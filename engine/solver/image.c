@@ -26,7 +26,9 @@ static fracas_err transfer_history(fracas_history *history, bool load, fracas_tr
     fracas_history copy = *history;
     copy.entry = NULL;
     TRY(transfer(context, &copy, sizeof copy));
-    if (load && (copy.intervals != history->intervals || copy.count > (size_t)copy.intervals + 1))
+    /* Each interval has been passed before it left a row: no count runs out of its memory. */
+    if (load && (copy.intervals != history->intervals || copy.next < 0 ||
+                 copy.next > copy.intervals + 1 || copy.count > (size_t)copy.next))
         return fracas_fail(FRACAS_DAMAGED, "a state with a history of other intervals");
     copy.entry = history->entry;
     if (load) *history = copy;

@@ -1,4 +1,4 @@
-# 108 000 disk states that a power cut may leave of four campaigns, opened in process, and 1000 ended by the same command. Then 4000 of
+# 135 000 disk states that a power cut may leave of five campaigns, opened in process, and 1250 ended by the same command. Then 4000 of
 # runs that went on after a cut.
 # ctest-labels: storm
 # ctest-timeout: 14400
@@ -32,5 +32,7 @@ record_surfaces
 export DISK_NETWORK=1
 storm surfaces surfaces.yaml "env LD_PRELOAD=$recorder $fracas" --force
 unset DISK_NETWORK
+record_long
+storm long long.yaml
 record_upkeep
 storm upkeep upkeep-long.yaml

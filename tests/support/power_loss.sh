@@ -129,6 +129,19 @@ record_upkeep()
     same upkeep/study whole-upkeep
 }
 
+# Checkpoints of a bar, which is killed once and goes on from them.
+record_long()
+{
+    tiny long.yaml 6 '1e5 1/s'
+    sed -i -e 's/elements: 20/elements: 200/' -e 's/time: .*/time: {stop: time, end: 20 us, safety: 0.25}/' long.yaml
+    expect 0 "$fracas" run long.yaml --study whole-long --jobs 2
+    tape long
+    recorded_until 2 long/study "$fracas" run long.yaml --study long/study --jobs 2 $segment_each --checkpoint-time 0
+    expect 0 recorded "$fracas" run long.yaml --study long/study --jobs 2 $segment_each --checkpoint-time 0
+    same long/study whole-long
+    "$power_loss" list long.log | grep -q " mkdir .* checkpoints" || fail "no checkpoint was written"
+}
+
 # A second cut: the run that follows a state of the bar at POINT with SEED. To be judged as the bar.
 record_twice()
 {

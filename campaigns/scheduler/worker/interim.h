@@ -11,7 +11,7 @@ typedef struct {
     const int64_t *replica;
     size_t count;
     double due;               /* fracas_now of the next checkpoints */
-    fracas_batch_watch watch; /* of fracas_batch_options */
+    fracas_batch_watch watch; /* for fracas_batch_options */
 } fracas_interim;
 
 /* NULL without a study. `interim`, filled here, must outlive the batch. A
