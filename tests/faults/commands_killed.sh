@@ -15,7 +15,7 @@ killed()
     cp -r lost victim
     rm victim/study.h5
     echo half > victim/segments/.x.h5.tmp-1
-    head -c 1200 /dev/zero > state
+    : > state && truncate -s 1M state # a failing_state and more
     expect "$1" env FAILING_CALLS="disk parent $2 kill" FAILING_STATE=state FAILING_UNDER=victim FAILING_ALONE=1 LD_PRELOAD="$library" \
         "$fracas" "$3" victim
 }
