@@ -90,6 +90,7 @@ rm "study/attachments/$digest"
 expect 5 "$fracas" verify study
 said "cannot open study/attachments/$digest"
 cp copy "study/attachments/$digest"
+expect 0 "$fracas" gc study # which leaves what the campaign names
 expect 0 "$fracas" verify --full study
 
 # Too few strengths: told by plan and by run, before anything is written. Several replicas: told to be equal.

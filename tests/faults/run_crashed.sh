@@ -11,6 +11,9 @@ same crashed alone
 unset FRACAS_TEST_FAULT
 before=$(stat -c %Y.%i crashed/study.h5)
 expect 1 "$fracas" run small.yaml --study crashed # failed for good: nothing is computed again
+# The same told by a rank of the user's own launcher.
+expect 1 env OMPI_COMM_WORLD_RANK=0 OMPI_MCA_ess_singleton_isolated=1 "$fracas" run small.yaml --study crashed --walltime 1h
+said 'FAILED: .*which and why: fracas status crashed'
 [ "$before" = "$(stat -c %Y.%i crashed/study.h5)" ] || fail "study.h5 was written again"
 
 /usr/bin/python3 - <<'END'

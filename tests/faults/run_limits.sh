@@ -3,7 +3,7 @@
 . tests/support/campaigns.sh
 
 campaign small.yaml 40 '3e4 1/s, 1e5 1/s' # 2 MB of results
-expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
+expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2 --memory-limit 1000000 # MB: no machine has it
 
 # What MPI would hang on is said before it is started.
 expect 6 sh -c "ulimit -n 24; '$fracas' run small.yaml --study study --jobs 2"
@@ -11,7 +11,8 @@ said 'may open 24 files.*ulimit -n'
 expect 6 sh -c "ulimit -f 1000; '$fracas' run small.yaml --study study --jobs 2"
 said 'ulimit -f'
 [ ! -e study ] || fail "a refused run left something behind"
-expect 0 sh -c "ulimit -S -n 24; '$fracas' run small.yaml --study raised --jobs 2" # the soft limit is raised
+# The soft limit is raised; a lease has the smaller one of two limits of memory.
+expect 0 sh -c "ulimit -S -n 24; ulimit -S -d 8000000; '$fracas' run small.yaml --study raised --jobs 2 --memory-limit 1000"
 same undisturbed raised
 
 # A file that may not grow: dash counts in 512 bytes, so 8.5 MB for a study.h5 of 12 MB. First it is predicted, then it happens.

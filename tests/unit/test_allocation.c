@@ -10,8 +10,17 @@ static void lists_of_slurm(void **state)
     assert_int_equal(fracas_allocation_sum("4"), 4);
     assert_int_equal(fracas_allocation_sum("16(x2)"), 32);
     assert_int_equal(fracas_allocation_sum("72(x2),36,8(x10)"), 260);
-    static const char *const wrong[] = {"",     "x",  "4,",  "4(2)",        "4(x",
-                                        "4(x2", "-1", "4 5", "99999999999", "2000000000(x4)"};
+    static const char *const wrong[] = {"",
+                                        "x",
+                                        "4,",
+                                        "4(2)",
+                                        "4(x",
+                                        "4(x2",
+                                        "-1",
+                                        "4 5",
+                                        "99999999999",
+                                        "2000000000(x4)",
+                                        "4(x99999999999)"};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         assert_int_equal(fracas_allocation_sum(wrong[i]), 0);
 }
@@ -29,6 +38,10 @@ static void jobs_of_an_allocation(void **state)
     assert_int_equal(jobs, 96);
     OK(fracas_allocation_jobs(100000, &jobs)); /* the bound is that of one machine */
     assert_int_equal(jobs, 100000);
+    setenv("SLURM_NTASKS", "many", 1);
+    OK(fracas_allocation_jobs(0, &jobs));
+    assert_int_equal(jobs, 384);
+    setenv("SLURM_NTASKS", "96", 1);
     unsetenv("SLURM_JOB_ID"); /* left over from a job: no allocation */
     OK(fracas_allocation_jobs(0, &jobs));
     assert_true(jobs >= 1 && jobs != 96);
@@ -40,6 +53,8 @@ static void jobs_of_an_allocation(void **state)
 static void a_task_of_srun_without_mpi(void **state)
 {
     setenv("SLURM_STEP_ID", "0", 1);
+    unsetenv("SLURM_STEP_NUM_TASKS");
+    OK(fracas_allocation_check());
     setenv("SLURM_STEP_NUM_TASKS", "1", 1);
     OK(fracas_allocation_check());
     setenv("SLURM_STEP_NUM_TASKS", "4", 1);

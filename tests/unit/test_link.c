@@ -45,6 +45,8 @@ static void a_server_ends_that_a_message_cannot_be_sent_to(void **state)
         ;
     fracas_link link = {.supervisor = {.control = -1, .server = pair[0]}};
     fracas_link_send(&link, &flush);
+    fracas_link_send(&(fracas_link){.supervisor = {.control = -1, .server = -1}},
+                     &flush); /* no server */
     ssize_t n;
     while ((n = read(pair[1], bytes, sizeof bytes)) > 0)
         ;

@@ -54,11 +54,10 @@ typedef struct {
     int starts, barren;       /* barren: starts in a row without gain */
 } launcher;
 
-/* Keeps the last of it: mpirun prints the reason at its end. */
+/* Keeps the last of it, a part of NOISE at a time: mpirun prints the reason at its end. */
 static void keep_noise(launch *now, const char *text, size_t size)
 {
     const size_t room = sizeof now->noise - 1;
-    if (size > room) text += size - room, size = room;
     if (now->nnoise + size > room) {
         const size_t lost = now->nnoise + size - room;
         memmove(now->noise, now->noise + lost, now->nnoise - lost);

@@ -97,8 +97,7 @@ fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, const fracas_scr
 static bool find_line(const char *output, const char *key, char *text, size_t size)
 {
     for (const char *line = output; *line;) {
-        size_t length = strcspn(line, "\n"), blank = strspn(line, " \t*");
-        if (blank > length) blank = length;
+        const size_t length = strcspn(line, "\n"), blank = strspn(line, " \t*");
         snprintf(text, size, "%.*s", (int)(length - blank < size ? length - blank : size - 1),
                  line + blank);
         if (key ? strstr(text, key) != NULL : strpbrk(text, "abcdefghijklmnopqrstuvwxyz") != NULL)

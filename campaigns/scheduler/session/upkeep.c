@@ -35,7 +35,7 @@ static fracas_err resume(holding *h, const fracas_campaign *campaign, const frac
 {
     OWNED char *report = NULL;
     TRY(fracas_study_plan(h->study, campaign, &h->index, &report));
-    if (said && report) fracas_say_lines(said, report);
+    fracas_say_lines(said, report);
     return fracas_rounds_init(&h->rounds, campaign, h->index);
 }
 

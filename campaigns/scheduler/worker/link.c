@@ -52,7 +52,7 @@ fracas_err fracas_link_receive(fracas_link *link, int rank, int wait, fracas_pac
 {
     *message = NULL;
     struct pollfd from = {.fd = link->supervisor.server, .events = POLLIN};
-    if (poll(&from, 1, wait) <= 0 || !from.revents) return FRACAS_OK;
+    if (poll(&from, 1, wait) <= 0) return FRACAS_OK;
     TRY(fracas_packet_read(link->supervisor.server, message));
     if (*message) note(link, *message);
     else if (!link->ended) return report_death(link, rank, message);

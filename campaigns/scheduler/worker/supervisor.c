@@ -64,8 +64,7 @@ static bool receive(int control, fracas_trouble *trouble, int *connection)
     while (n < 0 && errno == EINTR);
     *connection = -1;
     const struct cmsghdr *head = n > 0 ? CMSG_FIRSTHDR(&message) : NULL;
-    if (head && head->cmsg_type == SCM_RIGHTS)
-        memcpy(connection, CMSG_DATA(head), sizeof *connection);
+    if (head) memcpy(connection, CMSG_DATA(head), sizeof *connection);
     return n == (ssize_t)sizeof *trouble;
 }
 
