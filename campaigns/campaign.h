@@ -81,8 +81,8 @@ FRACAS_MUST_USE fracas_err fracas_campaign_extends(const fracas_campaign *now,
                                                    const fracas_campaign *before);
 
 /* The reference page of the campaign file (docs/formats/campaign-file-keys.md), from the parameter
- * tables. */
-void fracas_campaign_reference(FILE *out);
+ * tables. FRACAS_ENVIRONMENT without memory, and nothing is printed. */
+FRACAS_MUST_USE fracas_err fracas_campaign_reference(FILE *out);
 /* Prints the columns of /point that follow from the others, as docs/formats/study.md has them. */
 void fracas_derived_reference(FILE *out);
 

@@ -20,7 +20,7 @@ static const fracas_option options[] = {
 static fracas_err reference(const fracas_arguments *arguments)
 {
     if (fracas_given(arguments, "statistics")) fracas_analysis_reference(stdout);
-    else if (!fracas_given(arguments, "study")) fracas_campaign_reference(stdout);
+    else if (!fracas_given(arguments, "study")) return fracas_campaign_reference(stdout);
     else {
         fracas_study_reference(stdout);
         fputs("\n<!-- generated: derived -->\n", stdout);

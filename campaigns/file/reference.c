@@ -144,16 +144,18 @@ static void write_designs(const fracas_catalog *catalog, FILE *out)
     write_kinds(catalog, &fracas_uncertain_section, out);
 }
 
-void fracas_campaign_reference(FILE *out)
+fracas_err fracas_campaign_reference(FILE *out)
 {
+    OWN(fracas_campaign_memory) memory = fracas_memory_create();
+    const fracas_catalog *catalog;
+    if (!memory) return fracas_no_memory("the list of keys");
+    TRY(fracas_catalog_make(memory, &catalog));
     fprintf(out, "# Keys of a campaign file\n\n"
                  "Written by `fracas reference` from the tables that read the file; how a file is "
                  "built: [campaign-file.md](campaign-file.md).\nA bare number is in the SI unit "
                  "given here; any other unit of the same dimension may follow it after a space.\n");
-    OWN(fracas_campaign_memory) memory = fracas_memory_create();
-    const fracas_catalog *catalog;
-    if (!memory || fracas_catalog_make(memory, &catalog)) return;
     for (size_t s = 0; s < catalog->nsections; s++)
         write_section(catalog, catalog->section[s].table, out);
     write_designs(catalog, out);
+    return FRACAS_OK;
 }

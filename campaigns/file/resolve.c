@@ -56,7 +56,7 @@ static fracas_err check_partner(const fracas_file *file, const fracas_draft *dra
                              : last ? " or "
                                     : ", ",
                              partner->name);
-        if (added > 0 && used + (size_t)added < sizeof takes) used += (size_t)added;
+        if (used + (size_t)added < sizeof takes) used += (size_t)added;
     }
     if (i == 0) return FRACAS_OK;
     if (by) snprintf(line, sizeof line, "; the model is chosen at line %d", by->node->line);
@@ -88,7 +88,7 @@ static void add_home(homes *names, const fracas_kind *kind)
     const size_t room = sizeof names->text - names->used;
     int added = snprintf(names->text + names->used, room, "%s%s", names->used ? " or " : "",
                          kind->name);
-    if (added > 0 && (size_t)added < room) names->used += (size_t)added;
+    if ((size_t)added < room) names->used += (size_t)added;
 }
 
 /* The point has `kind` instead, named by `selector`. */

@@ -204,7 +204,7 @@ static void write_range(const fracas_param *param, char *text, size_t size)
     int used = low ? snprintf(text, size, "%s %s%s%s",
                               param->minimum_open ? "more than" : "at least", minimum, blank, unit)
                    : snprintf(text, size, "any number");
-    if (high && used > 0 && (size_t)used < size)
+    if (high)
         snprintf(text + used, size - (size_t)used, "%s at most %s%s%s", low ? "," : "", maximum,
                  blank, unit);
 }

@@ -8,11 +8,12 @@
 
 enum { LONGEST = 64 };
 
-/* Number of inserted, deleted, replaced letters and swapped neighbours between two words. */
+/* Number of inserted, deleted, replaced letters and swapped neighbours between two words, of which
+ * `b`, a known one, has at most LONGEST letters. */
 static size_t distance_of(const char *a, const char *b)
 {
     size_t na = strlen(a), nb = strlen(b);
-    if (na > LONGEST || nb > LONGEST) return na > nb ? na : nb;
+    if (na > LONGEST) return na;
     /* Rows i-2, i-1 and i of the table of distances between beginnings of i and j letters. */
     size_t row[3][LONGEST + 1];
     for (size_t j = 0; j <= nb; j++) row[0][j] = j;
@@ -48,7 +49,7 @@ void fracas_words_add(fracas_words *words, const char *word)
     }
     int added = snprintf(words->list + words->used, sizeof words->list - words->used, "%s%s",
                          words->used ? ", " : "", word);
-    if (added > 0 && words->used + (size_t)added < sizeof words->list) words->used += (size_t)added;
+    if (words->used + (size_t)added < sizeof words->list) words->used += (size_t)added;
     else words->list[words->used] = '\0';
 }
 

@@ -106,8 +106,18 @@ static fracas_err print_plan(const void *context)
     return err;
 }
 
+static fracas_err print_reference(const void *context)
+{
+    FILE *out = fopen("/dev/null", "w");
+    if (!out) return fracas_no_memory("a stream");
+    fracas_err err = fracas_campaign_reference(out);
+    fclose(out);
+    return err;
+}
+
 static void test_use(void **state)
 {
+    fail_each_of(print_reference, NULL, LONG_MAX);
     OWN(fracas_campaign) campaign = read_replaced("", sweep);
     fail_each_of(write_and_compare, campaign, LONG_MAX);
     /* The plan repeats short batches until the clock has seen enough: some of them. */

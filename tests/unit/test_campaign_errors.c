@@ -68,7 +68,7 @@ static void test_wrong_files(void **state)
         }
         find = put = (part){0};
     }
-    assert_int_equal(records, 232);
+    assert_int_equal(records, 243);
     free(base);
     unlink(path);
     fclose(in);
@@ -119,6 +119,11 @@ static void test_whole_files(void **state)
     memset(large, '#', size);
     write_bytes(path, large, size);
     FAILS(fracas_campaign_read(path, &campaign), FRACAS_USAGE, "larger than 16 MiB");
+    assert_int_equal(truncate(path, 100 << 20), 0); /* of which the rest is not read */
+    FAILS(fracas_campaign_read(path, &campaign), FRACAS_USAGE, "larger than 16 MiB");
+    for (int i = 0; i <= 500; i++) snprintf(large + 9 * i, 10, "k%04d: 1\n", i);
+    write_bytes(path, large, 9 * 501);
+    FAILS(fracas_campaign_read(path, &campaign), FRACAS_USAGE, "more than 500 keys in one place");
     memcpy(large, "a: [", 4);
     for (size_t i = 4; i + 1 < size; i += 2) memcpy(large + i, "1,", 2);
     write_bytes(path, large, size / 4);

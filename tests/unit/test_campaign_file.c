@@ -514,6 +514,9 @@ static void test_extends(void **state)
         {"stop: settled\n  end: 500 ns\n  quiet: 100 ns",
          "stop: time\n  end: 500 ns",
          {"time.quiet is 1e-07 s", "but nothing"}},
+        {"law: nitsche",
+         "law: nitsche\n  beta: 3",
+         {"cohesive.beta is 4 in the study", "but 3 in"}},
     };
     OWNED char *text = replace(plain_campaign, "", "sweep:\n  - loading.rate: [1e3, 1e4]\n");
     OWN(fracas_campaign) before = read_text(text);
@@ -522,6 +525,13 @@ static void test_extends(void **state)
         OWN(fracas_campaign) now = read_text(changed);
         check_extends(now, before, table[i].words);
     }
+    /* The name of a case is none of its values. */
+    OWNED char *named = replace(plain_campaign, "",
+                                "sweep:\n  - cases: [{name: a, loading.rate: 1}]"),
+               *renamed = replace(named, "a, loading.rate: 1", "b, loading.rate: 2");
+    OWN(fracas_campaign) first = read_text(named), *second = read_text(renamed);
+    check_extends(second, first,
+                  (const char *const[3]){"loading.rate is 1 1/s in the study", "but 2 1/s"});
 }
 
 /* ---- the reference page ---- */
@@ -529,7 +539,7 @@ static void test_extends(void **state)
 static void test_reference_page(void **state)
 {
     FILE *out = text_begin();
-    fracas_campaign_reference(out);
+    OK(fracas_campaign_reference(out));
     OWNED char *text = text_end(out);
     const char *keep = getenv("FRACAS_WRITE_REFERENCE");
     if (keep) write_bytes(keep, text, strlen(text));

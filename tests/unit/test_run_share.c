@@ -73,6 +73,7 @@ static void a_rule_goes_with_neither(void **state)
     OWN(fracas_campaign) campaign;
     assert_refused(rule, 8, 0, 0, "--replicas 8: a rule", "replicas: {minimum: 16, maximum: 64");
     assert_refused(rule, 0, 1, 2, "--part 1/2:", "a rule decides the replicas of point 0");
+    assert_refused("replicas: 3", -1, 0, 0, "--replicas is -1", "1 to 1000000000");
     assert_refused("replicas: 3", 1000000001, 0, 0, "--replicas is 1000000001", "1 to 1000000000");
     assert_int_equal(read_run("replicas: 3", rule, 0, 1, 1, &campaign),
                      FRACAS_OK); /* one part is all */
