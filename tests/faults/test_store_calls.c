@@ -423,6 +423,8 @@ static void copy_tree(const char *from, const char *to)
         OK(fracas_disk_join(to, entry->d_name, &target));
         if (entry->d_type == DT_DIR) {
             copy_tree(source, target);
+        } else if (fracas_disk_ends(entry->d_name, ".h5")) { /* nobody changes a written one */
+            assert_int_equal(link(source, target), 0);
         } else {
             size_t size;
             OWNED unsigned char *bytes = whole_bytes(source, &size);
@@ -528,7 +530,7 @@ static void try_every_place(void **state)
         int way;
         for (size_t n = 0; each_way(place, n, &way); n++) {
             fail_at(t, place, place->first, way, wanted), tried++;
-            if (place->class == FAILING_SQLITE && place->last != place->first)
+            if (!strcmp(place->call, "sqlite3_step") && place->last != place->first)
                 fail_at(t, place, place->last, way, wanted), tried++;
         }
     }

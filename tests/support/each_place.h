@@ -77,25 +77,24 @@ bool failing_by_program(const void *caller)
     return (const char *)caller >= &__executable_start && (const char *)caller < &etext;
 }
 
-/* The call, its place, and that of the call of its function. */
-__attribute__((noinline)) static uint64_t place_key(const char *call)
+/* The call, its place, and the places of the calls that led to it: two, but one to HDF5, which
+ * has most of them. */
+__attribute__((noinline)) static uint64_t place_key(const char *call, failing_class class)
 {
-    enum {
-        DEEP = 60,
-        FRAMES = 6 /* of which four are ours: of this function, and of those that led here */
-    };
+    enum { DEEP = 60, OURS = 4 /* this function, and those that led here */ };
+    const int frames = OURS + (class == FAILING_HDF5 ? 2 : 3);
     void *frame[DEEP];
     uint64_t key = 14695981039346656037u;
     const int found = backtrace(frame, DEEP);
     for (const char *c = call; *c; c++) key = (key ^ (unsigned char)*c) * 1099511628211u;
-    for (int f = 0, n = 0; f < found && n < FRAMES; f++)
+    for (int f = 0, n = 0; f < found && n < frames; f++)
         if (failing_by_program(frame[f])) key = (key ^ (uintptr_t)frame[f]) * 1099511628211u, n++;
     return key;
 }
 
 __attribute__((noinline)) static void watch(const char *call, failing_class class, long number)
 {
-    const uint64_t key = place_key(call);
+    const uint64_t key = place_key(call, class);
     for (size_t p = 0; p < each.count; p++)
         if (each.place[p].key == key) {
             each.place[p].last = number;
