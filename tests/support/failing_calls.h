@@ -68,4 +68,7 @@ uint64_t failing_in_program(const void *caller);
  * about or NULL. */
 failing_verdict failing_call(failing_class class, const char *what, const char *on);
 
+/* If they are not 0: the code, the errno and the system_errno with which calls of SQLite fail. */
+extern int failing_sqlite_as, failing_sqlite_errno, failing_sqlite_system;
+
 #endif

@@ -3,9 +3,11 @@
 #include "tests/support/failing_calls.h"
 
 #include <dlfcn.h>
+#include <errno.h>
 #include <hdf5.h>
 #include <sqlite3.h>
 #include <stddef.h>
+#include <string.h>
 
 /* Only of the program's own calls, which alone can be expected to look at what they give. */
 #define FAILS(class, what, on) \
@@ -20,20 +22,32 @@
 static int injected; /* what sqlite3_errcode says until the next call that does not fail */
 static sqlite3_stmt *textless; /* a text of its row found no memory */
 
+int failing_sqlite_as, failing_sqlite_errno, failing_sqlite_system;
+
+/* The call fails with this code, or with the one that was asked for. */
+static int inject(int code)
+{
+    injected = failing_sqlite_as ? failing_sqlite_as : code;
+    if (failing_sqlite_errno) errno = failing_sqlite_errno;
+    return injected;
+}
+
+int sqlite3_system_errno(sqlite3 *db)
+{
+    REAL(int, sqlite3_system_errno, (sqlite3 *));
+    return injected && failing_sqlite_system ? failing_sqlite_system : real(db);
+}
+
 #define SQLITE(name, code, parameters, arguments)                                      \
     int sqlite3_##name parameters                                                      \
     {                                                                                  \
         REAL(int, sqlite3_##name, parameters);                                         \
         const failing_verdict verdict = FAILS(FAILING_SQLITE, "sqlite3_" #name, NULL); \
-        injected = verdict ? code : 0;                                                 \
-        if (verdict == FAILING_NOW) return code;                                       \
+        injected = 0;                                                                  \
+        if (verdict == FAILING_NOW) return inject(code);                               \
         const int result = real arguments;                                             \
-        return verdict ? code : result;                                                \
+        return verdict ? inject(code) : result;                                        \
     }
-SQLITE(exec, SQLITE_IOERR,
-       (sqlite3 * db, const char *sql, int (*row)(void *, int, char **, char **), void *context,
-        char **message),
-       (db, sql, row, context, message))
 SQLITE(bind_int64, SQLITE_NOMEM, (sqlite3_stmt * statement, int n, sqlite3_int64 value),
        (statement, n, value))
 SQLITE(bind_double, SQLITE_NOMEM, (sqlite3_stmt * statement, int n, double value),
@@ -46,6 +60,19 @@ SQLITE(bind_text, SQLITE_NOMEM,
 SQLITE(wal_checkpoint_v2, SQLITE_IOERR,
        (sqlite3 * db, const char *name, int mode, int *frames, int *done),
        (db, name, mode, frames, done))
+
+/* ROLLBACK rolls back, whatever it says. */
+int sqlite3_exec(sqlite3 *db, const char *sql, int (*row)(void *, int, char **, char **),
+                 void *context, char **message)
+{
+    REAL(int, sqlite3_exec,
+         (sqlite3 *, const char *, int (*)(void *, int, char **, char **), void *, char **));
+    const failing_verdict verdict = FAILS(FAILING_SQLITE, "sqlite3_exec", NULL);
+    injected = 0;
+    if (verdict == FAILING_NOW && strcmp(sql, "ROLLBACK") != 0) return inject(SQLITE_IOERR);
+    const int result = real(db, sql, row, context, message);
+    return verdict ? inject(SQLITE_IOERR) : result;
+}
 
 /* Without memory it gives no text, and the next step of the statement says why. */
 const unsigned char *sqlite3_column_text(sqlite3_stmt *statement, int column)
@@ -70,10 +97,11 @@ int sqlite3_step(sqlite3_stmt *statement)
     const failing_verdict verdict = FAILS(FAILING_SQLITE, "sqlite3_step", NULL);
     const bool no_text = textless == statement;
     if (no_text) textless = NULL;
-    injected = no_text ? SQLITE_NOMEM : verdict ? SQLITE_IOERR : 0;
-    if (no_text || verdict == FAILING_NOW) return injected;
+    injected = no_text ? SQLITE_NOMEM : 0;
+    if (no_text) return injected;
+    if (verdict == FAILING_NOW) return inject(SQLITE_IOERR);
     const int result = real(statement);
-    return verdict ? injected : result;
+    return verdict ? inject(SQLITE_IOERR) : result;
 }
 
 /* On failure they give nothing, as the real ones do. */

@@ -5,6 +5,7 @@
 #define STUDY_ROWS 5
 #include "tests/support/upkeep.h"
 
+#include "base/version.h"
 #include "campaigns/store/file/schema.h"
 #include "campaigns/store/results.h"
 #include "campaigns/store/study/segments.h"
@@ -214,6 +215,137 @@ static void a_file_that_contradicts_itself_is_refused(void **state)
     }
 }
 
+/* In place of a column one of another shape, or of other chunks. */
+static void remake(const char *column, int rank, const hsize_t shape[2], const hsize_t chunk[2])
+{
+    hid_t file = H5Fopen(merged, H5F_ACC_RDWR, H5P_DEFAULT),
+          space = H5Screate_simple(rank, shape, (const hsize_t[]){H5S_UNLIMITED, shape[1]}),
+          list = H5Pcreate(H5P_DATASET_CREATE);
+    assert_true(H5Pset_chunk(list, rank, chunk) >= 0 && H5Pset_shuffle(list) >= 0 &&
+                H5Pset_fletcher32(list) >= 0);
+    assert_true(H5Ldelete(file, column, H5P_DEFAULT) >= 0);
+    hid_t made = H5Dcreate2(file, column, H5T_IEEE_F64LE, space, H5P_DEFAULT, list, H5P_DEFAULT);
+    assert_true(made >= 0 && H5Dclose(made) >= 0);
+    H5Pclose(list);
+    H5Sclose(space);
+    assert_true(H5Fclose(file) >= 0);
+}
+
+static void a_file_of_another_shape_is_refused(void **state)
+{
+    static const struct {
+        const char *column;
+        int rank;
+        hsize_t shape[2], chunk[2];
+    } wrong[] = {{"/realization/momentum", 1, {ALL}, {1024}},
+                 {"/realization/momentum", 2, {ALL, 2}, {1024, 2}},
+                 {"/realization/momentum", 2, {ALL, 3}, {1024, 2}},
+                 {"/realization/mass", 1, {ALL}, {7}},
+                 {"/realization/mass", 2, {ALL, 1}, {1024, 1}},
+                 {"/realization/mass", 1, {1000000}, {1024}}};
+    size_t size;
+    int64_t replica;
+    size_t point;
+    RECORD(record);
+    OWNED unsigned char *bytes = whole_bytes(merged, &size);
+    for (size_t w = 0; w < FRACAS_COUNT(wrong); w++) {
+        remake(wrong[w].column, wrong[w].rank, wrong[w].shape, wrong[w].chunk);
+        FAILS(read_all(merged), FRACAS_DAMAGED, wrong[w].column);
+        write_bytes(merged, bytes, size);
+    }
+    hid_t file = H5Fopen(merged, H5F_ACC_RDWR, H5P_DEFAULT),
+          group = H5Gcreate2(file, "/point/more", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    H5Gclose(group);
+    assert_true(H5Fclose(file) >= 0);
+    FAILS(read_all(merged), FRACAS_DAMAGED, "/point: damaged");
+    write_bytes(merged, bytes, size);
+    file = H5Fopen(merged, H5F_ACC_RDWR, H5P_DEFAULT);
+    hid_t dataset = H5Dopen2(file, "/fragment/offset", H5P_DEFAULT);
+    assert_true(H5Dset_extent(dataset, &(hsize_t){ALL + 2}) >= 0);
+    H5Dclose(dataset);
+    assert_true(H5Fclose(file) >= 0);
+    FAILS(read_all(merged), FRACAS_DAMAGED, "/fragment/offset", "one value more");
+    write_bytes(merged, bytes, size);
+    OWN(fracas_reader) reader = NULL;
+    add_to_row(merged, "/history/offset", 2, -1000);
+    OK(fracas_reader_open(merged, &reader));
+    FAILS(fracas_reader_record(reader, 2, FRACAS_READ_ALL, &point, &replica, &record),
+          FRACAS_DAMAGED, "out of order");
+}
+
+/* The seal at the end of a segment is of its bytes, and of their number. */
+static void a_seal_of_other_bytes_is_refused(void **state)
+{
+    uint64_t version;
+    size_t size;
+    OWNED char *path = NULL;
+    OK(fracas_disk_segment(study, "a.h5", &path));
+    OWNED unsigned char *bytes = whole_bytes(path, &size);
+    OK(fracas_file_version(path, &version));
+    for (size_t at = 1; at <= 16; at += 8) { /* checksum, number */
+        bytes[size - at] ^= 1;
+        write_bytes(path, bytes, size);
+        bytes[size - at] ^= 1;
+        FAILS(fracas_file_version(path, &version), FRACAS_DAMAGED, "is not of its bytes");
+    }
+}
+
+/* No point, no interfaces. */
+static void an_empty_file_is_sound(void **state)
+{
+    fracas_file_header header = sample_header();
+    const fracas_point_table none = {3, sample_column, 0, point_row};
+    fracas_file_seal seal;
+    fracas_writer *writer;
+    OWN(fracas_reader) reader = NULL;
+    header.interfaces = false;
+    OK(fracas_writer_create(merged, &header, &none, &writer));
+    OK(fracas_writer_finish(writer, true, &seal));
+    OK(fracas_reader_open(merged, &reader));
+    assert_int_equal(fracas_reader_points(reader)->ncolumns, 3);
+    assert_int_equal(fracas_reader_points(reader)->npoints, 0);
+    OK(fracas_reader_check_meshes(reader, &meshes));
+    OK(fracas_reader_check_points(reader, &table));
+}
+
+/* Columns of a file against those of a campaign, of this version of the program and of another. */
+static void columns_are_those_of_the_campaign(void **state)
+{
+    static const fracas_column column[] = {{"cohesive.law", "", "Law of the interfaces", true},
+                                           {"derived.speed", "m/s", "Speed", false}};
+    static const fracas_value value[] = {{NAN, "linear"}, {5000, ""}};
+    static const char *const says[] = {
+        "", "/point/derived.speed: the value of point 0", "/point/cohesive.law: its type",
+        "/point/cohesive.law: its type", "/point/derived.speed: the value of point 0"};
+    fracas_point_row row[2] = {{fracas_hash_of("a", 1), 0, value},
+                               {fracas_hash_of("b", 1), 0, value}};
+    for (int same = 0; same < 2; same++)
+        for (int c = 0; c < 5; c++) {
+            fracas_file_header header = sample_header();
+            fracas_writer *writer;
+            fracas_file_seal seal;
+            OWN(fracas_reader) reader = NULL;
+            fracas_column other[2];
+            fracas_value others[2];
+            snprintf(header.version, sizeof header.version, "%s", same ? FRACAS_VERSION : "0.0.1");
+            OK(fracas_writer_create(merged, &header, &(fracas_point_table){2, column, 2, row},
+                                    &writer));
+            OK(fracas_writer_finish(writer, false, &seal));
+            OK(fracas_reader_open(merged, &reader));
+            memcpy(other, column, sizeof other);
+            memcpy(others, value, sizeof others);
+            fracas_point_row theirs = {row[0].hash, 0, others};
+            if (c == 2) other[0].text = false;
+            if (c == 3) other[0].unit = "m";
+            if (c == 4) others[1].real = 6000;
+            /* 1: without the derived one; of the second point nothing is asked */
+            const fracas_point_table wanted = {c == 1 ? 1 : 2, other, 1, &theirs};
+            const bool sound = c == 0 || (!same && (c == 1 || c == 4));
+            if (sound) OK(fracas_reader_check_points(reader, &wanted));
+            else FAILS(fracas_reader_check_points(reader, &wanted), FRACAS_DAMAGED, says[c]);
+        }
+}
+
 /* As if a merge had written it. */
 static void seal_merged(void)
 {
@@ -326,6 +458,46 @@ static void a_segment_that_says_it_is_complete_is_named(void **state)
     verify_finds(1, "as no segment is");
 }
 
+/* The same, of a row. */
+static void a_sealed_segment_with_a_wrong_row_is_named(void **state)
+{
+    char statement[200], text[8192];
+    fracas_file_seal seal;
+    add_to_row(sample_path(study, "segments/a.h5"), "/realization/point", 1, 100);
+    OK(fracas_disk_seal_path(sample_path(study, "segments/a.h5"), &seal));
+    snprintf(statement, sizeof statement,
+             "UPDATE segment SET bytes = %llu, checksum = '%016llx' WHERE name = 'a.h5'",
+             (unsigned long long)seal.bytes, (unsigned long long)seal.checksum);
+    sql(statement);
+    assert_true(verify(text) > 0);
+    assert_has(text, "of no point of the file");
+    assert_has(text, "move it away and run again");
+}
+
+/* Decisions on which file and index agree, and which end too early, or at other replicas. */
+static void decisions_that_decide_nothing_are_named(void **state)
+{
+    static const struct {
+        contradiction merged;
+        const char *index;
+    } wrong[] = {{{"/decision/stop", 1, -1, NULL, NULL}, "UPDATE decision SET stop = 0"},
+                 {{"/decision/replicas", 1, -1, NULL, NULL},
+                  "UPDATE decision SET replicas = 3, failed = 0 WHERE round = 1"}};
+    size_t size;
+    OWNED unsigned char *bytes = whole_bytes(merged, &size);
+    for (size_t w = 0; w < FRACAS_COUNT(wrong); w++) {
+        sql("CREATE TABLE kept AS SELECT * FROM decision");
+        contradict(merged, &wrong[w].merged);
+        seal_merged();
+        sql(wrong[w].index);
+        verify_finds(1, "decisions on the replicas of point 2 are not those");
+        sql("DELETE FROM decision; INSERT INTO decision SELECT * FROM kept; DROP TABLE kept");
+        write_bytes(merged, bytes, size);
+        seal_merged();
+        verify_finds(0, "");
+    }
+}
+
 /* ---- verify while a run has the study ---- */
 
 /* A child that takes the lock and waits, until it is killed. */
@@ -411,6 +583,23 @@ static void results_are_of_what_the_index_and_the_file_agree_on(void **state)
     assert_int_equal(count, 2 * ALL);
 }
 
+static void a_study_h5_of_another_plan_is_not_taken(void **state)
+{
+    OWN(fracas_results) results = NULL;
+    size_t count = 0;
+    point_row[0].most = MOST_REPLICAS;
+    sql("PRAGMA foreign_keys = OFF; DELETE FROM realization WHERE point = 1 AND replica = 3");
+    sql("UPDATE realization SET segment = 77 WHERE point = 2 AND replica = 3");
+    OK(open_results(&results));
+    assert_true(fracas_results_partial(results));
+    OK(fracas_results_walk(results, FRACAS_READ_ALL, count_result, &count));
+    assert_int_equal(count, ALL - 2);
+    assert_int_equal(fracas_results_notes(results), 1);
+    assert_has(fracas_results_note(results, 0), "has no segment 77");
+    assert_false(fracas_results_decided(results, 0)); /* only the other rule has decided */
+    assert_true(fracas_results_decided(results, RULED));
+}
+
 static void rows_of_the_index_beyond_the_campaign_are_no_results(void **state)
 {
     static const char *const history[] = {"-1", "99999999999"};
@@ -470,6 +659,22 @@ static void meshes_differ_by_any_number(void **state)
     }
 }
 
+/* An interface is an edge of both of its elements, whichever vertices they share. */
+static void an_interface_belongs_to_two_elements(void **state)
+{
+    FRACAS_CLEARED(fracas_stored_mesh) mesh;
+    grid_make(&(grid_shape){2, 1}, &mesh);
+    for (size_t i = 0; i < mesh.ninterfaces; i++)
+        for (size_t e = 0; e < mesh.nelements; e++) {
+            int64_t *of = mesh.interface[i].element;
+            const int64_t kept = of[1];
+            of[1] = (int64_t)e;
+            const char *fault = fracas_stored_mesh_fault(&mesh);
+            assert_int_equal(fault == NULL, of[1] == kept || of[1] == of[0]);
+            of[1] = kept;
+        }
+}
+
 static void records_that_contradict_themselves_are_not_written(void **state)
 {
     const fracas_file_header header = sample_header();
@@ -492,6 +697,11 @@ static void records_that_contradict_themselves_are_not_written(void **state)
     OK(fracas_writer_create(sample_path(study, "x.h5"), &header, &table, &writer));
     for (int p = 0; p < SAMPLE_POINTS; p++) OK(fracas_writer_mesh(writer, &none));
     FAILS(fracas_writer_mesh(writer, &none), FRACAS_BUG, "every point has had its mesh");
+    static char longest[5000];
+    memset(longest, 'x', sizeof longest - 1);
+    FAILS(fracas_writer_provenance(writer, longest), FRACAS_BUG, "longer than 4096 bytes");
+    OK(fracas_writer_provenance(writer, "{}"));
+    FAILS(fracas_writer_provenance(writer, "{}"), FRACAS_BUG, "HDF5 refuses");
     fracas_writer_abandon(writer);
 }
 
@@ -540,11 +750,207 @@ static void names_of_files_of_any_kind_are_taken(void **state)
     assert_int_equal(chdir(here), 0);
 }
 
+/* ---- the index ---- */
+
+static void numbers_of_the_index_that_nobody_wrote(void **state)
+{
+    OWNED fracas_index_row *row = NULL;
+    fracas_place place[REPLICAS];
+    fracas_index_counts counts;
+    size_t count;
+    int part, parts;
+    const fracas_point_table no_points = {3, sample_column, 0, point_row};
+    OK(fracas_index_rows(index_, &no_points, &row, &count));
+    assert_int_equal(count, 0);
+    sql("INSERT OR REPLACE INTO meta VALUES ('part', '3/2')");
+    OK(fracas_index_part(index_, &part, &parts));
+    assert_int_equal(part * 10 + parts, 11); /* 1 of 1 */
+    sql("INSERT OR REPLACE INTO meta VALUES ('part', '0/2')");
+    OK(fracas_index_part(index_, &part, &parts));
+    assert_int_equal(part * 10 + parts, 11);
+    sql("PRAGMA ignore_check_constraints = ON; UPDATE realization SET outcome = 99 WHERE point = 1 "
+        "AND replica = 0");
+    OK(fracas_index_count(index_, &counts));
+    int64_t outcomes = 0;
+    for (int o = 0; o < FRACAS_NOUTCOMES; o++) outcomes += counts.outcome[o];
+    assert_int_equal(counts.realizations, ALL);
+    assert_int_equal(outcomes, ALL - 1);
+    sql("DELETE FROM realization WHERE point = 1 AND replica = 1");
+    OWNED fracas_index_row *none = NULL;
+    FAILS(fracas_index_rows(index_, &table, &none, &count), FRACAS_DAMAGED,
+          "replica 1 of point 0 was never planned");
+    FAILS(fracas_index_summaries(index_, &point_row[0].hash, REPLICAS, place), FRACAS_DAMAGED,
+          "3 of the first 4 replicas");
+}
+
+/* One that SQLite opens, and its integrity_check does not pass. */
+static void an_unsound_index_is_not_taken_over(void **state)
+{
+    sql("PRAGMA ignore_check_constraints = ON; UPDATE realization SET status = 'fone' WHERE point "
+        "= 1 AND replica = 0");
+    OK(reindex());
+    says("the index before cannot be used");
+    says("CHECK constraint failed");
+    says("3 segments read");
+    verify_finds(1, "study.h5"); /* it has lost its seal */
+}
+
+/* More bytes than are read at the start of a run: sizes are looked at, contents when they are used.
+ */
+static void a_large_study_is_believed(void **state)
+{
+    bool sound;
+    OK(fracas_study_sound(study, index_, &sound));
+    assert_true(sound);
+    flip_byte(merged, 20000);
+    OK(fracas_study_sound(study, index_, &sound));
+    assert_false(sound);
+    OK(fracas_index_seal_study(index_, &(fracas_file_seal){3000000000, 1}));
+    OK(fracas_study_sound(study, index_, &sound));
+    assert_true(sound);
+    flip_byte(sample_path(study, "segments/a.h5"), 20000);
+    recover_says("");
+    assert_true(fracas_study_is_kept(study, index_));
+    assert_int_equal(unlink(sample_path(study, "segments/a.h5")), 0);
+    assert_false(fracas_study_is_kept(study, index_));
+}
+
+/* ---- files that come and go ---- */
+
+static void remove_next(void *context, const fracas_collected *item)
+{
+    int *calls = context;
+    if (strstr(item->path, "index.sqlite.before-1"))
+        unlink(sample_path(study, "index.sqlite.before-2"));
+    assert_null(strstr(item->path, "index.sqlite.before-2")); /* it is gone */
+    ++*calls;
+}
+
+static void files_may_vanish_and_strange_ones_stay(void **state)
+{
+    static const char *const stays[] = {
+        ".reindex/mine", "attachments/00000000000000000000000000000002.old", "attachments/note"};
+    static const char *const goes[] = {"index.sqlite.before-1", "index.sqlite.before-2",
+                                       "attachments/00000000000000000000000000000002.tmp",
+                                       "attachments/00000000000000000000000000000002"};
+    uint64_t freed;
+    int calls = 0;
+    assert_int_equal(mkdir(sample_path(study, ".reindex"), 0777) |
+                         mkdir(sample_path(study, "attachments"), 0777),
+                     0);
+    for (size_t n = 0; n < FRACAS_COUNT(stays); n++)
+        write_bytes(sample_path(study, stays[n]), "abc", 3);
+    for (size_t n = 0; n < FRACAS_COUNT(goes); n++)
+        write_bytes(sample_path(study, goes[n]), "abc", 3);
+    FAILS(fracas_study_collect(study, index_,
+                               &(fracas_collect_options){.found = remove_next, .context = &calls},
+                               &freed),
+          FRACAS_ENVIRONMENT, ".reindex");
+    for (size_t n = 0; n < FRACAS_COUNT(stays); n++)
+        assert_int_equal(access(sample_path(study, stays[n]), F_OK), 0);
+    assert_int_equal(unlink(sample_path(study, stays[0])), 0);
+    OK(fracas_study_collect(
+        study, index_, &(fracas_collect_options){.found = remove_next, .context = &calls}, &freed));
+    for (size_t n = 0; n < FRACAS_COUNT(goes); n++)
+        assert_int_not_equal(access(sample_path(study, goes[n]), F_OK), 0);
+    for (size_t n = 1; n < FRACAS_COUNT(stays); n++)
+        assert_int_equal(access(sample_path(study, stays[n]), F_OK), 0);
+    assert_true(calls >= 5);
+}
+
+/* ---- joining ---- */
+
+static char *other_study;
+static fracas_index *other_index;
+
+/* A second study with one segment `name` of point 0, which the first has planned only. */
+static void begin_other(const char *name)
+{
+    char *kept = study;
+    begin_study_again();
+    fracas_index *kept_index = index_;
+    set_up(NULL);
+    commit_bare(name, 0);
+    other_study = study;
+    other_index = index_;
+    study = kept;
+    index_ = kept_index;
+}
+
+static fracas_err join(void)
+{
+    fracas_joined joined;
+    return fracas_study_join(study, index_, other_study, other_index, &table, &joined);
+}
+
+static void end_other(void)
+{
+    fracas_index_close(other_index);
+    sample_remove(other_study);
+}
+
+static void a_name_that_is_taken_is_not_replaced(void **state)
+{
+    char second[64];
+    fracas_file_seal seal;
+    begin_other("plain"); /* no segment of ours has such a name: without an end */
+    OK(fracas_disk_seal_path(sample_path(other_study, "segments/plain"), &seal));
+    snprintf(second, sizeof second, "segments/plain-%016llx.h5", (unsigned long long)seal.checksum);
+    assert_int_equal(symlink("/nowhere/at/all", sample_path(study, "segments/plain")), 0);
+    FAILS(join(), FRACAS_DAMAGED, "segments/plain is not there");
+    assert_int_equal(sample_files(sample_path(study, "segments"), "plain"), 1); /* the link stays */
+    assert_int_equal(unlink(sample_path(study, "segments/plain")), 0);
+    write_bytes(sample_path(study, "segments/plain"), "ours", 4);
+    write_bytes(sample_path(study, second), "ours too", 8);
+    FAILS(join(), FRACAS_DAMAGED, second, "move it away");
+    assert_int_equal(unlink(sample_path(study, second)), 0);
+    OK(fracas_index_fail(index_, &point_row[0].hash, 1, "signal 9", true));
+    sql("UPDATE realization SET status = 'quarantined' WHERE status = 'failed'");
+    OK(join());
+    assert_int_equal(count_all().done, REPLICAS);
+    OWNED char *text = whole_file(sample_path(study, "segments/plain"));
+    assert_string_equal(text, "ours");
+    end_other();
+}
+
+static void a_contradicting_study_is_not_joined(void **state)
+{
+    static const char *const change[][2] = {
+        {"UPDATE realization SET segment = 77 WHERE segment = 1", "has no segment 77"},
+        {"UPDATE point SET hash = 'x' WHERE id = 1", "no valid hash"},
+        {"UPDATE segment SET checksum = '0000000000000000'", "a.h5: damaged"}};
+    begin_other("a.h5");
+    fracas_index *kept = index_;
+    for (size_t c = 0; c < FRACAS_COUNT(change); c++) {
+        index_ = other_index;
+        sql("PRAGMA foreign_keys = OFF; PRAGMA ignore_check_constraints = ON; BEGIN");
+        sql(change[c][0]);
+        index_ = kept;
+        FAILS(join(), FRACAS_DAMAGED, change[c][1]);
+        index_ = other_index;
+        sql("ROLLBACK");
+        index_ = kept;
+        assert_int_equal(count_all().done, 0);
+        assert_int_equal(sample_files(sample_path(study, "segments"), ".h5"), 0);
+    }
+    sql("DELETE FROM realization; DELETE FROM point"); /* the first knows no point */
+    FAILS(join(), FRACAS_DAMAGED, "has no point");
+    end_other();
+}
+
 TESTS_EACH(set_up_merged, tear_down_merged, a_file_that_contradicts_itself_is_refused,
+           a_file_of_another_shape_is_refused, a_seal_of_other_bytes_is_refused,
+           an_empty_file_is_sound, columns_are_those_of_the_campaign,
+           a_sealed_segment_with_a_wrong_row_is_named, decisions_that_decide_nothing_are_named,
            study_h5_at_odds_with_the_study_is_named, an_index_at_odds_with_the_study_is_named,
            a_segment_that_says_it_is_complete_is_named, what_a_run_may_be_writing_is_not_damaged,
            a_study_without_realizations_is_sound,
            results_are_of_what_the_index_and_the_file_agree_on,
+           a_study_h5_of_another_plan_is_not_taken,
            rows_of_the_index_beyond_the_campaign_are_no_results, decisions_out_of_range_are_none,
-           meshes_differ_by_any_number, records_that_contradict_themselves_are_not_written,
-           columns_cannot_have_names_of_ours, names_of_files_of_any_kind_are_taken)
+           meshes_differ_by_any_number, an_interface_belongs_to_two_elements,
+           records_that_contradict_themselves_are_not_written, columns_cannot_have_names_of_ours,
+           names_of_files_of_any_kind_are_taken, numbers_of_the_index_that_nobody_wrote,
+           an_unsound_index_is_not_taken_over, a_large_study_is_believed,
+           files_may_vanish_and_strange_ones_stay, a_name_that_is_taken_is_not_replaced,
+           a_contradicting_study_is_not_joined)

@@ -113,6 +113,7 @@ fracas_err fracas_sql_start(fracas_index *index, const char *text, const fracas_
 {
     sqlite3_stmt *prepared;
     *statement = NULL;
+    errno = 0; /* for fracas_index_error */
     TRY(prepare(index, text, &prepared));
     if (sqlite3_stmt_busy(prepared))
         return fracas_fail(FRACAS_BUG, "%s: started twice: %s", index->path, text);
@@ -146,7 +147,7 @@ fracas_err fracas_sql_do(fracas_index *index, const char *text, const fracas_sql
     OWN(sqlite3_stmt) s = NULL;
     fracas_err err;
     TRY(fracas_sql_start(index, text, value, count, &s));
-    while (fracas_sql_next(index, s, &err)) continue;
+    (void)fracas_sql_next(index, s, &err);
     return err;
 }
 

@@ -81,7 +81,7 @@ FRACAS_MUST_USE fracas_err fracas_sql_whole(const fracas_index *index);
 /* Ends it before its last row; NULL is allowed. */
 void fracas_sql_end(sqlite3_stmt *statement);
 FRACAS_OWNER(sqlite3_stmt, fracas_sql_end)
-/* Runs a statement whose rows, if it has any, are not asked for. */
+/* Runs a statement that gives no rows. */
 FRACAS_MUST_USE fracas_err fracas_sql_do(fracas_index *index, const char *text,
                                          const fracas_sql_value *value, size_t count);
 /* The first columns of its first row, 0 without one; second: NULL is allowed. */
