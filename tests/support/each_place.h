@@ -14,6 +14,7 @@
 #include <execinfo.h>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/vfs.h>
 #include <unistd.h>
 
@@ -23,13 +24,13 @@ enum {
     GONE = -2  /* somebody else removed the file just before: ENOENT */
 };
 
-enum { MOST_WAYS = 3 };
+enum { MOST_WAYS = 5 };
 
 /* 0: no other. A call of a library or an allocation has the one way of its class. */
 static const struct {
     const char *name;
     int way[MOST_WAYS];
-} ways[] = {{"open", {EMFILE}},
+} ways[] = {{"open", {EMFILE, EACCES}},
             {"scandir", {EMFILE}},
             {"fopen", {EMFILE}},
             {"pread", {EIO, EINTR, HALF}},
@@ -49,7 +50,7 @@ static const struct {
             {"faccessat", {EACCES}},
             {"statfs", {EIO}},
             {"gethostname", {EPERM}},
-            {"fcntl", {ENOLCK, EIO}},
+            {"fcntl", {ENOLCK, EIO, ENOSYS, EOPNOTSUPP, EACCES}},
             {"fclose", {ENOMEM}}};
 
 /* ---- places ---- */

@@ -258,6 +258,9 @@ static void look_as_another(void)
     if (!fracas_index_exists(study) || fracas_index_open(study, false, &index_)) _exit(3);
     if (fracas_index_count(index_, &counts) || counts.planned || !counts.done) _exit(4);
     if (fracas_study_sealed(study, index_, &sealed) || !sealed) _exit(5);
+    fracas_index *remote; /* as on a network filesystem */
+    if (fracas_index_open_as(study, false, false, &remote)) _exit(9);
+    fracas_index_close(remote);
     if (fracas_index_event(index_, "kind", "text") != FRACAS_ENVIRONMENT ||
         !strstr(fracas_message(), "copy it"))
         _exit(6);
@@ -271,6 +274,35 @@ static void look_as_another(void)
         !strstr(fracas_message(), "copy it"))
         _exit(8);
     _exit(0);
+}
+
+/* What no reader can read without writing, it says. */
+static void look_in_vain(void)
+{
+    static const struct {
+        const char *log; /* beside the index, or NULL: in its place */
+        fracas_err err;
+        const char *says;
+    } wrong[] = {{"index.sqlite-wal", FRACAS_ENVIRONMENT, "copy it to where you may write"},
+                 {NULL, FRACAS_DAMAGED, "fracas reindex"}};
+    for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++) {
+        assert_int_equal(chmod(study, 0777), 0);
+        const char *name = wrong[w].log ? wrong[w].log : "index.sqlite";
+        write_bytes(sample_path(study, name), "no database, but long enough to be looked at", 44);
+        assert_int_equal(chmod(sample_path(study, name), 0444) + chmod(study, 0555), 0);
+        const pid_t child = fork();
+        if (child == 0) {
+            if (geteuid() == 0 && (setgid(65534) || setuid(65534))) _exit(1);
+            if (fracas_index_open(study, false, &index_) != wrong[w].err) _exit(2);
+            if (!strstr(fracas_message(), wrong[w].says)) _exit(3);
+            _exit(fracas_index_exists(study) ? 4 : 0);
+        }
+        int status;
+        waitpid(child, &status, 0);
+        assert_true(WIFEXITED(status));
+        assert_int_equal(WEXITSTATUS(status), 0);
+        assert_int_equal(chmod(study, 0777) + unlink(sample_path(study, name)), 0);
+    }
 }
 
 static void a_study_that_cannot_be_written_can_be_read(void **state)
@@ -294,6 +326,7 @@ static void a_study_that_cannot_be_written_can_be_read(void **state)
     free(odd);
     assert_true(WIFEXITED(status));
     assert_int_equal(WEXITSTATUS(status), 0);
+    look_in_vain();
 }
 
 TESTS_EACH(set_up, tear_down, plan_is_in_order_and_grows, leases_end_with_the_next_plan,

@@ -27,12 +27,13 @@ static int tear_down(void **state)
 }
 
 static int told_of_rest = -1; /* a pipe told of each */
+static bool impatient;        /* no rest takes time */
 
 /* Stands before the C library's. */
 int nanosleep(const struct timespec *time, struct timespec *rest)
 {
     if (told_of_rest >= 0) assert_int_equal(write(told_of_rest, "", 1), 1);
-    return (int)syscall(SYS_nanosleep, time, rest);
+    return impatient ? 0 : (int)syscall(SYS_nanosleep, time, rest);
 }
 
 /* One who only looks does not sign: a run waits until that is over, and does not end with "in use".
@@ -258,6 +259,55 @@ static void a_pid_used_again_is_no_holder(void **state)
     free(other);
 }
 
+/* The kernel knows who has it, whoever the file names. */
+static void the_kernel_is_believed_before_the_file(void **state)
+{
+    int lock, ready[2];
+    char byte, pid[32];
+    static const char other[] = "host=node9 pid=1 since=T start=5 boot=b job=- restart=0\n";
+    assert_int_equal(pipe(ready), 0);
+    pid_t child = fork();
+    if (child == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL); /* a test that fails leaves nobody behind */
+        if (fracas_study_lock(study, false, &lock) || write(ready[1], "y", 1) != 1) _exit(1);
+        pause();
+        _exit(1);
+    }
+    assert_int_equal(read(ready[0], &byte, 1), 1);
+    write_bytes(sample_path(study, "lock"), other, strlen(other));
+    snprintf(pid, sizeof pid, "pid %ld", (long)child);
+    impatient = true;
+    FAILS(fracas_study_lock(study, true, &lock), FRACAS_IN_USE, pid);
+    impatient = false;
+    assert_null(strstr(fracas_message(), "node9"));
+    assert_int_equal(state_is(pid), FRACAS_LOCK_HELD);
+    kill(child, SIGKILL);
+    waitpid(child, NULL, 0);
+    close(ready[0]), close(ready[1]);
+}
+
+/* A living process with the number of a holder that tells no start, or one of before a reboot. */
+static void a_holder_of_before_a_reboot_is_dead(void **state)
+{
+    char host[257] = "", boot[64] = "", *other, *start;
+    int lock;
+    gethostname(host, sizeof host - 1);
+    OK(fracas_study_lock(study, false, &lock));
+    start = strstr(lock_text(), "start=");
+    const long long since = atoll(start + 6);
+    assert_int_equal(sscanf(strstr(start, "boot="), "boot=%63s", boot), 1);
+    fracas_study_unlock(lock);
+    for (int k = 0; k < 2; k++) {
+        char over[FRACAS_HOLDER_TEXT] = "?";
+        assert_true(asprintf(&other, "host=%s pid=%ld since=T start=%lld boot=%s job=- restart=0\n",
+                             host, (long)getppid(), k ? since : 0, k ? "before" : boot) > 0);
+        write_bytes(sample_path(study, "lock"), other, strlen(other));
+        assert_int_equal(state_is(host), FRACAS_LOCK_LEFT);
+        take(false, over);
+        free(other);
+    }
+}
+
 /* ---- another host ---- */
 
 static void another_hosts_lock_needs_force(void **state)
@@ -314,5 +364,6 @@ static void torn_files_are_read(void **state)
 TESTS_EACH(set_up, tear_down, a_clean_release_empties_the_file, second_run_is_refused,
            one_who_looks_is_waited_for, to_look_takes_nothing_over,
            a_renamed_host_takes_over_its_own, a_holder_that_lives_is_not_taken_for_dead,
+           the_kernel_is_believed_before_the_file, a_holder_of_before_a_reboot_is_dead,
            a_zombie_is_dead, a_pid_used_again_is_no_holder, another_hosts_lock_needs_force,
            a_requeued_job_takes_over_its_own, torn_files_are_read)
