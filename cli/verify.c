@@ -4,6 +4,7 @@
 #include "analysis/fit/fits.h"
 #include "base/json.h"
 #include "base/param.h"
+#include "campaigns/scheduler/types/header.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/session/meshes.h"
 #include "campaigns/scheduler/session/rounds.h"
@@ -107,8 +108,11 @@ static fracas_err verify_all(verification *v)
         fault = strdup(fracas_message());
         if (!fault) return fracas_no_memory("a message");
     }
+    const fracas_file_header header = campaign ? fracas_campaign_header(campaign)
+                                               : (fracas_file_header){0};
     const fracas_verify_options how = {.full = v->full,
                                        .table = campaign ? &campaign->table : NULL,
+                                       .header = campaign ? &header : NULL,
                                        .say = print_problem,
                                        .note = keep_note,
                                        .context = v};

@@ -388,8 +388,9 @@ bool fracas_study_is_kept(const char *study, fracas_index *index);
 FRACAS_MUST_USE fracas_err fracas_study_sound(const char *study, fracas_index *index, bool *sound);
 
 typedef struct {
-    bool full;                       /* every dataset and every row, too */
-    const fracas_point_table *table; /* the campaign's; NULL: not known */
+    bool full;                        /* every dataset and every row, too */
+    const fracas_point_table *table;  /* the campaign's; NULL: not known ... */
+    const fracas_file_header *header; /* ... and of its files */
     /* Called with each problem, its place and its remedy; `note`, which may be NULL, with
      * leftovers, which are no damage. */
     void (*say)(void *context, const char *problem);
@@ -400,10 +401,11 @@ typedef struct {
 /* Checks a study for `fracas verify`, at one moment of the index; *problems counts the problems.
  * Quick: size, checksum, program version, seed, history and interfaces of every segment and of
  * study.h5 against the index, and their points against the campaign's; quick_check of SQLite, and
- * its rows against each other; the decisions in study.h5 against the recorded ones. Full, in
- * addition: every dataset of every segment, the index against the segments row by row,
- * integrity_check, study.h5 against the segments record by record, and the number of interfaces in
- * its meshes. Notes: a lock, temporary files, segments unknown or set aside. */
+ * its rows against each other; points, seed and output of the campaign; the decisions in study.h5
+ * against the recorded ones. Full, in addition: every dataset of every segment, the index against
+ * the segments row by row, integrity_check, study.h5 against the segments record by record, and the
+ * number of interfaces in its meshes. Notes: a lock, temporary files, segments unknown or set
+ * aside. */
 FRACAS_MUST_USE fracas_err fracas_study_verify(const char *study,
                                                const fracas_verify_options *options,
                                                int64_t *problems);

@@ -104,7 +104,7 @@ sed 's/fracture_energy: 100/fracture_energy: 101/' done/campaign.yaml > other.ya
 cp done/campaign.yaml kept.yaml
 cp other.yaml done/campaign.yaml
 expect 5 "$fracas" verify done
-said 'campaign.yaml is not the campaign of study.h5'
+said '1 of its 1 points are not in the campaign'
 echo 'x: [' >> done/campaign.yaml
 expect 5 "$fracas" verify done
 said "study's campaign file is damaged"

@@ -2,6 +2,8 @@
 /* Flipped bytes of a study, and what the next run makes of them. */
 #include "tests/support/study_fixture.h"
 
+#include "campaigns/store/results.h"
+
 /* What the next run does with a study: recovers, computes what is planned, merges. *rows: what it
  * computed. */
 static fracas_err run_again(int64_t *rows)
@@ -218,8 +220,36 @@ static void flipped_bytes_of_the_index_make_no_wrong_study(void **state)
     OK(fracas_index_open(study, true, &index_));
 }
 
+/* A flipped digit of campaign.yaml is another campaign: of an interrupted study no seal tells it.
+ */
+static void another_campaign_is_found(void **state)
+{
+    static const sample_realization some[] = {{0, 0}, {1, 0}, {2, 1}};
+    commit_segment("some.h5", some, 3);
+    fracas_point_row row[SAMPLE_POINTS];
+    fracas_point_table other = sample_table(row, table.point[0].replicas);
+    fracas_file_header header = sample_header();
+    fracas_results *results;
+    char text[8192];
+    int64_t problems;
+    const fracas_verify_options how = {
+        .table = &other, .header = &header, .say = keep_problem, .context = text};
+    *text = '\0';
+    OK(fracas_index_claim(index_, &header));
+    OK(fracas_study_verify(study, &how, &problems));
+    assert_int_equal(problems, 0);
+    row[1].hash = fracas_hash_of("edited", 6);
+    header.seed++;
+    OK(fracas_study_verify(study, &how, &problems));
+    assert_int_equal(problems, 2);
+    assert_has(text, "1 of its 3 points are not in the campaign");
+    assert_has(text, "campaign.yaml: seed 18446744073709551612, not 18446744073709551611");
+    FAILS(fracas_results_open(study, &header.campaign, &other, &results), FRACAS_DAMAGED,
+          "1 of its 3 points are not in the campaign");
+}
+
 TESTS_EACH(set_up, tear_down, a_flipped_byte_of_a_segment_is_computed_again,
-           a_flipped_byte_of_the_merged_file_is_merged_again,
+           a_flipped_byte_of_the_merged_file_is_merged_again, another_campaign_is_found,
            a_flipped_number_of_the_index_is_not_merged, an_index_that_contradicts_itself_is_found,
            a_run_does_not_begin_with_a_damaged_index,
            flipped_bytes_of_the_index_make_no_wrong_study)

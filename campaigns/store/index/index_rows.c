@@ -442,6 +442,22 @@ fracas_err fracas_index_points(fracas_index *index, int64_t *points)
     return fracas_sql_numbers(index, "SELECT count(*) FROM point", NULL, 0, points, NULL);
 }
 
+fracas_err fracas_index_check_points(fracas_index *index, const fracas_point_table *table)
+{
+    int64_t points, id, known = 0;
+    TRY(fracas_index_points(index, &points));
+    for (size_t p = 0; p < table->npoints; p++) {
+        TRY(fracas_index_find_point(index, &table->point[p].hash, &id));
+        known += id != 0;
+    }
+    if (points <= known) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s: %" PRId64 " of its %" PRId64
+                       " points are not in the campaign; if campaign.yaml of the study was edited "
+                       "put it back, else `fracas reindex` makes the index anew from the segments",
+                       index->path, points - known, points);
+}
+
 /* Counts every row into *counts, and those of point id `i` into each[i - 1], for i to `most`. */
 static fracas_err count_all(fracas_index *index, fracas_index_counts *counts,
                             fracas_index_counts **each, int64_t most)

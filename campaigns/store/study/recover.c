@@ -326,19 +326,8 @@ static fracas_err check_index(fracas_index *index, const fracas_point_table *tab
 {
     enum { MOST = 32 << 20 }; /* bytes: about a second */
     struct stat info;
-    int64_t points, id, known = 0;
     if (stat(index->path, &info) == 0 && info.st_size <= MOST) TRY(fracas_index_quick_check(index));
-    TRY(fracas_index_points(index, &points));
-    for (size_t p = 0; p < table->npoints; p++) {
-        TRY(fracas_index_find_point(index, &table->point[p].hash, &id));
-        known += id != 0;
-    }
-    if (points <= known) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED,
-                       "%s: %" PRId64 " of its %" PRId64
-                       " points are not in the campaign; if campaign.yaml of the study was edited "
-                       "put it back, else `fracas reindex` makes the index anew from the segments",
-                       index->path, points - known, points);
+    return fracas_index_check_points(index, table);
 }
 
 typedef struct {

@@ -175,6 +175,17 @@ static fracas_err read_header(const fracas_index *index, const fracas_identity *
         index->path, identity->value[2]);
 }
 
+/* The points of the index are the campaign's, unless a run is extending it at this moment. */
+static fracas_err check_points(const char *study, fracas_index *index,
+                               const fracas_results *results)
+{
+    char holder[FRACAS_HOLDER_TEXT];
+    fracas_lock_state state;
+    TRY(fracas_study_lock_state(study, &state, holder));
+    return state == FRACAS_LOCK_HELD ? FRACAS_OK
+                                     : fracas_index_check_points(index, &results->table);
+}
+
 /* Within a transaction, at one moment. */
 static fracas_err read_index(const char *study, fracas_index *index, const fracas_hash *campaign,
                              fracas_results *results)
@@ -182,6 +193,7 @@ static fracas_err read_index(const char *study, fracas_index *index, const fraca
     fracas_identity identity;
     TRY(take_file(study, index, campaign, results));
     if (results->reader) return FRACAS_OK;
+    TRY(check_points(study, index, results));
     TRY(fracas_index_identity(index, &identity));
     TRY(read_header(index, &identity, campaign, &results->header));
     for (size_t p = 0; p < results->table.npoints; p++) TRY(read_rows(results, index, p));

@@ -417,11 +417,25 @@ static fracas_err open_merged(verification *v)
     return fracas_reader_open(path, &v->merged);
 }
 
-/* The replicas in the index against its rows and the campaign, which a run may be extending. */
+/* campaign.yaml has the seed and output with which the study was begun. */
+static fracas_err check_campaign(verification *v)
+{
+    fracas_identity campaign;
+    char text[FRACAS_DIFFERENCE_TEXT];
+    fracas_identity_of(v->options->header, &campaign);
+    *campaign.value[0] = '\0'; /* any program looks at it */
+    if (!fracas_identity_differs(&campaign, &v->identity, text)) return FRACAS_OK;
+    return found(v, "%s/campaign.yaml: %s, with which the study was begun; put it back", v->study,
+                 text);
+}
+
+/* Points and replicas in the index against the campaign, which a run may be extending. */
 static fracas_err check_plan(verification *v)
 {
     const fracas_point_table *table = v->options->table;
-    for (size_t p = 0; table && !v->held && p < table->npoints; p++) {
+    if (!table || v->held) return FRACAS_OK;
+    TRY(problem(v, fracas_index_check_points(v->index, table)));
+    for (size_t p = 0; p < table->npoints; p++) {
         const fracas_point_row *point = &table->point[p];
         int64_t replicas, known;
         TRY(fracas_sql_numbers(v->index, "SELECT replicas, 1 FROM point WHERE hash = ?1",
@@ -446,6 +460,7 @@ static fracas_err verify_all(verification *v)
     TRY(check_places(v));
     TRY(check_plan(v));
     TRY(fracas_index_identity(v->index, &v->identity));
+    if (v->options->header) TRY(check_campaign(v));
     TRY(problem(v, open_merged(v)));
     if (v->merged) TRY(check_merged_header(v));
     TRY(fracas_segments_create(v->study, v->index, &v->identity, false, &v->segments));
