@@ -49,7 +49,8 @@ FRACAS_OWNER(fracas_checkpoint, fracas_checkpoint_close)
 
 /* Removes the files of realizations whose records are durable. */
 void fracas_checkpoints_remove(const char *study, const fracas_segment_row *row, size_t count);
-/* Removes the folder, if it is empty. */
+/* Removes all of a study that is computed, and the folder: a copy of a lease may have left one
+ * late. */
 void fracas_checkpoints_end(const char *study);
 /* Removes files that fracas_checkpoint_open refuses, half written ones, and those of realizations
  * that are done or unknown; each is a line of `report`. */

@@ -126,10 +126,6 @@ static void those_no_longer_needed_go(void **state)
     assert_int_equal(sample_files(sample_path(study, "checkpoints"), "-"), 1);
     assert_int_equal(access(path_of(2), F_OK), 0);
     fracas_checkpoints_end(study);
-    assert_int_equal(access(path_of(2), F_OK), 0);
-    row.replica = 2;
-    fracas_checkpoints_remove(study, &row, 1);
-    fracas_checkpoints_end(study);
     assert_int_equal(access(sample_path(study, "checkpoints"), F_OK), -1);
     free(report);
     free(name);

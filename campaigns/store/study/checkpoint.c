@@ -169,12 +169,6 @@ void fracas_checkpoints_remove(const char *study, const fracas_segment_row *row,
     }
 }
 
-void fracas_checkpoints_end(const char *study)
-{
-    OWNED char *folder = NULL;
-    if (!fracas_disk_join(study, FRACAS_CHECKPOINTS, &folder)) rmdir(folder);
-}
-
 /* A name is 32 hexadecimal digits, '-' and a number. */
 static bool read_name(const char *name, fracas_hash *point, int64_t *replica)
 {
@@ -184,6 +178,23 @@ static bool read_name(const char *name, fracas_hash *point, int64_t *replica)
     return fracas_hash_parse(hex, point) &&
            sscanf(name + strlen(hex), "-%" SCNd64 "%n", replica, &end) == 1 && *replica >= 0 &&
            !name[strlen(hex) + (size_t)end];
+}
+
+static fracas_err remove_ours(void *context, const char *path, const char *name)
+{
+    fracas_hash point;
+    int64_t replica;
+    (void)context;
+    if (fracas_disk_is_temporary(name) || read_name(name, &point, &replica)) unlink(path);
+    return FRACAS_OK;
+}
+
+void fracas_checkpoints_end(const char *study)
+{
+    OWNED char *folder = NULL;
+    if (!fracas_disk_join(study, FRACAS_CHECKPOINTS, &folder) && fracas_folder_is_own(folder) &&
+        !fracas_disk_each(folder, remove_ours, NULL))
+        rmdir(folder);
 }
 
 typedef struct {
