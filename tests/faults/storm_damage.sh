@@ -66,7 +66,13 @@ cp -r finished lost
 rm -r lost/index.sqlite* lost/study.h5 lost/report # in the middle of nowhere: all segments are orphans
 cp -r finished plain
 interrupt interrupted stop
-interrupt killed kill_all
+options="$options --checkpoint-time 0" # of the leases that were computing: at most every 64 steps
+tries=0
+while [ -z "$(ls killed/checkpoints 2>/dev/null)" ]; do
+    interrupt killed kill_all
+    tries=$((tries + 1))
+    [ $tries -lt 50 ] || fail "no checkpoint in killed"
+done
 [ -s killed/index.sqlite-wal ] && [ -s killed/lock ] || fail "nothing to recover in killed"
 for study in finished files; do
     expect 0 "$fracas" fit $study --resamples 99

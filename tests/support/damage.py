@@ -10,6 +10,7 @@ file gone. Of each damaged copy:
     `report --json` and `fit --json` tell. A damaged log of SQLite (index.sqlite-wal) may have lost its last commits: what is left are
     rows of the undamaged index;
   - fits.csv is named, its numbers are told by nobody, and `fit` writes the undisturbed one again;
+  - a checkpoint changes nothing: a run on names and drops it;
   - report/ and export/ nobody reads: everything is as before, and `report` and `export` write the undisturbed bytes again;
   - a sample is run on, doing what the messages say, until a run says that it is done: study.h5 has the undisturbed bytes,
     `verify --full` finds nothing, and `report --json` tells what it tells of the undisturbed study.
@@ -32,8 +33,8 @@ LIMIT = 600  # s for a command
 # How often a kind of file is damaged, and which part of these is run on.
 KINDS = {"segment": (20, 8), "study.h5": (12, 8), "index": (16, 4), "wal": (10, 4), "shm": (5, 8), "lock": (6, 4), "campaign.yaml": (9, 3),
          "attachment": (8, 3), "fits.csv": (8, 3), "report": (4, 8), "export": (2, 8),
-         "orphan": (8, 4), "temporary": (2, 8)}
-NOT_NEEDED = {"report", "export", "lock", "shm", "orphan", "temporary"}
+         "orphan": (8, 4), "temporary": (2, 8), "checkpoint": (8, 3)}
+NOT_NEEDED = {"report", "export", "lock", "shm", "orphan", "temporary", "checkpoint"}
 NAMED = {"segment", "fits.csv", "attachment"}  # whatever is changed in them
 DAMAGES = ["bit", "byte", "cut", "zeros", "more", "gone"]
 NUMBERS = {"segment", "study.h5", "index", "wal", "campaign.yaml", "attachment"}  # whose numbers fits are made of
@@ -65,7 +66,8 @@ def kind_of(path):
     name = os.path.basename(path)
     if ".tmp-" in name:
         return "temporary"
-    for folder, kind in (("segments/", "segment"), ("attachments/", "attachment"), ("report/", "report"), ("export/", "export")):
+    for folder, kind in (("segments/", "segment"), ("attachments/", "attachment"), ("report/", "report"), ("export/", "export"),
+                         ("checkpoints/", "checkpoint")):
         if path.startswith(folder):
             return kind
     return {"index.sqlite": "index", "index.sqlite-wal": "wal", "index.sqlite-shm": "shm"}.get(name, name)
