@@ -36,7 +36,7 @@ sleep 0.5
 echo '@fracas end 6 1 0 enough'
 END2
 # Nobody gets the status of a child.
-fake ignoring sh -c 'trap "" CHLD; exec "$@"' sh <<'END2'
+fake ignoring env --ignore-signal=CHLD <<'END2'
 echo '@fracas end 6 1 0 enough'
 END2
 # As another user, where this is the superuser.

@@ -149,7 +149,7 @@ static void test_ranges(void **state)
     static const double log_down[] = {1e6, 316227.766016838, 1e5, 31622.7766016838,
                                       1e4, 3162.27766016838, 1e3};
     OWN(fracas_campaign) linear = read_replaced(
-        "", "sweep:\n  - loading.rate: {from: 0.1 1/s, to: 0.5, points: 5}\n");
+        "", "sweep:\n  - loading.rate: {from: 0.1 1/s, to: 0.5, points: 5, spacing: lin}\n");
     OWN(fracas_campaign) falling = read_replaced(
         "", "sweep:\n  - loading.rate: {from: 1e6, to: 1e3, points: 7, spacing: log}\n");
     OWN(fracas_campaign) whole = read_replaced(
