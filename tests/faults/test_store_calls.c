@@ -34,6 +34,7 @@ static trial trials[] = {
     {"the lock", make_littered, lock_and_look},
     {"a held lock", make_held, lock_in_vain, .reads = true, .ends = FRACAS_IN_USE},
     {"the index", make_partial, use_index},
+    {"a checkpoint", make_partial, keep_checkpoint},
     {"gc", make_littered, collect},
     {"a segment is written", make_computed, write_segment},
     {"merge", make_computed, merge_all},

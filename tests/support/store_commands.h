@@ -8,6 +8,7 @@
 #define STUDY_ROWS 3
 #include "tests/support/upkeep.h"
 
+#include "campaigns/store/checkpoint.h"
 #include "campaigns/store/results.h"
 #include "tests/support/each_place.h"
 #include "tests/support/stored_mesh.h"
@@ -277,6 +278,38 @@ static fracas_err look_at_all(void)
     TRY(fracas_study_check_segments(study, index));
     TRY(fracas_study_sweep(study, &report));
     snprintf(found, sizeof found, "%d %d %d", sealed, sound, fracas_study_is_kept(study, index));
+    return FRACAS_OK;
+}
+
+static fracas_err note_checkpoint(void *context, const fracas_checkpoint_head *head, double age)
+{
+    (void)age;
+    ++*(int *)context;
+    return head->steps == 7 ? FRACAS_OK : fracas_fail(FRACAS_BUG, "other steps");
+}
+
+/* As a computation writes it, and the next run takes it up. */
+static fracas_err keep_checkpoint(void)
+{
+    const fracas_file_header header = sample_header();
+    fracas_checkpoint_head head = {.point = point_row[0].hash, .replica = 3, .steps = 7, .end = 1};
+    int number = 5, count = 0;
+    OWN(fracas_index) index = NULL;
+    OWN(fracas_checkpoint) written = NULL;
+    OWN(fracas_checkpoint) taken_up = NULL;
+    TRY(open_index(&index));
+    TRY(fracas_checkpoint_create(study, &header, &head, &written));
+    TRY(fracas_checkpoint_put(written, &number, sizeof number));
+    TRY(fracas_checkpoint_finish(written));
+    TRY(fracas_checkpoints_sweep(study, &header, index, stderr));
+    TRY(fracas_checkpoint_open(study, &header, &point_row[0].hash, 3, &head, &taken_up));
+    number = 0;
+    if (taken_up) TRY(fracas_checkpoint_get(taken_up, &number, sizeof number));
+    TRY(fracas_checkpoints_each(study, note_checkpoint, &count));
+    snprintf(found, sizeof found, "%d %d", number, count);
+    const fracas_segment_row row = {.point = point_row[0].hash, .replica = 3};
+    fracas_checkpoints_remove(study, &row, 1); /* what stays is removed by the next sweep */
+    fracas_checkpoints_end(study);
     return FRACAS_OK;
 }
 

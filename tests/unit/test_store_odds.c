@@ -281,6 +281,18 @@ static void a_large_study_is_believed(void **state)
     assert_false(fracas_study_is_kept(study, index_));
 }
 
+static void the_folder_of_segments_is_made_again(void **state)
+{
+    const fracas_file_header header = sample_header();
+    OWNED char *report = NULL;
+    sample_remove_tree(sample_path(study, "segments"));
+    recover_says("segment a.h5 is missing");
+    assert_int_equal(rmdir(sample_path(study, "segments")), 0);
+    write_bytes(sample_path(study, "segments"), "abc", 3);
+    FAILS(fracas_study_recover(study, index_, &header, &table, &report), FRACAS_ENVIRONMENT,
+          "segments");
+}
+
 /* ---- files that come and go ---- */
 
 static void remove_next(void *context, const fracas_collected *item)
@@ -411,5 +423,5 @@ TESTS_EACH(set_up_merged, tear_down_merged, results_are_of_what_the_index_and_th
            records_that_contradict_themselves_are_not_written, columns_cannot_have_names_of_ours,
            names_of_files_of_any_kind_are_taken, numbers_of_the_index_that_nobody_wrote,
            an_unsound_index_is_not_taken_over, a_large_study_is_believed,
-           files_may_vanish_and_strange_ones_stay, a_name_that_is_taken_is_not_replaced,
-           a_contradicting_study_is_not_joined)
+           the_folder_of_segments_is_made_again, files_may_vanish_and_strange_ones_stay,
+           a_name_that_is_taken_is_not_replaced, a_contradicting_study_is_not_joined)
