@@ -3,10 +3,14 @@
  * included, interfaces cracked.
  *
  *   bench_sweep [--model bar|ring|stershic|linear|quadratic|shell] [--elements N] [--lanes 1|4|8]
- *               [--isa baseline|avx2|avx512|best] [--seconds S]
+ *               [--isa baseline|avx2|avx512|best] [--seconds S] [--broken SHARE] [--turns STEPS]
  *
  * It prints one line a case: model, elements, lanes, instruction set, cracked interfaces, median
  * and range of five blocks. Processor time makes other work on the machine count little.
+ *
+ * --broken starts the clock when that share of the first lane's cracks are broken, too. With
+ * --turns it runs a block of that many steps for each line that it reads, and prints its rate; at
+ * the end it prints a digest of all energies. So bench/compare_sweeps.py runs programs in turn.
  *
  * A batch at 1e5 /s with strengths 300 MPa +- 0.33 % runs until half its interfaces have cracked;
  * within a few steps all have. Linear and quadratic are plates of such triangles, shell is an
@@ -15,6 +19,7 @@
 #include "bench/bench.h"
 
 #include "base/elementary.h"
+#include "base/hash.h"
 #include "engine/cohesive/law.h"
 #include "engine/integrator/integrator.h"
 #include "engine/loading/loading.h"
@@ -144,21 +149,53 @@ static fracas_spec reference(const char *model, int64_t elements)
     return spec;
 }
 
+/* Element-steps of a batch a second, of blocks that last `seconds` or have `steps` steps. */
+static double rate_of(fracas_batch *batch, int64_t elements, int64_t steps, double seconds)
+{
+    fracas_record record[FRACAS_LANES_MAX];
+    size_t running;
+    const double start = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+    double spent;
+    int64_t done = 0;
+    do {
+        for (int64_t s = 0; s < steps; s++) demand(fracas_batch_step(batch, record, &running));
+        done += steps;
+    } while ((spent = seconds_of(CLOCK_PROCESS_CPUTIME_ID) - start) < seconds);
+    return (double)(done * elements * batch->step.width) / spent;
+}
+
+/* A block for each line read. */
+static void take_turns(fracas_batch *batch, int64_t elements, int64_t steps)
+{
+    puts("ready");
+    fflush(stdout);
+    for (int c; (c = getchar()) != EOF;) {
+        if (c != '\n') continue;
+        printf("%.5g\n", rate_of(batch, elements, steps, 0));
+        fflush(stdout);
+    }
+    const fracas_hash digest = fracas_hash_of(batch->step.energy, sizeof batch->step.energy);
+    printf("%lld cracked %lld broken %s\n", (long long)batch->step.cracked[0],
+           (long long)batch->step.broken[0], fracas_hash_hex(&digest).text);
+}
+
 int main(int argc, char **argv)
 {
     const char *name = "bar";
-    int64_t elements = 2500;
+    int64_t elements = 2500, turns = 0;
     int lanes = 8;
-    double seconds = 1;
+    double seconds = 1, broken = 0;
     fracas_isa isa = FRACAS_ISA_BEST;
-    static const struct option known[] = {{"model", 1, 0, 'm'},   {"elements", 1, 0, 'n'},
-                                          {"lanes", 1, 0, 'l'},   {"isa", 1, 0, 'i'},
-                                          {"seconds", 1, 0, 's'}, {0}};
+    static const struct option known[] = {
+        {"model", 1, 0, 'm'},   {"elements", 1, 0, 'n'}, {"lanes", 1, 0, 'l'}, {"isa", 1, 0, 'i'},
+        {"seconds", 1, 0, 's'}, {"broken", 1, 0, 'b'},   {"turns", 1, 0, 't'}, {0}};
     for (int o; (o = getopt_long(argc, argv, "", known, NULL)) != -1;) {
         if (o == 'm') name = optarg;
         else if (o == 'n') elements = atoll(optarg);
         else if (o == 'l') lanes = atoi(optarg);
         else if (o == 's') seconds = atof(optarg);
+        else if (o == 'b') broken = atof(optarg);
+        else if (o == 't') turns = atoll(optarg);
         else if (o == 'i') {
             for (isa = 0; isa < FRACAS_NISAS && strcmp(optarg, fracas_isa_name[isa]) != 0;) isa++;
             if (isa == FRACAS_ISA_BEST && strcmp(optarg, "best") != 0) return 2;
@@ -185,24 +222,20 @@ int main(int argc, char **argv)
     elements = (int64_t)fracas_model_elements(model);
     const double interfaces = (double)fracas_model_interfaces(model),
                  enough = (is_surface(name) ? 0.475 : 0.5) * interfaces;
-    while (batch->step.cracked[0] < (int64_t)enough)
+    while (batch->step.cracked[0] < (int64_t)enough ||
+           (double)batch->step.broken[0] < broken * (double)batch->step.cracked[0])
         demand(fracas_batch_step(batch, record, &running));
 
-    double rate[5];
-    int64_t steps = 16;
-    for (int block = 0; block < 5; block++) {
-        double start = seconds_of(CLOCK_PROCESS_CPUTIME_ID), spent;
-        int64_t done = 0;
-        do {
-            for (int64_t s = 0; s < steps; s++) demand(fracas_batch_step(batch, record, &running));
-            done += steps;
-        } while ((spent = seconds_of(CLOCK_PROCESS_CPUTIME_ID) - start) < seconds / 5);
-        rate[block] = (double)(done * elements * lanes) / spent;
-    }
+    double rate[5] = {0};
+    if (turns) take_turns(batch, elements, turns);
+    for (int block = 0; block < 5 && !turns; block++)
+        rate[block] = rate_of(batch, elements, 16, seconds / 5);
     qsort(rate, 5, sizeof *rate, by_value);
-    printf("%-9s %lld elements %d lanes %-8s %3.0f %% cracked %.4g element-steps/s %.4g to %.4g\n",
-           name, (long long)elements, lanes, fracas_isa_name[batch->step.isa],
-           100.0 * (double)batch->step.cracked[0] / interfaces, rate[2], rate[0], rate[4]);
+    if (!turns)
+        printf(
+            "%-9s %lld elements %d lanes %-8s %3.0f %% cracked %.4g element-steps/s %.4g to %.4g\n",
+            name, (long long)elements, lanes, fracas_isa_name[batch->step.isa],
+            100.0 * (double)batch->step.cracked[0] / interfaces, rate[2], rate[0], rate[4]);
     fracas_batch_destroy(batch);
     fracas_model_destroy(model);
     free((void *)spec.mesh.noise);
