@@ -236,6 +236,31 @@ LANES_FUNCTION void surface_totals(const surface_context *c)
     lanes_store(step->work + first, work);
 }
 
+/* Has the CPU fetch `size` bytes. */
+LANES_FUNCTION void surface_fetch(const void *from, size_t size)
+{
+    for (size_t at = 0; at < size; at += 64) __builtin_prefetch((const char *)from + at);
+}
+
+/* Has the CPU fetch element e and its interfaces, before their turn comes: their memory is far
+ * away, and each visit is long. */
+LANES_FUNCTION void surface_fetch_turn(const surface_context *c, int order, size_t e)
+{
+    const fracas_surface_tables *t = c->tables;
+    const size_t nodes = (size_t)SURFACE_NODES(order);
+    surface_fetch(c->elements + e * c->element_size, c->element_size * sizeof(double));
+    surface_fetch(surface_bulk(c, order, e),
+                  SURFACE_BULK(order) * BODY_BULK_TABLE * sizeof(double));
+    surface_fetch(t->lumped + 2 * nodes * e, 2 * nodes * sizeof(double));
+    for (size_t j = t->visits.join_from[e]; j < t->visits.join_from[e + 1]; j++) {
+        const size_t i = t->visits.join[j];
+        surface_fetch(surface_table(c, order, i),
+                      (BODY_HEAD + SURFACE_EDGE(order) * BODY_POINT_TABLE) * sizeof(double));
+        surface_fetch(c->interfaces + i * c->interface_size, c->interface_size * sizeof(double));
+        surface_fetch(c->strengths + i * c->strengths_size, c->strengths_size * sizeof(double));
+    }
+}
+
 LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *step, int first,
                                 int order, int law)
 {
@@ -269,6 +294,7 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
     if (BODY_PLANE) c->spin = surface_spin(s, lanes_load(step->time + first));
     for (size_t e = 0; e < t->nelements; e++) {
         double *at = c->elements + e * c->element_size;
+        if (e + 1 < t->nelements) surface_fetch_turn(c, order, e + 1);
         if (law != SURFACE_OPERATOR) surface_drift(&s->motion, c->drift, BODY_SIZE(order), at);
         surface_enter(c, order, e, at, surface_slot(c, order, e));
         for (size_t j = t->visits.join_from[e]; j < t->visits.join_from[e + 1]; j++)
