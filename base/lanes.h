@@ -10,6 +10,7 @@
  *   lanes_and / lanes_or / lanes_any / lanes_all  of masks
  *   lanes_select(m, a, b)                    m ? a : b
  *   lanes_get(m, l)                          truth value of lane l
+ *   lanes_max(a, b) / lanes_min(a, b)        a < b ? b : a, b < a ? b : a
  *   lanes_sqrt(a)                            the correctly rounded square root
  *   vu          LANES words of 64 bits (a plain uint64_t for LANES 1)
  *   lanes_bits(a) / lanes_double(b)          the words that represent the doubles, and back
@@ -82,6 +83,14 @@ LANES_FUNCTION int lanes_get(vmask m, int lane)
     (void)lane;
     return m;
 }
+LANES_FUNCTION vd lanes_max(vd a, vd b)
+{
+    return a < b ? b : a;
+}
+LANES_FUNCTION vd lanes_min(vd a, vd b)
+{
+    return b < a ? b : a;
+}
 LANES_FUNCTION vd lanes_sqrt(vd a)
 {
     return __builtin_sqrt(a);
@@ -145,6 +154,14 @@ LANES_FUNCTION int lanes_get(vmask m, int lane)
 {
     return m >> lane & 1;
 }
+LANES_FUNCTION vd lanes_max(vd a, vd b)
+{
+    return (vd)_mm512_max_pd((__m512d)b, (__m512d)a); /* the second one of equals and of NaN */
+}
+LANES_FUNCTION vd lanes_min(vd a, vd b)
+{
+    return (vd)_mm512_min_pd((__m512d)b, (__m512d)a);
+}
 LANES_FUNCTION vd lanes_sqrt(vd a)
 {
     return (vd)_mm512_sqrt_pd((__m512d)a);
@@ -184,6 +201,14 @@ LANES_FUNCTION vd lanes_select(vmask m, vd a, vd b)
 LANES_FUNCTION int lanes_get(vmask m, int lane)
 {
     return _mm256_movemask_pd(m) >> lane & 1;
+}
+LANES_FUNCTION vd lanes_max(vd a, vd b)
+{
+    return (vd)_mm256_max_pd((__m256d)b, (__m256d)a); /* the second one of equals and of NaN */
+}
+LANES_FUNCTION vd lanes_min(vd a, vd b)
+{
+    return (vd)_mm256_min_pd((__m256d)b, (__m256d)a);
 }
 LANES_FUNCTION vd lanes_sqrt(vd a)
 {

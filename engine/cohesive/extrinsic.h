@@ -103,6 +103,7 @@ LANES_FUNCTION plane_result plane_extrinsic(const plane_interface *at, const pla
               in->q_t * (in->m_t + half * at->k_t * in->q_t);
     r.created = lanes_select(r.cracks, r.stored - left, zero);
     state->damage = lanes_select(r.cracked, damage, state->damage);
+    r.damage = state->damage;
     r.dissipated = energy * state->damage;
     return r;
 }
@@ -123,6 +124,7 @@ LANES_FUNCTION plane_result extrinsic_at(const plane_interface *at, const plane_
         state.rub = lanes_load(point + EXTRINSIC_RUB * LANES);
     }
     const plane_result r = plane_extrinsic(at, in, standard, at->friction, &state);
+    if (at->calm) return r;
     lanes_store(point + SURFACE_DAMAGE * LANES, state.damage);
     lanes_store(point + SURFACE_PEAK * LANES, state.peak);
     lanes_store(point + EXTRINSIC_JUMP_N * LANES, state.q_n);

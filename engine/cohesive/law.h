@@ -9,8 +9,9 @@
  *   FRACAS_LAW_TABLES is defined: parameters and traits, compiled once (law.c).
  *   Neither is defined: the functions over lanes (engine/cohesive/kernels.h). A law that says FLUX
  *       defines line_NAME (kernels.h). One that says YES defines plane_at_NAME, which brings the
- *       point's fields up to date (plane.h), and plane_opening_NAME, from which break times are
- *       interpolated. Where the flux stays in series, it is an envelope: series.h has the rest.
+ *       point's fields up to date but in a calm step (plane.h), and plane_opening_NAME, from which
+ *       break times are interpolated. Where the flux stays in series, it is an envelope: series.h
+ *       has the rest.
  * D is 0 before the onset and exactly 1 once broken; fragments and events compare with 1. The
  * traction is 0 at the break. A law that ends at T_b > 0 there counts the stored energy as
  * dissipated, on chains T_b^2/(2K) of the flux, too: a break's `created` is that of its mean alone.

@@ -23,6 +23,10 @@ typedef struct {
     vd energy, opening;        /* G_c [J/m2], delta_c [m]: one is given, the other 0 */
     int onset_mean;            /* onset of the mean; else of the flux */
     int friction;              /* mu_c > 0 */
+    /* A constant of each call. In a calm step the law may take it that there is no friction, onset
+     * or break, and that D alone changes: it stores nothing. `cracks`, `breaks` say where it errs.
+     */
+    int calm;
 } plane_interface;
 
 typedef struct {
@@ -36,6 +40,7 @@ typedef struct {
 } plane_traction;
 
 typedef struct {
+    vd damage;          /* D after the step */
     vd t_n, t_t;        /* traction T [Pa] */
     vd s_n, s_t;        /* the flux's part of the jump [m]; 0 once it is left */
     vd flux, stored;    /* energies of the flux, and in openings and contact [J/m2] */
@@ -50,11 +55,11 @@ typedef struct {
 
 LANES_FUNCTION vd plane_max(vd a, vd b)
 {
-    return lanes_select(lanes_lt(a, b), b, a);
+    return lanes_max(a, b);
 }
 LANES_FUNCTION vd plane_min(vd a, vd b)
 {
-    return lanes_select(lanes_lt(b, a), b, a);
+    return lanes_min(a, b);
 }
 LANES_FUNCTION vd plane_abs(vd a)
 {
@@ -72,6 +77,7 @@ LANES_FUNCTION vd plane_effective(const plane_interface *at, vd t_n, vd t_t)
 LANES_FUNCTION vd plane_onset(const plane_interface *at, vd t_n, vd t_t)
 {
     const vd zero = lanes_set(0.0);
+    if (at->calm) return plane_effective(at, t_n, t_t); /* the same for mu_c = 0 */
     return plane_effective(at, t_n,
                            plane_max(zero, plane_abs(t_t) + at->mu_c * plane_min(t_n, zero)));
 }

@@ -93,7 +93,7 @@ LANES_FUNCTION series_trial series_begin(const plane_interface *at, const plane_
     t.cracked = lanes_or(was_cracked, t.cracks);
     vd fresh = at->sigma_c, most = at->sigma_c;
     t.peak = state->peak;
-    if (lanes_any(t.cracks)) { /* (cohesive.13) */
+    if (!at->calm && lanes_any(t.cracks)) { /* (cohesive.13) */
         /* S_m - sigma_c: the step is late by that; beside an open layer the flux may have been
          * above for long: all of it is the peak */
         const vd passed = lanes_select(in->opened, zero, lanes_sqrt(judged) - at->sigma_c);
@@ -121,7 +121,9 @@ LANES_FUNCTION plane_result series_finish(const plane_interface *at, const plane
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
     const vd m_n = t->m_n, m_t = t->m_t, trial_n = t->trial_n, trial_t = t->trial_t;
     plane_friction rub = t->rub;
-    plane_result r = {.cracked = t->cracked, .cracks = t->cracks};
+    plane_result r;
+    r.cracked = t->cracked;
+    r.cracks = t->cracks;
     r.t_n = lanes_select(lanes_lt(zero, trial_n), trial_n * it->factor, trial_n);
     r.t_t = rub.shear * it->factor + rub.rub;
     r.midway_n = lanes_select(lanes_lt(zero, trial_n), trial_n * it->midway, trial_n);
@@ -143,9 +145,12 @@ LANES_FUNCTION plane_result series_finish(const plane_interface *at, const plane
                               (slip - state->slip)
                         : zero;
     /* a cut peak: the traction falls at the onset, and with it the energy */
-    vd whole = half * (in->q_n * (m_n + trial_n) + in->q_t * (m_t + trial_t));
-    vd fallen = r.flux + r.stored + it->dissipated + r.rubbed - whole;
-    r.created = lanes_select(t->cut, fallen, zero);
+    r.created = zero;
+    if (!at->calm) {
+        vd whole = half * (in->q_n * (m_n + trial_n) + in->q_t * (m_t + trial_t));
+        vd fallen = r.flux + r.stored + it->dissipated + r.rubbed - whole;
+        r.created = lanes_select(t->cut, fallen, zero);
+    }
 
     /* once it is */
     vmask broken = lanes_and(r.cracked, lanes_le(one, it->damage));
@@ -158,14 +163,15 @@ LANES_FUNCTION plane_result series_finish(const plane_interface *at, const plane
     vd bent = r.t_t * at->softness_t;
     vd after = half * (at->k_n * push * push + r.t_t * bent);
     r.breaks = lanes_and(broken, lanes_lt(state->damage, one));
-    r.created += lanes_select(r.breaks, after - (r.flux + r.stored), zero); /* (cohesive.6) */
+    if (!at->calm)
+        r.created += lanes_select(r.breaks, after - (r.flux + r.stored), zero); /* (cohesive.6) */
     r.t_n = lanes_select(broken, at->k_n * push, r.t_n);
     r.s_n = lanes_select(broken, zero, r.s_n);
     r.s_t = lanes_select(broken, zero, r.s_t);
     r.flux = lanes_select(broken, zero, r.flux);
     r.stored = lanes_select(broken, after, r.stored);
 
-    state->damage = lanes_select(r.cracked, it->damage, state->damage);
+    r.damage = state->damage = lanes_select(r.cracked, it->damage, state->damage);
     r.dissipated = lanes_select(r.cracked, it->dissipated, zero);
     state->peak = t->peak;
     if (friction) {
@@ -180,8 +186,10 @@ enum { SERIES_SLIP = SURFACE_POINT_FIELDS, SERIES_RUB };
 
 LANES_FUNCTION series_state series_load(const plane_interface *at, const double *point)
 {
-    series_state state = {.damage = lanes_load(point + SURFACE_DAMAGE * LANES),
-                          .peak = lanes_load(point + SURFACE_PEAK * LANES)};
+    series_state state;
+    state.damage = lanes_load(point + SURFACE_DAMAGE * LANES);
+    state.peak = lanes_load(point + SURFACE_PEAK * LANES);
+    state.slip = state.rub = lanes_set(0.0);
     if (at->friction) {
         state.slip = lanes_load(point + SERIES_SLIP * LANES);
         state.rub = lanes_load(point + SERIES_RUB * LANES);
@@ -192,6 +200,7 @@ LANES_FUNCTION series_state series_load(const plane_interface *at, const double 
 LANES_FUNCTION void series_store(const plane_interface *at, const series_state *state,
                                  double *point)
 {
+    if (at->calm) return;
     lanes_store(point + SURFACE_DAMAGE * LANES, state->damage);
     lanes_store(point + SURFACE_PEAK * LANES, state->peak);
     if (at->friction) {

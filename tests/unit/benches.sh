@@ -18,6 +18,7 @@ done
 for model in bar ring stershic linear quadratic shell; do
     gives 3 "$build/bench_sweep" --model $model --elements 200 --seconds 0.001
 done
+[ "$(printf '\n\n' | "$build/bench_sweep" --elements 200 --turns 2 | wc -l)" = 4 ] || { echo "bench_sweep takes no turns"; exit 1; }
 gives 4 "$build/bench_field" 60 2
 gives 8 "$build/bench_cluster" workers=2 work=10 task=0.1
 [ "$("$build/bench_stream" neighbours | head -c 4096 | wc -c)" = 4096 ] || { echo "bench_stream gives no bits"; exit 1; }

@@ -353,19 +353,15 @@ LANES_FUNCTION plane_input shell_input(const fracas_surface_constants *s, const 
 LANES_FUNCTION surface_opening shell_crack(const surface_context *c,
                                            const plane_interface *interface, int law,
                                            const double *place, shell_point *p, double *fields,
-                                           vmask *cracks, vmask *breaks)
+                                           vd *damage, vmask *cracks, vmask *breaks)
 {
     static const double weight[SHELL_LAYERS] = SHELL_LAYER_WEIGHTS;
     const fracas_surface_constants *s = c->constants;
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
     const vmask none = lanes_lt(one, zero), every = lanes_lt(zero, one);
-    surface_opening all = {.flux = zero,
-                           .stored = zero,
-                           .dissipated = zero,
-                           .created = zero,
-                           .rubbed = zero,
-                           .whole = every,
-                           .broken = every};
+    surface_opening all;
+    all.flux = all.stored = all.dissipated = all.created = all.rubbed = zero;
+    all.whole = all.broken = every;
     vmask cracked = none, breaks_one = none, opened = none;
     vd spent = zero, n[2], m[2], carried_u[2], carried_t[2], used_n[2], used_m[2];
     UNROLL_FOR (int j = 0; j < 2; j++)
@@ -408,11 +404,11 @@ LANES_FUNCTION surface_opening shell_crack(const surface_context *c,
         all.dissipated += w * r.dissipated;
         all.created += w * r.created;
         all.rubbed += w * lanes_select(r.cracked, r.rubbed, zero);
-        all.broken = lanes_and(all.broken,
-                               lanes_le(one, lanes_load(surface_at(point, SURFACE_DAMAGE))));
+        all.broken = lanes_and(all.broken, lanes_le(one, r.damage));
         spent += w * lanes_select(r.cracked, r.spent, zero);
         cracked = lanes_or(cracked, r.cracked);
         breaks_one = lanes_or(breaks_one, r.breaks);
+        damage[k] = r.damage;
         cracks[k] = r.cracks;
         breaks[k] = r.breaks;
     }

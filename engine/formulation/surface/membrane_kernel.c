@@ -167,7 +167,7 @@ LANES_FUNCTION plane_input membrane_input(const fracas_surface_constants *m, con
 LANES_FUNCTION surface_opening membrane_crack(const surface_context *c,
                                               const plane_interface *interface, int law,
                                               const double *place, membrane_point *p, double *point,
-                                              vmask *cracks, vmask *breaks)
+                                              vd *damage, vmask *cracks, vmask *breaks)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
     const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]);
@@ -181,11 +181,12 @@ LANES_FUNCTION surface_opening membrane_crack(const surface_context *c,
         .created = r.created,
         .rubbed = lanes_select(r.cracked, r.rubbed, zero),
         .whole = whole,
-        .broken = lanes_le(one, lanes_load(surface_at(point, SURFACE_DAMAGE)))};
+        .broken = lanes_le(one, r.damage)};
     p->traction[0] = lanes_select(r.cracked, r.t_n * nx - r.t_t * ny, p->traction[0]);
     p->traction[1] = lanes_select(r.cracked, r.t_n * ny + r.t_t * nx, p->traction[1]);
     p->carried[0] = lanes_select(r.cracked, r.s_n * nx - r.s_t * ny, p->jump[0]);
     p->carried[1] = lanes_select(r.cracked, r.s_n * ny + r.s_t * nx, p->jump[1]);
+    *damage = r.damage;
     *cracks = r.cracks;
     *breaks = r.breaks;
     return all;

@@ -53,7 +53,7 @@ surface_book(const surface_context *c, int points, size_t i, const vmask *cracks
 
 /* The law's view of an interface; the strength is each Gauss point's own. */
 LANES_FUNCTION plane_interface surface_interface(const fracas_surface_constants *s,
-                                                 const double *table, int friction)
+                                                 const double *table, int calm)
 {
     const vd stiffness = lanes_set(table[SURFACE_STIFFNESS]);
     return (plane_interface){.k_n = lanes_set(s->normal) * stiffness,
@@ -66,21 +66,25 @@ LANES_FUNCTION plane_interface surface_interface(const fracas_surface_constants 
                              .energy = lanes_set(s->energy),
                              .opening = lanes_set(s->opening),
                              .onset_mean = s->onset_mean,
-                             .friction = friction};
+                             .friction = calm ? 0 : s->friction,
+                             .calm = calm};
 }
 
 /* An interface at which some lane is cracked, or is about to (shell.14). `at` holds the flux of the
- * other lanes. `friction`, a constant of each call, keeps its questions out of the layers. */
-LANES_FUNCTION void surface_crack(surface_context *c, int order, int law, int friction, size_t i,
-                                  double *fields, const double *strength, BODY(point) at[3])
+ * other lanes. False where it was called for a calm step and some lane has an onset or a break in
+ * it: then nothing but `at` has changed. `calm` is a constant of each call. */
+LANES_FUNCTION int surface_crack(surface_context *c, int order, int law, int calm, size_t i,
+                                 double *fields, const double *strength, BODY(point) at[3])
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
     const fracas_surface_constants *s = c->constants;
     const int points = SURFACE_EDGE(order);
     const double *table = surface_table(c, order, i);
-    plane_interface interface = surface_interface(s, table, friction);
+    plane_interface interface = surface_interface(s, table, calm);
     vmask cracks[3 * BODY_LAYERS], breaks[3 * BODY_LAYERS];
     vmask whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(one, zero), parts = opens;
+    vd damage[3 * BODY_LAYERS];
+    vd flux = c->flux, stored = c->stored, dissipated = c->dissipated;
     vd created = zero, rubbed = zero, bending = zero;
     UNROLL_FOR (int g = 0; g < points; g++) {
         const double *place = table + BODY_HEAD + g * BODY_POINT_TABLE;
@@ -88,11 +92,11 @@ LANES_FUNCTION void surface_crack(surface_context *c, int order, int law, int fr
         interface.sigma_c = lanes_load(strength + (size_t)g * c->strength_step);
         const surface_opening all = BODY(crack)(
             c, &interface, law, place, &at[g],
-            surface_at(fields, g * BODY_LAYERS * s->point_fields), cracks + g * BODY_LAYERS,
-            breaks + g * BODY_LAYERS);
-        c->flux += weight * all.flux;
-        c->stored += weight * all.stored;
-        c->dissipated += weight * all.dissipated;
+            surface_at(fields, g * BODY_LAYERS * s->point_fields), damage + g * BODY_LAYERS,
+            cracks + g * BODY_LAYERS, breaks + g * BODY_LAYERS);
+        flux += weight * all.flux;
+        stored += weight * all.stored;
+        dissipated += weight * all.dissipated;
         created += weight * all.created;
         rubbed += weight * all.rubbed;
         if (BODY_LAYERS > 1) bending += weight * all.bending;
@@ -103,19 +107,30 @@ LANES_FUNCTION void surface_crack(surface_context *c, int order, int law, int fr
             parts = lanes_or(parts, breaks[g * BODY_LAYERS + k]);
         }
     }
+    if (calm && __builtin_expect(lanes_any(lanes_or(opens, parts)), 0)) return 0;
+    c->flux = flux;
+    c->stored = stored;
+    c->dissipated = dissipated;
     double *const sum[3] = {c->step->created + c->first, c->step->friction + c->first,
                             c->step->dissipated_bending + c->first};
+    if (BODY_LAYERS > 1) lanes_store(sum[2], lanes_load(sum[2]) + bending);
+    if (calm) {
+        UNROLL_FOR (int p = 0; p < points * BODY_LAYERS; p++)
+            lanes_store(surface_at(fields, p * s->point_fields + SURFACE_DAMAGE), damage[p]);
+        return 1;
+    }
     lanes_store(sum[0], lanes_load(sum[0]) + created);
     lanes_store(sum[1], lanes_load(sum[1]) + rubbed);
-    if (BODY_LAYERS > 1) lanes_store(sum[2], lanes_load(sum[2]) + bending);
     opens = lanes_and(opens, whole);  /* the first of its points */
     parts = lanes_and(parts, broken); /* the last */
     if (__builtin_expect(lanes_any(lanes_or(opens, parts)), 0))
         surface_book(c, points * BODY_LAYERS, i, cracks, breaks, opens, parts);
+    return 1;
 }
 
-/* Interface i: tractions at its Gauss points, and their forces on its elements. */
-LANES_FUNCTION void surface_join(surface_context *c, int order, int law, size_t i)
+/* Interface i: tractions at its Gauss points, and their forces on its elements. False where it was
+ * called for a calm step and that fails: then nothing has changed. */
+LANES_FUNCTION int surface_join(surface_context *c, int order, int law, int calm, size_t i)
 {
     const fracas_surface_constants *s = c->constants;
     const int points = SURFACE_EDGE(order);
@@ -128,7 +143,7 @@ LANES_FUNCTION void surface_join(surface_context *c, int order, int law, size_t 
         UNROLL_FOR (int g = 0; g < points; g++)
             if (s->contact) BODY(press)(&at[g]);
         BODY(give)(c, order, i, &sides, at);
-        return;
+        return 1;
     }
     /* No lane is past its onset where none has a peak and no traction is near the least strength:
      * an onset needs |T| >= min(1, beta_c) sigma_c. The margin covers its round-off, so that lanes
@@ -143,8 +158,7 @@ LANES_FUNCTION void surface_join(surface_context *c, int order, int law, size_t 
     }
     const vd floor = lanes_set(0.999 * (s->beta_c < 1.0 ? s->beta_c : 1.0)) * weakest;
     if (lanes_any(lanes_or(lanes_lt(lanes_set(0.0), touched), lanes_lt(floor * floor, largest)))) {
-        if (s->friction) surface_crack(c, order, law, 1, i, fields, strength, at);
-        else surface_crack(c, order, law, 0, i, fields, strength, at);
+        if (!surface_crack(c, order, law, calm, i, fields, strength, at)) return 0;
     } else {
         const double *place = surface_table(c, order, i) + BODY_HEAD;
         UNROLL_FOR (int g = 0; g < points; g++)
@@ -152,6 +166,7 @@ LANES_FUNCTION void surface_join(surface_context *c, int order, int law, size_t 
                        BODY(flux_energy)(&at[g]);
     }
     BODY(give)(c, order, i, &sides, at);
+    return 1;
 }
 
 /* ---- elements ---- */
@@ -261,8 +276,11 @@ LANES_FUNCTION void surface_fetch_turn(const surface_context *c, int order, size
     }
 }
 
+/* An interface with friction, or with an onset or a break in this step. */
+typedef void surface_stirred(surface_context *context, size_t interface);
+
 LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *step, int first,
-                                int order, int law)
+                                int order, int law, surface_stirred *stirred)
 {
     const vd zero = lanes_set(0.0);
     const fracas_surface_tables *t = s->tables;
@@ -298,7 +316,8 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
         if (law != SURFACE_OPERATOR) surface_drift(&s->motion, c->drift, BODY_SIZE(order), at);
         surface_enter(c, order, e, at, surface_slot(c, order, e));
         for (size_t j = t->visits.join_from[e]; j < t->visits.join_from[e + 1]; j++)
-            surface_join(c, order, law, t->visits.join[j]);
+            if (s->friction || !surface_join(c, order, law, 1, t->visits.join[j]))
+                stirred(c, t->visits.join[j]);
         for (size_t f = t->visits.finish_from[e]; f < t->visits.finish_from[e + 1]; f++)
             surface_finish(c, order, law, t->visits.finish[f]);
     }
@@ -313,7 +332,7 @@ LANES_FUNCTION void surface_look(const fracas_surface_constants *s, int order, s
     surface_context c = {.constants = s, .tables = s->tables};
     surface_sides sides = surface_places(s->tables, order, i);
     const double *table = surface_table(&c, order, i);
-    plane_interface interface = surface_interface(s, table, s->friction);
+    plane_interface interface = surface_interface(s, table, 0);
     double slot[2][BODY_SLOT(2)];
     BODY(point) at[3];
     for (int side = 0; side < 2; side++) {
@@ -345,9 +364,13 @@ LANES_FUNCTION double surface_strain(const fracas_surface_constants *s, int orde
 #endif
 
 #define SURFACE_SWEEP(name, order, law)                                                       \
+    __attribute__((noinline)) static void name##_stirred(surface_context *c, size_t i)        \
+    {                                                                                         \
+        surface_join(c, order, law, 0, i);                                                    \
+    }                                                                                         \
     static void name(const fracas_surface_constants *constants, fracas_step *step, int first) \
     {                                                                                         \
-        surface_run(constants, step, first, order, law);                                      \
+        surface_run(constants, step, first, order, law, name##_stirred);                      \
     }
 #define SURFACE_LOOK(name, order, law)                                    \
     static void name(const fracas_surface_constants *constants, size_t i, \
