@@ -258,6 +258,10 @@ FRACAS_MUST_USE fracas_err fracas_index_fail(fracas_index *index, const fracas_h
 /* Appends to the table `event` (time of day, kind, text). */
 FRACAS_MUST_USE fracas_err fracas_index_event(fracas_index *index, const char *kind,
                                               const char *text);
+/* FRACAS_DAMAGED, with the remedy, if it has points that are not in the campaign's table: one of
+ * the two is damaged, or campaign.yaml was edited. */
+FRACAS_MUST_USE fracas_err fracas_index_check_points(fracas_index *index,
+                                                     const fracas_point_table *table);
 /* The text of the latest event of a kind, NULL if there is none; freed by the caller. */
 FRACAS_MUST_USE fracas_err fracas_index_last_event(fracas_index *index, const char *kind,
                                                    char **text);

@@ -105,6 +105,12 @@ cp done/campaign.yaml kept.yaml
 cp other.yaml done/campaign.yaml
 expect 5 "$fracas" verify done
 said '1 of its 1 points are not in the campaign'
+expect 5 "$fracas" run small.yaml --study done
+said 'done/campaign.yaml is not the campaign of done/index.sqlite: .* remove it and run again'
+rm done/campaign.yaml
+expect 0 "$fracas" run small.yaml --study done
+cmp kept.yaml done/campaign.yaml || fail "campaign.yaml is not as it was"
+cp other.yaml done/campaign.yaml
 echo 'x: [' >> done/campaign.yaml
 expect 5 "$fracas" verify done
 said "study's campaign file is damaged"

@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "campaigns/scheduler/types/header.h"
+#include "campaigns/scheduler/types/packet.h"
 #include "campaigns/store/file/disk.h"
 
 #include <errno.h>
@@ -71,6 +72,16 @@ fracas_err fracas_study_folder(const fracas_run_options *options, const fracas_c
         size);
 }
 
+/* The index has points of `campaign` that the study's own file, `before`, does not have. */
+static bool is_edited(const char *study, const fracas_campaign *before,
+                      const fracas_campaign *campaign)
+{
+    OWN(fracas_index) index = NULL;
+    return !fracas_index_open(study, false, &index) &&
+           fracas_index_check_points(index, &before->table) == FRACAS_DAMAGED &&
+           !fracas_index_check_points(index, &campaign->table);
+}
+
 fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
 {
     OWNED char *path = NULL;
@@ -90,6 +101,16 @@ fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
                                   "%s has been extended since: `fracas run %s --study %s` goes on "
                                   "with it (or choose another --study)",
                                   study, path, study);
+    if (err) {
+        fracas_trouble trouble; /* a look at the index has words of its own */
+        fracas_trouble_take(err, &trouble);
+        if (is_edited(study, before, campaign))
+            return fracas_fail(FRACAS_DAMAGED,
+                               "%s is not the campaign of %s/index.sqlite: it is damaged, or was "
+                               "edited; remove it and run again: it is written anew",
+                               path, study);
+        err = fracas_trouble_fail(&trouble);
+    }
     if (err)
         return fracas_fail_within(err, "%s is a study of another campaign (choose another --study)",
                                   study);

@@ -123,10 +123,6 @@ FRACAS_MUST_USE fracas_err fracas_index_find_point(fracas_index *index, const fr
 
 /* Counts the points. */
 FRACAS_MUST_USE fracas_err fracas_index_points(fracas_index *index, int64_t *points);
-/* FRACAS_DAMAGED, with the remedy, if it has points that are not in the campaign's table: one of
- * the two is damaged, or campaign.yaml was edited. */
-FRACAS_MUST_USE fracas_err fracas_index_check_points(fracas_index *index,
-                                                     const fracas_point_table *table);
 
 /* Plans the missing replicas of a point, within a transaction. */
 FRACAS_MUST_USE fracas_err fracas_index_plan_point(fracas_index *index,
