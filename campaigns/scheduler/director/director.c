@@ -349,8 +349,7 @@ static fracas_err on_end(fracas_director *director, size_t worker, const fracas_
     return FRACAS_OK;
 }
 
-/* The worker's server died, and READY of a new one follows. The leases of the dead one wait again.
- */
+/* The worker's server died, and READY of a new one follows. Leases of the dead one wait again. */
 static fracas_err on_replaced(fracas_director *director, size_t worker,
                               const fracas_packet *message)
 {

@@ -44,6 +44,7 @@ void fracas_director_stop(fracas_director *director)
 
 void fracas_director_end_worker(fracas_director *director, size_t worker)
 {
+    if (director->phase[worker] == ENDED) return;
     director->phase[worker] = ENDED;
     director->nended++;
     fracas_scheduler_lost(director->scheduler, worker); /* nothing, if it ended in order */

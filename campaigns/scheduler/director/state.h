@@ -45,8 +45,7 @@ FRACAS_MUST_USE fracas_err fracas_director_post(fracas_director *director, size_
                                                 size_t size);
 /* Sends STOP, which kills the running lease if it is not needed or out of time. */
 void fracas_director_stop_worker(fracas_director *director, size_t worker);
-/* Counts the worker, which had not ended before, as ended: its leases wait again, unless durable.
- */
+/* Counts the worker as ended, once: its leases wait again, unless durable. */
 void fracas_director_end_worker(fracas_director *director, size_t worker);
 /* Shows a message on the status channel and notes it as an event. */
 FRACAS_MUST_USE fracas_err fracas_director_announce(fracas_director *director, const char *kind,
