@@ -270,8 +270,8 @@ void *realloc(void *old, size_t size)
 /* ---- runs ---- */
 
 /* No call fails from here to the end of the block. */
-#define EACH_LEAVES_OUT                                                \
-    __attribute__((cleanup(each_goes_on))) bool each_was_on = each.on; \
+#define EACH_LEAVES_OUT                                                        \
+    __attribute__((cleanup(each_goes_on), unused)) bool each_was_on = each.on; \
     each.on = false
 
 static void each_goes_on(const bool *was_on)

@@ -216,8 +216,8 @@ static void a_rule_that_differs_anywhere_decides_anew(void **state)
         "{minimum: 8, maximum: 25, until: {quantity: dissipated, relative-half-width: 0.1}}",
         "{minimum: 8, maximum: 24, until: {quantity: mean-size, relative-half-width: 0.1}}",
         "{minimum: 8, maximum: 24, until: {quantity: dissipated, relative-half-width: 0.2}}",
-        "{minimum: 8, maximum: 24, until: {quantity: dissipated, relative-half-width: 0.1, "
-        "confidence: 0.9}}"};
+        ("{minimum: 8, maximum: 24, until: {quantity: dissipated, relative-half-width: 0.1, "
+         "confidence: 0.9}}")};
     fracas_rounds again;
     for (size_t p = 0; p < 2; p++) commit(p, 0, 7, 0.05, FRACAS_FRAGMENTED);
     for (size_t i = 0; i < FRACAS_COUNT(other); i++) {

@@ -3,6 +3,7 @@
 
 #include "campaigns/store/file/disk.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -117,7 +118,7 @@ static fracas_err open_segment(fracas_segments *segments, size_t s)
     segments->checked[s] = true;
     segments->bad[s] = err == FRACAS_DAMAGED;
     if (!segments->bad[s]) return err;
-    if (access(path, F_OK) < 0)
+    if (access(path, F_OK) < 0 && errno == ENOENT)
         return fracas_fail_within(err, "index.sqlite names a segment that is missing; run again to "
                                        "compute its realizations again");
     return fracas_fail_within(err, "to compute its realizations again, move %s away and run again",
