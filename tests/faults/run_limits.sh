@@ -12,7 +12,9 @@ expect 6 sh -c "ulimit -f 1000; '$fracas' run small.yaml --study study --jobs 2"
 said 'ulimit -f'
 [ ! -e study ] || fail "a refused run left something behind"
 # The soft limit is raised; a lease has the smaller one of two limits of memory.
-expect 0 sh -c "ulimit -S -n 24; ulimit -S -d 8000000; '$fracas' run small.yaml --study raised --jobs 2 --memory-limit 1000"
+memory='ulimit -S -d 8000000'
+(ulimit -S -d 8000000; "$fracas" --version) > /dev/null 2>&1 || memory=: # the shadow memory of a sanitizer
+expect 0 sh -c "ulimit -S -n 24; $memory; '$fracas' run small.yaml --study raised --jobs 2 --memory-limit 1000"
 same undisturbed raised
 
 # A file that may not grow: dash counts in 512 bytes, so 8.5 MB for a study.h5 of 12 MB. First it is predicted, then it happens.

@@ -393,7 +393,7 @@ static void a_damaged_name_of_a_column_is_told(void **state)
         COLUMNS = 40
     }; /* above 8 links HDF5 keeps the names in a heap, these in several blocks */
     const char *path = sample_path(folder, "a.h5");
-    char name[COLUMNS][8];
+    char name[COLUMNS][16];
     fracas_column column[COLUMNS];
     fracas_value value[COLUMNS] = {0};
     for (int c = 0; c < COLUMNS; c++) {
