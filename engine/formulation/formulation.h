@@ -54,8 +54,10 @@ typedef struct {
         double energy[FRACAS_ENERGIES][FRACAS_LANES_MAX];
     };
     double power[FRACAS_LANES_MAX];
-    /* the formulation's own: power of the drive at the velocities after the step before [W] */
+    /* the formulation's own: power of the drive at the velocities after the step before [W], square
+     * of the angular velocity [1/s2] */
     double driven[FRACAS_LANES_MAX];
+    _Alignas(64) double spin[FRACAS_LANES_MAX];
     /* accumulated: counts of interfaces, time of the first onset [s, NaN] */
     double first_onset[FRACAS_LANES_MAX];
     int64_t cracked[FRACAS_LANES_MAX], broken[FRACAS_LANES_MAX];

@@ -137,7 +137,7 @@ LANES_FUNCTION void shell_rim(surface_context *c, int order, size_t r, const dou
                      *side = point + SHELL_RIM_SIDE;
         const vd turn = shell_turn(side, u), length = lanes_set(point[SHELL_RIM_LENGTH]),
                  moment = of[g][2] + stiff * turn;
-        c->flux += length * (turn * (of[g][2] + moment));
+        c->sum[SURFACE_RIMS] += length * (turn * (of[g][2] + moment));
         turned[g] = length * moment;
         work[g][0] = work[g][1] = work[g][3] = zero;
         work[g][2] = length * turn;
@@ -154,7 +154,7 @@ static const double shell_second[3][6] = FRACAS_TRIANGLE_SECOND_2;
 LANES_FUNCTION void shell_strain(surface_context *c, int order, size_t e, double *at, double *slot)
 {
     const double *bulk = surface_bulk(c, 2, e);
-    vd u[SHELL_UNKNOWNS], bent[3][3];
+    vd u[SHELL_UNKNOWNS], bent[3][3], energy = lanes_set(0.0);
     shell_load(at, u);
     UNROLL_FOR (int b = 0; b < 3; b++)
         UNROLL_FOR (int i = 0; i < 3; i++) {
@@ -177,12 +177,13 @@ LANES_FUNCTION void shell_strain(surface_context *c, int order, size_t e, double
                               lanes_set(bulk[SHELL_FIRST + 2 * ij + 1]) * out[4];
         }
         surface_elastic(c->constants, strain, r);
-        c->strain_energy += lanes_set(bulk[SURFACE_WEIGHT]) *
-                            ((r[0] * strain[0] + r[1] * strain[1] + r[2] * strain[2]) +
-                             (r[3] * strain[3] + r[4] * strain[4] + r[5] * strain[5]));
+        energy += lanes_set(bulk[SURFACE_WEIGHT]) *
+                  ((r[0] * strain[0] + r[1] * strain[1] + r[2] * strain[2]) +
+                   (r[3] * strain[3] + r[4] * strain[4] + r[5] * strain[5]));
         UNROLL_FOR (int i = 0; i < SHELL_RESULTANTS; i++)
             lanes_store(surface_at(slot, SHELL_RESULTANTS * g + i), r[i]);
     }
+    c->sum[SURFACE_STRAIN] += energy;
     for (size_t rim = c->tables->rim_from[e]; rim < c->tables->rim_from[e + 1]; rim++)
         shell_rim(c, order, rim, at, slot);
 }
@@ -227,15 +228,18 @@ LANES_FUNCTION void shell_forces(const surface_context *c, int order, size_t e, 
 }
 
 /* Leapfrog: v_{n-1/2} M v_{n+1/2}  (membrane.9) */
-LANES_FUNCTION void shell_kinetic(surface_context *c, int order, size_t e, const vd *v,
-                                  const vd *after)
+LANES_FUNCTION vd shell_kinetic(const surface_context *c, int order, size_t e, const vd *v,
+                                const vd *after, vd *moment)
 {
+    vd kinetic = lanes_set(0.0);
+    (void)moment;
     const double *mass = c->tables->lumped + (2 * e + 1) * (size_t)SURFACE_NODES(order);
     UNROLL_FOR (int k = 0; k < SHELL_NODES; k++) {
         const vd m = lanes_set(mass[k]);
-        c->kinetic += m * (v[3 * k] * after[3 * k] + v[3 * k + 1] * after[3 * k + 1] +
-                           v[3 * k + 2] * after[3 * k + 2]);
+        kinetic += m * (v[3 * k] * after[3 * k] + v[3 * k + 1] * after[3 * k + 1] +
+                        v[3 * k + 2] * after[3 * k + 2]);
     }
+    return kinetic;
 }
 
 /* ---- interfaces ---- */

@@ -22,7 +22,7 @@
  *   NAME_crack      the law at a Gauss point
  *   NAME_give       adds forces and strains of an interface to the slots of its two elements
  *   NAME_forces     adds the forces of an element's own stresses
- *   NAME_kinetic    its kinetic energy
+ *   NAME_kinetic    twice its kinetic energy, and its share of SURFACE_MOMENT
  * Last it includes engine/formulation/surface/sweep_kernel.h, which visits elements and interfaces.
  */
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_KERNEL_H
@@ -54,17 +54,15 @@ typedef struct {
     const fracas_surface_constants *constants;
     const fracas_surface_tables *tables;
     fracas_step *step;
-    int first;                             /* the step's lane of lane 0 here */
-    double *elements, *interfaces, *slots; /* state of these lanes */
+    int first;                                    /* the step's lane of lane 0 here */
+    double *elements, *interfaces, *slots, *sums; /* state of these lanes */
     const double *strengths;
     size_t element_size, interface_size;  /* doubles */
     size_t strengths_size, strength_step; /* doubles: an interface's; to next point, 0: shared */
     vd drift, kick;                       /* s */
     vd spin;                              /* membranes: w(t_n)^2 [1/s2] */
     vmask begins;                         /* the lane's first step */
-    /* Sums over the body, for the ledger: twice the energies, dissipated [J]; power [W]; membranes:
-     * sum of m r.v [kg m2/s]. */
-    vd strain_energy, flux, stored, kinetic, dissipated, power, moment;
+    vd sum[SURFACE_SUMS_BY_TURN];         /* so far, by elements of this block */
 } surface_context;
 
 /* Places of an interface in its two elements, - and +: nodes a, b (and c, the middle) of the edge;
@@ -133,6 +131,12 @@ LANES_FUNCTION void surface_kick(const fracas_surface_motion *m, vd dt, vmask be
 LANES_FUNCTION void surface_add(double *to, vd x)
 {
     lanes_store(to, lanes_load(to) + x);
+}
+
+/* The sums of element e's block, those by turns first. */
+LANES_FUNCTION double *surface_sums(const surface_context *c, size_t e)
+{
+    return c->sums + e / SURFACE_BLOCK * (size_t)(SURFACE_SUMS * LANES);
 }
 
 LANES_FUNCTION double *surface_slot(const surface_context *c, int order, size_t e)

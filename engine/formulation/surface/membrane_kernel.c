@@ -28,17 +28,18 @@ LANES_FUNCTION void membrane_strain(surface_context *c, int order, size_t e, dou
 {
     const int points = SURFACE_BULK(order);
     const double *bulk = surface_bulk(c, order, e);
-    vd u[12];
+    vd u[12], energy = lanes_set(0.0);
     UNROLL_FOR (int i = 0; i < BODY_SIZE(order); i++) u[i] = lanes_load(surface_at(at, i));
     UNROLL_FOR (int g = 0; g < points; g++, bulk += BODY_BULK_TABLE) {
         vd by[4][2], s[3];
         surface_gradient(order, g, bulk, u, by);
         const vd strain[3] = {by[2][0], by[3][1], by[3][0] + by[2][1]};
         surface_elastic(c->constants, strain, s);
-        c->strain_energy += lanes_set(bulk[SURFACE_WEIGHT]) *
-                            (s[0] * strain[0] + s[1] * strain[1] + s[2] * strain[2]);
+        energy += lanes_set(bulk[SURFACE_WEIGHT]) *
+                  (s[0] * strain[0] + s[1] * strain[1] + s[2] * strain[2]);
         UNROLL_FOR (int j = 0; j < 3; j++) lanes_store(surface_at(slot, 3 * g + j), s[j]);
     }
+    c->sum[SURFACE_STRAIN] += energy;
 }
 
 /* (membrane.7) */
@@ -59,9 +60,10 @@ LANES_FUNCTION void membrane_forces(const surface_context *c, int order, size_t 
 }
 
 /* Leapfrog: v_{n-1/2} M v_{n+1/2}  (membrane.9) */
-LANES_FUNCTION void membrane_kinetic(surface_context *c, int order, size_t e, const vd *v,
-                                     const vd *after)
+LANES_FUNCTION vd membrane_kinetic(const surface_context *c, int order, size_t e, const vd *v,
+                                   const vd *after, vd *moment)
 {
+    vd kinetic = lanes_set(0.0);
     const fracas_surface_tables *t = c->tables;
     const int nodes = SURFACE_NODES(order), size = 2 * nodes;
     const double *consistent =
@@ -78,12 +80,13 @@ LANES_FUNCTION void membrane_kinetic(surface_context *c, int order, size_t e, co
                 UNROLL_FOR (int i = 0; i < 2; i++)
                     momentum[i] += lanes_set(consistent[k * nodes + l]) * v[2 * l + i];
         }
-        c->kinetic += momentum[0] * after[2 * k] + momentum[1] * after[2 * k + 1];
+        kinetic += momentum[0] * after[2 * k] + momentum[1] * after[2 * k + 1];
         if (t->position) {
             const double *x = t->position + e * (size_t)size + 2 * k;
-            c->moment += momentum[0] * lanes_set(x[0]) + momentum[1] * lanes_set(x[1]);
+            *moment += momentum[0] * lanes_set(x[0]) + momentum[1] * lanes_set(x[1]);
         }
     }
+    return kinetic;
 }
 
 /* ---- interfaces ---- */

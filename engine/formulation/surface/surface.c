@@ -248,7 +248,9 @@ void fracas_surface_advance(const fracas_model *model, fracas_step *step)
     const fracas_surface_kernel *kernel = (*c.tables->body->kernels)[step->isa][step->lanes];
     fracas_surface_sweep *sweep =
         kernel->sweep[fracas_law_of(&model->spec)->number][c.tables->order - 1];
+    for (int l = 0; l < step->width; l++) step->spin[l] = fracas_surface_spin(&c, step->time[l]);
     for (int first = 0; first < step->width; first += step->lanes) sweep(&c, step, first);
+    fracas_surface_totals(&c, step);
 }
 
 /* ---- fragments ---- */

@@ -11,6 +11,7 @@
  *   [interface][point][field][lane]  values of the law (engine/cohesive/law.h)
  *   [strength][lane]          sigma_c [Pa], one for each interface, or for each of its Gauss points
  *   [slot][field][lane]       stresses and forces of an element under way, slot = element & window
+ *   [block][sum][lane]        SURFACE_STRAIN ..., of SURFACE_BLOCK consecutive elements each
  */
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_SURFACE_H
 #define FRACAS_ENGINE_FORMULATION_SURFACE_SURFACE_H
@@ -39,6 +40,27 @@ enum {
     SURFACE_A_NEXT,
     SURFACE_FIELDS_ALPHA
 };
+
+/* Sums over a block, for the ledger. Elements and interfaces add one after another, an interface to
+ * the block of its second element; then blocks are added by a fixed tree. So no sum depends on who
+ * computes which blocks. First those that follow the turns of elements, then those of their kicks.
+ */
+enum {
+    SURFACE_STRAIN,     /* twice the strain energy [J] */
+    SURFACE_RIMS,       /* twice the energy of rims [J] */
+    SURFACE_FLUX,       /* twice the energy of the flux [J] */
+    SURFACE_STORED,     /* twice the energy of openings and contact [J] */
+    SURFACE_DISSIPATED, /* energy dissipated so far [J] */
+    SURFACE_BENDING,    /* energy dissipated by bending in this step [J] */
+    SURFACE_CREATED,    /* energy put in by onsets and breaks in this step [J] */
+    SURFACE_RUBBED,     /* energy dissipated by friction in this step [J] */
+    SURFACE_SUMS_BY_TURN,
+    SURFACE_KINETIC = SURFACE_SUMS_BY_TURN, /* twice the kinetic energy [J] */
+    SURFACE_POWER,                          /* power of reactions [W] */
+    SURFACE_MOMENT,                         /* membranes: sum of m r.v [kg m2/s] */
+    SURFACE_SUMS
+};
+enum { SURFACE_BLOCK = 64 }; /* elements */
 
 /* Head of a bulk point's table: derivatives of xi, eta along x, y, and the weight: of quadrature
  * times area, or times volume where stresses are no resultants. */
@@ -202,10 +224,18 @@ static inline size_t fracas_surface_slot(const fracas_surface_tables *t)
 {
     return (size_t)(2 * t->body->stresses * SURFACE_BULK(t->order)) + fracas_surface_unknowns(t);
 }
-static inline size_t fracas_surface_state_fields(const fracas_surface_constants *c)
+static inline size_t fracas_surface_sums_at(const fracas_surface_constants *c)
 {
     return fracas_surface_slots_at(c) +
            (c->tables->visits.window + 1) * fracas_surface_slot(c->tables);
+}
+static inline size_t fracas_surface_blocks(const fracas_surface_tables *t)
+{
+    return (t->nelements + SURFACE_BLOCK - 1) / SURFACE_BLOCK;
+}
+static inline size_t fracas_surface_state_fields(const fracas_surface_constants *c)
+{
+    return fracas_surface_sums_at(c) + fracas_surface_blocks(c->tables) * SURFACE_SUMS;
 }
 /* Number of the strength at Gauss point g of an interface. */
 static inline size_t fracas_surface_strength_of(const fracas_surface_constants *c, size_t interface,
@@ -240,6 +270,14 @@ FRACAS_MUST_USE fracas_err fracas_surface_critical_step(fracas_model *model);
 
 /* 1/h_s = (|e|/A- + |e|/A+)/2 of an interface [1/m]  (membrane.5) */
 double fracas_surface_inverse_size(const fracas_surface *surface, size_t interface);
+
+/* ---- sums ---- */
+
+/* w(t)^2, w = speed min(1, t/ramp): 0 where no body force acts [1/s2]. */
+double fracas_surface_spin(const fracas_surface_constants *constants, double time);
+/* Sums of all blocks after a sweep, to energies [J], those of the potential (membrane.8),
+ * (shell.11), power [W] and work [J]. */
+void fracas_surface_totals(const fracas_surface_constants *constants, fracas_step *step);
 
 /* ---- events: onset and break of points within a step, lane by lane; they are rare ---- */
 

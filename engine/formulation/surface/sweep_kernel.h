@@ -7,32 +7,6 @@
  * see an element through its displacements and the stresses at its bulk points, and give back
  * forces on nodes and strains at those points: both are few. */
 
-/* ---- loads ---- */
-
-/* Angular velocity squared at a time. */
-LANES_FUNCTION vd surface_spin(const fracas_surface_constants *m, vd time)
-{
-    const vd zero = lanes_set(0.0), one = lanes_set(1.0);
-    vd share = m->ramp > 0 ? plane_max(zero, plane_min(one, time / lanes_set(m->ramp))) : one;
-    vd w = lanes_set(m->speed) * share;
-    return w * w;
-}
-
-/* Work of the body force since the step before [J], or its power, added to *power [W]. Central
- * difference: the work between two steps is exactly the mean of the force times dt v_{n-1/2}. */
-LANES_FUNCTION vd surface_work(const surface_context *c, vd *power)
-{
-    const fracas_surface_constants *m = c->constants;
-    const vd half = lanes_set(0.5);
-    vd body = lanes_set(0.0);
-    if (c->tables->position && m->motion.alpha) *power += c->spin * c->moment;
-    if (c->tables->position && !m->motion.alpha) {
-        const vd before = surface_spin(m, lanes_load(c->step->time + c->first) - c->drift);
-        body = c->drift * half * (before + c->spin) * c->moment;
-    }
-    return body;
-}
-
 /* ---- interfaces ---- */
 
 /* Books the events at an interface, lane by lane. */
@@ -84,7 +58,7 @@ LANES_FUNCTION int surface_crack(surface_context *c, int order, int law, int cal
     vmask cracks[3 * BODY_LAYERS], breaks[3 * BODY_LAYERS];
     vmask whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(one, zero), parts = opens;
     vd damage[3 * BODY_LAYERS];
-    vd flux = c->flux, stored = c->stored, dissipated = c->dissipated;
+    vd flux = zero, stored = zero, dissipated = zero;
     vd created = zero, rubbed = zero, bending = zero;
     UNROLL_FOR (int g = 0; g < points; g++) {
         const double *place = table + BODY_HEAD + g * BODY_POINT_TABLE;
@@ -108,19 +82,17 @@ LANES_FUNCTION int surface_crack(surface_context *c, int order, int law, int cal
         }
     }
     if (calm && __builtin_expect(lanes_any(lanes_or(opens, parts)), 0)) return 0;
-    c->flux = flux;
-    c->stored = stored;
-    c->dissipated = dissipated;
-    double *const sum[3] = {c->step->created + c->first, c->step->friction + c->first,
-                            c->step->dissipated_bending + c->first};
-    if (BODY_LAYERS > 1) lanes_store(sum[2], lanes_load(sum[2]) + bending);
+    c->sum[SURFACE_FLUX] += flux;
+    c->sum[SURFACE_STORED] += stored;
+    c->sum[SURFACE_DISSIPATED] += dissipated;
+    if (BODY_LAYERS > 1) c->sum[SURFACE_BENDING] += bending;
     if (calm) {
         UNROLL_FOR (int p = 0; p < points * BODY_LAYERS; p++)
             lanes_store(surface_at(fields, p * s->point_fields + SURFACE_DAMAGE), damage[p]);
         return 1;
     }
-    lanes_store(sum[0], lanes_load(sum[0]) + created);
-    lanes_store(sum[1], lanes_load(sum[1]) + rubbed);
+    c->sum[SURFACE_CREATED] += created;
+    c->sum[SURFACE_RUBBED] += rubbed;
     opens = lanes_and(opens, whole);  /* the first of its points */
     parts = lanes_and(parts, broken); /* the last */
     if (__builtin_expect(lanes_any(lanes_or(opens, parts)), 0))
@@ -161,9 +133,11 @@ LANES_FUNCTION int surface_join(surface_context *c, int order, int law, int calm
         if (!surface_crack(c, order, law, calm, i, fields, strength, at)) return 0;
     } else {
         const double *place = surface_table(c, order, i) + BODY_HEAD;
+        vd flux = lanes_set(0.0);
         UNROLL_FOR (int g = 0; g < points; g++)
-            c->flux += lanes_set(place[g * BODY_POINT_TABLE + BODY_MEASURE]) *
-                       BODY(flux_energy)(&at[g]);
+            flux += lanes_set(place[g * BODY_POINT_TABLE + BODY_MEASURE]) *
+                    BODY(flux_energy)(&at[g]);
+        c->sum[SURFACE_FLUX] += flux;
     }
     BODY(give)(c, order, i, &sides, at);
     return 1;
@@ -180,8 +154,8 @@ LANES_FUNCTION void surface_enter(surface_context *c, int order, size_t e, doubl
 }
 
 /* Accelerations by internal and body forces, 0 of held components; power of their reactions. */
-LANES_FUNCTION void surface_accelerate(surface_context *c, int order, size_t e, const vd *velocity,
-                                       const vd *force, vd *acceleration)
+LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size_t e,
+                                       const vd *velocity, const vd *force, vd *acceleration)
 {
     const int nodes = SURFACE_NODES(order), size = BODY_SIZE(order);
     const fracas_surface_tables *t = c->tables;
@@ -202,7 +176,8 @@ LANES_FUNCTION void surface_accelerate(surface_context *c, int order, size_t e, 
         }
         if (position) acceleration[i] += c->spin * lanes_set(position[i]); /* (membrane.10) */
     }
-    if (__builtin_expect(held != 0, 0))
+    if (__builtin_expect(held != 0, 0)) {
+        vd power = lanes_set(0.0);
         for (int i = 0; i < size; i++) {
             if (!(held >> i & 1)) continue;
             acceleration[i] = lanes_set(0.0);
@@ -211,8 +186,10 @@ LANES_FUNCTION void surface_accelerate(surface_context *c, int order, size_t e, 
                 if (!(held >> (2 * k + i % 2) & 1))
                     reaction += lanes_set(consistent[(2 * nodes + i / 2) * nodes + k]) *
                                 acceleration[2 * k + i % 2];
-            c->power += reaction * velocity[i];
+            power += reaction * velocity[i];
         }
+        surface_add(surface_at(surface_sums(c, e), SURFACE_POWER), power);
+    }
 }
 
 /* Forces and kick of element e, and its share of kinetic energy. */
@@ -232,23 +209,24 @@ LANES_FUNCTION void surface_finish(surface_context *c, int order, int law, size_
         return;
     }
     surface_kick(&c->constants->motion, c->kick, c->begins, size, at, a, v, after);
-    BODY(kinetic)(c, order, e, v, after);
+    double *sums = surface_sums(c, e);
+    vd moment = lanes_set(0.0);
+    surface_add(surface_at(sums, SURFACE_KINETIC), BODY(kinetic)(c, order, e, v, after, &moment));
+    if (BODY_PLANE) surface_add(surface_at(sums, SURFACE_MOMENT), moment);
 }
 
-/* Sums to energies [J], those of the potential (membrane.8), (shell.11), power [W] and work [J]. */
-LANES_FUNCTION void surface_totals(const surface_context *c)
+/* Begins the sums of element e's block, and ends them at its last turn. */
+LANES_FUNCTION void surface_begin_block(surface_context *c, size_t e)
 {
-    fracas_step *step = c->step;
-    const vd half = lanes_set(0.5);
-    const int first = c->first;
-    vd power = c->power;
-    const vd work = BODY_PLANE ? surface_work(c, &power) : lanes_set(0.0);
-    lanes_store(step->kinetic + first, half * c->kinetic);
-    lanes_store(step->elastic + first, half * (c->strain_energy + c->flux));
-    lanes_store(step->cohesive + first, half * c->stored);
-    lanes_store(step->dissipated + first, c->dissipated);
-    lanes_store(step->power + first, power);
-    lanes_store(step->work + first, work);
+    UNROLL_FOR (int s = 0; s < SURFACE_SUMS_BY_TURN; s++) c->sum[s] = lanes_set(0.0);
+    UNROLL_FOR (int s = SURFACE_SUMS_BY_TURN; s < SURFACE_SUMS; s++)
+        lanes_store(surface_at(surface_sums(c, e), s), lanes_set(0.0));
+}
+
+LANES_FUNCTION void surface_end_block(const surface_context *c, size_t e)
+{
+    UNROLL_FOR (int s = 0; s < SURFACE_SUMS_BY_TURN; s++)
+        lanes_store(surface_at(surface_sums(c, e), s), c->sum[s]);
 }
 
 /* Has the CPU fetch `size` bytes. */
@@ -292,6 +270,7 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
                                .elements = state,
                                .interfaces = state + fracas_surface_interfaces_at(s) * LANES,
                                .slots = state + fracas_surface_slots_at(s) * LANES,
+                               .sums = state + fracas_surface_sums_at(s) * LANES,
                                .element_size = fracas_surface_element_fields(s) * LANES,
                                .interface_size = fracas_surface_interface_fields(s) * LANES,
                                .strengths = state + fracas_surface_strengths_at(s) * LANES,
@@ -300,18 +279,11 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
                                .drift = lanes_load(step->drift + first),
                                .kick = lanes_load(step->kick + first),
                                .begins = lanes_le(lanes_load(step->drift + first), zero),
-                               .spin = zero,
-                               .strain_energy = zero,
-                               .flux = zero,
-                               .stored = zero,
-                               .kinetic = zero,
-                               .dissipated = zero,
-                               .power = zero,
-                               .moment = zero};
+                               .spin = lanes_load(step->spin + first)};
     surface_context *c = &context;
-    if (BODY_PLANE) c->spin = surface_spin(s, lanes_load(step->time + first));
     for (size_t e = 0; e < t->nelements; e++) {
         double *at = c->elements + e * c->element_size;
+        if (e % SURFACE_BLOCK == 0) surface_begin_block(c, e);
         if (e + 1 < t->nelements) surface_fetch_turn(c, order, e + 1);
         if (law != SURFACE_OPERATOR) surface_drift(&s->motion, c->drift, BODY_SIZE(order), at);
         surface_enter(c, order, e, at, surface_slot(c, order, e));
@@ -320,8 +292,8 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
                 stirred(c, t->visits.join[j]);
         for (size_t f = t->visits.finish_from[e]; f < t->visits.finish_from[e + 1]; f++)
             surface_finish(c, order, law, t->visits.finish[f]);
+        if ((e + 1) % SURFACE_BLOCK == 0 || e + 1 == t->nelements) surface_end_block(c, e);
     }
-    if (law != SURFACE_OPERATOR) surface_totals(c);
 }
 
 #if LANES == 1
@@ -358,7 +330,7 @@ LANES_FUNCTION double surface_strain(const fracas_surface_constants *s, int orde
     surface_context c = {.constants = s, .tables = s->tables};
     double slot[BODY_SLOT(2)], energy;
     surface_enter(&c, order, e, u, slot);
-    lanes_store(&energy, c.strain_energy);
+    lanes_store(&energy, c.sum[SURFACE_STRAIN]);
     return 0.5 * energy;
 }
 #endif

@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Sums of a surface over its blocks of elements. */
+#include "engine/formulation/surface/surface.h"
+
+#include <math.h>
+
+double fracas_surface_spin(const fracas_surface_constants *c, double time)
+{
+    const double share = c->ramp > 0 ? fmax(0.0, fmin(1.0, time / c->ramp)) : 1.0,
+                 w = c->speed * share;
+    return w * w;
+}
+
+/* Adds blocks in pairs, pairs of pairs, ...: the first one holds them all in the end. */
+static void add_blocks(double *sums, size_t blocks, size_t size)
+{
+    for (size_t apart = 1; apart < blocks; apart *= 2)
+        for (size_t b = 0; b + apart < blocks; b += 2 * apart)
+            for (size_t i = 0; i < size; i++) sums[b * size + i] += sums[(b + apart) * size + i];
+}
+
+/* Work of the body force since the step before [J]. Central difference: it is exactly the mean of
+ * the forces of both steps times dt v_{n-1/2}. */
+static double work_of(const fracas_surface_constants *c, const fracas_step *step, int l,
+                      double moment)
+{
+    const double before = fracas_surface_spin(c, step->time[l] - step->drift[l]);
+    return step->drift[l] * 0.5 * (before + step->spin[l]) * moment;
+}
+
+/* (membrane.8), (shell.11) */
+static void set_totals(const fracas_surface_constants *c, fracas_step *step, int l,
+                       const double sum[SURFACE_SUMS])
+{
+    const bool forced = c->tables->position != NULL, alpha = c->motion.alpha;
+    step->kinetic[l] = 0.5 * sum[SURFACE_KINETIC];
+    step->elastic[l] = 0.5 * (sum[SURFACE_STRAIN] + (sum[SURFACE_FLUX] + sum[SURFACE_RIMS]));
+    step->cohesive[l] = 0.5 * sum[SURFACE_STORED];
+    step->dissipated[l] = sum[SURFACE_DISSIPATED];
+    step->dissipated_bending[l] += sum[SURFACE_BENDING];
+    step->created[l] += sum[SURFACE_CREATED];
+    step->friction[l] += sum[SURFACE_RUBBED];
+    step->power[l] = sum[SURFACE_POWER];
+    if (forced && alpha) step->power[l] += step->spin[l] * sum[SURFACE_MOMENT];
+    step->work[l] = forced && !alpha ? work_of(c, step, l, sum[SURFACE_MOMENT]) : 0;
+}
+
+void fracas_surface_totals(const fracas_surface_constants *c, fracas_step *step)
+{
+    for (int first = 0; first < step->width; first += step->lanes) {
+        double *sums = fracas_surface_field(c, step, fracas_surface_sums_at(c), first);
+        add_blocks(sums, fracas_surface_blocks(c->tables), (size_t)(SURFACE_SUMS * step->lanes));
+        for (int l = 0; l < step->lanes; l++) {
+            double sum[SURFACE_SUMS];
+            for (int s = 0; s < SURFACE_SUMS; s++) sum[s] = sums[s * step->lanes + l];
+            set_totals(c, step, first + l, sum);
+        }
+    }
+}
