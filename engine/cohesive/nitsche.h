@@ -58,8 +58,7 @@ LANES_FUNCTION line_result line_nitsche(const line_input *in)
     vmask loading = lanes_lt(reached, excess);
     vd ratio = lanes_select(loading, excess, sigma_c - sigma_c * damage) /
                lanes_select(loading, x, sigma_c + reached);
-    vd capped = lanes_select(lanes_lt(ratio, one), ratio, one);
-    vd now = lanes_select(loading, capped, damage);
+    vd now = lanes_select(loading, lanes_min(one, ratio), damage);
     vd tension = lanes_select(loading, sigma_c * (one - now), trial * ratio);
     vd traction = lanes_select(lanes_lt(zero, trial), tension, trial);
     vd slip = lanes_select(lanes_le(one, now), zero, (traction - in->mean) * in->compliance);

@@ -117,9 +117,9 @@ static void lone_elements_do_not_count(void **unused)
             *chain_field(batch, e, ring ? RING_DAMAGE : BAR_DAMAGE) = e == 2 || e == 3 ? 0 : 1;
             *chain_field(batch, e, ring ? RING_V_LEFT : BAR_V_LEFT) = (double)e;
             if (ring) { /* along the chord */
-                const double *table = model->table + e * RING_TABLE;
-                *chain_field(batch, e, RING_U_RIGHT) = -by * table[RING_SIN_MIDDLE];
-                *chain_field(batch, e, RING_U_RIGHT + 1) = by * table[RING_COS_MIDDLE];
+                const double *start = model->table + e * RING_TABLE + RING_START_X;
+                *chain_field(batch, e, RING_U_RIGHT) = by * (start[0] / h);
+                *chain_field(batch, e, RING_U_RIGHT + 1) = by * (start[1] / h);
             } else {
                 *chain_field(batch, e, BAR_W_RIGHT) = by;
             }

@@ -84,8 +84,8 @@ static fracas_err ring_model_init(fracas_model *model)
         const double angle = (double)(2 * e) / (double)n, middle = (double)(2 * e + 1) / (double)n;
         table[e * RING_TABLE + RING_COS] = fracas_cospi(angle);
         table[e * RING_TABLE + RING_SIN] = fracas_sinpi(angle);
-        table[e * RING_TABLE + RING_COS_MIDDLE] = fracas_cospi(middle);
-        table[e * RING_TABLE + RING_SIN_MIDDLE] = fracas_sinpi(middle);
+        table[e * RING_TABLE + RING_START_X] = -model->element_size * fracas_sinpi(middle);
+        table[e * RING_TABLE + RING_START_Y] = model->element_size * fracas_cospi(middle);
     }
     const bool held = motion_of(model).drive == FRACAS_RING_HELD; /* a free spin stretches, too */
     model->idle = held ? FRACAS_MOTION_HOMOGENEOUS : FRACAS_MOTION_NONE;
@@ -153,7 +153,7 @@ static double strain_energy(const fracas_model *model, const fracas_step *step, 
 {
     const fracas_spec *spec = &model->spec;
     const double *table = model->table + e * RING_TABLE, h = model->element_size;
-    const double start[2] = {-h * table[RING_SIN_MIDDLE], h * table[RING_COS_MIDDLE]};
+    const double *start = table + RING_START_X;
     double square = 0;
     for (int i = 0; i < 2; i++) {
         const double side = start[i] + *fracas_chain_field(model, step, e, RING_U_RIGHT + i, lane) -

@@ -30,26 +30,16 @@ LANES_FUNCTION vd ring_dot(ring_vector a, ring_vector b)
     return a.x * b.x + a.y * b.y;
 }
 
-/* An element at t_n: displacements drifted, velocities still those of t_{n-1/2}. */
+/* An element where its displacements are. */
 typedef struct {
-    ring_vector u_left, u_right, v_left, v_right;
     ring_vector chord, tangent; /* from left to right node [m], and its direction */
     vd strain, stress;          /* strain of the chord; E strain [Pa] */
 } ring_element;
 
-/* Action of an interface on its two elements. */
-typedef struct {
-    ring_vector force;  /* on the left element's node, minus that on the right one's [Pa] */
-    ring_vector couple; /* turns both chords along with the interface's direction [Pa] */
-    vd slip;            /* q - delta [m] */
-    vmask open;         /* stershic: if not, both nodes move as one ... */
-    ring_vector common; /* ... under this force each [Pa] */
-} ring_link;
-
 /* The directions of an interface: normal n, along which it opens, and r, outward. */
 typedef struct {
-    ring_vector n, r;
-    vd turn; /* dn/d(chord) = r r turn [1/m]; 0 for fixed directions */
+    ring_vector n; /* r: ring_outward */
+    vd turn;       /* dn/d(chord) = r r turn [1/m]; 0 for fixed directions */
 } ring_frame;
 
 #define RING_SUM(key, role, unit, meaning) vd key;
@@ -60,6 +50,8 @@ typedef struct {
     double *state;        /* state of these lanes */
     vd drift, kick;       /* dt [s]; dt/(nodal mass) of velocities [m/(s Pa)] */
     vd spring, modulus;   /* K, E/h [Pa/m] */
+    vd compliance;        /* 1/K [m/Pa] */
+    vd inverse_size;      /* 1/h [1/m] */
     vd drive, next_drive; /* force on a node [Pa] now; velocity held half a step ahead [m/s] */
     vd inertia;           /* nodal mass/dt [Pa s/m] */
     /* sums over the body, for the ledger, 0 at first; of a part: energy per area [J/m2] */
@@ -73,63 +65,77 @@ LANES_FUNCTION ring_vector ring_read(const double *at)
     return (ring_vector){lanes_load(at), lanes_load(at + LANES)};
 }
 
-/* Displacements and velocities of an element whose fields begin at `at`. */
-LANES_FUNCTION ring_element ring_read_element(const double *at)
-{
-    return (ring_element){.v_left = ring_read(at + RING_V_LEFT * LANES),
-                          .v_right = ring_read(at + RING_V_RIGHT * LANES),
-                          .u_left = ring_read(at + RING_U_LEFT * LANES),
-                          .u_right = ring_read(at + RING_U_RIGHT * LANES)};
-}
-
 LANES_FUNCTION void ring_write(double *at, ring_vector a)
 {
     lanes_store(at, a.x);
     lanes_store(at + LANES, a.y);
 }
 
-/* Chord and strain of element e  (ring.2), (ring.3), from its displacements. */
-LANES_FUNCTION void ring_stretch(const ring_context *c, size_t e, ring_element *element)
+/* Right node less left node of the element whose fields begin at `at`; `of` displacements
+ * (RING_U_LEFT) or velocities (RING_V_LEFT). */
+LANES_FUNCTION ring_vector ring_difference(const double *at, int of)
 {
-    const double *table = c->ring->table + e * RING_TABLE, h = c->ring->size;
-    const vd one = lanes_set(1.0), size = lanes_set(h);
-    const ring_vector start = {lanes_set(-h * table[RING_SIN_MIDDLE]),
-                               lanes_set(h * table[RING_COS_MIDDLE])};
-    const ring_vector du = ring_subtract(element->u_right, element->u_left);
+    return ring_subtract(ring_read(at + (of + 2) * LANES), ring_read(at + of * LANES));
+}
+
+/* The same across the interface of two elements. */
+LANES_FUNCTION ring_vector ring_jump(const double *left, const double *right, int of)
+{
+    return ring_subtract(ring_read(right + of * LANES), ring_read(left + (of + 2) * LANES));
+}
+
+/* Element e, whose nodes' displacements differ by `du`  (ring.2), (ring.3). */
+LANES_FUNCTION void ring_stretch(const ring_context *c, size_t e, ring_vector du,
+                                 ring_element *element)
+{
+    const double *table = c->ring->table + e * RING_TABLE;
+    const ring_vector start = {lanes_set(table[RING_START_X]), lanes_set(table[RING_START_Y])};
     element->chord = ring_add(start, du);
-    vd length = lanes_sqrt(ring_dot(element->chord, element->chord)), sum = length + size;
-    vd inverse = one / (length * sum);
+    vd length = lanes_sqrt(ring_dot(element->chord, element->chord)),
+       sum = length + lanes_set(c->ring->size), inverse = lanes_set(1.0) / (length * sum);
     element->tangent = ring_scale(sum * inverse, element->chord);
     /* (l - h)/h by the difference of squares: no digits of a small strain are lost */
     element->strain = (ring_dot(start, du) + ring_dot(element->chord, du)) * (length * inverse) *
-                      lanes_set(1.0 / h);
+                      c->inverse_size;
     element->stress = lanes_set(c->ring->young) * element->strain;
 }
 
-/* The directions of interface e, between these elements  (ring.4). */
-LANES_FUNCTION ring_frame ring_frame_of(const ring_context *c, size_t e, const ring_element *left,
-                                        const ring_element *right)
+/* The normal turned by a quarter. */
+LANES_FUNCTION ring_vector ring_outward(ring_vector n)
 {
-    if (c->ring->current) {
-        const vd one = lanes_set(1.0), zero = lanes_set(0.0);
-        ring_vector sum = ring_add(left->chord, right->chord);
-        vd turn = one / lanes_sqrt(ring_dot(sum, sum));
-        ring_vector n = ring_scale(turn, sum);
-        return (ring_frame){n, {n.y, zero - n.x}, turn};
-    }
-    const size_t vertex = e + 1 < c->ring->elements ? e + 1 : 0;
-    const double *table = c->ring->table + vertex * RING_TABLE;
-    const vd cosine = lanes_set(table[RING_COS]), sine = lanes_set(table[RING_SIN]);
-    return (ring_frame){{lanes_set(-table[RING_SIN]), cosine}, {cosine, sine}, lanes_set(0.0)};
+    return (ring_vector){n.y, lanes_set(0.0) - n.x};
 }
 
-/* Time derivative of an interface's mean stress within the step [Pa/s]. */
+/* Element or vertex after e. */
+LANES_FUNCTION size_t ring_next(const ring_context *c, size_t e)
+{
+    return e + 1 < c->ring->elements ? e + 1 : 0;
+}
+
+/* The directions of interface e, between these elements  (ring.4). */
+LANES_FUNCTION void ring_direct(const ring_context *c, size_t e, const ring_element *left,
+                                const ring_element *right, ring_frame *frame)
+{
+    if (c->ring->current) {
+        ring_vector sum = ring_add(left->chord, right->chord);
+        frame->turn = lanes_set(1.0) / lanes_sqrt(ring_dot(sum, sum));
+        frame->n = ring_scale(frame->turn, sum);
+        return;
+    }
+    const double *table = c->ring->table + ring_next(c, e) * RING_TABLE;
+    frame->turn = lanes_set(0.0);
+    frame->n = (ring_vector){lanes_set(-table[RING_SIN]), lanes_set(table[RING_COS])};
+}
+
+/* Time derivative of an interface's mean stress within the step [Pa/s], for elements whose fields
+ * begin at `at_left` and `at_right`. */
 LANES_FUNCTION vd ring_stress_rate(const ring_context *c, const ring_element *left,
-                                   const ring_element *right)
+                                   const ring_element *right, const double *at_left,
+                                   const double *at_right)
 {
     return lanes_set(0.5) * c->modulus *
-           (ring_dot(left->tangent, ring_subtract(left->v_right, left->v_left)) +
-            ring_dot(right->tangent, ring_subtract(right->v_right, right->v_left)));
+           (ring_dot(left->tangent, ring_difference(at_left, RING_V_LEFT)) +
+            ring_dot(right->tangent, ring_difference(at_right, RING_V_LEFT)));
 }
 
 /* The velocity of a node at `vertex` kicked by `force` [Pa], under the drive  (ring.10). Books the
@@ -204,6 +210,8 @@ LANES_FUNCTION ring_context ring_context_of(const fracas_ring_constants *ring, f
                           .kick = kick / mass,
                           .spring = lanes_set(ring->spring),
                           .modulus = lanes_set(ring->young / ring->size),
+                          .compliance = lanes_set(1.0 / ring->spring),
+                          .inverse_size = lanes_set(1.0 / ring->size),
                           .drive = level + rate * time,
                           .next_drive = level + rate * (time + ahead),
                           .inertia = mass / kick};

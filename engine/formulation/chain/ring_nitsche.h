@@ -5,32 +5,53 @@
 
 #include "engine/formulation/chain/ring_kinematics.h"
 
-LANES_FUNCTION ring_element ring_load(const ring_context *c, size_t e)
+/* Action of an interface on its two elements. */
+typedef struct {
+    ring_vector force;  /* on the left element's node, minus that on the right one's [Pa] */
+    ring_vector couple; /* turns both chords along with the interface's direction [Pa] */
+    vd slip;            /* q - delta [m] */
+} ring_link;
+
+/* Fields of element e. */
+LANES_FUNCTION double *ring_at(const ring_context *c, size_t e)
 {
-    ring_element element = ring_read_element(c->state + e * RING_FIELDS * LANES);
-    element.u_left = ring_add(element.u_left, ring_scale(c->drift, element.v_left));
-    element.u_right = ring_add(element.u_right, ring_scale(c->drift, element.v_right));
-    ring_stretch(c, e, &element);
-    return element;
+    return c->state + e * RING_FIELDS * LANES;
 }
 
-LANES_FUNCTION ring_link ring_join(ring_context *c, int law, size_t e, const ring_element *left,
-                                   const ring_element *right)
+/* Displacement at t_n of a node whose displacement is at `u`, and its velocity at `v`. */
+LANES_FUNCTION ring_vector ring_drift(const ring_context *c, double *u, const double *v)
+{
+    const ring_vector now = ring_add(ring_read(u), ring_scale(c->drift, ring_read(v)));
+    ring_write(u, now);
+    return now;
+}
+
+/* Element e at t_n, to which its displacements are brought. */
+LANES_FUNCTION void ring_load(const ring_context *c, size_t e, ring_element *element)
+{
+    double *at = ring_at(c, e);
+    const ring_vector left = ring_drift(c, at + RING_U_LEFT * LANES, at + RING_V_LEFT * LANES),
+                      right = ring_drift(c, at + RING_U_RIGHT * LANES, at + RING_V_RIGHT * LANES);
+    ring_stretch(c, e, ring_subtract(right, left), element);
+}
+
+LANES_FUNCTION void ring_join(ring_context *c, int law, size_t e, const ring_element *left,
+                              const ring_element *right, const ring_frame *frame, ring_link *link)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
-    double *at = c->state + e * RING_FIELDS * LANES;
+    double *at = ring_at(c, e), *at_right = ring_at(c, ring_next(c, e));
     vd before = lanes_load(at + RING_DAMAGE * LANES);
-    const ring_frame frame = ring_frame_of(c, e, left, right);
-    const ring_vector jump = ring_subtract(right->u_left, left->u_right);
-    vd q = ring_dot(jump, frame.n), p = ring_dot(jump, frame.r); /* (ring.5) */
-    vd mean = half * (left->stress + right->stress), compliance = lanes_set(1.0 / c->ring->spring);
+    const ring_vector jump = ring_jump(at, at_right, RING_U_LEFT);
+    const ring_vector r = ring_outward(frame->n);
+    vd q = ring_dot(jump, frame->n), p = ring_dot(jump, r); /* (ring.5) */
+    vd mean = half * (left->stress + right->stress);
     const line_input in = {.mean = mean,
                            .jump = q,
                            .damage = before,
                            .sigma_c = lanes_load(at + RING_STRENGTH * LANES),
                            .constant = lanes_load(at + RING_LAW * LANES),
                            .stiffness = c->spring,
-                           .compliance = compliance};
+                           .compliance = c->compliance};
     const line_result it = line_law(law, &in);
     lanes_store(at + RING_DAMAGE * LANES, it.damage);
     /* the radial jump is restrained by the same stiffness until the interface cracks  (ring.6) */
@@ -44,8 +65,8 @@ LANES_FUNCTION ring_link ring_join(ring_context *c, int law, size_t e, const rin
     vmask cracks = lanes_and(grows, lanes_le(before, zero)),
           breaks = lanes_and(grows, lanes_le(one, it.damage));
     if (__builtin_expect(lanes_any(lanes_or(cracks, breaks)), 0)) {
-        vd rate = ring_stress_rate(c, left, right) +
-                  c->spring * ring_dot(ring_subtract(right->v_left, left->v_right), frame.n);
+        vd rate = ring_stress_rate(c, left, right, at, at_right) +
+                  c->spring * ring_dot(ring_jump(at, at_right, RING_V_LEFT), frame->n);
         vd time = lanes_load(c->step->time + c->first);
         chain_note_events(
             c->step, c->first, c->ring->area, e,
@@ -53,14 +74,13 @@ LANES_FUNCTION ring_link ring_join(ring_context *c, int law, size_t e, const rin
                             .breaks = breaks,
                             .onset = time - it.past_onset / rate,
                             .broke = time - (it.past_onset - it.softening) / rate,
-                            .at_onset = zero - half * c->spring * p * p,   /* (ring.7) */
-                            .at_break = half * mean * mean * compliance}); /* (cohesive.6) */
+                            .at_onset = zero - half * c->spring * p * p,      /* (ring.7) */
+                            .at_break = half * mean * mean * c->compliance}); /* (cohesive.6) */
     }
-    vd couple = (it.traction * p - restraint * q) * frame.turn; /* (ring.9) */
-    return (ring_link){
-        .force = ring_add(ring_scale(it.traction, frame.n), ring_scale(restraint, frame.r)),
-        .slip = it.slip,
-        .couple = ring_scale(couple, frame.r)};
+    vd couple = (it.traction * p - restraint * q) * frame->turn; /* (ring.9) */
+    link->force = ring_add(ring_scale(it.traction, frame->n), ring_scale(restraint, r));
+    link->slip = it.slip;
+    link->couple = ring_scale(couple, r);
 }
 
 /* Forces and kick of one element, and its share of the sums. */
@@ -68,21 +88,46 @@ LANES_FUNCTION void ring_finish(ring_context *c, size_t e, const ring_element *e
                                 const ring_link *left, const ring_link *right)
 {
     const vd half = lanes_set(0.5);
-    double *at = c->state + e * RING_FIELDS * LANES;
+    double *at = ring_at(c, e);
     vd normal = element->stress + half * c->modulus * (left->slip + right->slip);
     ring_vector internal = ring_scale(normal, element->tangent); /* (ring.8) */
     if (c->ring->current) internal = ring_add(internal, ring_add(left->couple, right->couple));
-    ring_vector v_left = ring_drive_node(c, e, element->u_left, element->v_left,
+    double *at_left = at + RING_V_LEFT * LANES, *at_right = at + RING_V_RIGHT * LANES;
+    const ring_vector left_before = ring_read(at_left), right_before = ring_read(at_right);
+    ring_vector v_left = ring_drive_node(c, e, ring_read(at + RING_U_LEFT * LANES), left_before,
                                          ring_subtract(internal, left->force));
-    ring_vector v_right = ring_drive_node(c, e + 1 < c->ring->elements ? e + 1 : 0,
-                                          element->u_right, element->v_right,
-                                          ring_subtract(right->force, internal));
-    ring_add_element(c, element, ring_dot(element->v_left, v_left),
-                     ring_dot(element->v_right, v_right));
-    ring_write(at + RING_U_LEFT * LANES, element->u_left);
-    ring_write(at + RING_U_RIGHT * LANES, element->u_right);
-    ring_write(at + RING_V_LEFT * LANES, v_left);
-    ring_write(at + RING_V_RIGHT * LANES, v_right);
+    ring_vector v_right = ring_drive_node(c, ring_next(c, e), ring_read(at + RING_U_RIGHT * LANES),
+                                          right_before, ring_subtract(right->force, internal));
+    ring_add_element(c, element, ring_dot(left_before, v_left), ring_dot(right_before, v_right));
+    ring_write(at_left, v_left);
+    ring_write(at_right, v_right);
+}
+
+/* Elements and interfaces on their way through a sweep: number e is at e % RING_HELD. */
+enum { RING_HELD = 4 };
+typedef struct {
+    ring_element element[RING_HELD], end;
+    ring_frame frame[RING_HELD];
+    ring_link link[RING_HELD]; /* on the left of the element of its number */
+} ring_held;
+
+/* Directs interface round - 1, joins interface round - 2, finishes the element before that, and
+ * loads element round + 1, as far as there are such. None of these waits for another's roots and
+ * quotients: the CPU computes many at a time. at = round % RING_HELD. */
+LANES_FUNCTION void ring_round(ring_context *c, int law, ring_held *held, size_t round, size_t at)
+{
+    const size_t last = c->ring->elements - 1, after = (at + 1) % RING_HELD,
+                 before = (at + RING_HELD - 1) % RING_HELD, left = (at + RING_HELD - 2) % RING_HELD;
+    ring_element *element = held->element;
+    if (round - 1 < last)
+        ring_direct(c, round - 1, &element[before], &element[at], &held->frame[before]);
+    if (round - 2 < last) {
+        ring_join(c, law, round - 2, &element[left], &element[before], &held->frame[left],
+                  &held->link[before]);
+        ring_finish(c, round - 2, &element[left], &held->link[left], &held->link[before]);
+    }
+    if (round + 1 < last) ring_load(c, round + 1, &element[after]);
+    else element[after] = held->end;
 }
 
 LANES_FUNCTION void ring_flux(const fracas_ring_constants *ring, fracas_step *step, int first,
@@ -94,19 +139,19 @@ LANES_FUNCTION void ring_flux(const fracas_ring_constants *ring, fracas_step *st
                  *c = &context;
 
     /* One pass in place, as the bar's; the closing interface comes first. */
-    ring_element element = ring_load(c, 0), end = ring_load(c, last);
-    const ring_link closing = ring_join(c, law, last, &end, &element);
-    ring_element next = ring_load(c, 1);
-    ring_link left, right = ring_join(c, law, 0, &element, &next);
-    ring_finish(c, 0, &element, &closing, &right);
-    for (size_t e = 1; e < last; e++) {
-        left = right;
-        element = next;
-        next = ring_load(c, e + 1);
-        right = ring_join(c, law, e, &element, &next);
-        ring_finish(c, e, &element, &left, &right);
+    ring_held held = {0};
+    ring_load(c, last, &held.end);
+    ring_load(c, 0, &held.element[0]);
+    ring_direct(c, last, &held.end, &held.element[0], &held.frame[0]);
+    ring_join(c, law, last, &held.end, &held.element[0], &held.frame[0], &held.link[0]);
+    const ring_link closing = held.link[0];
+    for (size_t round = 0; round < last + 2; round += RING_HELD) {
+        ring_round(c, law, &held, round, 0);
+        ring_round(c, law, &held, round + 1, 1);
+        ring_round(c, law, &held, round + 2, 2);
+        ring_round(c, law, &held, round + 3, 3);
     }
-    ring_finish(c, last, &next, &right, &closing);
+    ring_finish(c, last, &held.end, &held.link[last % RING_HELD], &closing);
 
     const vd area = lanes_set(ring->area), half_area = lanes_set(0.5 * ring->area);
     ring_totals(c, half_area * (lanes_set(ring->size) * c->elastic + c->flux_energy),

@@ -33,12 +33,18 @@ LANES_FUNCTION vd stershic_yield(const ring_context *c, size_t e)
             lanes_load(c->state + (e * RING_FIELDS_STERSHIC + RING_STRENGTH) * LANES));
 }
 
+/* Fields of element e. */
+LANES_FUNCTION double *stershic_at(const ring_context *c, size_t e)
+{
+    return c->state + e * RING_FIELDS_STERSHIC * LANES;
+}
+
 /* The element where its displacements are now, with its stress. */
 LANES_FUNCTION ring_element stershic_load(const ring_context *c, size_t e)
 {
-    const double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
-    ring_element element = ring_read_element(at);
-    ring_stretch(c, e, &element);
+    const double *at = stershic_at(c, e);
+    ring_element element;
+    ring_stretch(c, e, ring_difference(at, RING_U_LEFT), &element);
     if (c->ring->zone > 0) {
         vd largest = lanes_load(at + RING_STRAIN * LANES);
         vmask barred = lanes_le(lanes_set(0.0), largest);
@@ -71,14 +77,16 @@ LANES_FUNCTION void stershic_look(const ring_context *c, size_t e, const ring_el
                                   const ring_element *right, stershic_watch *watch)
 {
     const vd zero = lanes_set(0.0);
-    double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
-    const ring_frame frame = ring_frame_of(c, e, left, right);
+    double *at = stershic_at(c, e);
+    const double *at_right = stershic_at(c, ring_next(c, e));
+    ring_frame frame;
+    ring_direct(c, e, left, right, &frame);
     vd state = lanes_load(at + RING_LAW * LANES), sigma_c = lanes_load(at + RING_STRENGTH * LANES);
     vd before = lanes_load(at + RING_DAMAGE * LANES), damage = before, delta_c;
     vmask closed = lanes_le(state, lanes_set(RING_LINK_CLOSED)), open = stershic_is_open(state);
     vd pull = lanes_set(0.5) * (left->stress * ring_dot(left->tangent, frame.n) +
                                 right->stress * ring_dot(right->tangent, frame.n));
-    vd q = ring_dot(ring_subtract(right->u_left, left->u_right), frame.n);
+    vd q = ring_dot(ring_jump(at, at_right, RING_U_LEFT), frame.n);
     vd traction = stershic_traction(c, q, &damage, sigma_c, &delta_c);
     vd watched = c->ring->steep ? zero : before * delta_c; /* least opening to look at */
     vmask softens = lanes_and(open,
@@ -99,7 +107,7 @@ LANES_FUNCTION stershic_watch stershic_look_around(const ring_context *c)
     stershic_watch watch = {lanes_lt(zero, zero), lanes_lt(zero, zero), lanes_lt(zero, zero)};
     ring_element first = {.stress = zero}, before = first;
     for (size_t e = 0; e <= last; e++) {
-        double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
+        double *at = stershic_at(c, e);
         for (int i = 0; i < 4; i++) {
             vd u = lanes_load(at + (RING_U_LEFT + i) * LANES),
                v = lanes_load(at + (RING_V_LEFT + i) * LANES);
@@ -126,12 +134,12 @@ static inline double *stershic_value(const ring_context *c, size_t element, int 
 /* Time at which the stress of link e passed its strength, by the rate of the velocities [s]. */
 LANES_FUNCTION double stershic_onset(const ring_context *c, size_t e, int lane)
 {
-    const ring_element left = stershic_load(c, e),
-                       right = stershic_load(c, e + 1 < c->ring->elements ? e + 1 : 0);
-    const double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
+    const size_t next = ring_next(c, e);
+    const ring_element left = stershic_load(c, e), right = stershic_load(c, next);
+    const double *at = stershic_at(c, e);
     const vd past = lanes_load(at + RING_PULL * LANES) - lanes_load(at + RING_STRENGTH * LANES),
              time = lanes_load(c->step->time + c->first) -
-                    past / ring_stress_rate(c, &left, &right);
+                    past / ring_stress_rate(c, &left, &right, at, stershic_at(c, next));
     double of[LANES];
     memcpy(of, &time, sizeof of);
     return of[lane];
@@ -207,17 +215,26 @@ LANES_FUNCTION vd stershic_refine(const ring_context *c, const stershic_watch *w
 
 /* ---- second pass ---- */
 
-LANES_FUNCTION ring_link stershic_join(ring_context *c, size_t e, const ring_element *left,
-                                       const ring_element *right)
+/* Action of an interface on its two elements. */
+typedef struct {
+    ring_vector force;  /* on the left element's node, minus that on the right one's [Pa] */
+    vmask open;         /* if not, both nodes move as one ... */
+    ring_vector common; /* ... under this force each [Pa] */
+} stershic_link;
+
+LANES_FUNCTION stershic_link stershic_join(ring_context *c, size_t e, const ring_element *left,
+                                           const ring_element *right)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
-    double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
+    double *at = stershic_at(c, e);
     vd before = lanes_load(at + RING_DAMAGE * LANES),
        sigma_c = lanes_load(at + RING_STRENGTH * LANES);
     vd damage = before, delta_c;
     vmask open = stershic_is_open(lanes_load(at + RING_LAW * LANES));
-    const ring_frame frame = ring_frame_of(c, e, left, right);
-    vd q = ring_dot(ring_subtract(right->u_left, left->u_right), frame.n);
+    const double *at_right = stershic_at(c, ring_next(c, e));
+    ring_frame frame;
+    ring_direct(c, e, left, right, &frame);
+    vd q = ring_dot(ring_jump(at, at_right, RING_U_LEFT), frame.n);
     vd traction = stershic_traction(c, q, &damage, sigma_c, &delta_c);
     damage = lanes_select(open, damage, before);
     traction = lanes_select(open, traction, zero);
@@ -228,7 +245,7 @@ LANES_FUNCTION ring_link stershic_join(ring_context *c, size_t e, const ring_ele
     vmask breaks = lanes_and(lanes_lt(before, damage), lanes_le(one, damage));
     if (__builtin_expect(lanes_any(breaks), 0)) {
         vd time = lanes_load(c->step->time + c->first);
-        vd speed = ring_dot(ring_subtract(right->v_left, left->v_right), frame.n);
+        vd speed = ring_dot(ring_jump(at, at_right, RING_V_LEFT), frame.n);
         chain_note_events(c->step, c->first, c->ring->area, e,
                           &(chain_events){.cracks = lanes_lt(one, zero),
                                           .breaks = breaks,
@@ -240,7 +257,7 @@ LANES_FUNCTION ring_link stershic_join(ring_context *c, size_t e, const ring_ele
     /* both nodes of a link share the forces of their two elements, unless it is open */
     ring_vector common = ring_scale(half, ring_subtract(ring_scale(right->stress, right->tangent),
                                                         ring_scale(left->stress, left->tangent)));
-    return (ring_link){.force = ring_scale(traction, frame.n), .open = open, .common = common};
+    return (stershic_link){.force = ring_scale(traction, frame.n), .open = open, .common = common};
 }
 
 LANES_FUNCTION ring_vector stershic_choose(vmask mask, ring_vector a, ring_vector b)
@@ -251,21 +268,24 @@ LANES_FUNCTION ring_vector stershic_choose(vmask mask, ring_vector a, ring_vecto
 /* Forces and new velocities of one element, and its share of the sums; `share` = dt/(dt + next dt):
  * where between the velocities half a step before and after now the one of now is. */
 LANES_FUNCTION void stershic_finish(ring_context *c, size_t e, const ring_element *element,
-                                    const ring_link *left, const ring_link *right, vd share)
+                                    const stershic_link *left, const stershic_link *right, vd share)
 {
-    double *at = c->state + e * RING_FIELDS_STERSHIC * LANES;
+    double *at = stershic_at(c, e);
     ring_vector internal = ring_scale(element->stress, element->tangent);
     ring_vector on_left = stershic_choose(left->open, ring_subtract(internal, left->force),
                                           left->common);
     ring_vector on_right = stershic_choose(right->open, ring_subtract(right->force, internal),
                                            right->common);
-    ring_vector v_left = ring_drive_node(c, e, element->u_left, element->v_left, on_left);
-    ring_vector v_right = ring_drive_node(c, e + 1 < c->ring->elements ? e + 1 : 0,
-                                          element->u_right, element->v_right, on_right);
-    ring_vector now_left = ring_add(element->v_left,
-                                    ring_scale(share, ring_subtract(v_left, element->v_left)));
-    ring_vector now_right = ring_add(element->v_right,
-                                     ring_scale(share, ring_subtract(v_right, element->v_right)));
+    double *at_left = at + RING_V_LEFT * LANES, *at_right = at + RING_V_RIGHT * LANES;
+    const ring_vector left_before = ring_read(at_left), right_before = ring_read(at_right);
+    ring_vector v_left = ring_drive_node(c, e, ring_read(at + RING_U_LEFT * LANES), left_before,
+                                         on_left);
+    ring_vector v_right = ring_drive_node(c, ring_next(c, e), ring_read(at + RING_U_RIGHT * LANES),
+                                          right_before, on_right);
+    ring_vector now_left = ring_add(left_before,
+                                    ring_scale(share, ring_subtract(v_left, left_before)));
+    ring_vector now_right = ring_add(right_before,
+                                     ring_scale(share, ring_subtract(v_right, right_before)));
     ring_add_element(c, element, ring_dot(now_left, now_left), ring_dot(now_right, now_right));
     if (c->ring->zone > 0) {
         const vd zero = lanes_set(0.0), half = lanes_set(0.5), young = lanes_set(c->ring->young);
@@ -277,17 +297,17 @@ LANES_FUNCTION void stershic_finish(ring_context *c, size_t e, const ring_elemen
         c->dissipated += lanes_select(lanes_lt(zero, beyond),
                                       half * lanes_set(c->ring->size) * yield * beyond, zero);
     }
-    ring_write(at + RING_V_LEFT * LANES, v_left);
-    ring_write(at + RING_V_RIGHT * LANES, v_right);
+    ring_write(at_left, v_left);
+    ring_write(at_right, v_right);
 }
 
 LANES_FUNCTION void stershic_advance(ring_context *c, vd share)
 {
     const size_t last = c->ring->elements - 1;
     ring_element element = stershic_load(c, 0), end = stershic_load(c, last);
-    const ring_link closing = stershic_join(c, last, &end, &element);
+    const stershic_link closing = stershic_join(c, last, &end, &element);
     ring_element next = stershic_load(c, 1);
-    ring_link left, right = stershic_join(c, 0, &element, &next);
+    stershic_link left, right = stershic_join(c, 0, &element, &next);
     stershic_finish(c, 0, &element, &closing, &right, share);
     for (size_t e = 1; e < last; e++) {
         left = right;

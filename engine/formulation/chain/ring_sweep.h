@@ -48,8 +48,8 @@ typedef struct {
     double level, rate;  /* level + rate t: velocity held [m/s], or force on a node per area [Pa] */
 } fracas_ring_constants;
 
-/* Cosine and sine of the angle of vertex e, and of the middle of element e. */
-enum { RING_COS, RING_SIN, RING_COS_MIDDLE, RING_SIN_MIDDLE, RING_TABLE };
+/* Cosine and sine of the angle of vertex e, and the chord with which element e starts [m]. */
+enum { RING_COS, RING_SIN, RING_START_X, RING_START_Y, RING_TABLE };
 
 /* Advances the lanes first .. first + lanes - 1 of the step. */
 typedef void fracas_ring_sweep(const fracas_ring_constants *ring, fracas_step *step, int first);
