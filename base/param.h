@@ -82,6 +82,7 @@ typedef struct {
     size_t nparams;
     size_t offset; /* place of the section's struct in its owner (see the registry) */
     bool hashed;   /* part of a point's identity (output options are not) */
+    bool run;      /* for runs alone: in no hash and no resolved file */
     fracas_err (*check)(const void *section); /* checks values against each other; NULL: none */
 } fracas_section;
 

@@ -20,6 +20,11 @@ typedef struct {
     bool interfaces; /* /interface group */
 } fracas_output;
 
+/* How a run computes: the same results for all values. */
+typedef struct {
+    int64_t parts; /* threads of a realization on a surface; 0: chosen by the run */
+} fracas_parallel;
+
 /* A point, resolved. */
 typedef struct {
     fracas_spec spec;
@@ -42,6 +47,7 @@ typedef struct fracas_campaign {
     uint64_t seed;
     bool common_random_numbers; /* replica r draws the same at every point */
     fracas_output output;       /* the same for all points */
+    fracas_parallel parallel;
     size_t npoints;
     fracas_point *point;       /* plan order = file order of the sweep, last axis fastest */
     fracas_point_table table;  /* the same points as columns */

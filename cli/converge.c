@@ -139,7 +139,7 @@ static fracas_err predict(const converging *c, double *time)
     int jobs;
     fracas_run_options_init(&run);
     TRY(fracas_arguments_integer(c->arguments, "jobs", 1, INT_MAX, &run.jobs));
-    TRY(fracas_allocation_jobs(run.jobs, &jobs));
+    TRY(fracas_allocation_jobs(run.jobs, campaign->parallel.parts, &jobs));
     OWNED fracas_forecast *forecast = calloc(campaign->npoints, sizeof *forecast);
     if (!forecast) return fracas_no_memory("the plan");
     *time = 0;

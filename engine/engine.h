@@ -59,6 +59,7 @@ typedef struct {
     bool interfaces; /* keep one row an interface */
     int width;       /* lanes: 1, 4, 8; 0 chooses by the number of realizations */
     fracas_isa isa;  /* FRACAS_ISA_BEST: the best this CPU has */
+    int parts;       /* threads for a surface, the same bits; 0: 1 */
     const struct fracas_batch_watch *watch; /* NULL: nobody; must outlive the batch */
 } fracas_batch_options;
 

@@ -24,20 +24,37 @@ static const fracas_section output_section = {
     .nparams = FRACAS_COUNT(output_params),
 };
 
+enum { MOST_PARTS = 1024 };
+static const fracas_param parallel_params[] = {
+    {"parts", FRACAS_INTEGER, "1",
+     "parts of a surface, each computed by a thread of its own; 0: 1, or more where fewer "
+     "realizations are left than jobs",
+     0, 0, MOST_PARTS, false, offsetof(fracas_parallel, parts)},
+};
+static const fracas_section parallel_section = {
+    .name = "parallel",
+    .doc = "How a run uses the cores; the results are the same",
+    .params = parallel_params,
+    .nparams = FRACAS_COUNT(parallel_params),
+    .run = true,
+};
+
 /* ---- the list of leaves ---- */
 
 static fracas_err make_sections(fracas_campaign_memory *memory, fracas_catalog *catalog)
 {
-    size_t count = fracas_engine_nsections + 2;
+    size_t count = fracas_engine_nsections + 3;
     fracas_file_section *section = fracas_memory_take(memory, count, sizeof *section);
     if (!section) return fracas_no_memory("the list of sections");
     for (size_t i = 0; i < fracas_engine_nsections; i++)
         section[i] = (fracas_file_section){
             fracas_engine_sections[i],
             offsetof(fracas_point, spec) + fracas_engine_sections[i]->offset};
-    section[count - 2] = (fracas_file_section){&fracas_strength_section,
+    section[count - 3] = (fracas_file_section){&fracas_strength_section,
                                                offsetof(fracas_point, strength)};
-    section[count - 1] = (fracas_file_section){&output_section, 0};
+    section[count - 2] = (fracas_file_section){&output_section, offsetof(fracas_campaign, output)};
+    section[count - 1] = (fracas_file_section){&parallel_section,
+                                               offsetof(fracas_campaign, parallel)};
     catalog->section = section;
     catalog->nsections = count;
     return FRACAS_OK;

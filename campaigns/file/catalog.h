@@ -9,7 +9,7 @@
 #include "campaigns/file/memory.h"
 
 /* A section and the struct of its values. A hashed section belongs to a fracas_point, any other to
- * the campaign's fracas_output: its owner. */
+ * the fracas_campaign: its owner. */
 typedef struct {
     const fracas_section *table;
     size_t offset; /* to the section's struct in its owner */

@@ -14,7 +14,8 @@ static void write_values(const fracas_catalog *catalog, bool hashed, const void 
         const fracas_leaf *leaf = &catalog->leaf[i];
         fracas_value value;
         char text[FRACAS_LEAF_TEXT];
-        if (leaf->section->table->hashed != hashed || !fracas_leaf_get(leaf, owner, &value))
+        if (leaf->section->table->hashed != hashed || leaf->section->table->run ||
+            !fracas_leaf_get(leaf, owner, &value))
             continue;
         fracas_leaf_write(leaf, &value, text);
         fprintf(out, "%s=%s\n", leaf->path, text);
@@ -26,7 +27,7 @@ static void write_campaign(const fracas_catalog *catalog, const fracas_campaign 
 {
     fprintf(out, "seed=%" PRIu64 "\n", campaign->seed);
     if (campaign->common_random_numbers) fprintf(out, "random_numbers=common\n");
-    write_values(catalog, false, &campaign->output, out);
+    write_values(catalog, false, campaign, out);
     size_t named = fracas_point_table_find(&campaign->table, "case");
     for (size_t p = 0; p < campaign->npoints; p++) {
         const char *name = named == SIZE_MAX ? "" : campaign->table.point[p].value[named].text;

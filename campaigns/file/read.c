@@ -173,7 +173,7 @@ static fracas_err make_points(reading *read, fracas_campaign *campaign)
     TRY(fracas_draft_check_base(file, &draft));
     for (size_t s = 0; s < catalog->nsections; s++)
         if (!catalog->section[s].table->hashed)
-            TRY(fracas_draft_resolve(file, &draft, &catalog->section[s], &campaign->output));
+            TRY(fracas_draft_resolve(file, &draft, &catalog->section[s], campaign));
     for (size_t p = 0; p < campaign->npoints; p++)
         TRY(make_point(read, &draft, p, &campaign->point[p]));
     return fracas_draft_check_models(file, &draft, campaign);

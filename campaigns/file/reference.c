@@ -125,7 +125,9 @@ static void write_kinds(const fracas_catalog *catalog, const fracas_section *sec
 static void write_section(const fracas_catalog *catalog, const fracas_section *section, FILE *out)
 {
     fprintf(out, "\n## `%s`\n\n%s.\n", section->name, section->doc);
-    if (!section->hashed)
+    if (section->run)
+        fprintf(out, "It cannot be swept, is in no hash, and may change from run to run.\n");
+    else if (!section->hashed)
         fprintf(
             out,
             "One for the whole campaign: it cannot be swept and is not part of a point's hash.\n");

@@ -11,7 +11,7 @@
 
 static const void *owner_of(const fracas_leaf *leaf, const fracas_campaign *campaign, size_t point)
 {
-    return leaf->section->table->hashed ? (const void *)&campaign->point[point] : &campaign->output;
+    return leaf->section->table->hashed ? (const void *)&campaign->point[point] : campaign;
 }
 
 /* The value as text, a file by the path of its copy; false if the point has none. */
@@ -177,7 +177,7 @@ static void write_file(const fracas_catalog *catalog, const bool *base,
         putc('\n', out);
     }
     for (size_t s = 0; s < catalog->nsections; s++)
-        if (!catalog->section[s].table->hashed)
+        if (!catalog->section[s].table->hashed && !catalog->section[s].table->run)
             write_section(catalog, base, &catalog->section[s], campaign, out);
 }
 

@@ -36,7 +36,8 @@ bool fracas_run_speaks(void)
 }
 
 /* Finds all faults of the campaign and the study before anything is written or started. */
-static fracas_err examine(const fracas_run_options *options, bool *settled, fracas_err *result)
+static fracas_err examine(const fracas_run_options *options, int *jobs, bool *settled,
+                          fracas_err *result)
 {
     OWN(fracas_campaign) campaign = NULL;
     OWNED double *cost = NULL;
@@ -48,6 +49,7 @@ static fracas_err examine(const fracas_run_options *options, bool *settled, frac
     TRY(fracas_study_examine(study, campaign, options->force, settled, &failed));
     *result = failed ? fracas_failure_report(study, NULL, &campaign->table) : FRACAS_OK;
     if (*settled) return FRACAS_OK;
+    TRY(fracas_allocation_jobs(options->jobs, campaign->parallel.parts, jobs));
     TRY(fracas_limits_check(options));
     TRY(fracas_costs_create(campaign, options, &cost, &bytes));
     return fracas_space_check(study, campaign, options, bytes);
@@ -62,8 +64,9 @@ fracas_err fracas_run(const fracas_run_options *options, int argc, char **argv, 
     bool settled = false;
     fracas_err result;
     TRY(fracas_allocation_check());
-    TRY(examine(options, &settled, &result));
-    if (!settled) result = fracas_launcher_run(options, began, argc, argv, ran);
+    int jobs;
+    TRY(examine(options, &jobs, &settled, &result));
+    if (!settled) result = fracas_launcher_run(options, jobs, began, argc, argv, ran);
     fracas_signals_end();
     return result;
 }

@@ -5,6 +5,7 @@
 #ifndef FRACAS_ENGINE_FORMULATION_FORMULATION_H
 #define FRACAS_ENGINE_FORMULATION_FORMULATION_H
 
+#include "base/team.h"
 #include "engine/engine.h"
 #include "engine/fragments/fragments.h"
 
@@ -31,12 +32,21 @@ struct fracas_model {
 
 #define FRACAS_ENERGY_LANES(key, role, unit, meaning) double key[FRACAS_LANES_MAX];
 
+/* How the parts of a body are computed at once: the formulation's own plan. */
+typedef struct {
+    size_t parts;  /* 1 of bodies that are not divided */
+    size_t fields; /* doubles of a lane's memory: its state, then what no step leaves to the next */
+    void *plan;    /* freed by division_destroy; NULL: none */
+} fracas_division;
+
 /* One step of a batch, and the sums of its lanes so far. Arrays are [lane]. */
 typedef struct {
     int width; /* lanes of the batch: 1, 4, 8 */
     int lanes; /* lanes of one kernel; the batch is width/lanes such groups */
     fracas_isa isa;
     double *state; /* owned by the batch, laid out by the formulation, group after group */
+    fracas_division division;
+    fracas_team *team;          /* one member a part */
     fracas_partition partition; /* one lane at a time, found anew for each use */
     double *onset_time;         /* [interface][lane], s; NULL unless interfaces are kept */
     double *break_time;         /* the same */
@@ -77,6 +87,9 @@ struct fracas_formulation {
     void (*plan_destroy)(void *plan);
     /* Doubles that a lane's state takes. */
     size_t (*state_size)(const fracas_model *model);
+    /* Divides the body into `parts`, or fewer. NULL: it is not divided. */
+    fracas_err (*divide)(const fracas_model *model, size_t parts, fracas_division *division);
+    void (*division_destroy)(void *plan);
     /* First strength of a lane in the state, and the distance to the next. */
     double *(*strength)(const fracas_model *model, const fracas_step *step, int lane,
                         size_t *stride);

@@ -25,6 +25,14 @@ static void *allocate(size_t doubles)
     return aligned_alloc(64, bytes ? bytes : 64);
 }
 
+static fracas_err divide(const fracas_model *model, int parts, fracas_step *step)
+{
+    const fracas_formulation *f = model->formulation;
+    step->division = (fracas_division){.parts = 1, .fields = f->state_size(model)};
+    if (f->divide) TRY(f->divide(model, parts > 1 ? (size_t)parts : 1, &step->division));
+    return fracas_team_create(step->division.parts, &step->team);
+}
+
 fracas_err fracas_batch_create(const fracas_model *model, size_t count,
                                const fracas_batch_options *options, fracas_batch **out)
 {
@@ -40,10 +48,10 @@ fracas_err fracas_batch_create(const fracas_model *model, size_t count,
         .watch = options->watch,
         .step = {.width = width, .lanes = fracas_isa_lanes(isa, width), .isa = isa}};
     const size_t lanes = (size_t)width;
+    TRY(divide(model, options->parts, &batch->step));
     double **const array[] = {&batch->step.state, &batch->step.onset_time, &batch->step.break_time};
     for (int i = 0; i < (options->interfaces ? 3 : 1); i++) {
-        *array[i] = allocate((i ? model->interfaces : model->formulation->state_size(model)) *
-                             lanes);
+        *array[i] = allocate((i ? model->interfaces : batch->step.division.fields) * lanes);
         if (!*array[i]) return fracas_no_memory("a batch");
     }
     TRY(fracas_partition_init(&batch->step.partition, model->elements));
@@ -57,6 +65,9 @@ fracas_err fracas_batch_create(const fracas_model *model, size_t count,
 void fracas_batch_destroy(fracas_batch *batch)
 {
     if (!batch) return;
+    fracas_team_destroy(batch->step.team);
+    if (batch->step.division.plan)
+        batch->model->formulation->division_destroy(batch->step.division.plan);
     free(batch->step.state);
     free(batch->step.onset_time);
     free(batch->step.break_time);

@@ -57,7 +57,7 @@ static fracas_err transfer_lane(fracas_batch *batch, size_t l, bool load, fracas
     TRY(transfer(context, &step->cracked[l], sizeof *step->cracked));
     TRY(transfer(context, &step->broken[l], sizeof *step->broken));
     const size_t lanes = (size_t)step->lanes, size = model->formulation->state_size(model);
-    double *const state = step->state + l / lanes * lanes * size + l % lanes;
+    double *const state = step->state + l / lanes * lanes * step->division.fields + l % lanes;
     TRY(transfer_doubles(state, size, lanes, load, transfer, context));
     double *const times[] = {step->onset_time, step->break_time};
     for (size_t i = 0; step->onset_time && i < 2; i++)

@@ -217,5 +217,53 @@ static void a_sphere_cracks_when_its_stress_says_so(void **unused)
     }
 }
 
-TESTS(a_lane_is_its_run_alone, momenta_are_kept_to_round_off, ledgers_close,
+/* ---- parts ---- */
+
+/* Interfaces between parts that crack. */
+static int64_t cracks_at_cuts(const fracas_model *model, const fracas_record *record, size_t parts)
+{
+    const size_t blocks = (model->elements + SURFACE_BLOCK - 1) / SURFACE_BLOCK;
+    int64_t cracks = 0;
+    for (size_t i = 0; i < model->interfaces; i++) {
+        const uint32_t *element = model->surface->interface[i].element;
+        size_t part[2] = {0, 0};
+        for (int side = 0; side < 2; side++)
+            while (element[side] >= (part[side] + 1) * blocks / parts * SURFACE_BLOCK) part[side]++;
+        cracks += part[0] != part[1] && !isnan(record->interface[i].onset_time);
+    }
+    return cracks;
+}
+
+/* Cracks run through the cuts, with and without friction, over 8 blocks, the last one not full. */
+static void parts_do_not_matter(void **unused)
+{
+    for (int v = 0; v < 2; v++) {
+        fracas_spec spec = brittle_shell(&fracas_shape_sphere, 22);
+        spec.geometry.part = &fracas_part_octant;
+        spec.loading.rate = 4e4;
+        spec.time.end = 4e-8;
+        spec.cohesive.friction = v ? 0.3 : 0;
+        OWN(fracas_model) model = distorted_model(spec, 0.1, 3);
+        fracas_record alone[2], together[2];
+        for (size_t r = 0; r < 2; r++)
+            run_lanes(model, &kind, &(lane_batch){r, 1, 1, FRACAS_ISA_BASELINE, 1}, &alone[r]);
+        for (int parts = 1; parts <= 7; parts += parts == 4 ? 3 : 1) {
+            print_message("%d parts: %lld cracks between them, %lld steps\n", parts,
+                          (long long)cracks_at_cuts(model, &alone[0], (size_t)parts),
+                          (long long)alone[0].steps);
+            assert_true(parts == 1 || cracks_at_cuts(model, &alone[0], (size_t)parts) > 5);
+            for (size_t count = 1; count <= 2; count++) {
+                const lane_batch plan = {0, count, 0, FRACAS_ISA_BEST, count, parts};
+                run_lanes(model, &kind, &plan, together);
+                for (size_t l = 0; l < count; l++) {
+                    assert_same_record(&alone[l], &together[l]);
+                    fracas_record_clear(&together[l]);
+                }
+            }
+        }
+        for (size_t r = 0; r < 2; r++) fracas_record_clear(&alone[r]);
+    }
+}
+
+TESTS(a_lane_is_its_run_alone, parts_do_not_matter, momenta_are_kept_to_round_off, ledgers_close,
       a_sphere_cracks_when_its_stress_says_so)

@@ -116,7 +116,7 @@ void farm_prepare(void)
 
 /* ---- answers of the system ---- */
 
-fracas_err __wrap_fracas_allocation_jobs(int wanted, int *jobs)
+fracas_err __wrap_fracas_allocation_jobs(int wanted, int64_t parts, int *jobs)
 {
     *jobs = wanted;
     return FRACAS_OK;

@@ -29,6 +29,7 @@ typedef struct {
     int width;
     fracas_isa isa;
     size_t poisoned; /* slot going NaN in its 40th step, if there is one of this number */
+    int parts;       /* of a surface, computed by a thread each */
 } lane_batch;
 
 static inline void poison_lane(fracas_batch *batch, size_t slot, size_t back)
@@ -41,10 +42,12 @@ static inline void poison_lane(fracas_batch *batch, size_t slot, size_t back)
 static inline fracas_batch *batch_of_plan(const fracas_model *model, const lane_kind *kind,
                                           const lane_batch *plan)
 {
-    fracas_batch *batch = batch_with(
-        model, plan->count,
-        (fracas_batch_options){
-            .history = 20, .interfaces = true, .width = plan->width, .isa = plan->isa});
+    fracas_batch *batch = batch_with(model, plan->count,
+                                     (fracas_batch_options){.history = 20,
+                                                            .interfaces = true,
+                                                            .width = plan->width,
+                                                            .isa = plan->isa,
+                                                            .parts = plan->parts});
     for (size_t l = 0; l < plan->count; l++) {
         bar_draw(batch, l, kind->scatter, plan->first + l);
         for (size_t k = 0;
@@ -147,7 +150,8 @@ static inline void compare_moved(const fracas_model *model, const lane_kind *kin
     }
 }
 
-/* All instruction sets and widths against what run_alone left, which is cleared. */
+/* All instruction sets, widths and numbers of parts against what run_alone left, which is cleared.
+ */
 static inline void check_lanes(const fracas_model *model, const lane_kind *kind,
                                fracas_record alone[8])
 {
@@ -163,11 +167,17 @@ static inline void check_lanes(const fracas_model *model, const lane_kind *kind,
     }
     /* another place, and lanes repeating the first */
     compare_lanes(model, kind, (lane_batch){3, 5, 8, FRACAS_ISA_BEST, 0}, alone);
+    for (int parts = 2; parts < 8; parts += parts / 2 + 1)
+        compare_lanes(model, kind, (lane_batch){0, 8, 8, FRACAS_ISA_BEST, 0, parts}, alone);
+    compare_lanes(model, kind, (lane_batch){4, 1, 1, FRACAS_ISA_BEST, 0, 2}, alone);
     const lane_batch one = {5, 1, 1, FRACAS_ISA_BASELINE, 1}, four = {4, 3, 4, FRACAS_ISA_BEST, 3},
-                     eight = {3, 5, 8, FRACAS_ISA_BEST, 5};
+                     eight = {3, 5, 8, FRACAS_ISA_BEST, 5},
+                     divided = {3, 5, 8, FRACAS_ISA_BEST, 5, 3};
     const int64_t half = alone[5].steps / 2, nearly = alone[5].steps - 1;
     compare_moved(model, kind, &one, &four, half, alone);
     compare_moved(model, kind, &four, &eight, nearly, alone);
+    compare_moved(model, kind, &one, &divided, half, alone);
+    compare_moved(model, kind, &divided, &eight, nearly, alone);
     compare_moved(model, kind, &one, &one, 0, alone);
     for (size_t r = 0; r < 8; r++) fracas_record_clear(&alone[r]);
 }

@@ -17,7 +17,7 @@ static inline double *surface_value(const fracas_model *model, const fracas_step
     const fracas_surface_constants c = fracas_surface_constants_of(model);
     const size_t at = element * fracas_surface_element_fields(&c) +
                       (size_t)field * fracas_surface_unknowns(c.tables) + (size_t)i;
-    return fracas_surface_field(&c, step, at, lane);
+    return fracas_surface_field(step, at, lane);
 }
 
 /* Where it has a value of the law, SURFACE_DAMAGE, ..., at point p of an interface: layers of its
@@ -28,7 +28,7 @@ static inline double *surface_point(const fracas_model *model, const fracas_step
     const fracas_surface_constants c = fracas_surface_constants_of(model);
     const size_t at = fracas_surface_interfaces_at(&c) +
                       interface * fracas_surface_interface_fields(&c);
-    return fracas_surface_field(&c, step, at + (size_t)(p * c.point_fields + field), lane);
+    return fracas_surface_field(step, at + (size_t)(p * c.point_fields + field), lane);
 }
 
 #define PI 3.14159265358979323846

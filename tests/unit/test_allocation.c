@@ -31,21 +31,29 @@ static void jobs_of_an_allocation(void **state)
     unsetenv("SLURM_NTASKS");
     setenv("SLURM_JOB_ID", "7", 1);
     setenv("SLURM_JOB_CPUS_PER_NODE", "128(x3)", 1);
-    OK(fracas_allocation_jobs(0, &jobs));
+    OK(fracas_allocation_jobs(0, 0, &jobs));
     assert_int_equal(jobs, 384); /* whole nodes: a process a core */
     setenv("SLURM_NTASKS", "96", 1);
-    OK(fracas_allocation_jobs(0, &jobs));
+    OK(fracas_allocation_jobs(0, 0, &jobs));
     assert_int_equal(jobs, 96);
-    OK(fracas_allocation_jobs(100000, &jobs)); /* the bound is that of one machine */
+    OK(fracas_allocation_jobs(100000, 0, &jobs)); /* the bound is that of one machine */
     assert_int_equal(jobs, 100000);
     setenv("SLURM_NTASKS", "many", 1);
-    OK(fracas_allocation_jobs(0, &jobs));
+    OK(fracas_allocation_jobs(0, 0, &jobs));
     assert_int_equal(jobs, 384);
     setenv("SLURM_NTASKS", "96", 1);
     unsetenv("SLURM_JOB_ID"); /* left over from a job: no allocation */
-    OK(fracas_allocation_jobs(0, &jobs));
+    OK(fracas_allocation_jobs(0, 0, &jobs));
     assert_true(jobs >= 1 && jobs != 96);
-    assert_int_equal(fracas_allocation_jobs(1000000, &jobs), FRACAS_USAGE);
+    const int cores = jobs; /* parts times jobs are never more */
+    assert_int_equal(fracas_allocation_jobs(1000000, 0, &jobs), FRACAS_USAGE);
+    for (int parts = 1; parts <= cores; parts++) {
+        OK(fracas_allocation_jobs(0, parts, &jobs));
+        assert_true(jobs * parts <= cores && (jobs + 1) * parts > cores);
+    }
+    assert_int_equal(fracas_allocation_jobs(0, cores + 1, &jobs), FRACAS_USAGE);
+    assert_int_equal(fracas_allocation_jobs(1, cores + 1, &jobs), FRACAS_USAGE);
+    OK(fracas_allocation_jobs(cores + 1, 1, &jobs));
     unsetenv("SLURM_NTASKS");
     unsetenv("SLURM_JOB_CPUS_PER_NODE");
 }

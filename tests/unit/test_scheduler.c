@@ -355,9 +355,30 @@ static void rows_may_need_nothing(void **state)
     assert_counts(scheduler, POINTS * 11 - 5, 2, 3);
 }
 
+/* The last realizations have the workers that would be idle: workers / (waiting + busy) each, or
+ * the parts that are asked for. */
+static void a_body_gets_idle_workers(void **state)
+{
+    enum { CORES = 8 };
+    for (size_t wanted = 0; wanted <= 5; wanted += 5)
+        for (size_t count = 1; count <= CORES + 1; count++) {
+            fracas_lease lease;
+            fracas_scheduler_options options = options_for(CORES);
+            options.parts = wanted;
+            OWNED fracas_index_row *row = rows(1, count);
+            OWN(fracas_scheduler) scheduler = create_with(row, count, &options);
+            for (size_t worker = 0; worker < CORES; worker++) {
+                if (!next(scheduler, worker, 0, &lease)) continue;
+                assert_int_equal(lease.parts, wanted ? wanted : count < CORES ? CORES / count : 1);
+            }
+            assert_int_equal(fracas_scheduler_count(scheduler).total, count);
+        }
+}
+
 TESTS(one_batch_while_nothing_is_measured, sizes_are_by_measured_cost,
       sizes_shrink_with_what_is_left, the_last_ones_are_shared_with_who_is_free_soon,
       a_lease_has_a_largest_size, no_lease_time_means_one_batch, the_longest_go_first,
       some_points_go_first, one_lease_ahead_until_the_last_ones, what_comes_next_is_predicted,
       what_waits_again_is_predicted, a_lease_has_a_time_limit, a_shuffle_changes_order_and_sizes,
-      a_shuffled_lease_is_predicted, rows_are_added, rows_may_need_nothing)
+      a_shuffled_lease_is_predicted, a_body_gets_idle_workers, rows_are_added,
+      rows_may_need_nothing)

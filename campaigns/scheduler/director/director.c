@@ -27,6 +27,7 @@ static fracas_err make_scheduler(fracas_director *director)
                                         .seconds = director->setup.options->lease_seconds,
                                         .memory = director->setup.options->segment_age,
                                         .limit = director->setup.options->lease_limit,
+                                        .parts = (size_t)campaign->parallel.parts,
                                         .shuffle = director->setup.options->shuffle,
                                         .seed = campaign->seed};
     count = fracas_run_part(director->setup.options->part, director->setup.options->parts, row,

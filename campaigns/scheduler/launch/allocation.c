@@ -2,6 +2,7 @@
 #include "campaigns/scheduler/launch/allocation.h"
 
 #include <ctype.h>
+#include <inttypes.h>
 #include <limits.h>
 #include <sched.h>
 #include <stdlib.h>
@@ -35,13 +36,19 @@ static int slurm_tasks(void)
     return cores ? (int)fracas_allocation_sum(cores) : 0;
 }
 
-fracas_err fracas_allocation_jobs(int wanted, int *jobs)
+fracas_err fracas_allocation_jobs(int wanted, int64_t parts, int *jobs)
 {
     enum { MOST_A_CORE = 32 };
     cpu_set_t set;
     const int cores = sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set),
               tasks = slurm_tasks();
-    *jobs = wanted ? wanted : tasks ? tasks : cores;
+    const int64_t most = parts > 1 ? cores / parts : cores;
+    *jobs = wanted ? wanted : tasks ? tasks : most > 1 ? (int)most : 1;
+    if (!tasks && parts > 1 && *jobs * parts > cores)
+        return fracas_fail(FRACAS_USAGE,
+                           "--jobs %d of parallel.parts %" PRId64 " are %" PRId64
+                           " threads, and this machine gives the run %d cores: give less of either",
+                           *jobs, parts, *jobs * parts, cores);
     if (tasks || *jobs <= MOST_A_CORE * cores) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "--jobs %d: this machine gives the run %d cores; %d processes are the most, "

@@ -5,13 +5,16 @@
 
 #include "base/err.h"
 
+#include <stdint.h>
+
 /* Sum of a list as Slurm writes it, "16(x2),8" = 40; 0 if it is none. */
 long fracas_allocation_sum(const char *list);
 
 /* *jobs = `wanted`; if 0, in a Slurm job its tasks (or cores, if it has no number of tasks), else
- * the cores available to this process. FRACAS_USAGE outside Slurm when `wanted` is far above the
- * cores, as after a typing error. */
-FRACAS_MUST_USE fracas_err fracas_allocation_jobs(int wanted, int *jobs);
+ * the cores available to this process over `parts`, the threads of a job (0: 1). FRACAS_USAGE
+ * outside Slurm when `wanted` is far above the cores, as after a typing error, or has several parts
+ * and more threads than cores. */
+FRACAS_MUST_USE fracas_err fracas_allocation_jobs(int wanted, int64_t parts, int *jobs);
 
 /* FRACAS_USAGE in one of several processes started by srun without MPI: each would run the whole
  * campaign. */

@@ -325,11 +325,9 @@ static fracas_err run(launcher *p, int jobs, int argc, char **argv, bool *ran)
     return ending->err ? fracas_fail(ending->err, "%s", ending->text) : FRACAS_OK;
 }
 
-fracas_err fracas_launcher_run(const fracas_run_options *options, double began, int argc,
+fracas_err fracas_launcher_run(const fracas_run_options *options, int jobs, double began, int argc,
                                char **argv, bool *ran)
 {
-    int jobs;
-    TRY(fracas_allocation_jobs(options->jobs, &jobs));
     OWNED launcher *p = calloc(1, sizeof *p);
     if (!p) return fracas_no_memory("the run");
     p->durable = -1;

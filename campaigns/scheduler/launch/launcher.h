@@ -13,7 +13,7 @@
  * ends early it is started again, k seconds after the k-th start in a row with no new durable
  * realization; the third such start, the first one counts, ends the run: FRACAS_ENVIRONMENT. On
  * return no process of the run is left on this machine. */
-FRACAS_MUST_USE fracas_err fracas_launcher_run(const fracas_run_options *options, double began,
-                                               int argc, char **argv, bool *ran);
+FRACAS_MUST_USE fracas_err fracas_launcher_run(const fracas_run_options *options, int jobs,
+                                               double began, int argc, char **argv, bool *ran);
 
 #endif

@@ -28,6 +28,7 @@ typedef struct {
     double seconds; /* target duration of a lease [s]; 0: one batch each */
     double memory;  /* longest time of results in a worker's memory [s], --segment-age */
     double limit;   /* longest time of a lease [s]; 0: 600 s + 50 x predicted */
+    size_t parts;   /* threads for a surface; 0: chosen lease by lease */
     bool shuffle;   /* random points, replicas and sizes instead of the longest first */
     uint64_t seed;  /* for the shuffle */
 } fracas_scheduler_options;
@@ -52,6 +53,8 @@ FRACAS_OWNER(fracas_scheduler, fracas_scheduler_destroy)
  *   n     = min(seconds / est_p, sum_q waiting_q est_q / (2 workers est_p), FRACAS_LEASE_MAX),
  * down to whole batches. With less than a batch for each worker n = min(width, waiting / f), where
  * f workers are free within half the time of a batch. While nothing is measured, one batch.
+ * The last leases have lease->parts above 1, where options->parts is 0: the number of workers over
+ * that of realizations waiting and workers with a lease, so that no core is idle.
  * O(log points) steps, for the last leases O(workers). FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker,
                                                  double now, fracas_lease *lease, bool *given);

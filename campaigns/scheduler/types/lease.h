@@ -19,6 +19,7 @@ typedef struct {
     uint64_t count;    /* replicas, 1 to FRACAS_LEASE_MAX */
     uint64_t isolated; /* not 0: a worker died with it, so a process of its own computes it */
     double limit;      /* longest allowed time [s] */
+    uint64_t parts;    /* threads for a surface */
     int64_t replica[FRACAS_LEASE_MAX];
 } fracas_lease;
 

@@ -27,6 +27,7 @@ fracas_err fracas_solve(const fracas_computation *computation, const int64_t *re
         .interfaces = computation->campaign->output.interfaces,
         .width = computation->options->width,
         .isa = computation->options->isa,
+        .parts = (int)computation->lease->parts,
         .watch = fracas_interim_watch(&interim, computation, replica, count)};
     OWN(fracas_batch) batch = NULL;
     TRY(fracas_batch_create(computation->model, count, &options, &batch));

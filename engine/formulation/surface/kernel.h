@@ -54,8 +54,9 @@ typedef struct {
     const fracas_surface_constants *constants;
     const fracas_surface_tables *tables;
     fracas_step *step;
-    int first;                                    /* the step's lane of lane 0 here */
-    double *elements, *interfaces, *slots, *sums; /* state of these lanes */
+    int first;            /* the step's lane of lane 0 here */
+    int ghost;            /* who has its turn */
+    double *state, *sums; /* memory of these lanes */
     const double *strengths;
     size_t element_size, interface_size;  /* doubles */
     size_t strengths_size, strength_step; /* doubles: an interface's; to next point, 0: shared */
@@ -139,9 +140,10 @@ LANES_FUNCTION double *surface_sums(const surface_context *c, size_t e)
     return c->sums + e / SURFACE_BLOCK * (size_t)(SURFACE_SUMS * LANES);
 }
 
-LANES_FUNCTION double *surface_slot(const surface_context *c, int order, size_t e)
+/* The group's memory at a place (division.h). */
+LANES_FUNCTION double *surface_place(const surface_context *c, uint32_t place)
 {
-    return c->slots + (e & c->tables->visits.window) * (size_t)(BODY_SLOT(order) * LANES);
+    return c->state + (size_t)place * LANES;
 }
 
 /* Table of interface i. */
@@ -150,10 +152,10 @@ LANES_FUNCTION const double *surface_table(const surface_context *c, int order, 
     return c->tables->interface + i * (size_t)(BODY_HEAD + SURFACE_EDGE(order) * BODY_POINT_TABLE);
 }
 
-/* The sides of interface i without their elements and slots. */
-LANES_FUNCTION surface_sides surface_places(const fracas_surface_tables *t, int order, size_t i)
+/* The sides of an interface without their elements and slots. */
+LANES_FUNCTION surface_sides surface_edges(int order, const uint8_t edge[2])
 {
-    const int k = t->edge[i][0], l = t->edge[i][1];
+    const int k = edge[0], l = edge[1];
     surface_sides sides = {.node = {{k, (k + 1) % 3, 3 + k}, {(l + 1) % 3, l, 3 + l}}};
     UNROLL_FOR (int side = 0; side < 2; side++) {
         const int linear = order == 1, away = ((side ? l : k) + 2) % 3;
@@ -163,13 +165,13 @@ LANES_FUNCTION surface_sides surface_places(const fracas_surface_tables *t, int 
     return sides;
 }
 
-LANES_FUNCTION surface_sides surface_sides_of(const surface_context *c, int order, size_t i)
+LANES_FUNCTION surface_sides surface_sides_of(const surface_context *c, int order,
+                                              const fracas_surface_join *join)
 {
-    const uint32_t *element = c->tables->element[i];
-    surface_sides sides = surface_places(c->tables, order, i);
+    surface_sides sides = surface_edges(order, join->edge);
     UNROLL_FOR (int side = 0; side < 2; side++) {
-        sides.element[side] = c->elements + element[side] * c->element_size;
-        sides.slot[side] = surface_slot(c, order, element[side]);
+        sides.element[side] = surface_place(c, join->element[side]);
+        sides.slot[side] = surface_place(c, join->slot[side]);
     }
     return sides;
 }

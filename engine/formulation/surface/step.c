@@ -25,7 +25,10 @@ fracas_err fracas_surface_operator_open(const fracas_model *model, int contact,
     op->constants.fields = SURFACE_FIELDS;
     op->constants.point_fields = 0; /* no law: interfaces have no state */
     op->constants.speed = 0;
-    op->step.state = calloc(fracas_surface_state_fields(&op->constants), sizeof *op->step.state);
+    fracas_surface_division *division;
+    TRY(fracas_surface_division_create(&op->constants, 1, &division));
+    op->step.division = (fracas_division){1, division->fields, division};
+    op->step.state = calloc(division->fields, sizeof *op->step.state);
     if (!op->step.state) return fracas_no_memory("the critical time step");
     *out = op;
     op = NULL;
@@ -41,7 +44,7 @@ void fracas_surface_operator_apply(fracas_surface_operator *op, const double *u,
     for (size_t e = 0; e < t->nelements; e++)
         for (size_t i = 0; i < size; i++) op->step.state[e * fields + i] = u[e * size + i];
     (*t->body->kernels)[FRACAS_ISA_BASELINE][1]->sweep[SURFACE_OPERATOR][t->order - 1](c, &op->step,
-                                                                                       0);
+                                                                                       0, 0);
     for (size_t e = 0; e < t->nelements; e++)
         for (size_t i = 0; i < size; i++)
             acceleration[e * size + i] = op->step.state[e * fields + SURFACE_V * size + i];
@@ -50,6 +53,7 @@ void fracas_surface_operator_apply(fracas_surface_operator *op, const double *u,
 void fracas_surface_operator_close(fracas_surface_operator *op)
 {
     if (!op) return;
+    fracas_surface_division_destroy(op->step.division.plan);
     free(op->step.state);
     free(op);
 }

@@ -47,8 +47,9 @@ static void set_totals(const fracas_surface_constants *c, fracas_step *step, int
 
 void fracas_surface_totals(const fracas_surface_constants *c, fracas_step *step)
 {
+    const fracas_surface_division *division = step->division.plan;
     for (int first = 0; first < step->width; first += step->lanes) {
-        double *sums = fracas_surface_field(c, step, fracas_surface_sums_at(c), first);
+        double *sums = fracas_surface_field(step, division->sums, first);
         add_blocks(sums, fracas_surface_blocks(c->tables), (size_t)(SURFACE_SUMS * step->lanes));
         for (int l = 0; l < step->lanes; l++) {
             double sum[SURFACE_SUMS];

@@ -9,6 +9,7 @@
 #include "engine/mesh/make.h"
 
 #include <math.h>
+#include <string.h>
 
 static const fracas_surface_tables *tables_of(const fracas_model *model)
 {
@@ -186,18 +187,26 @@ size_t fracas_surface_state_size(const fracas_model *model)
     return fracas_surface_state_fields(&c);
 }
 
-double *fracas_surface_field(const fracas_surface_constants *c, const fracas_step *step,
-                             size_t field, int lane)
+fracas_err fracas_surface_model_divide(const fracas_model *model, size_t parts,
+                                       fracas_division *out)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    fracas_surface_division *division;
+    TRY(fracas_surface_division_create(&c, parts, &division));
+    *out = (fracas_division){division->parts, division->fields, division};
+    return FRACAS_OK;
+}
+
+double *fracas_surface_field(const fracas_step *step, size_t field, int lane)
 {
     const size_t lanes = (size_t)step->lanes, group = (size_t)lane / lanes;
-    return step->state + (group * fracas_surface_state_fields(c) + field) * lanes +
-           (size_t)lane % lanes;
+    return step->state + (group * step->division.fields + field) * lanes + (size_t)lane % lanes;
 }
 
 static double *element_value(const fracas_surface_constants *c, const fracas_step *step,
                              size_t element, int field, size_t i, int lane)
 {
-    return fracas_surface_field(c, step,
+    return fracas_surface_field(step,
                                 element * fracas_surface_element_fields(c) +
                                     (size_t)field * fracas_surface_unknowns(c->tables) + i,
                                 lane);
@@ -208,7 +217,7 @@ static double *point_value(const fracas_surface_constants *c, const fracas_step 
 {
     const size_t at = fracas_surface_interfaces_at(c) +
                       interface * fracas_surface_interface_fields(c);
-    return fracas_surface_field(c, step, at + (size_t)(p * c->point_fields + field), lane);
+    return fracas_surface_field(step, at + (size_t)(p * c->point_fields + field), lane);
 }
 
 double *fracas_surface_strength(const fracas_model *model, const fracas_step *step, int lane,
@@ -216,7 +225,7 @@ double *fracas_surface_strength(const fracas_model *model, const fracas_step *st
 {
     const fracas_surface_constants c = fracas_surface_constants_of(model);
     *stride = (size_t)step->lanes;
-    return fracas_surface_field(&c, step, fracas_surface_strengths_at(&c), lane);
+    return fracas_surface_field(step, fracas_surface_strengths_at(&c), lane);
 }
 
 /* Velocity of unknown i of element e at the start [m/s]: the expansion's, everywhere or where it
@@ -236,21 +245,52 @@ void fracas_surface_lane_init(const fracas_model *model, const fracas_step *step
 {
     const fracas_surface_constants c = fracas_surface_constants_of(model);
     const size_t strengths = fracas_surface_strengths_at(&c);
-    for (size_t f = 0; f < strengths; f++) *fracas_surface_field(&c, step, f, lane) = 0;
+    for (size_t f = 0; f < strengths; f++) *fracas_surface_field(step, f, lane) = 0;
     for (size_t e = 0; e < model->elements; e++)
         for (size_t i = 0; i < fracas_surface_unknowns(c.tables); i++)
             *element_value(&c, step, e, SURFACE_V, i, lane) = start_velocity(model, e, i);
 }
 
+/* ---- a step ---- */
+
+typedef struct {
+    fracas_surface_constants constants;
+    fracas_surface_sweep *sweep;
+    fracas_step *step;
+} surface_task;
+
+/* Brings a part's copies up to date. */
+static void copy_ghosts(const fracas_step *step, const fracas_surface_part *part)
+{
+    const size_t lanes = (size_t)step->lanes;
+    for (int first = 0; first < step->width; first += step->lanes)
+        for (size_t i = 0; i < part->copies; i++)
+            memcpy(fracas_surface_field(step, part->copy[i].to, first),
+                   fracas_surface_field(step, part->copy[i].from, first),
+                   part->copy[i].count * lanes * sizeof(double));
+}
+
+/* A part's step. None begins before all have their copies of what it changes. */
+static void advance_part(void *context, size_t number)
+{
+    const surface_task *task = context;
+    fracas_step *step = task->step;
+    const fracas_surface_division *division = step->division.plan;
+    copy_ghosts(step, &division->part[number]);
+    fracas_team_meet(step->team);
+    for (int first = 0; first < step->width; first += step->lanes)
+        task->sweep(&task->constants, step, first, number);
+}
+
 void fracas_surface_advance(const fracas_model *model, fracas_step *step)
 {
-    const fracas_surface_constants c = fracas_surface_constants_of(model);
-    const fracas_surface_kernel *kernel = (*c.tables->body->kernels)[step->isa][step->lanes];
-    fracas_surface_sweep *sweep =
-        kernel->sweep[fracas_law_of(&model->spec)->number][c.tables->order - 1];
-    for (int l = 0; l < step->width; l++) step->spin[l] = fracas_surface_spin(&c, step->time[l]);
-    for (int first = 0; first < step->width; first += step->lanes) sweep(&c, step, first);
-    fracas_surface_totals(&c, step);
+    surface_task task = {.constants = fracas_surface_constants_of(model), .step = step};
+    const fracas_surface_constants *c = &task.constants;
+    const fracas_surface_kernel *kernel = (*c->tables->body->kernels)[step->isa][step->lanes];
+    task.sweep = kernel->sweep[fracas_law_of(&model->spec)->number][c->tables->order - 1];
+    for (int l = 0; l < step->width; l++) step->spin[l] = fracas_surface_spin(c, step->time[l]);
+    fracas_team_run(step->team, advance_part, &task);
+    fracas_surface_totals(c, step);
 }
 
 /* ---- fragments ---- */

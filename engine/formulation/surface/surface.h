@@ -10,7 +10,9 @@
  *                             ..., node 1 x, ...)
  *   [interface][point][field][lane]  values of the law (engine/cohesive/law.h)
  *   [strength][lane]          sigma_c [Pa], one for each interface, or for each of its Gauss points
- *   [slot][field][lane]       stresses and forces of an element under way, slot = element & window
+ * and then, for the sweep alone and of no meaning between steps
+ *   [ghost][field][lane]      each part's copies of elements and interfaces (division.h)
+ *   [slot][field][lane]       each part's: stresses and forces of an element under way
  *   [block][sum][lane]        SURFACE_STRAIN ..., of SURFACE_BLOCK consecutive elements each
  */
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_SURFACE_H
@@ -20,7 +22,8 @@
 #include "engine/cohesive/law.h"
 #include "engine/element/triangle.h"
 #include "engine/formulation/formulation.h"
-#include "engine/formulation/surface/visits.h"
+#include "engine/formulation/surface/division.h"
+#include "engine/mesh/surface/surface.h"
 
 /* By the order of triangles: nodes, bulk points (of stresses), Gauss points of an edge. */
 #define SURFACE_NODES(order) (3 * (order))
@@ -99,7 +102,6 @@ typedef struct {
     double *rim;        /* [rim][body->rim_table] */
     uint8_t *rim_edge;  /* [rim]: which of its element's edges */
     uint32_t *rim_from; /* [element]: its rims are rim_from[e] to rim_from[e + 1] - 1 */
-    fracas_surface_visits visits;
 } fracas_surface_tables;
 
 typedef struct {
@@ -108,7 +110,7 @@ typedef struct {
 } fracas_surface_motion;
 
 /* Input of a sweep, the same for all lanes. */
-typedef struct {
+typedef struct fracas_surface_constants {
     const fracas_surface_tables *tables;
     double thickness;     /* m */
     double c11, c12, c33; /* E/(1-nu^2), nu c11, E/(2 + 2 nu) [Pa]; shells: times thickness [N/m] */
@@ -145,9 +147,9 @@ typedef double fracas_surface_strain(const fracas_surface_constants *constants, 
 /* Number of the linear operator's sweep, after those of the laws. */
 enum { SURFACE_OPERATOR = FRACAS_LAWS, SURFACE_SWEEPS };
 
-/* Advances the lanes first .. first + lanes - 1 of the step. */
+/* Advances the lanes first .. first + lanes - 1 of a part. */
 typedef void fracas_surface_sweep(const fracas_surface_constants *constants, fracas_step *step,
-                                  int first);
+                                  int first, size_t part);
 
 /* A unit: [law][order - 1]. Units of one lane alone have the operator's sweep, which leaves
  * M^-1 (-f)(u) where velocities are, views and strain energies. */
@@ -215,7 +217,7 @@ static inline size_t fracas_surface_strengths_at(const fracas_surface_constants 
     return fracas_surface_interfaces_at(c) +
            c->tables->ninterfaces * fracas_surface_interface_fields(c);
 }
-static inline size_t fracas_surface_slots_at(const fracas_surface_constants *c)
+static inline size_t fracas_surface_state_fields(const fracas_surface_constants *c)
 {
     return fracas_surface_strengths_at(c) + c->tables->ninterfaces * (size_t)c->strengths;
 }
@@ -224,18 +226,9 @@ static inline size_t fracas_surface_slot(const fracas_surface_tables *t)
 {
     return (size_t)(2 * t->body->stresses * SURFACE_BULK(t->order)) + fracas_surface_unknowns(t);
 }
-static inline size_t fracas_surface_sums_at(const fracas_surface_constants *c)
-{
-    return fracas_surface_slots_at(c) +
-           (c->tables->visits.window + 1) * fracas_surface_slot(c->tables);
-}
 static inline size_t fracas_surface_blocks(const fracas_surface_tables *t)
 {
     return (t->nelements + SURFACE_BLOCK - 1) / SURFACE_BLOCK;
-}
-static inline size_t fracas_surface_state_fields(const fracas_surface_constants *c)
-{
-    return fracas_surface_sums_at(c) + fracas_surface_blocks(c->tables) * SURFACE_SUMS;
 }
 /* Number of the strength at Gauss point g of an interface. */
 static inline size_t fracas_surface_strength_of(const fracas_surface_constants *c, size_t interface,
@@ -252,8 +245,7 @@ void fracas_surface_tables_destroy(void *tables); /* NULL is allowed */
 fracas_surface_constants fracas_surface_constants_of(const fracas_model *model);
 
 /* Where the state of lane `lane` has a field, counted from the start of its group's. */
-double *fracas_surface_field(const fracas_surface_constants *constants, const fracas_step *step,
-                             size_t field, int lane);
+double *fracas_surface_field(const fracas_step *step, size_t field, int lane);
 /* The operator K of all interfaces whole, or all broken and pressed together:
  *   acceleration = -M^-1 K u, for [element][unknown]; held components: 0
  * `apply` may be called any number of times between open and close. */
@@ -282,14 +274,18 @@ void fracas_surface_totals(const fracas_surface_constants *constants, fracas_ste
 /* ---- events: onset and break of points within a step, lane by lane; they are rare ---- */
 
 typedef struct {
+    size_t interface;
+    int lane;                 /* the step's */
+    const double *element[2]; /* its elements' fields in that lane ... */
+    const double *fields;     /* ... and its own */
     int cracks[SURFACE_POINTS_MOST], breaks[SURFACE_POINTS_MOST]; /* by point */
     int opens, parts; /* the interface's first point cracks, its last one breaks */
 } fracas_surface_event;
 
-/* Counts the event of lane `lane` of the step, at the times interpolated between the step before
- * and this one  (membrane.12). */
-void fracas_surface_book(const fracas_surface_constants *constants, fracas_step *step, int lane,
-                         size_t interface, const fracas_surface_event *event);
+/* Counts an event, at the times interpolated between the step before and this one (membrane.12).
+ * Parts may call it at once. */
+void fracas_surface_book(const fracas_surface_constants *constants, fracas_step *step,
+                         const fracas_surface_event *event);
 
 /* ---- functions of the formulations ---- */
 
@@ -298,6 +294,8 @@ FRACAS_MUST_USE fracas_err fracas_surface_check_strength(const fracas_model *mod
                                                          double strength);
 double fracas_surface_interface_volume(const fracas_model *model, size_t interface);
 size_t fracas_surface_state_size(const fracas_model *model);
+FRACAS_MUST_USE fracas_err fracas_surface_model_divide(const fracas_model *model, size_t parts,
+                                                       fracas_division *division);
 double *fracas_surface_strength(const fracas_model *model, const fracas_step *step, int lane,
                                 size_t *stride);
 void fracas_surface_lane_init(const fracas_model *model, const fracas_step *step, int lane);
@@ -310,13 +308,14 @@ FRACAS_MUST_USE fracas_err fracas_surface_harvest(const fracas_model *model, fra
                                                   int lane, fracas_record *record);
 
 /* All members of a formulation of surfaces but `kind`, whose traits are the body. */
-#define FRACAS_SURFACE_FORMULATION                                                            \
-    .model_init = fracas_surface_model_init, .check_strength = fracas_surface_check_strength, \
-    .interface_volume = fracas_surface_interface_volume,                                      \
-    .plan_destroy = fracas_surface_tables_destroy, .state_size = fracas_surface_state_size,   \
-    .strength = fracas_surface_strength, .lane_init = fracas_surface_lane_init,               \
-    .advance = fracas_surface_advance, .fragment_count = fracas_surface_fragment_count,       \
-    .partition = fracas_surface_partition, .add_up = fracas_surface_add_up,                   \
+#define FRACAS_SURFACE_FORMULATION                                                              \
+    .model_init = fracas_surface_model_init, .check_strength = fracas_surface_check_strength,   \
+    .interface_volume = fracas_surface_interface_volume,                                        \
+    .plan_destroy = fracas_surface_tables_destroy, .state_size = fracas_surface_state_size,     \
+    .divide = fracas_surface_model_divide, .division_destroy = fracas_surface_division_destroy, \
+    .strength = fracas_surface_strength, .lane_init = fracas_surface_lane_init,                 \
+    .advance = fracas_surface_advance, .fragment_count = fracas_surface_fragment_count,         \
+    .partition = fracas_surface_partition, .add_up = fracas_surface_add_up,                     \
     .harvest = fracas_surface_harvest
 
 #endif

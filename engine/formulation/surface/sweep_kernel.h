@@ -9,19 +9,24 @@
 
 /* ---- interfaces ---- */
 
-/* Books the events at an interface, lane by lane. */
+/* Books the events at an interface, lane by lane; a ghost's are another part's. */
 __attribute__((noinline, cold, unused)) static void
-surface_book(const surface_context *c, int points, size_t i, const vmask *cracks,
-             const vmask *breaks, vmask opens, vmask parts)
+surface_book(const surface_context *c, int points, const fracas_surface_join *join,
+             const vmask *cracks, const vmask *breaks, vmask opens, vmask parts)
 {
-    for (int l = 0; l < LANES; l++) {
-        fracas_surface_event event = {.opens = lanes_get(opens, l), .parts = lanes_get(parts, l)};
+    for (int l = 0; l < LANES && !c->ghost; l++) {
+        fracas_surface_event event = {.interface = join->interface,
+                                      .lane = c->first + l,
+                                      .element = {surface_place(c, join->element[0]) + l,
+                                                  surface_place(c, join->element[1]) + l},
+                                      .fields = surface_place(c, join->at) + l,
+                                      .opens = lanes_get(opens, l),
+                                      .parts = lanes_get(parts, l)};
         for (int p = 0; p < points; p++) {
             event.cracks[p] = lanes_get(cracks[p], l);
             event.breaks[p] = lanes_get(breaks[p], l);
         }
-        if (event.opens || event.parts)
-            fracas_surface_book(c->constants, c->step, c->first + l, i, &event);
+        if (event.opens || event.parts) fracas_surface_book(c->constants, c->step, &event);
     }
 }
 
@@ -47,13 +52,14 @@ LANES_FUNCTION plane_interface surface_interface(const fracas_surface_constants 
 /* An interface at which some lane is cracked, or is about to (shell.14). `at` holds the flux of the
  * other lanes. False where it was called for a calm step and some lane has an onset or a break in
  * it: then nothing but `at` has changed. `calm` is a constant of each call. */
-LANES_FUNCTION int surface_crack(surface_context *c, int order, int law, int calm, size_t i,
-                                 double *fields, const double *strength, BODY(point) at[3])
+LANES_FUNCTION int surface_crack(surface_context *c, int order, int law, int calm,
+                                 const fracas_surface_join *join, double *fields,
+                                 const double *strength, BODY(point) at[3])
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
     const fracas_surface_constants *s = c->constants;
     const int points = SURFACE_EDGE(order);
-    const double *table = surface_table(c, order, i);
+    const double *table = surface_table(c, order, join->interface);
     plane_interface interface = surface_interface(s, table, calm);
     vmask cracks[3 * BODY_LAYERS], breaks[3 * BODY_LAYERS];
     vmask whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(one, zero), parts = opens;
@@ -96,18 +102,20 @@ LANES_FUNCTION int surface_crack(surface_context *c, int order, int law, int cal
     opens = lanes_and(opens, whole);  /* the first of its points */
     parts = lanes_and(parts, broken); /* the last */
     if (__builtin_expect(lanes_any(lanes_or(opens, parts)), 0))
-        surface_book(c, points * BODY_LAYERS, i, cracks, breaks, opens, parts);
+        surface_book(c, points * BODY_LAYERS, join, cracks, breaks, opens, parts);
     return 1;
 }
 
-/* Interface i: tractions at its Gauss points, and their forces on its elements. False where it was
+/* An interface: tractions at its Gauss points, and their forces on its elements. False where it was
  * called for a calm step and that fails: then nothing has changed. */
-LANES_FUNCTION int surface_join(surface_context *c, int order, int law, int calm, size_t i)
+LANES_FUNCTION int surface_join(surface_context *c, int order, int law, int calm,
+                                const fracas_surface_join *join)
 {
+    const size_t i = join->interface;
     const fracas_surface_constants *s = c->constants;
     const int points = SURFACE_EDGE(order);
-    const surface_sides sides = surface_sides_of(c, order, i);
-    double *fields = c->interfaces + i * c->interface_size;
+    const surface_sides sides = surface_sides_of(c, order, join);
+    double *fields = surface_place(c, join->at);
     const double *strength = c->strengths + i * c->strengths_size;
     BODY(point) at[3];
     BODY(flux)(c, order, i, &sides, at);
@@ -130,7 +138,7 @@ LANES_FUNCTION int surface_join(surface_context *c, int order, int law, int calm
     }
     const vd floor = lanes_set(0.999 * (s->beta_c < 1.0 ? s->beta_c : 1.0)) * weakest;
     if (lanes_any(lanes_or(lanes_lt(lanes_set(0.0), touched), lanes_lt(floor * floor, largest)))) {
-        if (!surface_crack(c, order, law, calm, i, fields, strength, at)) return 0;
+        if (!surface_crack(c, order, law, calm, join, fields, strength, at)) return 0;
     } else {
         const double *place = surface_table(c, order, i) + BODY_HEAD;
         vd flux = lanes_set(0.0);
@@ -192,11 +200,13 @@ LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size
     }
 }
 
-/* Forces and kick of element e, and its share of kinetic energy. */
-LANES_FUNCTION void surface_finish(surface_context *c, int order, int law, size_t e)
+/* Forces and kick of an element, and its share of kinetic energy. */
+LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
+                                   const fracas_surface_finish *finish)
 {
     const int size = BODY_SIZE(order);
-    double *at = c->elements + e * c->element_size, *slot = surface_slot(c, order, e);
+    const size_t e = finish->element;
+    double *at = surface_place(c, finish->at), *slot = surface_place(c, finish->slot);
     vd force[18], v[18], a[18], after[18];
     UNROLL_FOR (int i = 0; i < size; i++)
         force[i] = lanes_load(surface_at(slot, BODY_SLOT_FORCE(order) + i));
@@ -235,42 +245,42 @@ LANES_FUNCTION void surface_fetch(const void *from, size_t size)
     for (size_t at = 0; at < size; at += 64) __builtin_prefetch((const char *)from + at);
 }
 
-/* Has the CPU fetch element e and its interfaces, before their turn comes: their memory is far
+/* Has the CPU fetch an element and its interfaces, before their turn comes: their memory is far
  * away, and each visit is long. */
-LANES_FUNCTION void surface_fetch_turn(const surface_context *c, int order, size_t e)
+LANES_FUNCTION void surface_fetch_turn(const surface_context *c, int order,
+                                       const fracas_surface_turn *turn,
+                                       const fracas_surface_join *join)
 {
     const fracas_surface_tables *t = c->tables;
-    const size_t nodes = (size_t)SURFACE_NODES(order);
-    surface_fetch(c->elements + e * c->element_size, c->element_size * sizeof(double));
+    const size_t nodes = (size_t)SURFACE_NODES(order), e = turn->element;
+    surface_fetch(surface_place(c, turn->at), c->element_size * sizeof(double));
     surface_fetch(surface_bulk(c, order, e),
                   SURFACE_BULK(order) * BODY_BULK_TABLE * sizeof(double));
     surface_fetch(t->lumped + 2 * nodes * e, 2 * nodes * sizeof(double));
-    for (size_t j = t->visits.join_from[e]; j < t->visits.join_from[e + 1]; j++) {
-        const size_t i = t->visits.join[j];
+    for (size_t j = turn[-1].join_end; j < turn->join_end; j++) {
+        const size_t i = join[j].interface;
         surface_fetch(surface_table(c, order, i),
                       (BODY_HEAD + SURFACE_EDGE(order) * BODY_POINT_TABLE) * sizeof(double));
-        surface_fetch(c->interfaces + i * c->interface_size, c->interface_size * sizeof(double));
+        surface_fetch(surface_place(c, join[j].at), c->interface_size * sizeof(double));
         surface_fetch(c->strengths + i * c->strengths_size, c->strengths_size * sizeof(double));
     }
 }
 
 /* An interface with friction, or with an onset or a break in this step. */
-typedef void surface_stirred(surface_context *context, size_t interface);
+typedef void surface_stirred(surface_context *context, const fracas_surface_join *join);
 
 LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *step, int first,
-                                int order, int law, surface_stirred *stirred)
+                                size_t number, int order, int law, surface_stirred *stirred)
 {
-    const vd zero = lanes_set(0.0);
-    const fracas_surface_tables *t = s->tables;
-    double *state = step->state + (size_t)first * fracas_surface_state_fields(s);
+    const fracas_surface_division *division = step->division.plan;
+    const fracas_surface_part *part = &division->part[number];
+    double *state = step->state + (size_t)first * division->fields;
     surface_context context = {.constants = s,
-                               .tables = t,
+                               .tables = s->tables,
                                .step = step,
                                .first = first,
-                               .elements = state,
-                               .interfaces = state + fracas_surface_interfaces_at(s) * LANES,
-                               .slots = state + fracas_surface_slots_at(s) * LANES,
-                               .sums = state + fracas_surface_sums_at(s) * LANES,
+                               .state = state,
+                               .sums = state + division->sums * LANES,
                                .element_size = fracas_surface_element_fields(s) * LANES,
                                .interface_size = fracas_surface_interface_fields(s) * LANES,
                                .strengths = state + fracas_surface_strengths_at(s) * LANES,
@@ -278,21 +288,25 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
                                .strength_step = s->strengths > 1 ? LANES : 0,
                                .drift = lanes_load(step->drift + first),
                                .kick = lanes_load(step->kick + first),
-                               .begins = lanes_le(lanes_load(step->drift + first), zero),
+                               .begins = lanes_le(lanes_load(step->drift + first), lanes_set(0.0)),
                                .spin = lanes_load(step->spin + first)};
     surface_context *c = &context;
-    for (size_t e = 0; e < t->nelements; e++) {
-        double *at = c->elements + e * c->element_size;
-        if (e % SURFACE_BLOCK == 0) surface_begin_block(c, e);
-        if (e + 1 < t->nelements) surface_fetch_turn(c, order, e + 1);
+    const fracas_surface_join *join = part->join;
+    const fracas_surface_finish *finish = part->finish;
+    for (const fracas_surface_turn *turn = part->turn; turn < part->turn + part->turns; turn++) {
+        const size_t e = turn->element;
+        double *at = surface_place(c, turn->at);
+        c->ghost = turn->ghost;
+        if (turn + 1 < part->turn + part->turns) surface_fetch_turn(c, order, turn + 1, part->join);
+        if (!c->ghost && e % SURFACE_BLOCK == 0) surface_begin_block(c, e);
         if (law != SURFACE_OPERATOR) surface_drift(&s->motion, c->drift, BODY_SIZE(order), at);
-        surface_enter(c, order, e, at, surface_slot(c, order, e));
-        for (size_t j = t->visits.join_from[e]; j < t->visits.join_from[e + 1]; j++)
-            if (s->friction || !surface_join(c, order, law, 1, t->visits.join[j]))
-                stirred(c, t->visits.join[j]);
-        for (size_t f = t->visits.finish_from[e]; f < t->visits.finish_from[e + 1]; f++)
-            surface_finish(c, order, law, t->visits.finish[f]);
-        if ((e + 1) % SURFACE_BLOCK == 0 || e + 1 == t->nelements) surface_end_block(c, e);
+        surface_enter(c, order, e, at, surface_place(c, turn->slot));
+        for (; join < part->join + turn->join_end; join++)
+            if (s->friction || !surface_join(c, order, law, 1, join)) stirred(c, join);
+        for (; finish < part->finish + turn->finish_end; finish++)
+            surface_finish(c, order, law, finish);
+        if (!c->ghost && ((e + 1) % SURFACE_BLOCK == 0 || e + 1 == s->tables->nelements))
+            surface_end_block(c, e);
     }
 }
 
@@ -302,7 +316,7 @@ LANES_FUNCTION void surface_look(const fracas_surface_constants *s, int order, s
                                  fracas_surface_view *view)
 {
     surface_context c = {.constants = s, .tables = s->tables};
-    surface_sides sides = surface_places(s->tables, order, i);
+    surface_sides sides = surface_edges(order, s->tables->edge[i]);
     const double *table = surface_table(&c, order, i);
     plane_interface interface = surface_interface(s, table, 0);
     double slot[2][BODY_SLOT(2)];
@@ -336,13 +350,15 @@ LANES_FUNCTION double surface_strain(const fracas_surface_constants *s, int orde
 #endif
 
 #define SURFACE_SWEEP(name, order, law)                                                       \
-    __attribute__((noinline)) static void name##_stirred(surface_context *c, size_t i)        \
+    __attribute__((noinline)) static void name##_stirred(surface_context *c,                  \
+                                                         const fracas_surface_join *join)     \
     {                                                                                         \
-        surface_join(c, order, law, 0, i);                                                    \
+        surface_join(c, order, law, 0, join);                                                 \
     }                                                                                         \
-    static void name(const fracas_surface_constants *constants, fracas_step *step, int first) \
+    static void name(const fracas_surface_constants *constants, fracas_step *step, int first, \
+                     size_t part)                                                             \
     {                                                                                         \
-        surface_run(constants, step, first, order, law, name##_stirred);                      \
+        surface_run(constants, step, first, part, order, law, name##_stirred);                \
     }
 #define SURFACE_LOOK(name, order, law)                                    \
     static void name(const fracas_surface_constants *constants, size_t i, \

@@ -16,7 +16,6 @@ void fracas_surface_tables_destroy(void *p)
                            t->interface, t->element, t->edge,       t->held,
                            t->fixed,     t->rim,     t->rim_edge,   t->rim_from};
     for (size_t i = 0; i < FRACAS_COUNT(owned); i++) free(owned[i]);
-    fracas_surface_visits_clear(&t->visits);
     free(t);
 }
 
@@ -215,7 +214,7 @@ static fracas_err fill(const fracas_model *model, fracas_surface_tables *t)
     TRY(fill_edges(model, t));
     for (size_t e = 0; e < t->nelements; e++) fill_element(model, t, e);
     for (size_t i = 0; i < t->ninterfaces; i++) fill_interface(model, t, i);
-    return fracas_surface_visits_init(&t->visits, model->surface);
+    return FRACAS_OK;
 }
 
 fracas_err fracas_surface_tables_create(const fracas_model *model, fracas_surface_tables **tables)

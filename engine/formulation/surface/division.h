@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A surface divided into parts, which are computed at once, and the order in which each part visits
+ * its elements and interfaces in one pass: an element has its turn, then come the interfaces with
+ * elements before it, then the elements that have all their interfaces by then are finished.
+ *
+ * A part is a range of consecutive elements, whole blocks of sums. Elements of other parts that
+ * share an interface with it are its ghosts: it has copies of their displacements and velocities,
+ * takes their turns in the same order, and drops their forces. Both parts compute the interfaces
+ * between them, from the same numbers in the same order; the one with the second element counts
+ * events and energies. So nothing but the copies goes between parts, once a step, and no bit
+ * depends on their number. */
+#ifndef FRACAS_ENGINE_FORMULATION_SURFACE_DIVISION_H
+#define FRACAS_ENGINE_FORMULATION_SURFACE_DIVISION_H
+
+#include "base/err.h"
+#include "base/own.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct fracas_surface_constants;
+
+/* Places in a group's memory are counted in fields from its start (surface.h). */
+typedef struct {
+    uint32_t element;              /* its number */
+    uint32_t at, slot;             /* places of its fields, and of its stresses and forces */
+    uint32_t join_end, finish_end; /* its interfaces and finished elements begin with the ends of
+                                      the turn before */
+    bool ghost;
+} fracas_surface_turn;
+
+typedef struct {
+    uint32_t interface; /* its number */
+    uint32_t at;        /* place of its fields */
+    uint32_t element[2], slot[2];
+    uint8_t edge[2]; /* which of its elements' edges */
+} fracas_surface_join;
+
+typedef struct {
+    uint32_t element, at, slot;
+} fracas_surface_finish;
+
+/* Fields to be copied before a step. */
+typedef struct {
+    uint32_t from, to, count;
+} fracas_surface_copy;
+
+typedef struct {
+    size_t turns, copies;
+    fracas_surface_turn *turn;
+    fracas_surface_join *join;
+    fracas_surface_finish *finish;
+    fracas_surface_copy *copy;
+} fracas_surface_part;
+
+typedef struct {
+    size_t parts;
+    fracas_surface_part *part;
+    size_t sums;   /* place of the sums of all blocks */
+    size_t fields; /* a lane's, in a group's memory */
+} fracas_surface_division;
+
+/* Divides a body into `parts`, or as many as it has blocks. FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err
+fracas_surface_division_create(const struct fracas_surface_constants *constants, size_t parts,
+                               fracas_surface_division **division);
+void fracas_surface_division_destroy(void *division); /* NULL is allowed */
+
+#endif

@@ -1,0 +1,66 @@
+# One body on several cores: study.h5 is the same, byte for byte, for parts 1, 2, 3, 4 and 7, lanes 1 and 8, and across a kill and a
+# resume from a checkpoint with other parts. Cracks run through the cuts: invariant/shell_cracks.
+. tests/support/campaigns.sh
+
+# bodies PARTS: a sphere's octant of 484 elements, and a plate of linear triangles; 0: the run chooses.
+bodies()
+{
+    cat > "bodies-$1.yaml" <<END
+name: bodies
+seed: 5
+model: shell
+geometry: {shape: sphere, part: octant, radius: 2 mm, thickness: 0.2 mm}
+mesh: {divisions: 22, amplitude: 0.1}
+material: {young: 370 GPa, poisson: 0.25, density: 3900 kg/m3}
+cohesive: {fracture_energy: 100 J/m2}
+strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}
+loading: {rate: 3e4 1/s}
+time: {end: 0.1 us}
+replicas: 1
+output: {history: 20, interfaces: true}
+sweep:
+  - cases:
+      - {name: octant}
+      - {name: plate, model: membrane, geometry: {shape: plate, width: 10 mm, height: 5 mm, thickness: 0.1 mm}, mesh: {divisions: 12}, cohesive: {fracture_energy: 50 J/m2}, time: {end: 0.4 us}}
+END
+    [ "$1" = 0 ] || echo "parallel: {parts: $1}" >> "bodies-$1.yaml"
+}
+
+# alone ARGUMENTS...: `fracas run` as one rank that a person has started: without the launcher's look at the cores.
+alone()
+{
+    (launch -n 1 "$fracas" run "$@")
+}
+
+bodies 1
+expect 0 "$fracas" run bodies-1.yaml --study one --jobs 1
+h5dump -d /realization/broken one/study.h5 | grep -q '(0): [1-9][0-9]*, [1-9][0-9]*$' || fail "not both bodies broke"
+! grep -q parallel one/campaign.yaml || fail "campaign.yaml says how it was computed"
+for parts in 2 3 4 7; do
+    bodies $parts
+    expect 0 alone bodies-$parts.yaml --study "parts-$parts" --lanes $((parts % 2 ? 1 : 8))
+    same one "parts-$parts"
+done
+bodies 0
+expect 0 "$fracas" run bodies-0.yaml --study chosen
+same one chosen
+
+# The launcher keeps to the cores of this machine.
+bodies 1000
+expect 2 "$fracas" run bodies-1000.yaml --study many
+said 'parallel.parts 1000 are 1000 threads'
+[ ! -e many ] || fail "a study was begun"
+
+# Killed, and resumed in other parts.
+start bodies-1.yaml --study killed --jobs 1 --checkpoint-time 0.01
+polls=0
+while [ -z "$(find killed/checkpoints -name '*-?' 2>/dev/null)" ]; do
+    polls=$((polls + 1))
+    [ $polls -lt 3000 ] || fail "no checkpoint"
+    sleep 0.02
+done
+kill_session
+[ ! -e killed/study.h5 ] || fail "it was over before it was killed"
+expect 0 alone bodies-3.yaml --study killed
+same one killed
+echo "parts 1, 2, 3, 4, 7, chosen ones, and a resume in others: the same bytes"
