@@ -5,6 +5,12 @@
 
 const char *const fracas_isa_name[FRACAS_NISAS] = {"baseline", "avx2", "avx512"};
 
+#ifdef __clang__
+const char *const fracas_kernel_compiler = "clang " __clang_version__;
+#else
+const char *const fracas_kernel_compiler = "gcc " __VERSION__;
+#endif
+
 #define BUILT(type, name, isa, ISA, lanes) [FRACAS_ISA_##ISA][lanes] = true,
 static const bool built[FRACAS_NISAS][FRACAS_LANES_MAX + 1] = {FRACAS_EACH_KERNEL(BUILT, , )};
 

@@ -2,6 +2,7 @@
 /* The program fracas. */
 #include "cli/cli.h"
 
+#include "base/isa.h"
 #include "base/text.h"
 #include "base/version.h"
 #include "campaigns/campaign.h"
@@ -39,7 +40,7 @@ static void print_usage(FILE *out)
         fprintf(out, "  fracas %-17s %s\n", call, commands[i]->doc);
     }
     fputs("  fracas help COMMAND      what COMMAND does, and its options\n"
-          "  fracas --version         the version\n",
+          "  fracas --version         the version, and what computes here\n",
           out);
 }
 
@@ -113,7 +114,10 @@ static fracas_err dispatch(int argc, char **argv)
     if (!strcmp(argv[1], "help") || !strcmp(argv[1], "--help") || !strcmp(argv[1], "-h"))
         return help(argc, argv);
     if (!strcmp(argv[1], "--version")) {
-        puts("fracas " FRACAS_VERSION);
+        fracas_isa isa;
+        TRY(fracas_isa_choose(FRACAS_ISA_BEST, &isa));
+        printf("fracas " FRACAS_VERSION "\nkernels for %s by %s\n", fracas_isa_name[isa],
+               fracas_kernel_compiler);
         return FRACAS_OK;
     }
     return run_command(argc, argv);

@@ -151,10 +151,10 @@ compare()
 compare_compilers()
 {
     [ "$for_compilers" = yes ] || return 0
-    version=$("$fracas" --version)
+    version=$("$fracas" --version | sed -n 1p)
     fracas=$source/build/clang/fracas
     [ -x "$fracas" ] || { echo "skipped: there is no build/clang/fracas"; exit 77; }
-    [ "$("$fracas" --version)" = "$version" ] || fail "build/clang has $("$fracas" --version), this is $version: build it again"
+    [ "$("$fracas" --version | sed -n 1p)" = "$version" ] || fail "build/clang has $("$fracas" --version), this is $version: build it again"
     compare "$1" --jobs 2
     exit 0
 }

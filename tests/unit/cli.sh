@@ -26,6 +26,7 @@ says() {
 }
 
 says 0 out 'fracas 0.' --version
+says 0 out 'kernels for ' --version
 says 0 out 'fracas run FILE' --help
 says 0 out 'fracas verify STUDY' help
 says 0 out 'fracas verify STUDY' help help
