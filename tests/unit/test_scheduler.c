@@ -356,7 +356,7 @@ static void rows_may_need_nothing(void **state)
 }
 
 /* The last realizations have the workers that would be idle: workers / (waiting + busy) each, or
- * the parts that are asked for. */
+ * the parts that are asked for; one if it failed. */
 static void a_body_gets_idle_workers(void **state)
 {
     enum { CORES = 8 };
@@ -371,6 +371,11 @@ static void a_body_gets_idle_workers(void **state)
                 if (!next(scheduler, worker, 0, &lease)) continue;
                 assert_int_equal(lease.parts, wanted ? wanted : count < CORES ? CORES / count : 1);
             }
+            if (count > 1) continue;
+            bool final;
+            OK(fracas_scheduler_failed(scheduler, 0, lease.id, 0, 0, 1, &lease, &final));
+            assert_true(next(scheduler, 0, 0, &lease));
+            assert_int_equal(lease.parts, wanted ? wanted : 1);
             assert_int_equal(fracas_scheduler_count(scheduler).total, count);
         }
 }

@@ -36,12 +36,16 @@ static int slurm_tasks(void)
     return cores ? (int)fracas_allocation_sum(cores) : 0;
 }
 
+int fracas_allocation_cores(void)
+{
+    cpu_set_t set;
+    return sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set);
+}
+
 fracas_err fracas_allocation_jobs(int wanted, int64_t parts, int *jobs)
 {
     enum { MOST_A_CORE = 32 };
-    cpu_set_t set;
-    const int cores = sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set),
-              tasks = slurm_tasks();
+    const int cores = fracas_allocation_cores(), tasks = slurm_tasks();
     const int64_t most = parts > 1 ? cores / parts : cores;
     *jobs = wanted ? wanted : tasks ? tasks : most > 1 ? (int)most : 1;
     if (!tasks && parts > 1 && *jobs * parts > cores)

@@ -10,6 +10,9 @@
 /* Sum of a list as Slurm writes it, "16(x2),8" = 40; 0 if it is none. */
 long fracas_allocation_sum(const char *list);
 
+/* Cores that this process may use. */
+int fracas_allocation_cores(void);
+
 /* *jobs = `wanted`; if 0, in a Slurm job its tasks (or cores, if it has no number of tasks), else
  * the cores available to this process over `parts`, the threads of a job (0: 1). FRACAS_USAGE
  * outside Slurm when `wanted` is far above the cores, as after a typing error, or has several parts

@@ -2,6 +2,7 @@
 #include "campaigns/scheduler/worker/solve.h"
 
 #include "campaigns/plan/point_model.h"
+#include "campaigns/scheduler/launch/allocation.h"
 #include "campaigns/scheduler/worker/interim.h"
 
 static fracas_err fill_strengths(const fracas_computation *computation, const int64_t *replica,
@@ -18,6 +19,13 @@ static fracas_err fill_strengths(const fracas_computation *computation, const in
     return FRACAS_OK;
 }
 
+/* Parts that the run chooses are no more than this process has cores. */
+static int parts_of(const fracas_computation *computation)
+{
+    const int parts = (int)computation->lease->parts, cores = fracas_allocation_cores();
+    return computation->campaign->parallel.parts || parts < cores ? parts : cores;
+}
+
 fracas_err fracas_solve(const fracas_computation *computation, const int64_t *replica, size_t count,
                         fracas_record *record)
 {
@@ -27,7 +35,7 @@ fracas_err fracas_solve(const fracas_computation *computation, const int64_t *re
         .interfaces = computation->campaign->output.interfaces,
         .width = computation->options->width,
         .isa = computation->options->isa,
-        .parts = (int)computation->lease->parts,
+        .parts = parts_of(computation),
         .watch = fracas_interim_watch(&interim, computation, replica, count)};
     OWN(fracas_batch) batch = NULL;
     TRY(fracas_batch_create(computation->model, count, &options, &batch));
