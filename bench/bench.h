@@ -4,25 +4,11 @@
 #define FRACAS_BENCH_BENCH_H
 
 #include "base/err.h"
+#include "bench/kernels/timing.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <time.h>
-
-/* s, from any moment on. */
-static inline double seconds_of(clockid_t clock)
-{
-    struct timespec t;
-    clock_gettime(clock, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static inline int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
 
 /* Ends the program with the message of an error. */
 static inline void demand(fracas_err err)

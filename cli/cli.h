@@ -43,7 +43,7 @@ extern const fracas_command fracas_command_run, fracas_command_plan, fracas_comm
     fracas_command_sample, fracas_command_distributions, fracas_command_reference,
     fracas_command_reindex, fracas_command_merge, fracas_command_gc, fracas_command_extend,
     fracas_command_retry, fracas_command_merge_studies, fracas_command_compare,
-    fracas_command_submit, fracas_command_converge, fracas_command_fit;
+    fracas_command_submit, fracas_command_converge, fracas_command_fit, fracas_command_bench;
 
 struct fracas_arguments {
     const fracas_command *command;

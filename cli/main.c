@@ -23,7 +23,7 @@ static const fracas_command *const commands[] = {
     &fracas_command_sample,        &fracas_command_distributions, &fracas_command_reference,
     &fracas_command_extend,        &fracas_command_retry,         &fracas_command_merge,
     &fracas_command_merge_studies, &fracas_command_reindex,       &fracas_command_gc,
-    &fracas_command_submit,        &fracas_command_converge,
+    &fracas_command_submit,        &fracas_command_converge,      &fracas_command_bench,
 };
 enum { NCOMMANDS = sizeof commands / sizeof *commands };
 

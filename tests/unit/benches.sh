@@ -22,3 +22,15 @@ done
 gives 4 "$build/bench_field" 60 2
 gives 8 "$build/bench_cluster" workers=2 work=10 task=0.1
 [ "$("$build/bench_stream" neighbours | head -c 4096 | wc -c)" = 4096 ] || { echo "bench_stream gives no bits"; exit 1; }
+# `fracas bench`: each body, with its operations, bytes and shares; a case that is measured beside its own speed has lost nothing.
+"$build/fracas" bench kernels --only /400/baseline-1/ --repeats 1 --json > "${TMPDIR:-/tmp}/kernels.$$"
+python3 - "${TMPDIR:-/tmp}/kernels.$$" <<'END' || { echo "fracas bench kernels gives no figures"; exit 1; }
+import json, sys
+cases = json.load(open(sys.argv[1]))["cases"]
+assert len(cases) == 12, len(cases)
+for case in cases:
+    spread = case["element_steps_per_second"]
+    assert 0 < spread["low"] <= spread["median"] <= spread["high"], case
+    assert case["bytes"] > 0 and 0 < case["share_of_multiply_add"] < 1 and 0 <= case["share_of_divider"] < 1.1, case
+END
+rm "${TMPDIR:-/tmp}/kernels.$$"

@@ -42,6 +42,8 @@ says 2 err 'there are: run, plan, status' complexity
 says 2 err 'run: FILE is missing' run
 says 2 err 'one argument too many: `b.yaml`' run a.yaml b.yaml
 says 2 err 'one argument too many: `x`' reference x
+says 2 err '`kernel` is nothing to measure; there is: kernels' bench kernel
+says 2 err 'no case has `avx1024` in its name; one is ring/2500/' bench kernels --only avx1024
 says 2 err 'unknown option `--jbos`; did you mean `--jobs`?' run a.yaml --jbos 2
 says 2 err 'unknown option `--studdy=x`; did you mean `--study`?' run a.yaml --studdy=x
 says 2 err 'unknown option `--forc`; did you mean `--force`?' run a.yaml --forc # no abbreviations: they may be another program's

@@ -3,6 +3,7 @@
 
 #include "campaigns/store/checkpoint.h"
 
+#include "base/cpu.h"
 #include "base/json.h"
 #include "base/version.h"
 #include "campaigns/scheduler/types/clock.h"
@@ -46,24 +47,10 @@ static const char compiler[] = __VERSION__; /* names itself */
 static const char compiler[] = "gcc " __VERSION__;
 #endif
 
-static void read_cpu(char *model, size_t size)
-{
-    snprintf(model, size, "unknown");
-    OWN(FILE) file = fopen("/proc/cpuinfo", "r");
-    char line[256];
-    while (file && fgets(line, sizeof line, file)) {
-        const char *value = strchr(line, ':');
-        if (strncmp(line, "model name", 10) || !value) continue;
-        line[strcspn(line, "\n")] = '\0';
-        snprintf(model, size, "%s", value + 1 + strspn(value + 1, " "));
-        return;
-    }
-}
-
 static void write_versions(fracas_json *json)
 {
     char cpu[256], hdf5[32], mpi[128];
-    read_cpu(cpu, sizeof cpu);
+    fracas_cpu_name(cpu, sizeof cpu);
     fracas_hdf5_version(hdf5);
     fracas_mailbox_version(mpi, sizeof mpi);
     fracas_json_text(json, "version", FRACAS_VERSION);
