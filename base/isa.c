@@ -6,7 +6,7 @@
 const char *const fracas_isa_name[FRACAS_NISAS] = {"baseline", "avx2", "avx512"};
 
 #ifdef __clang__
-const char *const fracas_kernel_compiler = "clang " __clang_version__;
+const char *const fracas_kernel_compiler = __VERSION__; /* names itself */
 #else
 const char *const fracas_kernel_compiler = "gcc " __VERSION__;
 #endif

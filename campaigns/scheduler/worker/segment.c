@@ -4,6 +4,7 @@
 #include "campaigns/store/checkpoint.h"
 
 #include "base/cpu.h"
+#include "base/isa.h"
 #include "base/json.h"
 #include "base/version.h"
 #include "campaigns/scheduler/types/clock.h"
@@ -41,12 +42,6 @@ double fracas_segment_wait(const fracas_segment *segment, const fracas_run_optio
 
 /* ---- provenance ---- */
 
-#ifdef __clang__
-static const char compiler[] = __VERSION__; /* names itself */
-#else
-static const char compiler[] = "gcc " __VERSION__;
-#endif
-
 static void write_versions(fracas_json *json)
 {
     char cpu[256], hdf5[32], mpi[128];
@@ -54,7 +49,7 @@ static void write_versions(fracas_json *json)
     fracas_hdf5_version(hdf5);
     fracas_mailbox_version(mpi, sizeof mpi);
     fracas_json_text(json, "version", FRACAS_VERSION);
-    fracas_json_text(json, "compiler", compiler);
+    fracas_json_text(json, "compiler", fracas_kernel_compiler);
     fracas_json_text(json, "hdf5", hdf5);
     fracas_json_text(json, "sqlite", fracas_sqlite_version());
     fracas_json_text(json, "mpi", mpi);
