@@ -39,8 +39,8 @@ END2
 fake ignoring env --ignore-signal=CHLD <<'END2'
 echo '@fracas end 6 1 0 enough'
 END2
-# As another user, where this is the superuser.
-if [ "$(id -u)" -eq 0 ] && setpriv --reuid 65534 --clear-groups true 2> /dev/null; then
+# As another user, where this is the superuser and others may run the program.
+if [ "$(id -u)" -eq 0 ] && setpriv --reuid 65534 --clear-groups sh -c '"$1" --version' sh "$fracas" > /dev/null 2>&1; then
     chmod 755 .
     mkdir other && chmod 777 other
     fake other setpriv --reuid 65534 --clear-groups sh -c 'OMPI_ALLOW_RUN_AS_ROOT= exec "$@"' sh <<'END2'
