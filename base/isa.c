@@ -6,9 +6,9 @@
 const char *const fracas_isa_name[FRACAS_NISAS] = {"baseline", "avx2", "avx512"};
 
 #ifdef __clang__
-const char *const fracas_kernel_compiler = __VERSION__; /* names itself */
+const char *const fracas_compiler = __VERSION__; /* names itself */
 #else
-const char *const fracas_kernel_compiler = "gcc " __VERSION__;
+const char *const fracas_compiler = "gcc " __VERSION__;
 #endif
 
 #define BUILT(type, name, isa, ISA, lanes) [FRACAS_ISA_##ISA][lanes] = true,

@@ -28,7 +28,7 @@ extern const char *const fracas_isa_name[FRACAS_NISAS]; /* "baseline", "avx2", "
 FRACAS_MUST_USE fracas_err fracas_isa_choose(fracas_isa wanted, fracas_isa *isa);
 
 /* The compiler of this program, "gcc 12.2.0". */
-extern const char *const fracas_kernel_compiler;
+extern const char *const fracas_compiler;
 
 /* The widest kernel of an instruction set that fracas_isa_choose returned, of at most `width`
  * lanes: 1, 4 or 8. A wider batch takes its lanes in groups. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A fixed number of threads that run one task together, again and again. Who waits sleeps. */
+/* A fixed number of threads for one task after another, together. A waiting one sleeps. */
 #ifndef FRACAS_BASE_TEAM_H
 #define FRACAS_BASE_TEAM_H
 
@@ -11,9 +11,9 @@
 typedef struct fracas_team fracas_team;
 typedef void fracas_team_task(void *context, size_t member);
 
-/* The caller is member 0; members 1 .. members - 1 are threads that take no signals.
- * *team is NULL for one member, and all functions here take that. FRACAS_ENVIRONMENT if no thread
- * can be had. */
+/* The caller is member 0; members 1 .. members - 1 are threads without signals. *team is
+ * NULL for one member; all functions here take NULL. FRACAS_ENVIRONMENT if a thread cannot start.
+ */
 FRACAS_MUST_USE fracas_err fracas_team_create(size_t members, fracas_team **team);
 void fracas_team_destroy(fracas_team *team); /* NULL is allowed */
 FRACAS_OWNER(fracas_team, fracas_team_destroy)

@@ -117,7 +117,7 @@ static fracas_err dispatch(int argc, char **argv)
         fracas_isa isa;
         TRY(fracas_isa_choose(FRACAS_ISA_BEST, &isa));
         printf("fracas " FRACAS_VERSION "\nkernels for %s by %s\n", fracas_isa_name[isa],
-               fracas_kernel_compiler);
+               fracas_compiler);
         return FRACAS_OK;
     }
     return run_command(argc, argv);

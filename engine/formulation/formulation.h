@@ -34,8 +34,8 @@ struct fracas_model {
 
 /* How the parts of a body are computed at once: the formulation's own plan. */
 typedef struct {
-    size_t parts;  /* 1 of bodies that are not divided */
-    size_t fields; /* doubles of a lane's memory: its state, then what no step leaves to the next */
+    size_t parts;  /* 1: it is not divided */
+    size_t fields; /* doubles of a lane's memory: its state, then room within a step */
     void *plan;    /* freed by division_destroy; NULL: none */
 } fracas_division;
 

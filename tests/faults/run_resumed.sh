@@ -10,12 +10,7 @@ expect 0 "$fracas" run long.yaml --study whole --jobs 1
 begin()
 {
     start long.yaml --study "$1" --jobs 1 --checkpoint-time 0.01
-    polls=0
-    while [ "$(find "$1/checkpoints" -name '*-?' 2>/dev/null | wc -l)" -lt 5 ]; do
-        polls=$((polls + 1))
-        [ $polls -lt 3000 ] || fail "no checkpoints of $1"
-        sleep 0.02
-    done
+    wait_checkpoints "$1" 5
 }
 
 # steps STUDY: of the checkpoint of replica 0.

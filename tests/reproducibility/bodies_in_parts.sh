@@ -33,14 +33,29 @@ alone()
     (launch -n 1 "$fracas" run "$@")
 }
 
+# lease_threads STUDY: the most of the processes that compute its leases; 0: there is none.
+lease_threads()
+{
+    for process in $(grep -ls '^fracas-lease' /proc/[0-9]*/comm); do
+        ! tr '\0' ' ' 2>/dev/null < "${process%comm}cmdline" | grep -q -e "$1" || find "${process%comm}task" -mindepth 1 -maxdepth 1 2>/dev/null | wc -l
+    done 2>/dev/null | sort -n | awk '{most = $1} END {print most + 0}'
+}
+
 bodies 1
 expect 0 "$fracas" run bodies-1.yaml --study one --jobs 1
 h5dump -d /realization/broken one/study.h5 | grep -q '(0): [1-9][0-9]*, [1-9][0-9]*$' || fail "not both bodies broke"
 ! grep -q parallel one/campaign.yaml || fail "campaign.yaml says how it was computed"
 for parts in 2 3 4 7; do
     bodies $parts
-    expect 0 alone bodies-$parts.yaml --study "parts-$parts" --lanes $((parts % 2 ? 1 : 8))
-    same one "parts-$parts"
+    alone bodies-$parts.yaml --study "in-$parts-parts" --lanes $((parts % 2 ? 1 : 8)) > said 2>&1 &
+    threads=0
+    while kill -0 $! 2>/dev/null; do
+        now=$(lease_threads "in-$parts-parts")
+        [ "$now" -le "$threads" ] || threads=$now
+    done
+    wait $! || fail "$(cat said)"
+    same one "in-$parts-parts"
+    [ "$threads" -eq "$parts" ] || fail "$threads threads computed $parts parts"
 done
 # Parts that the run chooses fail no realization: here there is no memory for a thread of 1 MiB.
 little='--memory-limit 1'
@@ -60,12 +75,7 @@ said 'parallel.parts 1000 are 1000 threads'
 
 # Killed, and resumed in other parts.
 start bodies-1.yaml --study killed --jobs 1 --checkpoint-time 0.01
-polls=0
-while [ -z "$(find killed/checkpoints -name '*-?' 2>/dev/null)" ]; do
-    polls=$((polls + 1))
-    [ $polls -lt 3000 ] || fail "no checkpoint"
-    sleep 0.02
-done
+wait_checkpoints killed 1
 kill_session
 [ ! -e killed/study.h5 ] || fail "it was over before it was killed"
 expect 0 alone bodies-3.yaml --study killed

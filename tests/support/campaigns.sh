@@ -92,6 +92,17 @@ wait_segments()
     done
 }
 
+# wait_checkpoints STUDY COUNT
+wait_checkpoints()
+{
+    polls=0
+    while [ "$(find "$1/checkpoints" -name '*-?' 2>/dev/null | wc -l)" -lt "$2" ]; do
+        polls=$((polls + 1))
+        [ $polls -lt 3000 ] || fail "no $2 checkpoints in $1"
+        sleep 0.02
+    done
+}
+
 # Every process of the session: parent, mpirun, ranks, supervisors, servers, children. Words of stat: 3 state, 6 session, 20 threads
 # (one that is a zombie while its other threads still die holds its files, and so the lock).
 processes()

@@ -49,7 +49,7 @@ static void write_versions(fracas_json *json)
     fracas_hdf5_version(hdf5);
     fracas_mailbox_version(mpi, sizeof mpi);
     fracas_json_text(json, "version", FRACAS_VERSION);
-    fracas_json_text(json, "compiler", fracas_kernel_compiler);
+    fracas_json_text(json, "compiler", fracas_compiler);
     fracas_json_text(json, "hdf5", hdf5);
     fracas_json_text(json, "sqlite", fracas_sqlite_version());
     fracas_json_text(json, "mpi", mpi);

@@ -15,9 +15,9 @@ typedef struct {
     uint32_t *join_from, *join; /* interfaces by their second element, in order */
     uint32_t *turn_of;          /* [element]: its turn; NONE */
     uint32_t *last;             /* [turn]: turn of the last interface of its element */
-    uint32_t *first, *next;     /* [turn]: the turns with that last one, a chain of them */
-    uint32_t *spare;            /* slots that are free */
-    size_t slots, spares;       /* slots so far, those of them that are free */
+    uint32_t *first, *next;     /* [turn]: chains of turns with the same last one */
+    uint32_t *spare;            /* free slots */
+    size_t slots, spares;       /* slots so far; free ones */
 } maker;
 
 static bool owns(const maker *m, size_t e)
@@ -124,7 +124,7 @@ static void give_joins(maker *m, fracas_surface_part *part)
     }
 }
 
-/* Slots, and what is finished in each turn: then its slot is free. */
+/* Slots, and finished elements of each turn, whose slots are free from then on. */
 static void give_slots(maker *m, fracas_surface_part *part)
 {
     size_t joins = 0, finished = 0;

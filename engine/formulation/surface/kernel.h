@@ -55,7 +55,7 @@ typedef struct {
     const fracas_surface_tables *tables;
     fracas_step *step;
     int first;            /* the step's lane of lane 0 here */
-    int ghost;            /* who has its turn */
+    int ghost;            /* 1 in the turn of a ghost */
     double *state, *sums; /* memory of these lanes */
     const double *strengths;
     size_t element_size, interface_size;  /* doubles */

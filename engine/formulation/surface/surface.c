@@ -270,7 +270,7 @@ static void copy_ghosts(const fracas_step *step, const fracas_surface_part *part
                    part->copy[i].count * lanes * sizeof(double));
 }
 
-/* A part's step. None begins before all have their copies of what it changes. */
+/* A part's step. None begins before all have their copies. */
 static void advance_part(void *context, size_t number)
 {
     const surface_task *task = context;
