@@ -39,9 +39,8 @@ static double mean_area(const fracas_surface *surface)
     double area = 0;
     for (size_t i = 0; i < surface->ninterfaces; i++)
         for (int side = 0; side < 2; side++)
-            area += fracas_surface_area(surface, surface->interface[i].element[side]);
-    return surface->ninterfaces ? area / 3 / (double)surface->ninterfaces
-                                : fracas_surface_area(surface, 0);
+            area += surface->area[surface->interface[i].element[side]];
+    return surface->ninterfaces ? area / 3 / (double)surface->ninterfaces : surface->area[0];
 }
 
 double fracas_mesh_mean_length(const fracas_surface *surface)

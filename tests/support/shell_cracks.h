@@ -259,7 +259,7 @@ static inline double spring_of(const fracas_model *model, size_t interface, doub
     double inverse = 0;
     for (int side = 0; side < 2; side++)
         inverse += 0.5 * fracas_surface_length(model->surface, joint->element[0], joint->edge[0]) /
-                   fracas_surface_area(model->surface, joint->element[side]);
+                   model->surface->area[joint->element[side]];
     *shearing = model->spec.cohesive.beta_shear * inverse * m->young / (2 * (1 + m->poisson)) *
                 model->spec.geometry.thickness;
     return model->spec.cohesive.beta * m->young / (1 - m->poisson * m->poisson) * inverse;

@@ -20,7 +20,7 @@ static inline void fracas_surface_measure(const fracas_surface *surface,
 {
     fracas_surface_measures all = {.least_area = INFINITY, .least_edge = INFINITY};
     for (size_t e = 0; e < surface->nelements; e++) {
-        const double area = fracas_surface_area(surface, e);
+        const double area = surface->area[e];
         all.area += area;
         all.least_area = fmin(all.least_area, area);
         all.largest_area = fmax(all.largest_area, area);

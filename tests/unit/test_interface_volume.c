@@ -100,8 +100,7 @@ static void surfaces_lack_what_is_at_edges(void **unused)
         OK(fracas_mesh_make(&spec, &s));
         fracas_surface_measure(s, &all);
         double area = all.area;
-        for (size_t b = 0; b < s->nborders; b++)
-            area -= fracas_surface_area(s, s->border[b].element) / 3;
+        for (size_t b = 0; b < s->nborders; b++) area -= s->area[s->border[b].element] / 3;
         /* sums of some 1000 positive terms, each rounded */
         assert_true(fabs(mean_of(&spec) * (double)s->ninterfaces / (1e-4 * area) - 1) <
                     4000 * 0x1p-53);

@@ -286,7 +286,7 @@ static void test_annuli(void **state)
                 double area = 0.0;
                 for (size_t e = 0; e < s->nelements; e++) {
                     assert_true(outward(plain, e, false) > 0.0 && outward(s, e, false) > 0.0);
-                    area += fracas_surface_area(s, e);
+                    area += s->area[e];
                 }
                 fracas_surface_measures all;
                 fracas_surface_measure(plain, &all);

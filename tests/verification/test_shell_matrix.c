@@ -168,7 +168,7 @@ static edge_side side_at(const fracas_model *model, const element_state *state, 
 /* |e|/A of an element. */
 static double per_size(const fracas_model *model, size_t e, size_t edge)
 {
-    return fracas_surface_length(model->surface, e, edge) / fracas_surface_area(model->surface, e);
+    return fracas_surface_length(model->surface, e, edge) / model->surface->area[e];
 }
 
 /* int <N>.[v] + <N(v)>.[u] + k h [u].[v] + the same of M and the turns + beta_shear G h/h_s [u].t

@@ -163,7 +163,7 @@ static void fill_rim(const fracas_model *model, const fracas_surface_border *bor
                  modulus = spec->material.young / (1 - nu * nu);
     const double length = fracas_surface_length(model->surface, border->element, border->edge);
     rim[SHELL_RIM_STIFFNESS] = 2 * spec->cohesive.beta * modulus * (h * h * h / 12) * length /
-                               fracas_surface_area(model->surface, border->element);
+                               model->surface->area[border->element];
     for (int g = 0; g < SHELL_EDGE; g++) {
         double xi, eta, tangent[3], normal[3],
             *point = rim + SHELL_RIM_POINTS + g * SHELL_RIM_POINT_TABLE;

@@ -97,7 +97,7 @@ double fracas_surface_inverse_size(const fracas_surface *surface, size_t i)
     const double length = fracas_surface_length(surface, interface->element[0], interface->edge[0]);
     double inverse_size = 0;
     for (int side = 0; side < 2; side++)
-        inverse_size += 0.5 * length / fracas_surface_area(surface, interface->element[side]);
+        inverse_size += 0.5 * length / surface->area[interface->element[side]];
     return inverse_size;
 }
 
@@ -174,8 +174,7 @@ double fracas_surface_interface_volume(const fracas_model *model, size_t i)
 {
     const fracas_surface_interface *interface = &model->surface->interface[i];
     double area = 0;
-    for (int side = 0; side < 2; side++)
-        area += fracas_surface_area(model->surface, interface->element[side]);
+    for (int side = 0; side < 2; side++) area += model->surface->area[interface->element[side]];
     return model->spec.geometry.thickness * (area / 3);
 }
 

@@ -38,6 +38,7 @@ void fracas_surface_destroy(const fracas_surface *surface)
     free((void *)surface->interface);
     free((void *)surface->border);
     free((void *)surface->given);
+    free((void *)surface->area);
     free((void *)surface);
 }
 
@@ -169,17 +170,21 @@ static fracas_err fill(const assembly *work, fracas_surface *made)
     double(*node)[3] = malloc(made->nnodes * sizeof *node);
     uint32_t *element = malloc(made->nelements * made->corners * sizeof *element);
     int64_t *given = malloc(made->nelements * sizeof *given);
+    double *area = malloc(made->nelements * sizeof *area);
     /* there may be none of these */
     fracas_surface_interface *interface = malloc((made->ninterfaces + 1) * sizeof *interface);
     fracas_surface_border *border = malloc((made->nborders + 1) * sizeof *border);
     made->node = (const double(*)[3])node;
     made->element = element;
     made->given = given;
+    made->area = area;
     made->interface = interface;
     made->border = border;
-    if (!node || !element || !given || !interface || !border) return fracas_no_memory("a mesh");
+    if (!node || !element || !given || !area || !interface || !border)
+        return fracas_no_memory("a mesh");
     fill_elements(work, made->corners, node, element, given);
     fill_edges(work, interface, border);
+    for (size_t e = 0; e < made->nelements; e++) area[e] = fracas_surface_find_area(made, e);
     return FRACAS_OK;
 }
 

@@ -21,7 +21,7 @@ double fracas_surface_density(const fracas_surface *surface, size_t element, dou
 }
 
 /* (meshes.1) */
-double fracas_surface_area(const fracas_surface *surface, size_t element)
+double fracas_surface_find_area(const fracas_surface *surface, size_t element)
 {
     if (surface->order == 1) {
         double normal[3];

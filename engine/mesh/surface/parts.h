@@ -60,6 +60,9 @@ FRACAS_MUST_USE fracas_err fracas_surface_check_jacobians(const fracas_surface_a
 FRACAS_MUST_USE fracas_err fracas_surface_order(size_t nelements, const uint32_t (*neighbour)[3],
                                                 uint32_t *order);
 
+/* The area of an element of a surface whose nodes and elements are there [m2]. */
+double fracas_surface_find_area(const fracas_surface *surface, size_t element);
+
 /* c = (b - a) x (d - a), twice the area of the triangle a, b, d along its normal. */
 static inline void fracas_surface_normal(const double a[3], const double b[3], const double d[3],
                                          double c[3])

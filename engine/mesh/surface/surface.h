@@ -41,6 +41,8 @@ typedef struct fracas_surface {
     const fracas_surface_interface *interface; /* sorted by their elements */
     const fracas_surface_border *border;       /* sorted by element and edge */
     const int64_t *given; /* [nelements] number of the element as it was given */
+    const double *area; /* [nelements] m2: exact for straight edges in a plane, else by a quadrature
+                           whose error falls as h^6 */
 } fracas_surface;
 
 /* A tag for the edge between two nodes, which are vertices. */
@@ -111,10 +113,8 @@ static inline const double *fracas_surface_node(const fracas_surface *surface, s
 /* |dx/dxi x dx/deta| and the values of the shape functions at a point of an element [m2]. */
 double fracas_surface_density(const fracas_surface *surface, size_t element, double xi, double eta,
                               double shape[6]);
-/* Area of an element [m2]: exact for straight edges in a plane, else by a quadrature whose error
- * falls as h^6. */
-double fracas_surface_area(const fracas_surface *surface, size_t element);
-/* Length of an edge [m], likewise. */
+/* Length of an edge [m]: exact for straight edges, else by a quadrature whose error falls as h^6.
+ */
 double fracas_surface_length(const fracas_surface *surface, size_t element, size_t edge);
 
 #endif
