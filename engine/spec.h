@@ -96,6 +96,8 @@ typedef struct {
     fracas_cohesive cohesive;
     fracas_loading loading;
     fracas_time time;
+    /* Frequencies of earlier models; this one's are added. No parameter; NULL: none. */
+    struct fracas_frequencies *frequencies;
 } fracas_spec;
 
 /* Length of the bar or along the ring [m]; NaN for surfaces. */

@@ -5,6 +5,7 @@
 #include "base/units.h"
 #include "campaigns/file/memory.h"
 #include "campaigns/file/replicas.h"
+#include "engine/integrator/frequencies.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -14,6 +15,7 @@ void fracas_campaign_destroy(fracas_campaign *campaign)
 {
     if (!campaign) return;
     fracas_memory_destroy(campaign->memory);
+    fracas_frequencies_destroy(campaign->frequencies);
     free(campaign);
 }
 

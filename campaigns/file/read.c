@@ -6,6 +6,7 @@
 #include "campaigns/file/resolve.h"
 #include "campaigns/file/sweep.h"
 #include "campaigns/file/words.h"
+#include "engine/integrator/frequencies.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -282,6 +283,7 @@ fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path
 {
     OWN(fracas_campaign) made = calloc(1, sizeof *made);
     if (!made || !(made->memory = fracas_memory_create())) return fracas_no_memory("the campaign");
+    TRY(fracas_frequencies_create(&made->frequencies));
     reading read = {
         .file = {.name = path, .memory = made->memory, .units = units, .campaign = made}};
     TRY(read_file(&read, made));

@@ -266,8 +266,18 @@ static double realization_bytes(const fracas_output *output, const fracas_foreca
 fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, double *cost,
                             double *bytes)
 {
+    OWN(fracas_model) model = NULL;
+    const fracas_err err = fracas_point_model_create(campaign, point, &model);
+    if (err) return fracas_fail_within(err, "point %zu", point);
+    return fracas_plan_cost_with(campaign, point, model, cost, bytes);
+}
+
+fracas_err fracas_plan_cost_with(const fracas_campaign *campaign, size_t point,
+                                 const fracas_model *model, double *cost, double *bytes)
+{
     fracas_forecast forecast;
-    TRY(fracas_forecast_make(campaign, point, &forecast));
+    const fracas_err err = describe(&campaign->point[point], model, false, &forecast);
+    if (err) return fracas_fail_within(err, "point %zu", point);
     *cost = (double)forecast.elements * (double)forecast.steps;
     if (bytes) *bytes = realization_bytes(&campaign->output, &forecast);
     return FRACAS_OK;

@@ -4,6 +4,7 @@
 #define FRACAS_CAMPAIGNS_PLAN_PLAN_H
 
 #include "campaigns/campaign.h"
+#include "engine/engine.h"
 
 #include <stdio.h>
 
@@ -12,6 +13,10 @@
  * FRACAS_ENVIRONMENT without memory. Builds the model (about 1 us an element). */
 FRACAS_MUST_USE fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point,
                                             double *cost, double *bytes);
+/* The same with the point's model. */
+FRACAS_MUST_USE fracas_err fracas_plan_cost_with(const fracas_campaign *campaign, size_t point,
+                                                 const fracas_model *model, double *cost,
+                                                 double *bytes);
 
 /* Prints, for each point, its varied parameters, replicas, elements, time step, steps, predicted
  * time and size, and the totals; as JSON with `json`. `jobs`: processes of the run, 0: one a core.

@@ -37,6 +37,7 @@ fracas_err fracas_point_model_like(const fracas_campaign *campaign, size_t point
     }
     drawn.mesh.noise = noise;
     drawn.mesh.nnoise = count;
+    drawn.frequencies = campaign->frequencies;
     drawn.strength_per_point = fracas_strength_is_per_point(&campaign->point[point].strength);
     return fracas_model_create(&drawn, model);
 }

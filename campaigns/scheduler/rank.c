@@ -9,6 +9,7 @@
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/types/mailbox.h"
 #include "campaigns/scheduler/worker/link.h"
+#include "engine/integrator/frequencies.h"
 
 #include <signal.h>
 #include <stdlib.h>
@@ -220,6 +221,8 @@ static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
 static fracas_err set_up(rank_state *rank)
 {
     TRY(fracas_run_campaign(rank->options, &rank->campaign));
+    const char *frequencies = getenv(FRACAS_FREQUENCIES);
+    if (frequencies) TRY(fracas_frequencies_read(rank->campaign->frequencies, frequencies));
     TRY(fracas_study_folder(rank->options, rank->campaign, rank->study, sizeof rank->study));
     return fracas_supervisor_start(rank->campaign, rank->options, rank->study,
                                    &rank->link.supervisor);

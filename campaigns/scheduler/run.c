@@ -12,6 +12,7 @@
 #include "campaigns/scheduler/session/space.h"
 #include "campaigns/scheduler/status/channel.h"
 #include "campaigns/scheduler/types/clock.h"
+#include "engine/integrator/frequencies.h"
 
 #include <stdlib.h>
 
@@ -35,7 +36,8 @@ bool fracas_run_speaks(void)
     return rank < 0 || (rank == 0 && !getenv(FRACAS_LAUNCHER_MARK));
 }
 
-/* Finds all faults of the campaign and the study before anything is written or started. */
+/* Finds all faults of the campaign and the study before anything is written or started. Leaves the
+ * frequencies of its models to the processes of the run. */
 static fracas_err examine(const fracas_run_options *options, int *jobs, bool *settled,
                           fracas_err *result)
 {
@@ -52,7 +54,11 @@ static fracas_err examine(const fracas_run_options *options, int *jobs, bool *se
     TRY(fracas_allocation_jobs(options->jobs, campaign->parallel.parts, jobs));
     TRY(fracas_limits_check(options));
     TRY(fracas_costs_create(campaign, options, &cost, &bytes));
-    return fracas_space_check(study, campaign, options, bytes);
+    TRY(fracas_space_check(study, campaign, options, bytes));
+    OWNED char *frequencies = fracas_frequencies_write(campaign->frequencies);
+    if (!frequencies) return fracas_no_memory("the run");
+    setenv(FRACAS_FREQUENCIES, frequencies, 1);
+    return FRACAS_OK;
 }
 
 fracas_err fracas_run(const fracas_run_options *options, int argc, char **argv, bool *ran)

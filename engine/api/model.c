@@ -70,6 +70,7 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
     TRY(model->formulation->model_init(model));
     model->spec.mesh.noise = NULL; /* the caller's, and done with, as is a file */
     model->spec.geometry.file = NULL;
+    model->spec.frequencies = NULL;
     model->time_step = spec->time.safety * model->critical_step;
     TRY(check_steps(model));
     *out = model;

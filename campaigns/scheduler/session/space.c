@@ -14,14 +14,21 @@
 #include <unistd.h>
 
 /* Checks the options, the same for all points, by one batch. */
-static fracas_err try_batch(const fracas_campaign *campaign, const fracas_run_options *options)
+static fracas_err try_batch(const fracas_model *model, const fracas_run_options *options)
 {
-    OWN(fracas_model) model = NULL;
     OWN(fracas_batch) batch = NULL;
     fracas_batch_options batch_options = {.width = options->width, .isa = options->isa};
-    const fracas_err err = fracas_point_model_create(campaign, 0, &model);
-    if (err) return fracas_fail_within(err, "point 0");
     return fracas_batch_create(model, 1, &batch_options, &batch);
+}
+
+static fracas_err find_cost(const fracas_campaign *campaign, size_t point,
+                            const fracas_run_options *options, double *cost, double *bytes)
+{
+    OWN(fracas_model) model = NULL;
+    const fracas_err err = fracas_point_model_create(campaign, point, &model);
+    if (err) return fracas_fail_within(err, "point %zu", point);
+    if (point == 0) TRY(try_batch(model, options));
+    return fracas_plan_cost_with(campaign, point, model, cost, bytes);
 }
 
 fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run_options *options,
@@ -30,8 +37,8 @@ fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run
     OWNED double *c = malloc(campaign->npoints * sizeof *c);
     OWNED double *b = malloc(campaign->npoints * sizeof *b);
     if (!c || !b) return fracas_no_memory("the plan");
-    TRY(try_batch(campaign, options));
-    for (size_t i = 0; i < campaign->npoints; i++) TRY(fracas_plan_cost(campaign, i, &c[i], &b[i]));
+    for (size_t i = 0; i < campaign->npoints; i++)
+        TRY(find_cost(campaign, i, options, &c[i], &b[i]));
     *cost = c;
     c = NULL;
     if (!bytes) return FRACAS_OK;

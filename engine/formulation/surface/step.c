@@ -2,6 +2,7 @@
 /* A surface as a linear operator, and its critical time step. */
 #include "engine/formulation/surface/surface.h"
 
+#include "engine/integrator/frequencies.h"
 #include "engine/integrator/integrator.h"
 #include "engine/integrator/lanczos.h"
 
@@ -127,15 +128,63 @@ static fracas_err largest_frequency(const fracas_model *model, int contact, doub
                        "every node of the mesh is held: leave an edge free, or refine the mesh");
 }
 
+/* Equal for equal K and M. */
+static fracas_hash operator_hash(const fracas_model *model)
+{
+    const fracas_surface_constants c = fracas_surface_constants_of(model);
+    const struct {
+        fracas_hash tables;
+        double constant[9];
+    } all = {fracas_surface_tables_hash(c.tables),
+             {c.thickness, c.c11, c.c12, c.c33, c.d11, c.d12, c.d33, c.normal, c.tangential}};
+    return fracas_hash_of(&all, sizeof all);
+}
+
+typedef struct {
+    const fracas_model *model;
+    double omega[2];
+    fracas_err err[2];
+} frequency_task;
+
+static void find_one(void *context, size_t contact)
+{
+    frequency_task *task = context;
+    task->err[contact] = largest_frequency(task->model, (int)contact, &task->omega[contact]);
+}
+
+/* Both at once where the surface is large. */
+static fracas_err compute_frequencies(const fracas_model *model, fracas_frequency_pair *found)
+{
+    enum { LARGE = 10000 /* elements: a tenth of a second */ };
+    OWN(fracas_team) team = NULL;
+    frequency_task task = {.model = model};
+    if (model->elements < LARGE || fracas_team_create(2, &team))
+        for (size_t contact = 0; contact < 2; contact++) find_one(&task, contact);
+    else fracas_team_run(team, find_one, &task);
+    if (!task.err[0] && task.err[1])
+        find_one(&task, 1); /* an error's message stays in its thread */
+    for (int contact = 0; contact < 2; contact++) TRY(task.err[contact]);
+    *found = (fracas_frequency_pair){.whole = task.omega[0], .pressed = task.omega[1]};
+    return FRACAS_OK;
+}
+
+static fracas_err find_frequencies(const fracas_model *model, fracas_frequency_pair *found)
+{
+    fracas_frequencies *known = model->spec.frequencies;
+    const fracas_hash body = known ? operator_hash(model) : (fracas_hash){0};
+    if (known && fracas_frequencies_find(known, &body, found)) return FRACAS_OK;
+    TRY(compute_frequencies(model, found));
+    return known ? fracas_frequencies_keep(known, &body, found) : FRACAS_OK;
+}
+
 /* (membrane.16) */
 fracas_err fracas_surface_critical_step(fracas_model *model)
 {
     const double limit = fracas_integrator_of(&model->spec)->limit(&model->spec.time);
-    double whole, pressed;
-    TRY(largest_frequency(model, 0, &whole));
-    TRY(largest_frequency(model, 1, &pressed));
-    model->critical_closed = limit / whole;
-    model->critical_cracked = limit / pressed;
+    fracas_frequency_pair found;
+    TRY(find_frequencies(model, &found));
+    model->critical_closed = limit / found.whole;
+    model->critical_cracked = limit / found.pressed;
     model->critical_step = fmin(model->critical_closed, model->critical_cracked);
     return FRACAS_OK;
 }

@@ -18,6 +18,7 @@
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_SURFACE_H
 #define FRACAS_ENGINE_FORMULATION_SURFACE_SURFACE_H
 
+#include "base/hash.h"
 #include "base/isa.h"
 #include "engine/cohesive/law.h"
 #include "engine/element/triangle.h"
@@ -241,6 +242,8 @@ static inline size_t fracas_surface_strength_of(const fracas_surface_constants *
 FRACAS_MUST_USE fracas_err fracas_surface_tables_create(const fracas_model *model,
                                                         fracas_surface_tables **tables);
 void fracas_surface_tables_destroy(void *tables); /* NULL is allowed */
+/* Equal for equal tables of the linear operator. */
+fracas_hash fracas_surface_tables_hash(const fracas_surface_tables *tables);
 
 fracas_surface_constants fracas_surface_constants_of(const fracas_model *model);
 

@@ -8,38 +8,73 @@
 
 #include <stdlib.h>
 
-void fracas_surface_tables_destroy(void *p)
-{
-    fracas_surface_tables *t = p;
-    if (!t) return;
-    void *const owned[] = {t->bulk,      t->lumped,  t->consistent, t->position,
-                           t->interface, t->element, t->edge,       t->held,
-                           t->fixed,     t->rim,     t->rim_edge,   t->rim_from};
-    for (size_t i = 0; i < FRACAS_COUNT(owned); i++) free(owned[i]);
-    free(t);
-}
+/* The arrays of the tables; the linear operator reads all but the positions. */
+#define OPERATOR_TABLES(TABLE)                                                      \
+    TABLE(bulk)                                                                     \
+    TABLE(lumped)                                                                   \
+    TABLE(consistent)                                                               \
+    TABLE(interface) TABLE(element) TABLE(edge) TABLE(held) TABLE(fixed) TABLE(rim) \
+        TABLE(rim_edge) TABLE(rim_from)
+#define TABLES(TABLE) OPERATOR_TABLES(TABLE) TABLE(position)
 
-static bool allocate(fracas_surface_tables *t, bool consistent, bool positions)
+/* Their lengths; 0: there is none. */
+#define TABLE(name) size_t name;
+typedef struct {
+    TABLES(TABLE)
+} lengths;
+#undef TABLE
+
+static lengths lengths_of(const fracas_surface_tables *t, bool consistent, bool positions)
 {
     const fracas_surface_body *body = t->body;
     const size_t n = t->nelements, m = t->ninterfaces ? t->ninterfaces : 1,
                  nodes = (size_t)SURFACE_NODES(t->order);
-    const size_t interface = body->head + (size_t)SURFACE_EDGE(t->order) * body->point_table;
-    t->bulk = malloc(n * (size_t)SURFACE_BULK(t->order) * body->bulk_table * sizeof *t->bulk);
-    t->lumped = malloc(n * 2 * nodes * sizeof *t->lumped);
-    if (consistent) t->consistent = malloc(n * 3 * nodes * nodes * sizeof *t->consistent);
-    if (positions) t->position = malloc(n * nodes * 2 * sizeof *t->position);
-    t->interface = malloc(m * interface * sizeof *t->interface);
-    t->element = malloc(m * sizeof *t->element);
-    t->edge = malloc(m * sizeof *t->edge);
-    t->held = calloc(n, sizeof *t->held);
-    t->fixed = calloc(n, sizeof *t->fixed);
-    t->rim = malloc((t->nrims * body->rim_table + 1) * sizeof *t->rim);
-    t->rim_edge = malloc((t->nrims + 1) * sizeof *t->rim_edge);
-    t->rim_from = calloc(n + 1, sizeof *t->rim_from);
-    return t->bulk && t->lumped && (t->consistent || !consistent) && (t->position || !positions) &&
-           t->interface && t->element && t->edge && t->held && t->fixed && t->rim && t->rim_edge &&
-           t->rim_from;
+    return (lengths){
+        .bulk = n * (size_t)SURFACE_BULK(t->order) * body->bulk_table,
+        .lumped = n * 2 * nodes,
+        .consistent = consistent ? n * 3 * nodes * nodes : 0,
+        .interface = m * (body->head + (size_t)SURFACE_EDGE(t->order) * body->point_table),
+        .element = m,
+        .edge = m,
+        .held = n,
+        .fixed = n,
+        .rim = t->nrims * body->rim_table + 1,
+        .rim_edge = t->nrims + 1,
+        .rim_from = n + 1,
+        .position = positions ? n * nodes * 2 : 0,
+    };
+}
+
+void fracas_surface_tables_destroy(void *p)
+{
+    fracas_surface_tables *t = p;
+    if (!t) return;
+#define TABLE(name) free(t->name);
+    TABLES(TABLE)
+#undef TABLE
+    free(t);
+}
+
+static bool allocate(fracas_surface_tables *t, const lengths *length)
+{
+    bool good = true;
+#define TABLE(name)                                                    \
+    if (length->name) t->name = calloc(length->name, sizeof *t->name); \
+    good = good && (t->name || !length->name);
+    TABLES(TABLE)
+#undef TABLE
+    return good;
+}
+
+fracas_hash fracas_surface_tables_hash(const fracas_surface_tables *t)
+{
+    const lengths length = lengths_of(t, t->consistent, false);
+    fracas_hash part[sizeof(lengths) / sizeof(size_t)] = {0};
+    size_t parts = 0;
+#define TABLE(name) part[parts++] = fracas_hash_of(t->name, length.name * sizeof *t->name);
+    OPERATOR_TABLES(TABLE)
+#undef TABLE
+    return fracas_hash_of(part, sizeof part);
 }
 
 /* ---- masses ---- */
@@ -228,10 +263,10 @@ fracas_err fracas_surface_tables_create(const fracas_model *model, fracas_surfac
     t->ninterfaces = surface->ninterfaces;
     for (size_t b = 0; b < surface->nborders; b++)
         t->nrims += fracas_edge_of(edge_kind(&model->spec, surface->border[b].tag))->director;
-    fracas_err err = allocate(t, fracas_mass_is_consistent(&model->spec.time),
-                              fracas_loading_traits_of(&model->spec)->body_force)
-                         ? fill(model, t)
-                         : fracas_no_memory("the tables of a surface");
+    const lengths length = lengths_of(t, fracas_mass_is_consistent(&model->spec.time),
+                                      fracas_loading_traits_of(&model->spec)->body_force);
+    fracas_err err = allocate(t, &length) ? fill(model, t)
+                                          : fracas_no_memory("the tables of a surface");
     if (err) fracas_surface_tables_destroy(t);
     else *tables = t;
     return err;
