@@ -9,13 +9,21 @@
 #include <stdlib.h>
 
 /* The arrays of the tables; the linear operator reads all but the positions. */
-#define OPERATOR_TABLES(TABLE)                                                      \
-    TABLE(bulk)                                                                     \
-    TABLE(lumped)                                                                   \
-    TABLE(consistent)                                                               \
-    TABLE(interface) TABLE(element) TABLE(edge) TABLE(held) TABLE(fixed) TABLE(rim) \
-        TABLE(rim_edge) TABLE(rim_from)
-#define TABLES(TABLE) OPERATOR_TABLES(TABLE) TABLE(position)
+#define OPERATOR_TABLES(TABLE) \
+    TABLE(bulk)                \
+    TABLE(lumped)              \
+    TABLE(consistent)          \
+    TABLE(interface)           \
+    TABLE(element)             \
+    TABLE(edge)                \
+    TABLE(held)                \
+    TABLE(fixed)               \
+    TABLE(rim)                 \
+    TABLE(rim_edge)            \
+    TABLE(rim_from)
+#define TABLES(TABLE)      \
+    OPERATOR_TABLES(TABLE) \
+    TABLE(position)
 
 /* Their lengths; 0: there is none. */
 #define TABLE(name) size_t name;
