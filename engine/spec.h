@@ -85,6 +85,7 @@ typedef struct {
     const fracas_kind *integrator; /* surfaces: central-difference, hulbert-chung */
     double spectral_radius;        /* 1, hulbert-chung: at the bifurcation */
     const fracas_kind *mass;       /* surfaces: lumped, consistent */
+    double rotary_inertia; /* 1, shells: share of rho thickness^3/12 that is counted; NaN: none */
 } fracas_time;
 
 typedef struct {

@@ -79,6 +79,12 @@ static const fracas_param time_params[] = {
      0.95, 0, 1, false, offsetof(fracas_time, spectral_radius), .only = fracas_surface_models},
     {FRACAS_ONE_OF("mass", masses, offsetof(fracas_time, mass), "mass matrix of an element"),
      .only = fracas_membrane_models},
+    {"rotary_inertia", FRACAS_REAL, "1",
+     "share of the thickness's rotary inertia that is counted: 1 allows time steps several times "
+     "as "
+     "long where elements are smaller than the shell is thick; left out, none is",
+     FRACAS_REQUIRED, 0, 1, true, offsetof(fracas_time, rotary_inertia),
+     .only = fracas_shell_models, .optional = true},
 };
 static fracas_err check_time(const void *section)
 {

@@ -13,6 +13,7 @@ typedef struct {
     double rate, end; /* 1/s, s */
     double friction, coupling, beta_shear, opening;
     const fracas_kind *onset, *integrator;
+    double rotary;
 } variant;
 
 #define PLATE &fracas_shape_plate, &fracas_part_whole
@@ -31,7 +32,9 @@ static const variant variants[] = {{SPHERE, 1, 1.5e4, 1.2e-6, 0, 1, 1, 0, MEAN, 
                                    {SPHERE, 1, 2e4, 1e-6, 0.3, 0.7, 0.1, 0, FLUX, CD},
                                    {OCTANT, 5, 1.2e4, 3e-7, 0.4, 1, 1, 0, MEAN, CD},
                                    {SPHERE, 1, 2e4, 1e-6, 0, 1.3, 1, 1e-6, MEAN, HC},
-                                   {PLATE, 3, 8e4, 3e-7, 0, 1, 1, 1e-6, FLUX, CD}};
+                                   {PLATE, 3, 8e4, 3e-7, 0, 1, 1, 1e-6, FLUX, CD},
+                                   {SPHERE, 1, 1.5e4, 1.2e-6, 0, 1, 1, 0, MEAN, CD, 1},
+                                   {OCTANT, 6, 1.2e4, 3e-7, 0.3, 1, 1, 0, FLUX, HC, 1}};
 enum { VARIANTS = sizeof variants / sizeof *variants };
 
 static fracas_spec spec_of(const variant *v)
@@ -47,6 +50,7 @@ static fracas_spec spec_of(const variant *v)
     spec.cohesive.critical_opening = v->opening;
     spec.cohesive.onset = v->onset;
     spec.time.integrator = v->integrator;
+    spec.time.rotary_inertia = v->rotary;
     spec.strength_per_point = (v - variants) % 4 == 2;
     return spec;
 }
@@ -243,6 +247,7 @@ static void parts_do_not_matter(void **unused)
         spec.loading.rate = 4e4;
         spec.time.end = 4e-8;
         spec.cohesive.friction = v ? 0.3 : 0;
+        spec.time.rotary_inertia = v;
         OWN(fracas_model) model = distorted_model(spec, 0.1, 3);
         fracas_record alone[2], together[2];
         for (size_t r = 0; r < 2; r++)

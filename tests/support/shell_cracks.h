@@ -44,8 +44,9 @@ static inline void evaluate(fracas_batch *batch, const double *u, shell_answer *
     const double created = step->created[0], bending = step->dissipated_bending[0],
                  rubbed = step->friction[0];
     model->formulation->advance(model, step);
-    for (size_t i = 0; i < unknowns_of(model); i++)
-        answer->force[i] = mass_of(model, i) * *value_of(batch, i, SURFACE_V);
+    OWNED double *v = vector_of(unknowns_of(model));
+    for (size_t i = 0; i < unknowns_of(model); i++) v[i] = *value_of(batch, i, SURFACE_V);
+    multiply_mass(model, v, answer->force);
     answer->elastic = step->elastic[0];
     answer->cohesive = step->cohesive[0];
     answer->dissipated = step->dissipated[0];

@@ -177,9 +177,10 @@ static inline void statics_solve(shell_statics *s, const double *f, double *u)
 
 static inline double mass_product(const fracas_model *model, const double *a, const double *b)
 {
-    double sum = 0;
-    for (size_t i = 0; i < unknowns_of(model); i++) sum += mass_of(model, i) * a[i] * b[i];
-    return sum;
+    const size_t n = unknowns_of(model);
+    OWNED double *p = vector_of(n);
+    multiply_mass(model, b, p);
+    return dot_of(a, p, n);
 }
 
 /* The `count` lowest omega [rad/s] of K u = omega^2 M u: orthogonal iteration with K^-1 M, `more`
@@ -194,7 +195,7 @@ static inline void lowest_frequencies(shell_statics *s, int count, int more, dou
         change = 0;
         for (int k = 0; k < more; k++) {
             double *u = mode + (size_t)k * s->n;
-            for (size_t i = 0; i < s->n; i++) f[i] = mass_of(s->model, i) * u[i];
+            multiply_mass(s->model, u, f);
             statics_solve(s, f, u);
             for (int twice = 0; twice < 2; twice++)
                 for (int l = 0; l < k; l++) {

@@ -163,6 +163,19 @@ static inline fracas_surface_operator *open_operator(const fracas_model *model)
     return op;
 }
 
+/* result += t R (t . a) of an element with rotary inertia */
+static inline void add_turning(const double *table, const double *a, double *result)
+{
+    const double *t = table + SURFACE_TURNING, *r = table + SURFACE_ROTARY;
+    for (int k = 0, at = 0; k < 6; k++)
+        for (int l = 0; l <= k; l++, at++)
+            for (int i = 0; i < 3; i++)
+                for (int j = 0; j < 3; j++) {
+                    result[3 * k + i] += t[i] * r[at] * t[j] * a[3 * l + j];
+                    if (k != l) result[3 * l + i] += t[i] * r[at] * t[j] * a[3 * k + j];
+                }
+}
+
 /* result = M a */
 static inline void multiply_mass(const fracas_model *model, const double *a, double *result)
 {
@@ -175,6 +188,9 @@ static inline void multiply_mass(const fracas_model *model, const double *a, dou
         for (size_t l = 0; consistent && l < nodes; l++)
             result[i] += mass_between(model, e, k, l) * a[e * size + l * dimension + i % dimension];
     }
+    const double *rotary = tables_of(model)->rotary;
+    for (size_t e = 0; rotary && e < model->elements; e++)
+        add_turning(rotary + e * SURFACE_ROTARY_TABLE, a + 18 * e, result + 18 * e);
 }
 
 /* f = K u [N], 0 where nodes are held. */

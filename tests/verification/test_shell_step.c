@@ -8,12 +8,29 @@ static void a_step_is_the_operator(void **unused)
 {
     const int widths[] = {1, 4, 8};
     for (int which = 0; which < BODIES; which++)
-        for (int w = 0; w < 3; w++) {
+        for (int w = 0; w < 6; w++) {
             fracas_spec spec = shell_spec(&fracas_shape_sphere);
+            spec.time.rotary_inertia = w / 3;
             if (which != SPHERE)
                 spec.geometry.edge[1] = spec.geometry.edge[3] = &fracas_edge_clamped;
-            check_first_step(body_of(which, spec, 3, 5), widths[w], 1e3, 1e-6);
+            check_first_step(body_of(which, spec, 3, 5), widths[w % 3], 1e3, 1e-6);
         }
+}
+
+/* In planes of symmetry nodes are held across t, on a plate's diaphragms along it. */
+static void rotary_inertia_of_held_nodes(void **unused)
+{
+    const double unit[2] = {1, 1};
+    fracas_spec spec = shell_spec(&fracas_shape_sphere);
+    spec.time.rotary_inertia = 1;
+    spec.geometry.part = &fracas_part_octant;
+    spec.mesh.divisions = 4;
+    check_first_step(distorted_model(spec, DISTORTION, 5), 8, 1e3, 1e-6);
+    spec.geometry.shape = &fracas_shape_file;
+    for (int tag = 1; tag < FRACAS_EDGES; tag++)
+        spec.geometry.edge[tag] = tag % 2 ? &fracas_edge_diaphragm : &fracas_edge_symmetry;
+    const shell_grid grid = {.nx = 3, .ny = 4, .map = flat_map, .how = unit, .distortion = 0.1};
+    check_first_step(grid_model(&spec, &grid), 1, 1e3, 1e-6);
 }
 
 /* ---- edges ---- */
@@ -44,6 +61,7 @@ static void edges_hold_what_they_should(void **unused)
             spec.geometry.edge[tag] = kinds[k];
             spec.loading.rate = rate;
             spec.loading.ratio = 0.5;
+            spec.time.rotary_inertia = tag % 2;
             one_run run = begin_run(grid_model(&spec, &(shell_grid){.nx = 3,
                                                                     .ny = 3,
                                                                     .map = flat_map,
@@ -125,4 +143,5 @@ static void oblique_edges_are_refused(void **unused)
     fracas_model_destroy(distorted_model(spec, 0, 0));
 }
 
-TESTS(a_step_is_the_operator, edges_hold_what_they_should, oblique_edges_are_refused)
+TESTS(a_step_is_the_operator, rotary_inertia_of_held_nodes, edges_hold_what_they_should,
+      oblique_edges_are_refused)

@@ -151,6 +151,32 @@ static void fill_head(const fracas_model *model, double inverse_size, double *he
                            spec->geometry.thickness * inverse_size;
 }
 
+/* (shell.16) */
+static void fill_rotary(const fracas_model *model, size_t e, double t[3], double *rotary)
+{
+    static const double at[SHELL_BULK][2] = {
+        {1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}};
+    const double h = model->spec.geometry.thickness,
+                 inertia = model->spec.material.density * h * h * h / 12;
+    fracas_shell_geometry here;
+    fracas_shell_geometry_at(model->surface, e, 1.0 / 3, 1.0 / 3, &here);
+    for (int i = 0; i < 3; i++) t[i] = here.normal[i];
+    for (int g = 0; g < SHELL_BULK; g++) {
+        double slope[SHELL_NODES][3];
+        fracas_shell_geometry_at(model->surface, e, at[g][0], at[g][1], &here);
+        for (int k = 0; k < SHELL_NODES; k++)
+            for (int i = 0; i < 3; i++)
+                slope[k][i] = here.slope[k][0] * here.dual[0][i] +
+                              here.slope[k][1] * here.dual[1][i];
+        for (int k = 0; k < SHELL_NODES; k++)
+            for (int l = 0; l <= k; l++) {
+                double *entry = &rotary[fracas_surface_entry(k, l)];
+                *entry = (g ? *entry : 0) +
+                         inertia * here.area / 6 * fracas_shell_dot(slope[k], slope[l]);
+            }
+    }
+}
+
 /* ---- edges ---- */
 
 /* The director's turn about the edge has twice the stiffness of an interface's: the other side is
@@ -249,6 +275,7 @@ static const fracas_surface_body body = {.dimension = 3,
                                          .fill_head = fill_head,
                                          .fill_point = fill_point,
                                          .fill_rim = fill_rim,
+                                         .fill_rotary = fill_rotary,
                                          .hold_edge = hold_edge,
                                          .add_node = add_node};
 

@@ -67,6 +67,19 @@ static void apply(void *context, const double *w, double *result)
     for (size_t i = 0; i < fracas_surface_unknowns(t) * t->nelements; i++) result[i] = -result[i];
 }
 
+/* result += t R (t . w)  (shell.16) */
+static void add_rotary(const double *table, const double *w, double *result)
+{
+    const double *t = table + SURFACE_TURNING;
+    for (int k = 0; k < 6; k++) {
+        double sum = 0;
+        for (int l = 0; l < 6; l++)
+            sum += table[SURFACE_ROTARY + fracas_surface_entry(k, l)] *
+                   (t[0] * w[3 * l] + t[1] * w[3 * l + 1] + t[2] * w[3 * l + 2]);
+        for (int i = 0; i < 3; i++) result[3 * k + i] += t[i] * sum;
+    }
+}
+
 static void multiply_by_mass(void *context, const double *w, double *result)
 {
     const fracas_surface_tables *t = ((const fracas_surface_operator *)context)->constants.tables;
@@ -83,6 +96,8 @@ static void multiply_by_mass(void *context, const double *w, double *result)
                            u[dimension * l + i];
                 result[dimension * (nodes * e + k) + i] = sum;
             }
+    for (size_t e = 0; t->rotary && e < t->nelements; e++)
+        add_rotary(t->rotary + e * SURFACE_ROTARY_TABLE, w + 18 * e, result + 18 * e);
 }
 
 /* A little of everything, most of it where elements are small; nothing where nodes are held. */

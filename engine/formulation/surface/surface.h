@@ -82,6 +82,19 @@ enum { SURFACE_STIFFNESS, SURFACE_COMPLIANCE, SURFACE_HEAD };
 
 typedef struct fracas_surface_body fracas_surface_body;
 
+/* An element's rotary inertia: the direction t along which displacements turn it, and two symmetric
+ * matrices over its nodes, lower triangles row by row: R [kg], and (M + R)^-1 - M^-1 [1/kg]. */
+enum {
+    SURFACE_TURNING,
+    SURFACE_ROTARY = SURFACE_TURNING + 3,
+    SURFACE_ROTARY_INVERSE = SURFACE_ROTARY + 21,
+    SURFACE_ROTARY_TABLE = SURFACE_ROTARY_INVERSE + 21
+};
+static inline int fracas_surface_entry(int row, int column)
+{
+    return row < column ? column * (column + 1) / 2 + row : row * (row + 1) / 2 + column;
+}
+
 /* The mesh as the sweep reads it: one copy for all lanes and realizations. The body lays out the
  * tables of bulk points and interfaces. */
 typedef struct {
@@ -92,6 +105,7 @@ typedef struct {
     double *lumped;     /* [element]: of each node 1/mass [1/kg], then of each the mass [kg] */
     double *consistent; /* [element][3][node][node]: inverse for x, for y, with rows and columns of
                            held nodes 0 [1/kg], and the mass itself [kg]; NULL: masses are lumped */
+    double *rotary;     /* [element][SURFACE_ROTARY_TABLE]; NULL: there is no rotary inertia */
     double *position;   /* [element][node][2] [m]; NULL: the loading does not need it */
     double *interface;  /* [interface]: head, then [Gauss point][body->point_table] */
     uint32_t (*element)[2]; /* [interface] */
@@ -183,6 +197,8 @@ struct fracas_surface_body {
     void (*fill_point)(const fracas_model *model, const fracas_surface_interface *interface,
                        double s, double weight, double *point);
     void (*fill_rim)(const fracas_model *model, const fracas_surface_border *border, double *rim);
+    /* Direction t and matrix R of an element's whole rotary inertia; NULL: the body has none. */
+    void (*fill_rotary)(const fracas_model *model, size_t element, double t[3], double *rotary);
     /* Components held by an edge of this kind, as bits; FRACAS_USAGE where it cannot be. */
     fracas_err (*hold_edge)(const fracas_model *model, const fracas_surface_border *border,
                             const fracas_kind *kind, unsigned *components);

@@ -161,6 +161,47 @@ LANES_FUNCTION void surface_enter(surface_context *c, int order, size_t e, doubl
     BODY(strain)(c, order, e, at, slot);
 }
 
+/* Components along t of vectors at an element's nodes. */
+LANES_FUNCTION void surface_turning(const double *table, const vd *at, vd along[6])
+{
+    UNROLL_FOR (int k = 0; k < 6; k++)
+        along[k] = lanes_set(table[SURFACE_TURNING]) * at[3 * k] +
+                   lanes_set(table[SURFACE_TURNING + 1]) * at[3 * k + 1] +
+                   lanes_set(table[SURFACE_TURNING + 2]) * at[3 * k + 2];
+}
+
+/* Entry k of the product of a symmetric matrix and a vector. */
+LANES_FUNCTION vd surface_row(const double *matrix, int k, const vd along[6])
+{
+    vd sum = lanes_set(matrix[fracas_surface_entry(k, 0)]) * along[0];
+    UNROLL_FOR (int l = 1; l < 6; l++)
+        sum += lanes_set(matrix[fracas_surface_entry(k, l)]) * along[l];
+    return sum;
+}
+
+/* Rotary inertia's part of the accelerations  (shell.17) */
+LANES_FUNCTION void surface_turn(const double *table, const vd *force, vd *acceleration)
+{
+    vd along[6];
+    surface_turning(table, force, along);
+    UNROLL_FOR (int k = 0; k < 6; k++) {
+        const vd change = surface_row(table + SURFACE_ROTARY_INVERSE, k, along);
+        UNROLL_FOR (int i = 0; i < 3; i++)
+            acceleration[3 * k + i] -= lanes_set(table[SURFACE_TURNING + i]) * change;
+    }
+}
+
+/* Twice its kinetic energy, of leapfrog velocities  (shell.18) */
+LANES_FUNCTION vd surface_spun(const double *table, const vd *v, const vd *after)
+{
+    vd before[6], then[6], sum = lanes_set(0.0);
+    surface_turning(table, v, before);
+    surface_turning(table, after, then);
+    UNROLL_FOR (int k = 0; k < 6; k++)
+        sum += surface_row(table + SURFACE_ROTARY, k, before) * then[k];
+    return sum;
+}
+
 /* Accelerations by internal and body forces, 0 of held components; power of their reactions. */
 LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size_t e,
                                        const vd *velocity, const vd *force, vd *acceleration)
@@ -184,6 +225,8 @@ LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size
         }
         if (position) acceleration[i] += c->spin * lanes_set(position[i]); /* (membrane.10) */
     }
+    if (BODY_DIMENSION == 3 && t->rotary)
+        surface_turn(t->rotary + e * SURFACE_ROTARY_TABLE, force, acceleration);
     if (__builtin_expect(held != 0, 0)) {
         vd power = lanes_set(0.0);
         for (int i = 0; i < size; i++) {
@@ -220,8 +263,11 @@ LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
     }
     surface_kick(&c->constants->motion, c->kick, c->begins, size, at, a, v, after);
     double *sums = surface_sums(c, e);
-    vd moment = lanes_set(0.0);
-    surface_add(surface_at(sums, SURFACE_KINETIC), BODY(kinetic)(c, order, e, v, after, &moment));
+    vd moment = lanes_set(0.0), kinetic = BODY(kinetic)(c, order, e, v, after, &moment);
+    const double *rotary = c->tables->rotary;
+    if (BODY_DIMENSION == 3 && rotary)
+        kinetic += surface_spun(rotary + e * SURFACE_ROTARY_TABLE, v, after);
+    surface_add(surface_at(sums, SURFACE_KINETIC), kinetic);
     if (BODY_PLANE) surface_add(surface_at(sums, SURFACE_MOMENT), moment);
 }
 
@@ -257,6 +303,8 @@ LANES_FUNCTION void surface_fetch_turn(const surface_context *c, int order,
     surface_fetch(surface_bulk(c, order, e),
                   SURFACE_BULK(order) * BODY_BULK_TABLE * sizeof(double));
     surface_fetch(t->lumped + 2 * nodes * e, 2 * nodes * sizeof(double));
+    if (BODY_DIMENSION == 3 && t->rotary)
+        surface_fetch(t->rotary + e * SURFACE_ROTARY_TABLE, SURFACE_ROTARY_TABLE * sizeof(double));
     for (size_t j = turn[-1].join_end; j < turn->join_end; j++) {
         const size_t i = join[j].interface;
         surface_fetch(surface_table(c, order, i),

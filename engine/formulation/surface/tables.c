@@ -6,6 +6,7 @@
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 /* The arrays of the tables; the linear operator reads all but the positions. */
@@ -13,6 +14,7 @@
     TABLE(bulk)                \
     TABLE(lumped)              \
     TABLE(consistent)          \
+    TABLE(rotary)              \
     TABLE(interface)           \
     TABLE(element)             \
     TABLE(edge)                \
@@ -32,7 +34,11 @@ typedef struct {
 } lengths;
 #undef TABLE
 
-static lengths lengths_of(const fracas_surface_tables *t, bool consistent, bool positions)
+typedef struct {
+    bool consistent, rotary, positions; /* there are such tables */
+} optional;
+
+static lengths lengths_of(const fracas_surface_tables *t, optional has)
 {
     const fracas_surface_body *body = t->body;
     const size_t n = t->nelements, m = t->ninterfaces ? t->ninterfaces : 1,
@@ -40,7 +46,8 @@ static lengths lengths_of(const fracas_surface_tables *t, bool consistent, bool 
     return (lengths){
         .bulk = n * (size_t)SURFACE_BULK(t->order) * body->bulk_table,
         .lumped = n * 2 * nodes,
-        .consistent = consistent ? n * 3 * nodes * nodes : 0,
+        .consistent = has.consistent ? n * 3 * nodes * nodes : 0,
+        .rotary = has.rotary ? n * SURFACE_ROTARY_TABLE : 0,
         .interface = m * (body->head + (size_t)SURFACE_EDGE(t->order) * body->point_table),
         .element = m,
         .edge = m,
@@ -49,7 +56,7 @@ static lengths lengths_of(const fracas_surface_tables *t, bool consistent, bool 
         .rim = t->nrims * body->rim_table + 1,
         .rim_edge = t->nrims + 1,
         .rim_from = n + 1,
-        .position = positions ? n * nodes * 2 : 0,
+        .position = has.positions ? n * nodes * 2 : 0,
     };
 }
 
@@ -76,7 +83,7 @@ static bool allocate(fracas_surface_tables *t, const lengths *length)
 
 fracas_hash fracas_surface_tables_hash(const fracas_surface_tables *t)
 {
-    const lengths length = lengths_of(t, t->consistent, false);
+    const lengths length = lengths_of(t, (optional){t->consistent, t->rotary, false});
     fracas_hash part[sizeof(lengths) / sizeof(size_t)] = {0};
     size_t parts = 0;
 #define TABLE(name) part[parts++] = fracas_hash_of(t->name, length.name * sizeof *t->name);
@@ -155,6 +162,50 @@ static void fill_mass(const fracas_model *model, fracas_surface_tables *t, size_
     for (size_t i = 0; i < entries; i++) consistent[2 * entries + i] = mass[i];
 }
 
+/* Nodes that do not take part in an element's rotary inertia, as bits: those held along t. Where
+ * others are held, across t or nearly so, t is turned to be so. */
+static unsigned hold_turning(uint32_t held, double t[3])
+{
+    double part[3], length = 0;
+    unsigned out = 0, any = 0;
+    for (int i = 0; i < 3; i++) part[i] = t[i];
+    for (int k = 0; k < 6; k++, held >>= 3) {
+        double along = 0;
+        for (int i = 0; i < 3; i++) along += held >> i & 1 ? t[i] * t[i] : 0;
+        any |= held & 7 ? 1u << k : 0;
+        if (along > 0.5) out |= 1u << k;
+        else
+            for (int i = 0; i < 3; i++) part[i] = held >> i & 1 ? 0 : part[i];
+    }
+    for (int i = 0; i < 3; i++) length += part[i] * part[i];
+    if (length < 0.5) return any;
+    for (int i = 0; i < 3; i++) t[i] = part[i] / sqrt(length);
+    return out;
+}
+
+/* (shell.16), (shell.17) */
+static void fill_rotary(const fracas_model *model, fracas_surface_tables *t, size_t e)
+{
+    const int nodes = SURFACE_NODES(t->order);
+    double *table = t->rotary + e * SURFACE_ROTARY_TABLE, *rotary = table + SURFACE_ROTARY,
+           *inverse = table + SURFACE_ROTARY_INVERSE, all[36];
+    const double *mass = t->lumped + (2 * e + 1) * (size_t)nodes;
+    t->body->fill_rotary(model, e, table + SURFACE_TURNING, rotary);
+    const unsigned out = hold_turning(t->held[e], table + SURFACE_TURNING);
+    for (int k = 0; k < nodes; k++)
+        for (int l = 0; l <= k; l++) {
+            double *entry = &rotary[fracas_surface_entry(k, l)];
+            *entry = (out >> k | out >> l) & 1 ? 0 : *entry * model->spec.time.rotary_inertia;
+        }
+    for (int k = 0; k < nodes; k++)
+        for (int l = 0; l < nodes; l++)
+            all[k * nodes + l] = rotary[fracas_surface_entry(k, l)] + (k == l ? mass[k] : 0);
+    invert(all, nodes);
+    for (int k = 0; k < nodes; k++)
+        for (int l = 0; l <= k; l++)
+            inverse[fracas_surface_entry(k, l)] = all[k * nodes + l] - (k == l ? 1 / mass[k] : 0);
+}
+
 static void fill_positions(const fracas_surface *surface, fracas_surface_tables *t, size_t e)
 {
     for (size_t k = 0; k < surface->corners; k++)
@@ -228,6 +279,7 @@ static void fill_element(const fracas_model *model, fracas_surface_tables *t, si
         t->body->fill_bulk(model, e, at[t->order - 1][g][0], at[t->order - 1][g][1],
                            0.5 / (double)points, t->bulk + (e * points + g) * t->body->bulk_table);
     fill_mass(model, t, e);
+    if (t->rotary) fill_rotary(model, t, e);
     if (t->position) fill_positions(model->surface, t, e);
     t->moves = t->moves || t->held[e] & ~t->fixed[e];
 }
@@ -271,8 +323,11 @@ fracas_err fracas_surface_tables_create(const fracas_model *model, fracas_surfac
     t->ninterfaces = surface->ninterfaces;
     for (size_t b = 0; b < surface->nborders; b++)
         t->nrims += fracas_edge_of(edge_kind(&model->spec, surface->border[b].tag))->director;
-    const lengths length = lengths_of(t, fracas_mass_is_consistent(&model->spec.time),
-                                      fracas_loading_traits_of(&model->spec)->body_force);
+    const fracas_time *time = &model->spec.time;
+    const lengths length = lengths_of(
+        t, (optional){.consistent = fracas_mass_is_consistent(time),
+                      .rotary = t->body->fill_rotary && time->rotary_inertia > 0,
+                      .positions = fracas_loading_traits_of(&model->spec)->body_force});
     fracas_err err = allocate(t, &length) ? fill(model, t)
                                           : fracas_no_memory("the tables of a surface");
     if (err) fracas_surface_tables_destroy(t);
