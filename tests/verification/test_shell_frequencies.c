@@ -119,14 +119,13 @@ static void a_thick_plate(void **unused)
     check(&v);
 }
 
-/* A plate that turns about an axis in its plane has twice the energy w^2 (rho h int y^2 dA + rho
- * h^3/12 A), to round-off. A translation has none of the second: R is an energy of gradients. Where
- * nodes are held along t, or across it, their elements keep what is left. */
+/* A plate that turns about an axis in its plane has twice the energy w^2 (rho h int y^2 dA + r rho
+ * h^3/12 A), to round-off. A translation has none of the second: R is an energy of gradients. */
 static void a_rigid_turn(void **unused)
 {
-    const double size[2] = {1.2, 1}, turn = 3;
+    const double size[2] = {1.2, 1}, turn = 3, share = 0.6;
     fracas_spec spec = shell_spec(&fracas_shape_file);
-    spec.time.rotary_inertia = 1;
+    spec.time.rotary_inertia = share;
     const shell_grid grid = {.nx = 4, .ny = 3, .map = flat_map, .how = size, .distortion = 0.2};
     OWN(fracas_model) with = grid_model(&spec, &grid);
     spec.time.rotary_inertia = NAN;
@@ -136,7 +135,8 @@ static void a_rigid_turn(void **unused)
     for (size_t i = 2; i < n; i += 3) v[i] = turn * place_of(with, i)[1];
     const double h = spec.geometry.thickness, rho = spec.material.density;
     const double more = mass_product(with, v, v) - mass_product(without, v, v);
-    assert_true(fabs(more / (turn * turn * rho * h * h * h / 12 * size[0] * size[1]) - 1) < 1e-10);
+    const double expected = share * turn * turn * rho * h * h * h / 12 * size[0] * size[1];
+    assert_true(fabs(more / expected - 1) < 1e-10);
     for (size_t i = 0; i < n; i++) moved[i] = (double)(1 + i % 3);
     assert_true(fabs(mass_product(with, moved, v) - mass_product(without, moved, v)) <
                 1e-12 * mass_product(with, v, v));
