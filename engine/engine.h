@@ -29,6 +29,9 @@ size_t fracas_model_strengths_per_interface(const fracas_model *model);
 size_t fracas_model_elements(const fracas_model *model);
 /* Mean length of elements, of surfaces of their edges [m]. */
 double fracas_model_element_size(const fracas_model *model);
+/* Memory of a model, and what each lane of a batch takes beside: of their arrays [bytes]. */
+double fracas_model_bytes(const fracas_model *model);
+double fracas_model_lane_bytes(const fracas_model *model);
 double fracas_model_time_step(const fracas_model *model); /* s, = safety * critical */
 int64_t fracas_model_steps(const fracas_model *model);    /* steps to time.end, at most */
 

@@ -298,6 +298,18 @@ static size_t lanes_of(const fracas_point *point)
     return point->replicas < FRACAS_LANES_MAX ? (size_t)point->replicas : FRACAS_LANES_MAX;
 }
 
+/* The model, a batch's lanes, times of onsets and breaks where interfaces are kept, labels. */
+static double memory_of(const fracas_campaign *campaign, const fracas_point *point,
+                        const fracas_model *model)
+{
+    const size_t lanes = lanes_of(point), width = lanes > 4 ? 8 : lanes > 1 ? 4 : 1;
+    const double kept = campaign->output.interfaces ? 2 * sizeof(double) : 0;
+    return fracas_model_bytes(model) +
+           (double)width *
+               (fracas_model_lane_bytes(model) + kept * (double)fracas_model_interfaces(model)) +
+           2 * sizeof(size_t) * (double)fracas_model_elements(model);
+}
+
 /* Element-steps and seconds of timed steps. */
 typedef struct {
     double element_steps, seconds;
@@ -398,6 +410,9 @@ static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p, bool
 {
     OWN(fracas_model) model = NULL;
     TRY(forecast_with(campaign, p, quick, &forecast[p], &model));
+    forecast[p].memory = memory_of(campaign, &campaign->point[p], model);
+    if (forecast[p].estimated)
+        forecast[p].memory *= (double)forecast[p].elements / (double)fracas_model_elements(model);
     forecast[p].speed = speed_of_similar(campaign, forecast, p);
     return forecast[p].speed > 0 ? FRACAS_OK : time_point(campaign, p, model, &forecast[p]);
 }

@@ -229,6 +229,22 @@ static void print_warnings(const campaign_plan *plan, FILE *out)
     }
 }
 
+/* Where it is worth a word. */
+static void print_memory(const campaign_plan *plan, FILE *out)
+{
+    enum { NOTABLE = 100000000 };
+    char text[FRACAS_SIZE_TEXT];
+    size_t most = 0;
+    for (size_t p = 1; p < plan->table->npoints; p++)
+        if (plan->forecast[p].memory > plan->forecast[most].memory) most = p;
+    if (plan->forecast[most].memory < NOTABLE) return;
+    fprintf(
+        out,
+        "Each process takes up to %s of memory (point %zu), the launcher at its start half as much "
+        "again.\n",
+        fracas_size_write(plan->forecast[most].memory, text), most);
+}
+
 static fracas_err print_text(const campaign_plan *plan, FILE *out)
 {
     const size_t points = plan->table->npoints, own = 1 + plan->nvaried, last = points + 2;
@@ -251,6 +267,7 @@ static fracas_err print_text(const campaign_plan *plan, FILE *out)
             "Sizes count one fragment for every %d elements.\n",
             plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest,
             FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
+    print_memory(plan, out);
     if (plan->most > plan->realizations)
         fprintf(out, "Replicas are added until replicas.until holds: from the least to the "
                      "most, with their times and sizes.\n");
@@ -294,6 +311,7 @@ static void print_json_point(const campaign_plan *plan, size_t p, fracas_json *j
     fracas_json_real(json, "element_steps_per_second", forecast->speed);
     fracas_json_real(json, "seconds", forecast->time);
     fracas_json_real(json, "bytes", forecast->bytes);
+    fracas_json_real(json, "memory", forecast->memory);
     fracas_json_close(json);
 }
 

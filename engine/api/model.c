@@ -104,6 +104,14 @@ double fracas_model_element_size(const fracas_model *model)
 {
     return model->element_size;
 }
+double fracas_model_bytes(const fracas_model *model)
+{
+    return (double)model->bytes;
+}
+double fracas_model_lane_bytes(const fracas_model *model)
+{
+    return (double)(model->formulation->state_size(model) * sizeof(double));
+}
 double fracas_model_time_step(const fracas_model *model)
 {
     return model->time_step;

@@ -57,6 +57,7 @@ static fracas_err fill_sizes(fracas_model *model)
     if (!spacing->fill) return FRACAS_OK;
     model->sizes = malloc(model->elements * sizeof *model->sizes);
     if (!model->sizes) return fracas_no_memory("the mesh of a bar");
+    model->bytes = model->elements * sizeof *model->sizes;
     TRY(spacing->fill(&model->spec.mesh, model->spec.geometry.length, model->sizes));
     for (size_t e = 0; e < model->elements; e++)
         model->longest = fmax(model->longest, model->sizes[e]);

@@ -80,6 +80,7 @@ static fracas_err ring_model_init(fracas_model *model)
             zone, model->element_size, ceil(fracas_spec_length(&model->spec) / zone));
     double *table = model->table = malloc(n * RING_TABLE * sizeof *table);
     if (!table) return fracas_no_memory("the mesh of a ring");
+    model->bytes = n * RING_TABLE * sizeof *table;
     for (size_t e = 0; e < n; e++) {
         const double angle = (double)(2 * e) / (double)n, middle = (double)(2 * e + 1) / (double)n;
         table[e * RING_TABLE + RING_COS] = fracas_cospi(angle);

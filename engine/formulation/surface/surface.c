@@ -142,6 +142,7 @@ fracas_err fracas_surface_model_init(fracas_model *model)
         model->strengths = (size_t)SURFACE_EDGE(model->surface->order);
     TRY(fracas_surface_tables_create(model, &t));
     model->plan = t;
+    model->bytes = fracas_surface_bytes(model->surface) + fracas_surface_tables_bytes(t);
     model->idle = idle_motion(model);
     if (body->check_tables) TRY(body->check_tables(model));
     TRY(check_motion(model));

@@ -258,6 +258,7 @@ static inline size_t fracas_surface_strength_of(const fracas_surface_constants *
 FRACAS_MUST_USE fracas_err fracas_surface_tables_create(const fracas_model *model,
                                                         fracas_surface_tables **tables);
 void fracas_surface_tables_destroy(void *tables); /* NULL is allowed */
+size_t fracas_surface_tables_bytes(const fracas_surface_tables *tables);
 /* Equal for equal tables of the linear operator. */
 fracas_hash fracas_surface_tables_hash(const fracas_surface_tables *tables);
 

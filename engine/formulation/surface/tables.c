@@ -81,9 +81,24 @@ static bool allocate(fracas_surface_tables *t, const lengths *length)
     return good;
 }
 
+static lengths own_lengths(const fracas_surface_tables *t)
+{
+    return lengths_of(t, (optional){t->consistent, t->rotary, t->position});
+}
+
+size_t fracas_surface_tables_bytes(const fracas_surface_tables *t)
+{
+    const lengths length = own_lengths(t);
+    size_t bytes = 0;
+#define TABLE(name) bytes += length.name * sizeof *t->name;
+    TABLES(TABLE)
+#undef TABLE
+    return bytes;
+}
+
 fracas_hash fracas_surface_tables_hash(const fracas_surface_tables *t)
 {
-    const lengths length = lengths_of(t, (optional){t->consistent, t->rotary, false});
+    const lengths length = own_lengths(t);
     fracas_hash part[sizeof(lengths) / sizeof(size_t)] = {0};
     size_t parts = 0;
 #define TABLE(name) part[parts++] = fracas_hash_of(t->name, length.name * sizeof *t->name);
@@ -162,25 +177,23 @@ static void fill_mass(const fracas_model *model, fracas_surface_tables *t, size_
     for (size_t i = 0; i < entries; i++) consistent[2 * entries + i] = mass[i];
 }
 
-/* Nodes that do not take part in an element's rotary inertia, as bits: those held along t. Where
- * others are held, across t or nearly so, t is turned to be so. */
+/* Turns t to be across the components held in an element, or, where these leave less than half of
+ * it, returns the nodes held, as bits: they take no part. */
 static unsigned hold_turning(uint32_t held, double t[3])
 {
     double part[3], length = 0;
-    unsigned out = 0, any = 0;
-    for (int i = 0; i < 3; i++) part[i] = t[i];
-    for (int k = 0; k < 6; k++, held >>= 3) {
-        double along = 0;
-        for (int i = 0; i < 3; i++) along += held >> i & 1 ? t[i] * t[i] : 0;
-        any |= held & 7 ? 1u << k : 0;
-        if (along > 0.5) out |= 1u << k;
-        else
-            for (int i = 0; i < 3; i++) part[i] = held >> i & 1 ? 0 : part[i];
+    unsigned nodes = 0, components = 0;
+    for (int k = 0; k < 6; k++) {
+        components |= held >> 3 * k & 7;
+        nodes |= held >> 3 * k & 7 ? 1u << k : 0;
     }
-    for (int i = 0; i < 3; i++) length += part[i] * part[i];
-    if (length < 0.5) return any;
+    for (int i = 0; i < 3; i++) {
+        part[i] = components >> i & 1 ? 0 : t[i];
+        length += part[i] * part[i];
+    }
+    if (length < 0.5) return nodes;
     for (int i = 0; i < 3; i++) t[i] = part[i] / sqrt(length);
-    return out;
+    return 0;
 }
 
 /* (shell.16), (shell.17) */

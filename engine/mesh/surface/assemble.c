@@ -42,6 +42,13 @@ void fracas_surface_destroy(const fracas_surface *surface)
     free((void *)surface);
 }
 
+size_t fracas_surface_bytes(const fracas_surface *s)
+{
+    return s->nnodes * sizeof *s->node +
+           s->nelements * (s->corners * sizeof *s->element + sizeof *s->given + sizeof *s->area) +
+           s->ninterfaces * sizeof *s->interface + s->nborders * sizeof *s->border;
+}
+
 static fracas_err allocate_work(assembly *work)
 {
     const size_t n = work->arrays->nelements;
