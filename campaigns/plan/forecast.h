@@ -11,7 +11,7 @@ typedef struct {
     double speed;       /* element-steps per second of one core; 0 until it is timed */
     double time;        /* for all replicas (with a rule, the maximum) on all jobs [s] */
     double bytes;       /* in study.h5 */
-    double memory;      /* of a process that computes the point, without libraries [bytes] */
+    double memory;      /* a process takes for it, without libraries [bytes] */
     double coarseness;  /* element size over E G_c/sigma_c^2, a crack's softening length */
     bool uniform;       /* at least half of the interfaces have the same strength */
     bool equal;         /* all interfaces have the same strength */

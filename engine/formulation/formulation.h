@@ -15,7 +15,7 @@ struct fracas_model {
     const fracas_formulation *formulation;
     fracas_spec spec;
     size_t elements, interfaces;
-    size_t bytes;                     /* of all arrays */
+    size_t bytes;                     /* all arrays together */
     size_t strengths;                 /* per interface: 1 unless model_init says more */
     double mass;                      /* kg */
     double element_size, longest;     /* m: mean and largest length h of an element */

@@ -69,7 +69,7 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_surface_assemble(const fracas_surface_arrays *arrays,
                                                    const fracas_surface **surface);
 void fracas_surface_destroy(const fracas_surface *surface); /* NULL is allowed */
-size_t fracas_surface_bytes(const fracas_surface *surface); /* of its arrays */
+size_t fracas_surface_bytes(const fracas_surface *surface); /* all arrays together */
 
 /* ---- meshes of simple bodies ---- */
 
