@@ -49,7 +49,7 @@ FRACAS_MUST_USE fracas_err fracas_forecast_all(const fracas_campaign *campaign, 
 typedef bool fracas_plan_warning(const fracas_point *point, const fracas_forecast *forecast,
                                  char *text, size_t size);
 
-enum { FRACAS_PLAN_WARNINGS = 16 };
+enum { FRACAS_PLAN_WARNINGS = 17 };
 extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];
 
 #endif

@@ -143,6 +143,14 @@ WARNING(warn_flat, forecast->flat,
         "along %s: are its coordinates in m?",
         point->strength.factor->path, point->strength.factor_along->name)
 
+/* Fewer resolve no wave, let alone a crack. */
+#define FEW_STEPS 10
+
+WARNING(warn_few_steps, forecast->steps < FEW_STEPS,
+        "time.end %g s is reached in %" PRId64 " time step%s of %.3g s: are time.end, material and "
+        "lengths in the units meant? A bare number is SI",
+        point->spec.time.end, forecast->steps, forecast->steps == 1 ? "" : "s", forecast->time_step)
+
 /* Largest stable step with rotary inertia by that without, on spheres of the paper's thickness with
  * edges of 41 to 163 um: 2.4 to 2.6 times thickness/edge. */
 #define LONGER_STEPS(point, forecast) (2.5 * (point)->spec.geometry.thickness / (forecast)->element)
@@ -161,4 +169,4 @@ WARNING(warn_weakest,
 fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
     warn_coarse, warn_uniform, warn_lines,  warn_weak_load, warn_repeated, warn_folds,
     warn_lonely, warn_step,    warn_turned, warn_passed,    warn_short,    warn_long,
-    warn_flat,   warn_weakest, warn_wave,   warn_bending};
+    warn_flat,   warn_weakest, warn_wave,   warn_bending,   warn_few_steps};

@@ -341,6 +341,33 @@ static void test_plan_of_fields(void **state)
                "strengths are correlated, and their size effect is that of independent flaws");
 }
 
+/* A shell three times as thick as its edges are long: bending waves make the step 7 times as short,
+ * and the plan says so within a quarter. */
+static void test_plan_of_thick_shells(void **state)
+{
+    static const char text[] =
+        "name: t\nseed: 7\nmodel: shell\ngeometry: {shape: sphere, part: octant, radius: 1 mm, "
+        "thickness: 0.2 mm}\nmesh: {divisions: 24}\nmaterial: {young: 370e9, poisson: 0.25, "
+        "density: 3900}\ncohesive: {fracture_energy: 100}\nstrength: {minimum: 264e6, scale: "
+        "50e6, shape: 2}\nloading: {rate: 1e5}\ntime: {end: 1e-7%s}\nreplicas: 1\n";
+    double step[2], said = 0;
+    for (int rotary = 0; rotary < 2; rotary++) {
+        char whole[700];
+        snprintf(whole, sizeof whole, text, rotary ? ", rotary_inertia: 1" : "");
+        OWN(fracas_campaign) campaign = read_text(whole);
+        fracas_forecast forecast;
+        OK(fracas_forecast_make(campaign, 0, &forecast));
+        step[rotary] = forecast.time_step;
+        OWNED char *plan = plan_text(campaign, 1, false), *json = plan_text(campaign, 1, true);
+        const char *found = strstr(plan, "time.rotary_inertia: 1 makes it about ");
+        assert_int_equal(found != NULL, !rotary);
+        if (found) assert_int_equal(sscanf(found, "%*s 1 makes it about %lf times", &said), 1);
+        assert_has(json, "\"memory\": ");
+    }
+    print_message("%.1f times as long, said %.1f\n", step[1] / step[0], said);
+    assert_true(step[1] / step[0] > 4 && fabs(said / (step[1] / step[0]) - 1) < 0.25);
+}
+
 /* A regular plate of strength 300 MPa cracks along lines; with E rate t/(1 - nu) = 493 MPa it does
  * crack. E G_c/sigma_c^2 is 206 um, the mean edge of squares of 1.25 mm cut in two (24 + 28 sides
  * and 32 diagonals of 84) 1.25 mm (52 + 32 sqrt 2)/84 = 1.447 mm: 7.04 of it, 14.1 times too much.
@@ -521,5 +548,5 @@ static void test_bounds_of_others(void **state)
 
 TESTS_ALL(read_file, free_file, test_plate, test_annulus, test_file, test_page_example,
           test_no_mesh, test_mean_strength, test_swept_model, test_inherited, test_perturbed,
-          test_plan, test_plan_of_fields, test_bytes, test_bound, test_steps_that_pass_strengths,
-          test_bounds_of_others)
+          test_plan, test_plan_of_thick_shells, test_plan_of_fields, test_bytes, test_bound,
+          test_steps_that_pass_strengths, test_bounds_of_others)
