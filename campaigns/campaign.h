@@ -54,7 +54,7 @@ typedef struct fracas_campaign {
     fracas_attached *attached; /* two may have the same content */
     fracas_hash hash; /* over seed, random numbers, output, hash and replicas of every point */
     struct fracas_campaign_memory *memory;  /* owns all of the above */
-    struct fracas_frequencies *frequencies; /* its points' models' so far */
+    struct fracas_frequencies *frequencies; /* computed so far for its points */
 } fracas_campaign;
 
 /* Maximum of a point's replicas. */

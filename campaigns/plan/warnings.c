@@ -37,7 +37,7 @@ static remedy finer(const fracas_spec *spec, const fracas_forecast *forecast)
         snprintf(made.text, sizeof made.text, "raise mesh.elements to %.0f",
                  ceil((double)forecast->elements * times));
     else if (fracas_spacing_of(spec)->from_file)
-        snprintf(made.text, sizeof made.text, "give a mesh with edges %.2g times shorter", times);
+        snprintf(made.text, sizeof made.text, "give a mesh with edges %.3g times shorter", times);
     else if (spec->mesh.size > 0)
         snprintf(made.text, sizeof made.text, "lower mesh.size to %.2g m", spec->mesh.size / times);
     else
