@@ -218,6 +218,11 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     return estimated ? FRACAS_OK : check_strengths(model, point, extent.least, factor.most);
 }
 
+double fracas_bending_steps(const fracas_spec *spec, double element)
+{
+    return isnan(spec->time.rotary_inertia) ? fmax(1, 2.5 * spec->geometry.thickness / element) : 1;
+}
+
 /* The forecast and its model. */
 static fracas_err forecast_with(const fracas_campaign *campaign, size_t index, bool quick,
                                 fracas_forecast *forecast, fracas_model **model)
@@ -234,8 +239,10 @@ static fracas_err forecast_with(const fracas_campaign *campaign, size_t index, b
     if (coarser == 1) return FRACAS_OK;
     forecast->elements = llround((double)forecast->elements * coarser * coarser);
     forecast->interfaces = llround((double)forecast->interfaces * coarser * coarser);
-    forecast->steps = llround((double)forecast->steps * coarser);
-    forecast->time_step /= coarser;
+    const double steps = coarser * fracas_bending_steps(&point.spec, forecast->element / coarser) /
+                         fracas_bending_steps(&point.spec, forecast->element);
+    forecast->steps = llround((double)forecast->steps * steps);
+    forecast->time_step /= steps;
     forecast->element /= coarser;
     return FRACAS_OK;
 }

@@ -39,8 +39,8 @@ FRACAS_MUST_USE fracas_err fracas_forecast_make(const fracas_campaign *campaign,
 
 /* Forecasts of all points, timed. quick: those of surfaces with more than FRACAS_FORECAST_QUICK
  * divisions are estimated from a mesh of so many, r times as coarse: elements and interfaces grow
- * by r^2, steps by r, and strengths are not checked. After some seconds, and before large meshes,
- * it says on stderr where it is. */
+ * by r^2, steps by r (by up to r^2 where bending limits them), and strengths are not checked. After
+ * some seconds, and before large meshes, it says on stderr where it is. */
 enum { FRACAS_FORECAST_QUICK = 64 };
 FRACAS_MUST_USE fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs,
                                                bool quick, fracas_forecast *forecast);
@@ -48,6 +48,11 @@ FRACAS_MUST_USE fracas_err fracas_forecast_all(const fracas_campaign *campaign, 
 /* Writes a warning; false, with any text, if it does not apply. */
 typedef bool fracas_plan_warning(const fracas_point *point, const fracas_forecast *forecast,
                                  char *text, size_t size);
+
+/* Factor by which rotary inertia would lengthen the time step: 2.5 thickness/edge, at least 1 (2.5
+ * to 3.1 on spheres with thickness/edge from 0.5 to 2.5); 1 for a body that has it or does not
+ * bend. */
+double fracas_bending_steps(const fracas_spec *spec, double element);
 
 enum { FRACAS_PLAN_WARNINGS = 17 };
 extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];

@@ -151,14 +151,11 @@ WARNING(warn_few_steps, forecast->steps < FEW_STEPS,
         "lengths in the units meant? A bare number is SI",
         point->spec.time.end, forecast->steps, forecast->steps == 1 ? "" : "s", forecast->time_step)
 
-/* Largest stable step with rotary inertia by that without, on spheres of the paper's thickness with
- * edges of 41 to 163 um: 2.4 to 2.6 times thickness/edge. */
-#define LONGER_STEPS(point, forecast) (2.5 * (point)->spec.geometry.thickness / (forecast)->element)
-
-WARNING(warn_bending, isnan(point->spec.time.rotary_inertia) && LONGER_STEPS(point, forecast) > 2,
+WARNING(warn_bending, fracas_bending_steps(&point->spec, forecast->element) > 2,
         "elements of %.2g m are small against the thickness of %.2g m, and bending waves limit the "
         "time step: time.rotary_inertia: 1 makes it about %.1f times as long",
-        forecast->element, point->spec.geometry.thickness, LONGER_STEPS(point, forecast))
+        forecast->element, point->spec.geometry.thickness,
+        fracas_bending_steps(&point->spec, forecast->element))
 
 /* Correlated neighbours leave the body fewer independent flaws than its volume suggests. */
 WARNING(warn_weakest,
