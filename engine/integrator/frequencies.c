@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/integrator/frequencies.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,6 +74,11 @@ char *fracas_frequencies_write(const fracas_frequencies *frequencies)
     return text;
 }
 
+static bool is_frequency(double omega)
+{
+    return omega > 0 && isfinite(omega);
+}
+
 fracas_err fracas_frequencies_read(fracas_frequencies *frequencies, const char *text)
 {
     while (*text) {
@@ -81,7 +87,8 @@ fracas_err fracas_frequencies_read(fracas_frequencies *frequencies, const char *
         fracas_frequency_pair pair;
         int length = 0;
         if (sscanf(text, "%32[0-9a-f]:%la:%la,%n", hex, &pair.whole, &pair.pressed, &length) != 3 ||
-            length == 0 || !fracas_hash_parse(hex, &body))
+            length == 0 || !fracas_hash_parse(hex, &body) || !is_frequency(pair.whole) ||
+            !is_frequency(pair.pressed))
             return FRACAS_OK;
         TRY(fracas_frequencies_keep(frequencies, &body, &pair));
         text += length;

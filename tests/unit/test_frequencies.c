@@ -133,18 +133,21 @@ static void many(void **state)
     assert_string_equal(none, "");
     for (uint32_t i = 0; i < MANY; i++) {
         const fracas_hash body = fracas_hash_of(&i, sizeof i);
-        const fracas_frequency_pair pair = {1e8 / (3 + i), -DBL_MAX / (3 + i)};
+        const fracas_frequency_pair pair = {1e8 / (3 + i), DBL_MAX / (3 + i)};
         OK(fracas_frequencies_keep(from, &body, &pair));
     }
     OWNED char *text = fracas_frequencies_write(from);
     assert_true(strlen(text) < 128 * 1024);
+    OK(fracas_frequencies_read(to, "00000000000000000000000000000000:0x1p+0:nan,"));
+    OWNED char *still = fracas_frequencies_write(to);
+    assert_string_equal(still, "");
     OK(fracas_frequencies_read(to, text));
     for (uint32_t i = 0; i < MANY; i++) {
         const fracas_hash body = fracas_hash_of(&i, sizeof i);
         fracas_frequency_pair pair = {0};
         assert_int_equal(fracas_frequencies_find(to, &body, &pair), i < WRITTEN);
         if (i < WRITTEN)
-            assert_true(pair.whole == 1e8 / (3 + i) && pair.pressed == -DBL_MAX / (3 + i));
+            assert_true(pair.whole == 1e8 / (3 + i) && pair.pressed == DBL_MAX / (3 + i));
     }
 }
 

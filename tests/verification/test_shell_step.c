@@ -33,6 +33,56 @@ static void rotary_inertia_of_held_nodes(void **unused)
     check_first_step(grid_model(&spec, &grid), 1, 1e3, 1e-6);
 }
 
+static void lifted_map(const void *unused, double s, double t, double x[3])
+{
+    x[0] = s;
+    x[1] = t;
+    x[2] = 0.7;
+}
+
+/* Edges that move along t, as fast as all else: nothing turns, and nobody works. */
+static void rotary_inertia_of_a_translation(void **unused)
+{
+    double kinetic[2];
+    for (int rotary = 0; rotary < 2; rotary++) {
+        fracas_spec spec = shell_spec(&fracas_shape_file);
+        for (int tag = 1; tag < FRACAS_EDGES; tag++) spec.geometry.edge[tag] = &fracas_edge_held;
+        spec.time.rotary_inertia = rotary;
+        spec.loading.rate = 1e-6;
+        const shell_grid grid = {.nx = 3, .ny = 3, .map = lifted_map, .distortion = 0.1};
+        one_run run = begin_run(grid_model(&spec, &grid), 1, 1e3);
+        step_run(&run);
+        kinetic[rotary] = run.batch->step.kinetic[0];
+        clear_run(&run);
+    }
+    assert_true(kinetic[0] > 0 && fabs(kinetic[1] / kinetic[0] - 1) < 1e-12);
+}
+
+/* Held edges of two kinds meet in a corner: it does not limit the step. A plate twice as thick as
+ * its cells are long has steps 3 times as long and more with rotary inertia. */
+static void rotary_inertia_in_corners(void **unused)
+{
+    static const double unit[2] = {1, 1};
+    const fracas_kind *const kinds[] = {&fracas_edge_clamped, &fracas_edge_held,
+                                        &fracas_edge_diaphragm, &fracas_edge_symmetry};
+    for (int k = 0; k < 4; k++) {
+        double step[2];
+        for (int rotary = 0; rotary < 2; rotary++) {
+            fracas_spec spec = shell_spec(&fracas_shape_file);
+            spec.geometry.thickness = 0.5;
+            spec.geometry.edge[1] = &fracas_edge_symmetry;
+            spec.geometry.edge[3] = kinds[k];
+            spec.time.rotary_inertia = rotary;
+            const shell_grid grid = {.nx = 4, .ny = 4, .map = flat_map, .how = unit};
+            OWN(fracas_model) model = grid_model(&spec, &grid);
+            step[rotary] = model->critical_step;
+        }
+        print_message("%s beside a symmetry: steps %.2f times as long\n", kinds[k]->name,
+                      step[1] / step[0]);
+        assert_true(step[1] > 3 * step[0]);
+    }
+}
+
 /* The critical step by power iteration, which needs no mass matrix: Lanczos' bound is above omega^2
  * by less than 2e-3 of it, and 20 000 powers, of a mode as near as 1e-3, are below by 1e-4. */
 static void rotary_inertia_bounds_the_step(void **unused)
@@ -176,5 +226,6 @@ static void oblique_edges_are_refused(void **unused)
     fracas_model_destroy(distorted_model(spec, 0, 0));
 }
 
-TESTS(a_step_is_the_operator, rotary_inertia_of_held_nodes, rotary_inertia_bounds_the_step,
-      edges_hold_what_they_should, oblique_edges_are_refused)
+TESTS(a_step_is_the_operator, rotary_inertia_of_held_nodes, rotary_inertia_of_a_translation,
+      rotary_inertia_in_corners, rotary_inertia_bounds_the_step, edges_hold_what_they_should,
+      oblique_edges_are_refused)

@@ -62,8 +62,7 @@ fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, const fracas_scr
                                fracas_mpirun *mpirun)
 {
     char self[4096], count[16], colon[] = "./:";
-    char *const before[] = {"mpirun", "--oversubscribe",  "--bind-to", "none", "-n", count,
-                            "-x",     FRACAS_FREQUENCIES, self};
+    char *const before[] = {"mpirun", "--oversubscribe", "--bind-to", "none", "-n", count, self};
     OWNED char **arguments = calloc(FRACAS_COUNT(before) + (size_t)argc + 1, sizeof *arguments);
     if (!arguments) return fracas_no_memory("the arguments of mpirun");
     memcpy(arguments, before, sizeof before);

@@ -14,9 +14,10 @@
 
 /* Set by the launcher in the environment of mpirun. */
 #define FRACAS_LAUNCHER_MARK "FRACAS_LAUNCHER"
-#define FRACAS_DEADLINE "FRACAS_DEADLINE"       /* end of --walltime, s since 1970 */
-#define FRACAS_FREQUENCIES "FRACAS_FREQUENCIES" /* fracas_frequencies_write of its campaign */
-#define FRACAS_RESTARTED "FRACAS_RESTARTED"     /* the reason for this restart of mpirun */
+#define FRACAS_DEADLINE "FRACAS_DEADLINE" /* end of --walltime, s since 1970 */
+#define FRACAS_FREQUENCIES \
+    "FRACAS_FREQUENCIES"                    /* fracas_frequencies_write; not on other machines */
+#define FRACAS_RESTARTED "FRACAS_RESTARTED" /* the reason for this restart of mpirun */
 
 typedef struct {
     bool launcher; /* one reads stdout */

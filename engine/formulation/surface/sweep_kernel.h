@@ -191,6 +191,22 @@ LANES_FUNCTION void surface_turn(const double *table, const vd *force, vd *accel
     }
 }
 
+/* Power of the reactions to it at held components. */
+LANES_FUNCTION vd surface_twist(const double *table, uint32_t held, const vd *acceleration,
+                                const vd *velocity)
+{
+    vd free[18], along[6], sum = lanes_set(0.0);
+    UNROLL_FOR (int i = 0; i < 18; i++) free[i] = held >> i & 1 ? lanes_set(0.0) : acceleration[i];
+    surface_turning(table, free, along);
+    UNROLL_FOR (int k = 0; k < 6; k++) {
+        const vd moment = surface_row(table + SURFACE_ROTARY, k, along);
+        for (int i = 0; i < 3; i++)
+            if (held >> (3 * k + i) & 1)
+                sum += lanes_set(table[SURFACE_TURNING + i]) * moment * velocity[3 * k + i];
+    }
+    return sum;
+}
+
 /* Twice its kinetic energy, of leapfrog velocities  (shell.18) */
 LANES_FUNCTION vd surface_spun(const double *table, const vd *v, const vd *after)
 {
@@ -225,8 +241,13 @@ LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size
         }
         if (position) acceleration[i] += c->spin * lanes_set(position[i]); /* (membrane.10) */
     }
-    if (BODY_DIMENSION == 3 && t->rotary)
-        surface_turn(t->rotary + e * SURFACE_ROTARY_TABLE, force, acceleration);
+    const double *rotary = BODY_DIMENSION == 3 && t->rotary ? t->rotary + e * SURFACE_ROTARY_TABLE
+                                                            : NULL;
+    if (rotary) {
+        vd pushed[18];
+        UNROLL_FOR (int i = 0; i < size; i++) pushed[i] = held >> i & 1 ? lanes_set(0.0) : force[i];
+        surface_turn(rotary, pushed, acceleration);
+    }
     if (__builtin_expect(held != 0, 0)) {
         vd power = lanes_set(0.0);
         for (int i = 0; i < size; i++) {
@@ -239,6 +260,7 @@ LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size
                                 acceleration[2 * k + i % 2];
             power += reaction * velocity[i];
         }
+        if (rotary) power += surface_twist(rotary, held, acceleration, velocity);
         surface_add(surface_at(surface_sums(c, e), SURFACE_POWER), power);
     }
 }

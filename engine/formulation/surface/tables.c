@@ -6,7 +6,6 @@
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 /* The arrays of the tables; the linear operator reads all but the positions. */
@@ -177,46 +176,36 @@ static void fill_mass(const fracas_model *model, fracas_surface_tables *t, size_
     for (size_t i = 0; i < entries; i++) consistent[2 * entries + i] = mass[i];
 }
 
-/* Turns t to be across the components held in an element, or, where these leave less than half of
- * it, returns the nodes held, as bits: they take no part. */
-static unsigned hold_turning(uint32_t held, double t[3])
-{
-    double part[3], length = 0;
-    unsigned nodes = 0, components = 0;
-    for (int k = 0; k < 6; k++) {
-        components |= held >> 3 * k & 7;
-        nodes |= held >> 3 * k & 7 ? 1u << k : 0;
-    }
-    for (int i = 0; i < 3; i++) {
-        part[i] = components >> i & 1 ? 0 : t[i];
-        length += part[i] * part[i];
-    }
-    if (length < 0.5) return nodes;
-    for (int i = 0; i < 3; i++) t[i] = part[i] / sqrt(length);
-    return 0;
-}
-
-/* (shell.16), (shell.17) */
+/* (M + T' R T)^-1 = M^-1 - M^-1 T' S T M^-1 with T_k = t less its components held at node k; with
+ * p_k = |T_k|^2 and D = diag(p_k/m_k), S = D^-1 (D - (D^-1 + R)^-1) D^-1  (shell.16), (shell.17) */
 static void fill_rotary(const fracas_model *model, fracas_surface_tables *t, size_t e)
 {
     const int nodes = SURFACE_NODES(t->order);
     double *table = t->rotary + e * SURFACE_ROTARY_TABLE, *rotary = table + SURFACE_ROTARY,
-           *inverse = table + SURFACE_ROTARY_INVERSE, all[36];
+           *inverse = table + SURFACE_ROTARY_INVERSE, part[6], all[36];
     const double *mass = t->lumped + (2 * e + 1) * (size_t)nodes;
     t->body->fill_rotary(model, e, table + SURFACE_TURNING, rotary);
-    const unsigned out = hold_turning(t->held[e], table + SURFACE_TURNING);
-    for (int k = 0; k < nodes; k++)
-        for (int l = 0; l <= k; l++) {
-            double *entry = &rotary[fracas_surface_entry(k, l)];
-            *entry = (out >> k | out >> l) & 1 ? 0 : *entry * model->spec.time.rotary_inertia;
-        }
+    for (int i = 0; i < nodes * (nodes + 1) / 2; i++) rotary[i] *= model->spec.time.rotary_inertia;
+    for (int k = 0; k < nodes; k++) {
+        double held = 0;
+        for (int i = 0; i < 3; i++)
+            if (t->held[e] >> (3 * k + i) & 1)
+                held += table[SURFACE_TURNING + i] * table[SURFACE_TURNING + i];
+        part[k] = held < 1 - 1e-12 ? 1 - held : 0;
+    }
     for (int k = 0; k < nodes; k++)
         for (int l = 0; l < nodes; l++)
-            all[k * nodes + l] = rotary[fracas_surface_entry(k, l)] + (k == l ? mass[k] : 0);
+            all[k * nodes + l] = (part[k] > 0 && part[l] > 0 ? rotary[fracas_surface_entry(k, l)]
+                                                             : 0) +
+                                 (k == l ? mass[k] / (part[k] > 0 ? part[k] : 1) : 0);
     invert(all, nodes);
     for (int k = 0; k < nodes; k++)
         for (int l = 0; l <= k; l++)
-            inverse[fracas_surface_entry(k, l)] = all[k * nodes + l] - (k == l ? 1 / mass[k] : 0);
+            inverse[fracas_surface_entry(k, l)] = part[k] > 0 && part[l] > 0
+                                                      ? (all[k * nodes + l] -
+                                                         (k == l ? 1 / (mass[k] / part[k]) : 0)) /
+                                                            (part[k] * part[l])
+                                                      : 0;
 }
 
 static void fill_positions(const fracas_surface *surface, fracas_surface_tables *t, size_t e)
