@@ -29,7 +29,7 @@ size_t fracas_model_strengths_per_interface(const fracas_model *model);
 size_t fracas_model_elements(const fracas_model *model);
 /* Mean length of elements, of surfaces of their edges [m]. */
 double fracas_model_element_size(const fracas_model *model);
-/* Memory of a model, and what each lane of a batch takes beside: of their arrays [bytes]. */
+/* Arrays of a model, and of each lane of a batch [bytes]. */
 double fracas_model_bytes(const fracas_model *model);
 double fracas_model_lane_bytes(const fracas_model *model);
 double fracas_model_time_step(const fracas_model *model); /* s, = safety * critical */
@@ -66,6 +66,8 @@ typedef struct {
     const struct fracas_batch_watch *watch; /* NULL: nobody; must outlive the batch */
 } fracas_batch_options;
 
+/* Lanes of a batch of so many realizations, unless another width is asked for. */
+int fracas_batch_width(size_t count);
 /* A batch of `count` (1 to 8) realizations of `model`, which must outlive it. It makes all its
  * allocations here. Lanes beyond `count` repeat lane 0 and give no record. FRACAS_USAGE for a width
  * below `count` or an instruction set this CPU lacks. */

@@ -85,7 +85,7 @@ typedef struct {
     const fracas_kind *integrator; /* surfaces: central-difference, hulbert-chung */
     double spectral_radius;        /* 1, hulbert-chung: at the bifurcation */
     const fracas_kind *mass;       /* surfaces: lumped, consistent */
-    double rotary_inertia; /* 1, shells: share of rho thickness^3/12 that is counted; NaN: none */
+    double rotary_inertia;         /* 1, shells: counted share of rho thickness^3/12; NaN: none */
 } fracas_time;
 
 typedef struct {

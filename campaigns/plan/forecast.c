@@ -309,10 +309,9 @@ static size_t lanes_of(const fracas_point *point)
 static double memory_of(const fracas_campaign *campaign, const fracas_point *point,
                         const fracas_model *model)
 {
-    const size_t lanes = lanes_of(point), width = lanes > 4 ? 8 : lanes > 1 ? 4 : 1;
     const double kept = campaign->output.interfaces ? 2 * sizeof(double) : 0;
     return fracas_model_bytes(model) +
-           (double)width *
+           fracas_batch_width(lanes_of(point)) *
                (fracas_model_lane_bytes(model) + kept * (double)fracas_model_interfaces(model)) +
            2 * sizeof(size_t) * (double)fracas_model_elements(model);
 }
@@ -393,7 +392,8 @@ static bool is_similar(const fracas_spec *a, const fracas_spec *b)
     return a->mesh.order == b->mesh.order && a->geometry.file == b->geometry.file &&
            a->cohesive.law == b->cohesive.law &&
            (a->cohesive.friction > 0) == (b->cohesive.friction > 0) &&
-           a->time.integrator == b->time.integrator && a->time.mass == b->time.mass;
+           a->time.integrator == b->time.integrator && a->time.mass == b->time.mass &&
+           (a->time.rotary_inertia > 0) == (b->time.rotary_inertia > 0);
 }
 
 /* Speed of an earlier similar point with the same lanes and half to twice the elements; 0: none. */

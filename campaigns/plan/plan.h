@@ -26,7 +26,7 @@ FRACAS_MUST_USE fracas_err fracas_plan_cost_with(const fracas_campaign *campaign
  *   speed     element-steps per second of one free core, timed on a short batch of the point's size
  *   size      bytes of the rows of study.h5, with one fragment for every
  *             FRACAS_PLAN_ELEMENTS_PER_FRAGMENT elements
- *   memory    model + lanes x a lane's state, of the point that takes most, from 100 MB on
+ *   memory    model + lanes x a lane's state, of the largest point, from 100 MB on
  * With `quick` large surfaces are estimated (fracas_forecast_all), without warnings, and it says
  * so. Errors as fracas_plan_cost, and FRACAS_ENVIRONMENT when `out` cannot be written. */
 FRACAS_MUST_USE fracas_err fracas_plan_print(const fracas_campaign *campaign, int jobs, bool quick,

@@ -16,7 +16,11 @@ void fracas_triangle_shape(int order, double xi, double eta, double *value,
 
 /* Points at which bulk stresses are kept: 1 for order 1, 3 for order 2 (point g nearest to vertex
  * g, l_g = 2/3); both integrate the elastic energy of a straight-sided triangle exactly. A stress
- * linear over the triangle is s = sum_g (2 l_g - 1/3) s_g  (membrane.2). Derivatives there: */
+ * linear over the triangle is s = sum_g (2 l_g - 1/3) s_g  (membrane.2). Their xi, eta, and the
+ * derivatives there: */
+#define FRACAS_TRIANGLE_POINTS_1 FRACAS_BRACES({1.0 / 3, 1.0 / 3})
+#define FRACAS_TRIANGLE_POINTS_2 \
+    FRACAS_BRACES({1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3})
 #define T_(x) ((x) / 3.0)
 #define FRACAS_TRIANGLE_DERIVATIVES_1 FRACAS_BRACES({{-1.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}})
 #define FRACAS_TRIANGLE_DERIVATIVES_2    \

@@ -21,7 +21,7 @@ FRACAS_MUST_USE fracas_err fracas_frequencies_create(fracas_frequencies **freque
 void fracas_frequencies_destroy(fracas_frequencies *frequencies); /* NULL is allowed */
 FRACAS_OWNER(fracas_frequencies, fracas_frequencies_destroy)
 
-/* The pair kept under `body`, the hash of everything that its operator is made of. */
+/* The pair kept under `body`, the hash of all tables and constants of its operator. */
 bool fracas_frequencies_find(const fracas_frequencies *frequencies, const fracas_hash *body,
                              fracas_frequency_pair *pair);
 /* Keeps a pair. FRACAS_ENVIRONMENT without memory. */
@@ -32,7 +32,7 @@ FRACAS_MUST_USE fracas_err fracas_frequencies_keep(fracas_frequencies *frequenci
 /* The pairs as text without blanks, the first 1000 of them; "" for none. The caller frees it; NULL
  * without memory. */
 char *fracas_frequencies_write(const fracas_frequencies *frequencies);
-/* Keeps the pairs of such a text, up to the first one that is none. FRACAS_ENVIRONMENT without
+/* Keeps the pairs of such a text, up to the first wrong one. FRACAS_ENVIRONMENT without
  * memory. */
 FRACAS_MUST_USE fracas_err fracas_frequencies_read(fracas_frequencies *frequencies,
                                                    const char *text);

@@ -5,12 +5,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+int fracas_batch_width(size_t count)
+{
+    return count > 4 ? 8 : count > 1 ? 4 : 1;
+}
+
 static fracas_err choose_width(size_t count, int wanted, int *width)
 {
     if (count < 1 || count > FRACAS_LANES_MAX)
         return fracas_fail(FRACAS_USAGE, "a batch of %zu realizations; 1 to %d fit", count,
                            FRACAS_LANES_MAX);
-    *width = wanted ? wanted : count > 4 ? 8 : count > 1 ? 4 : 1;
+    *width = wanted ? wanted : fracas_batch_width(count);
     if ((*width != 1 && *width != 4 && *width != 8) || (size_t)*width < count)
         return fracas_fail(FRACAS_USAGE,
                            "%d lanes for %zu realizations; lanes are 1, 4 or 8 and no fewer",

@@ -1,5 +1,5 @@
-# The processes of a run take frequencies from its launcher: twice as high ones halve the time step. Without any, or with text that is
-# none, they compute their own: the same study.h5.
+# The processes of a run take frequencies from its launcher: twice as high ones halve the time step. Without any, or with wrong text,
+# they compute their own: the same study.h5.
 . tests/support/campaigns.sh
 
 cat > plate.yaml <<'END'
@@ -16,7 +16,7 @@ time: {stop: time, end: 0.4 us}
 replicas: 2
 END
 
-# An mpirun before the real one: it changes the frequencies that the launcher hands on, by $change.
+# An mpirun before the real one: it changes the launcher's frequencies by $change.
 mkdir bin
 cat > bin/mpirun <<END
 #!/usr/bin/python3

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Frequencies kept from one model to the next: the models are what they are without, whichever
- * parameter changes between them, and pairs go to another process to the last bit. */
+/* Frequencies kept from one model to the next change no model, whichever parameter changes between
+ * them, and go to another process to the last bit. */
 #include "engine/integrator/frequencies.h"
 
 #include "engine/mesh/body.h"
@@ -68,7 +68,7 @@ static void vary(const fracas_spec *base, tally *count)
                                                                 section->kind_offset);
         for (size_t p = 0; p < kind->nparams; p++)
             vary_param(base, s, &kind->params[p], kept, count);
-        for (size_t k = 0; k < section->nkinds; k++) { /* of the parameters that they have */
+        for (size_t k = 0; k < section->nkinds; k++) { /* with the same parameters */
             fracas_spec spec = *base;
             *(const fracas_kind **)((char *)&spec + section->offset +
                                     section->kind_offset) = section->kinds[k];
@@ -106,8 +106,7 @@ static void another_process(void **state)
     OK(fracas_model_create(&spec, &computed));
     OWNED char *text = fracas_frequencies_write(first);
     assert_non_null(text);
-    /* The pressed operator's frequency with another first digit, so that it is seen where it is
-     * from; then something that is no pair. */
+    /* The pressed operator's frequency twice as high shows its source; then a wrong pair. */
     char changed[200], hash[FRACAS_HASH_HEX];
     double whole, pressed;
     assert_int_equal(sscanf(text, "%32[0-9a-f]:%la:%la,", hash, &whole, &pressed), 3);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a model and a lane take, as they say it, beside what malloc gave them. */
+/* Told memory of a model and a lane beside the bytes of malloc. */
 #include "engine/solver/batch.h"
 #include "tests/support/bar.h"
 #include "tests/support/membrane_elastic.h"

@@ -119,7 +119,7 @@ static void a_thick_plate(void **unused)
     check(&v);
 }
 
-/* A plate that turns about an axis in its plane has twice the energy w^2 (rho h int y^2 dA + r rho
+/* A plate turning about an axis in its plane has twice the energy w^2 (rho h int y^2 dA + r rho
  * h^3/12 A), to round-off. A translation has none of the second: R is an energy of gradients. */
 static void a_rigid_turn(void **unused)
 {

@@ -40,7 +40,7 @@ static void lifted_map(const void *unused, double s, double t, double x[3])
     x[2] = 0.7;
 }
 
-/* Edges that move along t, as fast as all else: nothing turns, and nobody works. */
+/* Edges move along t, as fast as all else: nothing turns, no edge works. */
 static void rotary_inertia_of_a_translation(void **unused)
 {
     double kinetic[2];

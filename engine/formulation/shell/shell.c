@@ -3,6 +3,7 @@
  * (docs/theory/shell.md). */
 #include "engine/formulation/shell/shell.h"
 
+#include "engine/element/triangle.h"
 #include "engine/formulation/shell/geometry.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
@@ -154,8 +155,7 @@ static void fill_head(const fracas_model *model, double inverse_size, double *he
 /* (shell.16) */
 static void fill_rotary(const fracas_model *model, size_t e, double t[3], double *rotary)
 {
-    static const double at[SHELL_BULK][2] = {
-        {1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}};
+    static const double at[SHELL_BULK][2] = FRACAS_TRIANGLE_POINTS_2;
     const double h = model->spec.geometry.thickness,
                  inertia = model->spec.material.density * h * h * h / 12;
     fracas_shell_geometry here;

@@ -83,7 +83,8 @@ enum { SURFACE_STIFFNESS, SURFACE_COMPLIANCE, SURFACE_HEAD };
 typedef struct fracas_surface_body fracas_surface_body;
 
 /* An element's rotary inertia: the direction t along which displacements turn it, and two symmetric
- * matrices over its nodes, lower triangles row by row: R [kg], and (M + R)^-1 - M^-1 [1/kg]. */
+ * matrices over its nodes, lower triangles row by row: R [kg], and the part of the inverse mass
+ * beside M^-1 [1/kg]  (shell.17). */
 enum {
     SURFACE_TURNING,
     SURFACE_ROTARY = SURFACE_TURNING + 3,

@@ -274,8 +274,7 @@ static fracas_err fill_edges(const fracas_model *model, fracas_surface_tables *t
 
 static void fill_element(const fracas_model *model, fracas_surface_tables *t, size_t e)
 {
-    static const double at[2][3][2] = {
-        {{1.0 / 3, 1.0 / 3}}, {{1.0 / 6, 1.0 / 6}, {2.0 / 3, 1.0 / 6}, {1.0 / 6, 2.0 / 3}}};
+    static const double at[2][3][2] = {FRACAS_TRIANGLE_POINTS_1, FRACAS_TRIANGLE_POINTS_2};
     const size_t points = SURFACE_BULK(t->order);
     for (size_t g = 0; g < points; g++)
         t->body->fill_bulk(model, e, at[t->order - 1][g][0], at[t->order - 1][g][1],
