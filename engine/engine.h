@@ -57,12 +57,31 @@ double fracas_model_period(const fracas_model *model);
  * this mesh (K <= sigma_c/delta_c). */
 FRACAS_MUST_USE fracas_err fracas_model_check_strength(const fracas_model *model, double strength);
 
+/* Bytes for another process, or from it. */
+typedef struct {
+    void *bytes;
+    size_t size;
+} fracas_parcel;
+
+/* Processes that compute the realizations of a batch together, each its own parts of the body. Peer
+ * 0 leads: its records are whole. All create the same batch, but for threads and watch, and
+ * run it. */
+typedef struct {
+    size_t count, number; /* this process is `number` of `count` */
+    /* Sends out[p] to each other peer p and receives in[p] from it; both know the sizes. Called by
+     * all peers, in one order. An error ends the batch. */
+    fracas_err (*exchange)(void *context, const fracas_parcel *out, const fracas_parcel *in);
+    void *context;
+} fracas_peers;
+
 typedef struct {
     int64_t history; /* history rows, at equal intervals of time.end; 0: only the events */
     bool interfaces; /* keep one row an interface */
     int width;       /* lanes: 1, 4, 8; 0 chooses by the number of realizations */
     fracas_isa isa;  /* FRACAS_ISA_BEST: the best this CPU has */
     int parts;       /* threads for a surface, the same bits; 0: 1 */
+    const fracas_peers
+        *peers; /* for a surface, the same bits; NULL: none; must outlive the batch */
     const struct fracas_batch_watch *watch; /* NULL: nobody; must outlive the batch */
 } fracas_batch_options;
 
@@ -110,7 +129,9 @@ fracas_lane_progress fracas_batch_progress(const fracas_batch *batch, size_t lan
 typedef struct fracas_batch_watch {
     /* Before the first step: lanes may be loaded, with the records of those that are over. */
     fracas_err (*begin)(void *context, fracas_batch *batch, fracas_record *record);
-    /* Every 64 steps: lanes may be saved. */
+    /* Every 64 steps: whether to look now. NULL: always. */
+    bool (*due)(void *context);
+    /* Then: lanes may be saved. */
     fracas_err (*pause)(void *context, fracas_batch *batch, const fracas_record *record);
     void *context;
 } fracas_batch_watch;

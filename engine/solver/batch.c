@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/solver/batch.h"
 
+#include "engine/solver/peers.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -30,11 +32,12 @@ static void *allocate(size_t doubles)
     return aligned_alloc(64, bytes ? bytes : 64);
 }
 
-static fracas_err divide(const fracas_model *model, int parts, fracas_step *step)
+static fracas_err divide(const fracas_model *model, int parts, const fracas_peers *peers,
+                         fracas_step *step)
 {
     const fracas_formulation *f = model->formulation;
     step->division = (fracas_division){.parts = 1, .fields = f->state_size(model)};
-    if (f->divide) TRY(f->divide(model, parts > 1 ? (size_t)parts : 1, &step->division));
+    if (f->divide) TRY(f->divide(model, parts > 1 ? (size_t)parts : 1, peers, &step->division));
     return fracas_team_create(step->division.parts, &step->team);
 }
 
@@ -53,7 +56,7 @@ fracas_err fracas_batch_create(const fracas_model *model, size_t count,
         .watch = options->watch,
         .step = {.width = width, .lanes = fracas_isa_lanes(isa, width), .isa = isa}};
     const size_t lanes = (size_t)width;
-    TRY(divide(model, options->parts, &batch->step));
+    TRY(divide(model, options->parts, options->peers, &batch->step));
     double **const array[] = {&batch->step.state, &batch->step.onset_time, &batch->step.break_time};
     for (int i = 0; i < (options->interfaces ? 3 : 1); i++) {
         *array[i] = allocate((i ? model->interfaces : batch->step.division.fields) * lanes);
@@ -140,19 +143,23 @@ static fracas_err finish_lane(fracas_batch *batch, size_t l, fracas_outcome outc
                               .mass = batch->model->mass,
                               .residual = ledger->largest_residual,
                               .residual_end = ledger->residual};
+    TRY(fracas_peers_gather(batch->model, &batch->step, -1));
+    if (!fracas_peers_leads(&batch->step)) return FRACAS_OK;
     memcpy(record->energy, ledger->energy, sizeof record->energy);
     TRY(fracas_history_harvest(&lane->history, record));
     return batch->model->formulation->harvest(batch->model, &batch->step, (int)l, record);
 }
 
-/* The fragments of a lane, counted again only when something has broken since. */
-static int64_t count_fragments(fracas_batch *batch, size_t l)
+/* Counts the fragments of a lane, again only when something has broken since. */
+static fracas_err count_fragments(fracas_batch *batch, size_t l)
 {
+    const fracas_model *model = batch->model;
     fracas_lane *lane = &batch->lane[l];
-    if (lane->counted == batch->step.broken[l]) return lane->fragments;
+    if (lane->counted == batch->step.broken[l]) return FRACAS_OK;
     lane->counted = batch->step.broken[l];
-    return lane->fragments = batch->model->formulation->fragment_count(batch->model, &batch->step,
-                                                                       (int)l);
+    TRY(fracas_peers_gather(model, &batch->step, (int)l));
+    lane->fragments = model->formulation->fragment_count(model, &batch->step, (int)l);
+    return FRACAS_OK;
 }
 
 /* *running: the lane is not over. */
@@ -194,8 +201,10 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
         .time = step->time[l], .residual = ledger->residual, .broken = step->broken[l]};
     memcpy(row.energy, ledger->energy, sizeof row.energy);
     TRY(check_end(batch, l, &outcome, &lane->running));
-    if (!lane->running || fracas_history_keeps(&lane->history, &row, cracked))
-        row.fragments = count_fragments(batch, l);
+    if (!lane->running || fracas_history_keeps(&lane->history, &row, cracked)) {
+        TRY(count_fragments(batch, l));
+        row.fragments = lane->fragments;
+    }
     fracas_history_observe(&lane->history, lane->steps, &row, cracked);
     return lane->running ? FRACAS_OK : finish_lane(batch, l, outcome, record);
 }
@@ -225,6 +234,7 @@ fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record, size_t 
     fracas_step *step = &batch->step;
     for (int l = 0; l < step->width; l++) advance_clock(batch, l);
     batch->model->formulation->advance(batch->model, step);
+    if (step->division.peers) TRY(batch->model->formulation->share(batch->model, step));
     *running = 0;
     for (size_t l = 0; l < batch->count; l++) {
         if (batch->lane[l].running) TRY(observe_lane(batch, l, &record[l]));
@@ -234,17 +244,26 @@ fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record, size_t 
     return FRACAS_OK;
 }
 
+/* The look of whoever watches, for which peers bring all together. */
+static fracas_err look(fracas_batch *batch, const fracas_record *record)
+{
+    const fracas_batch_watch *watch = batch->watch;
+    bool due = watch && (!watch->due || watch->due(watch->context));
+    TRY(fracas_peers_tell((fracas_peers *)batch->step.division.peers, &due, sizeof due));
+    if (!due) return FRACAS_OK;
+    TRY(fracas_peers_gather(batch->model, &batch->step, -1));
+    return watch ? watch->pause(watch->context, batch, record) : FRACAS_OK;
+}
+
 /* Computes all lanes until they are over. */
 static fracas_err run_lanes(fracas_batch *batch, fracas_record *record)
 {
     enum { BETWEEN = 64 }; /* steps */
-    const fracas_batch_watch *watch = batch->watch;
     size_t running = 0;
     for (size_t l = 0; l < batch->count; l++) running += batch->lane[l].running;
     for (int n = 1; running > 0; n++) {
         TRY(fracas_batch_step(batch, record, &running));
-        if (watch && running > 0 && n % BETWEEN == 0)
-            TRY(watch->pause(watch->context, batch, record));
+        if (running > 0 && n % BETWEEN == 0) TRY(look(batch, record));
     }
     return FRACAS_OK;
 }
@@ -272,6 +291,7 @@ fracas_err fracas_batch_run(fracas_batch *batch, fracas_record *record)
 {
     TRY(fracas_batch_begin(batch));
     if (batch->watch) TRY(batch->watch->begin(batch->watch->context, batch, record));
+    TRY(fracas_peers_begin(batch));
     TRY(run_lanes(batch, record));
     return run_again(batch, record);
 }

@@ -2,6 +2,7 @@
 #include "engine/solver/guard.h"
 
 #include "base/own.h"
+#include "engine/solver/peers.h"
 
 #include <float.h>
 #include <math.h>
@@ -12,6 +13,7 @@ fracas_err fracas_guard_beside(const fracas_model *model, fracas_step *step, int
 {
     const fracas_formulation *body = model->formulation;
     const bool whole = step->broken[lane] == 0;
+    TRY(fracas_peers_gather(model, step, -1));
     const size_t count = body->partition(model, step, lane);
     OWNED fracas_fragment_sums *sums = calloc(2 * count, sizeof *sums);
     OWNED fracas_fragment_motion *motion = malloc(count * sizeof *motion);
@@ -25,7 +27,7 @@ fracas_err fracas_guard_beside(const fracas_model *model, fracas_step *step, int
     for (size_t f = 0; f < count; f++)
         *energy += !whole && sums[f].elements == 1 ? -sums[f].strain_energy
                                                    : sums[count + f].kinetic;
-    return FRACAS_OK;
+    return fracas_peers_tell((fracas_peers *)step->division.peers, energy, sizeof *energy);
 }
 
 /* Remembers the last step with a sound balance, and whether fragments were final then: nothing had

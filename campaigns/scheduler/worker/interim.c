@@ -76,11 +76,16 @@ static fracas_err begin(void *context, fracas_batch *batch, fracas_record *recor
     return FRACAS_OK;
 }
 
-static fracas_err look(void *context, fracas_batch *batch, const fracas_record *record)
+static bool is_due(void *context)
+{
+    const fracas_interim *interim = context;
+    return fracas_now() >= interim->due;
+}
+
+static fracas_err save_all(void *context, fracas_batch *batch, const fracas_record *record)
 {
     fracas_interim *interim = context;
     const double began = fracas_now();
-    if (began < interim->due) return FRACAS_OK;
     fracas_err err = FRACAS_OK;
     /* A disk that is full stops a run at its segments, with a message. */
     for (size_t l = 0; l < interim->count && !err; l++) err = save(interim, batch, l, &record[l]);
@@ -99,6 +104,6 @@ const fracas_batch_watch *fracas_interim_watch(fracas_interim *interim,
                                 replica,
                                 count,
                                 fracas_now() + computation->options->checkpoint_seconds,
-                                {begin, look, interim}};
+                                {begin, is_due, save_all, interim}};
     return &interim->watch;
 }

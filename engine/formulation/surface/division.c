@@ -10,6 +10,7 @@ enum { NONE = UINT32_MAX, LINE = 8 /* doubles of a line of memory */ };
 /* Room for the making of one part after another. Turns are numbered within the part. */
 typedef struct {
     const fracas_surface_constants *constants;
+    size_t here, here_end;      /* elements of all parts here */
     size_t begin, end;          /* the part's elements */
     size_t place;               /* next free field of a group's memory */
     uint32_t *join_from, *join; /* interfaces by their second element, in order */
@@ -23,6 +24,12 @@ typedef struct {
 static bool owns(const maker *m, size_t e)
 {
     return e >= m->begin && e < m->end;
+}
+
+/* Some part here owns it. */
+static bool is_here(const maker *m, size_t e)
+{
+    return e >= m->here && e < m->here_end;
 }
 
 /* ---- room ---- */
@@ -111,7 +118,8 @@ static void give_joins(maker *m, fracas_surface_part *part)
             const size_t at = fracas_surface_interfaces_at(c) + i * interface_fields;
             fracas_surface_join *join = &part->join[joins++];
             *join = (fracas_surface_join){.interface = i, .edge = {t->edge[i][0], t->edge[i][1]}};
-            join->at = turn->ghost ? place_copy(m, part, at, interface_fields) : (uint32_t)at;
+            join->at = turn->ghost && is_here(m, e) ? place_copy(m, part, at, interface_fields)
+                                                    : (uint32_t)at;
             for (int side = 0; side < 2; side++) {
                 const uint32_t of = m->turn_of[pair[side]];
                 join->element[side] = part->turn[of].at;
@@ -189,21 +197,30 @@ void fracas_surface_division_destroy(void *p)
         for (size_t k = 0; k < FRACAS_COUNT(owned); k++) free(owned[k]);
     }
     free(division->part);
+    fracas_surface_sharing_destroy(division->sharing);
     free(division);
 }
 
-static fracas_err make_parts(maker *m, fracas_surface_division *division)
+/* The first element of a block; the end of all after the last one. */
+static size_t first_of(const fracas_surface_tables *t, size_t block)
+{
+    const size_t e = block * SURFACE_BLOCK;
+    return e < t->nelements ? e : t->nelements;
+}
+
+/* The parts of blocks `from` to before `to`. */
+static fracas_err make_parts(maker *m, size_t from, size_t to, fracas_surface_division *division)
 {
     const fracas_surface_tables *t = m->constants->tables;
-    const size_t blocks = fracas_surface_blocks(t);
+    m->here = m->end = first_of(t, from);
+    m->here_end = first_of(t, to);
     for (size_t i = 0; i < division->parts; i++) {
         m->begin = m->end;
-        m->end = (i + 1) * blocks / division->parts * SURFACE_BLOCK;
-        if (m->end > t->nelements) m->end = t->nelements;
+        m->end = first_of(t, from + (i + 1) * (to - from) / division->parts);
         TRY(make_part(m, &division->part[i]));
     }
     division->sums = m->place;
-    division->fields = m->place + blocks * SURFACE_SUMS;
+    division->fields = m->place + fracas_surface_blocks(t) * SURFACE_SUMS;
     if (division->fields <= UINT32_MAX) return FRACAS_OK;
     return fracas_fail(
         FRACAS_ENVIRONMENT,
@@ -212,18 +229,23 @@ static fracas_err make_parts(maker *m, fracas_surface_division *division)
 }
 
 fracas_err fracas_surface_division_create(const fracas_surface_constants *c, size_t parts,
-                                          fracas_surface_division **out)
+                                          const fracas_peers *peers, fracas_surface_division **out)
 {
-    const size_t blocks = fracas_surface_blocks(c->tables);
+    const size_t blocks = fracas_surface_blocks(c->tables), count = peers ? peers->count : 1,
+                 number = peers ? peers->number : 0,
+                 from = fracas_surface_share(blocks, number, count),
+                 to = fracas_surface_share(blocks, number + 1, count);
     fracas_surface_division *division = calloc(1, sizeof *division);
     if (!division) return fracas_no_memory("the parts of a body");
-    division->parts = parts < 1 ? 1 : parts > blocks ? blocks : parts;
-    division->part = calloc(division->parts, sizeof *division->part);
+    division->parts = parts > to - from ? to - from : parts;
+    division->part = calloc(division->parts + 1, sizeof *division->part);
     maker m;
     fracas_err err = maker_init(&m, c);
     if (!err)
-        err = division->part ? make_parts(&m, division) : fracas_no_memory("the parts of a body");
+        err = division->part ? make_parts(&m, from, to, division)
+                             : fracas_no_memory("the parts of a body");
     maker_clear(&m);
+    if (!err && peers) err = fracas_surface_sharing_create(c, peers, &division->sharing);
     if (err) fracas_surface_division_destroy(division);
     else *out = division;
     return err;

@@ -188,12 +188,12 @@ size_t fracas_surface_state_size(const fracas_model *model)
 }
 
 fracas_err fracas_surface_model_divide(const fracas_model *model, size_t parts,
-                                       fracas_division *out)
+                                       const fracas_peers *peers, fracas_division *out)
 {
     const fracas_surface_constants c = fracas_surface_constants_of(model);
     fracas_surface_division *division;
-    TRY(fracas_surface_division_create(&c, parts, &division));
-    *out = (fracas_division){division->parts, division->fields, division};
+    TRY(fracas_surface_division_create(&c, parts, peers, &division));
+    *out = (fracas_division){division->parts, division->fields, division, peers};
     return FRACAS_OK;
 }
 
@@ -286,14 +286,33 @@ void fracas_surface_advance(const fracas_model *model, fracas_step *step)
 {
     surface_task task = {.constants = fracas_surface_constants_of(model), .step = step};
     const fracas_surface_constants *c = &task.constants;
+    const fracas_surface_division *division = step->division.plan;
     const fracas_surface_kernel *kernel = (*c->tables->body->kernels)[step->isa][step->lanes];
     task.sweep = kernel->sweep[fracas_law_of(&model->spec)->number][c->tables->order - 1];
     for (int l = 0; l < step->width; l++) step->spin[l] = fracas_surface_spin(c, step->time[l]);
-    fracas_team_run(step->team, advance_part, &task);
+    if (division->sharing) fracas_surface_sharing_begin(division->sharing, step);
+    if (division->parts) fracas_team_run(step->team, advance_part, &task);
+    if (division->sharing) return; /* the rest is fracas_surface_share_step */
+    fracas_surface_add_blocks(c, step, 0, fracas_surface_blocks(c->tables));
     fracas_surface_totals(c, step);
 }
 
 /* ---- fragments ---- */
+
+bool fracas_surface_is_broken(const fracas_surface_constants *c, const fracas_step *step, size_t i,
+                              int lane)
+{
+    for (size_t p = 0; p < fracas_surface_points(c->tables); p++)
+        if (!(*point_value(c, step, i, (int)p, SURFACE_DAMAGE, lane) >= 1.0)) return false;
+    return true;
+}
+
+void fracas_surface_break(const fracas_surface_constants *c, const fracas_step *step, size_t i,
+                          int lane)
+{
+    for (size_t p = 0; p < fracas_surface_points(c->tables); p++)
+        *point_value(c, step, i, (int)p, SURFACE_DAMAGE, lane) = 1.0;
+}
 
 /* D of an interface: the mean over its points by their weights, 1 only where all are broken
  * (membrane.18) */
@@ -304,14 +323,12 @@ static double damage_of(const fracas_surface_constants *c, const fracas_step *st
     const fracas_surface_body *body = c->tables->body;
     const int order = c->tables->order;
     double damage = 0;
-    bool broken = true;
     for (int g = 0; g < SURFACE_EDGE(order); g++)
         for (int k = 0; k < body->layers; k++) {
             const double at = *point_value(c, step, i, g * body->layers + k, SURFACE_DAMAGE, lane);
             damage += weight[order - 1][g] * body->layer[k] * at;
-            broken = broken && at >= 1.0;
         }
-    return broken ? 1.0 : fmin(damage, 1.0 - 0x1p-53);
+    return fracas_surface_is_broken(c, step, i, lane) ? 1.0 : fmin(damage, 1.0 - 0x1p-53);
 }
 
 size_t fracas_surface_partition(const fracas_model *model, fracas_step *step, int lane)
@@ -320,7 +337,7 @@ size_t fracas_surface_partition(const fracas_model *model, fracas_step *step, in
     fracas_partition_reset(&step->partition);
     for (size_t i = 0; i < model->interfaces; i++) {
         const uint32_t *element = model->surface->interface[i].element;
-        if (damage_of(&c, step, i, lane) < 1.0)
+        if (!fracas_surface_is_broken(&c, step, i, lane))
             fracas_partition_unite(&step->partition, element[0], element[1]);
     }
     return fracas_partition_label(&step->partition);

@@ -9,14 +9,15 @@
 
 /* ---- interfaces ---- */
 
-/* Books the events at an interface, lane by lane; a ghost's are another part's. */
+/* Books the events at an interface, lane by lane. */
 __attribute__((noinline, cold, unused)) static void
 surface_book(const surface_context *c, int points, const fracas_surface_join *join,
              const vmask *cracks, const vmask *breaks, vmask opens, vmask parts)
 {
-    for (int l = 0; l < LANES && !c->ghost; l++) {
+    for (int l = 0; l < LANES; l++) {
         fracas_surface_event event = {.interface = join->interface,
                                       .lane = c->first + l,
+                                      .ghost = c->ghost,
                                       .element = {surface_place(c, join->element[0]) + l,
                                                   surface_place(c, join->element[1]) + l},
                                       .fields = surface_place(c, join->at) + l,
