@@ -16,8 +16,8 @@
 #include <sys/prctl.h>
 #include <time.h>
 
-/* A rank sleeps so long when no message comes [ms]. */
-enum { WAIT_MAX = 8 };
+/* A rank sleeps at most so long [ms]: a signal just before goes unnoticed until then. */
+enum { SLEEP = 100 };
 
 typedef struct {
     const fracas_run_options *options;
@@ -26,19 +26,17 @@ typedef struct {
     double began;       /* fracas_now at the start of this process */
     fracas_mailbox box; /* to the other ranks */
     fracas_link link;   /* to its compute server */
-    int wait;           /* to sleep when no message comes [ms] */
 } rank_state;
 
 static fracas_err server_receive(rank_state *rank, fracas_packet **message)
 {
-    return fracas_link_receive(&rank->link, rank->box.rank, rank->wait, message);
+    return fracas_link_receive(&rank->link, rank->box.rank, message);
 }
 
-/* MPI is polled: the wait doubles while nothing happens. Leases are given one ahead. */
-static void pace(rank_state *rank, bool busy)
+/* Until a message may have come, of another rank or of its server. */
+static void sleep_a_little(rank_state *rank)
 {
-    rank->wait = busy ? 0 : rank->wait ? 2 * rank->wait : 1;
-    if (rank->wait > WAIT_MAX) rank->wait = WAIT_MAX;
+    fracas_mailbox_wait(&rank->box, rank->link.supervisor.server, SLEEP);
 }
 
 /* ---- ranks but 0 ---- */
@@ -59,14 +57,13 @@ static fracas_err receive_lead(rank_state *rank, bool *come, bool *quit)
  * rank 0 may be sending, too. */
 static fracas_err send_lead(rank_state *rank, const fracas_packet *message, bool *quit)
 {
-    const struct timespec rest = {.tv_nsec = 200000};
     TRY(fracas_mailbox_post(&rank->box, 0, message));
     for (;;) {
         bool come;
         TRY(fracas_mailbox_clear(&rank->box));
         if (!rank->box.outbox) return FRACAS_OK;
         TRY(receive_lead(rank, &come, quit));
-        if (!come) nanosleep(&rest, NULL);
+        if (!come) fracas_mailbox_wait(&rank->box, -1, 1);
     }
 }
 
@@ -86,7 +83,7 @@ static fracas_err forward(rank_state *rank, bool *quit)
     TRY(server_receive(rank, &message));
     if (message) TRY(send_lead(rank, message, quit));
     TRY(receive_lead(rank, &come, quit));
-    pace(rank, message || come);
+    if (!message && !come) sleep_a_little(rank);
     return FRACAS_OK;
 }
 
@@ -137,7 +134,7 @@ static fracas_err direct(rank_state *rank, fracas_director *director)
         } while (message);
         TRY(fracas_mailbox_clear(&rank->box));
         fracas_director_tick(director);
-        pace(rank, busy);
+        if (!busy) sleep_a_little(rank);
     }
     return FRACAS_OK;
 }
@@ -183,20 +180,20 @@ static fracas_err lead(rank_state *rank, fracas_channel *channel, bool *ran)
 static void receive_rest(rank_state *rank)
 {
     enum { PATIENCE = 5 /* s */ };
-    const struct timespec rest = {.tv_nsec = 1000000};
     const double began = fracas_now();
     for (int left = rank->box.size - 1; left > 0 && fracas_now() - began < PATIENCE;) {
         fracas_packet *message;
         int from;
         if (fracas_mailbox_clear(&rank->box) || fracas_mailbox_receive(&rank->box, &from, &message))
             return;
-        if (!message) nanosleep(&rest, NULL);
+        if (!message) fracas_mailbox_wait(&rank->box, -1, 1);
         else if (message->kind == FRACAS_PACKET_QUIT) left--;
         free(message);
     }
 }
 
-/* Rank 0 from MPI_Init on: the run, its result on the status channel, and QUIT to the others. */
+/* Rank 0 with an open mailbox: the run, its result on the status channel, and QUIT to the others.
+ */
 static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
 {
     fracas_channel channel;
@@ -208,7 +205,8 @@ static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
     fracas_trouble_take(err, &result);
     const fracas_packet quit = {.kind = FRACAS_PACKET_QUIT};
     for (int other = 1; other < rank->box.size; other++)
-        if (fracas_mailbox_post(&rank->box, other, &quit)) fracas_mailbox_abort(); /* or it waits */
+        if (fracas_mailbox_post(&rank->box, other, &quit))
+            fracas_mailbox_abort(&rank->box); /* or it waits */
     receive_rest(rank);
     if (!channel.launcher) return fracas_trouble_fail(&result);
     *ran = false;
@@ -217,7 +215,7 @@ static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
 
 /* ---- every rank ---- */
 
-/* Before MPI_Init: the supervisor is forked from a process without MPI. */
+/* Before the mailbox is open: the supervisor is forked from a process without MPI. */
 static fracas_err set_up(rank_state *rank)
 {
     TRY(fracas_run_campaign(rank->options, &rank->campaign));
@@ -228,16 +226,17 @@ static fracas_err set_up(rank_state *rank)
                                    &rank->link.supervisor);
 }
 
-fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
+fracas_err fracas_rank_run(const fracas_run_options *options, const fracas_mailbox *box, bool *ran)
 {
     *ran = false;
-    /* No rank outlives the launcher's mpirun. (Not with other launchers: the signal follows the
+    /* No rank outlives the launcher's starter. (Not with other launchers: the signal follows the
      * starting thread, and theirs may end early.) */
     if (getenv(FRACAS_LAUNCHER_MARK)) prctl(PR_SET_PDEATHSIG, SIGKILL);
     fracas_scratch_import();
     fracas_signals_catch_rank();
     rank_state rank = {.options = options,
                        .began = fracas_now(),
+                       .box = *box,
                        .link.supervisor = {.control = -1, .server = -1}};
     fracas_err err = set_up(&rank);
     fracas_trouble trouble;
@@ -247,7 +246,7 @@ fracas_err fracas_rank_run(const fracas_run_options *options, bool *ran)
     if (rank.box.rank == 0) {
         err = lead_to_end(&rank, err, ran);
     } else if (follow(&rank, err)) {
-        fracas_mailbox_abort(); /* or rank 0 would wait for this rank */
+        fracas_mailbox_abort(&rank.box); /* or rank 0 would wait for this rank */
     } else {
         err = FRACAS_OK;
     }

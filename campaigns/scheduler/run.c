@@ -12,6 +12,7 @@
 #include "campaigns/scheduler/session/space.h"
 #include "campaigns/scheduler/status/channel.h"
 #include "campaigns/scheduler/types/clock.h"
+#include "campaigns/scheduler/types/transport.h"
 #include "engine/integrator/frequencies.h"
 
 #include <stdlib.h>
@@ -38,8 +39,8 @@ bool fracas_run_speaks(void)
 
 /* Finds all faults of the campaign and the study before anything is written or started. Leaves the
  * frequencies of its models to the processes of the run. */
-static fracas_err examine(const fracas_run_options *options, int *jobs, bool *settled,
-                          fracas_err *result)
+static fracas_err examine(const fracas_run_options *options, const fracas_starter_kind *kind,
+                          int *jobs, bool *settled, fracas_err *result)
 {
     OWN(fracas_campaign) campaign = NULL;
     OWNED double *cost = NULL;
@@ -52,7 +53,7 @@ static fracas_err examine(const fracas_run_options *options, int *jobs, bool *se
     *result = failed ? fracas_failure_report(study, NULL, &campaign->table) : FRACAS_OK;
     if (*settled) return FRACAS_OK;
     TRY(fracas_allocation_jobs(options->jobs, campaign->parallel.parts, jobs));
-    TRY(fracas_limits_check(options));
+    TRY(kind->check(*jobs));
     TRY(fracas_costs_create(campaign, options, &cost, &bytes));
     TRY(fracas_space_check(study, campaign, options, bytes));
     OWNED char *frequencies = fracas_frequencies_write(campaign->frequencies);
@@ -64,15 +65,17 @@ static fracas_err examine(const fracas_run_options *options, int *jobs, bool *se
 fracas_err fracas_run(const fracas_run_options *options, int argc, char **argv, bool *ran)
 {
     *ran = false;
-    if (fracas_run_is_rank()) return fracas_rank_run(options, ran);
+    const fracas_mailbox mpi = {.transport = &fracas_transport_mpi};
+    if (fracas_run_is_rank()) return fracas_rank_run(options, &mpi, ran);
     const double began = fracas_now();
     fracas_signals_catch();
     bool settled = false;
     fracas_err result;
     TRY(fracas_allocation_check());
-    int jobs;
-    TRY(examine(options, &jobs, &settled, &result));
-    if (!settled) result = fracas_launcher_run(options, jobs, began, argc, argv, ran);
+    const fracas_starter_kind *kind = fracas_starter_choose();
+    fracas_ranks ranks = {.options = options, .life = fracas_rank_run, .argc = argc, .argv = argv};
+    TRY(examine(options, kind, &ranks.jobs, &settled, &result));
+    if (!settled) result = fracas_launcher_run(kind, &ranks, began, ran);
     fracas_signals_end();
     return result;
 }

@@ -68,8 +68,8 @@ kill -TERM "$run"
 ended orphan 3 1 'stopped at once: what was done is kept'
 kill -0 "$(cat orphan/orphan)" 2> /dev/null && fail "orphan: a process of the run is left"
 
-ended noise 6 3 '^fracas: mpirun ended with status 1 before the run was over; MPI was started 3 times, the last 3 in vain' '^0\{9000\}'
-ended again 6 4 'mpirun died of signal 9 (Killed); MPI is started again' 'in use; MPI is started again' '^two$' '^fracas: enough'
+ended noise 6 3 '^fracas: mpirun ended with status 1 before the run was over; the ranks were started 3 times, the last 3 in vain' '^0\{9000\}'
+ended again 6 4 'mpirun died of signal 9 (Killed); the ranks are started again' 'in use; the ranks are started again' '^two$' '^fracas: enough'
 ended in-use 4 1 '^fracas: in use'
 ended hopeless 6 3 '^fracas: Open MPI has no component `nonexist` of `btl`'
 ended missing 6 1 '^fracas: there is no mpirun; install Open MPI'

@@ -21,5 +21,5 @@ $ends
 END2
 ended lasting 6 1 '^fracas: enough'
 ended leaving 6 1 '^fracas: enough'
-ended silent 6 1 'MPI has not started for a minute; check the limits' '^fracas: enough'
-ended holding 6 3 'mpirun ended with status 1 before the run was over; MPI was started 3 times'
+ended silent 6 1 'the ranks have not started for a minute; check the limits' '^fracas: enough'
+ended holding 6 3 'mpirun ended with status 1 before the run was over; the ranks were started 3 times'

@@ -1,4 +1,5 @@
 # ctest-serial
+# ctest-mpirun
 # A walltime holds, whatever hangs: status 3 before it is over, resumable. A busy machine may be late by its pace.
 . tests/support/campaigns.sh
 
@@ -20,7 +21,7 @@ printf '#!/bin/sh\nexec sleep 1000\n' > silent/mpirun
 chmod +x silent/mpirun
 
 # MPI that never comes up.
-within 3 3 env PATH="$PWD/silent:$PATH" "$fracas" run small.yaml --study late --walltime 3s
+within 3 3 env FRACAS_MPIRUN=1 PATH="$PWD/silent:$PATH" "$fracas" run small.yaml --study late --walltime 3s
 said 'walltime is over.*same command goes on'
 
 # Compute servers that stand still: the run cannot drain, and is killed.
@@ -28,10 +29,8 @@ setsid "$fracas" run small.yaml --study still --jobs 2 --lanes 1 --lease-time 0 
 session=$!
 began=$(date +%s)
 wait_segments still 2
-servers=$(cat /proc/[0-9]*/stat 2>/dev/null | awk -v session="$session" '
-    {name[$1] = $2; parent[$1] = $4; of[$1] = $6}
-    END {for (p in name) if (of[p] == session && p != session && name[p] ~ /^\(fracas/ && name[parent[p]] != "(mpirun)") print p}')
-[ -n "$servers" ] || fail "there are no servers"
+servers="$(named fracas-supervis) $(named fracas-server) $(named fracas-lease)"
+[ -n "$(named fracas-server)" ] || fail "there are no servers"
 kill -STOP $servers 2>/dev/null || true # processes of leases come and go
 status=0
 wait "$session" || status=$?

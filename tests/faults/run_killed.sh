@@ -1,4 +1,5 @@
-# Three times kill -9 of every process of a run (parent, mpirun, ranks, servers, children) at random times, each
+# ctest-mpirun
+# Three times kill -9 of every process of a run (parent, starter, ranks, servers, children) at random times, each
 # after the first and before the last segment; what is resumed to its end is what an undisturbed run gives.
 . tests/support/campaigns.sh
 
@@ -22,7 +23,7 @@ while [ $kill -le 3 ]; do # of 60 segments, one for each realization
     fi
     echo "kill $kill at $left segments of 60"
     [ "$left" -ge 1 ] || fail "killed before the first segment"
-    [ "$running" -ge 6 ] || fail "parent, mpirun, 2 ranks and 2 servers should have run, not $running processes"
+    [ "$running" -ge 6 ] || fail "parent, starter, 2 ranks and 2 servers should have run, not $running processes"
     kill=$((kill + 1))
 done
 expect 0 "$fracas" run small.yaml --study killed --jobs 1 --lease-time 0 --segment-size 1e-6

@@ -1,3 +1,4 @@
+# ctest-mpirun
 # Limits of machine and disk: too little space, files or inodes, files too big, too many open, a disk made read-only. Each is said with
 # its remedy and status 6, and when it is gone the same command goes on to what an undisturbed run gives.
 . tests/support/campaigns.sh
@@ -5,7 +6,7 @@
 campaign small.yaml 40 '3e4 1/s, 1e5 1/s' # 2 MB of results
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2 --memory-limit 1000000 # MB: no machine has it
 
-# What MPI would hang on is said before it is started.
+# What a start would fail on, or MPI hang on, is said before.
 expect 6 sh -c "ulimit -n 24; '$fracas' run small.yaml --study study --jobs 2"
 said 'may open 24 files.*ulimit -n'
 expect 6 sh -c "ulimit -f 1000; '$fracas' run small.yaml --study study --jobs 2"
@@ -36,18 +37,18 @@ run() # STATUS WORDS OPTIONS...: in the small disk
     "$fracas" run small.yaml --study small/study --jobs 2 "$@" > said 2>&1 || status=$?
     [ $status -eq "$wanted" ] && grep -q "$words" said || { cat said; echo "status $status, not $wanted with: $words"; exit 1; }
 }
-fracas=$1
+fracas=$1 asked=${FRACAS_MPIRUN-}
 mount -t tmpfs -o size=1m tmpfs small || exit 77
 echo mounted
 run 6 'will need about .* but its disk has 1.0 MB free.*output.history.*--ignore-space'
 [ ! -e small/study ] || { echo "a refused run left something behind"; exit 1; }
-export TMPDIR="$PWD/small" # MPI would hang
+export TMPDIR="$PWD/small" FRACAS_MPIRUN=1 # MPI would hang
 run 6 "^fracas: MPI needs 10 MB for its own files in $TMPDIR (TMPDIR), but the disk has 1.0 MB free; free some, or set TMPDIR" --ignore-space
 mount -o remount,ro small
 run 6 "^fracas: MPI cannot make a folder .* in $TMPDIR (TMPDIR): Read-only file system; set TMPDIR" --ignore-space
 ! grep 'started' said || exit 1
 mount -o remount,rw small
-unset TMPDIR
+export TMPDIR="$PWD" FRACAS_MPIRUN="$asked"
 run 6 'No space left on device; free some space.*the same command goes on' --ignore-space
 mount -o remount,size=64m,nr_inodes=40 small
 run 6 'room for .* more files.*df -i'

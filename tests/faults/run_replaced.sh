@@ -56,10 +56,10 @@ for isolation in lease none; do
 done
 killed lease-lease lease fracas-lease
 
-# The supervisor of the only worker: MPI is started again, as for a dead rank.
+# The supervisor of the only worker: the ranks are started again, as for a dead rank.
 killed only-supervisor lease fracas-supervis 1
-grep -q '^the compute server of rank 0 went with its supervisor, which died of signal 9.*; MPI is started again' background ||
-    { cat background >&2; fail "it did not say that MPI is started again"; }
+grep -q '^the compute server of rank 0 went with its supervisor, which died of signal 9.*; the ranks are started again' background ||
+    { cat background >&2; fail "it did not say that the ranks are started again"; }
 grep -q 'others go on' background && fail "there are no others"
 
 zombies()

@@ -1,23 +1,10 @@
-# A rank that dies takes mpirun down; the parent says why, starts it again, and the run goes on to the bytes of an undisturbed one. MPI
+# ctest-mpirun
+# A rank that dies takes its starter down; the parent says why, starts it again, and the run goes on to the bytes of an undisturbed one. A start
 # that never makes anything durable is given up.
 . tests/support/campaigns.sh
 
 campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
-
-# of_session rank|mpirun: these processes of the run in the background.
-of_session()
-{
-    cat /proc/[0-9]*/stat 2>/dev/null | awk -v session="$session" -v wanted="$1" '
-        {name[$1] = $2; parent[$1] = $4; of[$1] = $6}
-        END {
-            for (p in name) {
-                if (of[p] != session) continue
-                if (wanted == "mpirun" && name[p] == "(mpirun)") print p
-                if (wanted == "rank" && name[p] ~ /^\(fracas/ && name[parent[p]] == "(mpirun)") print p
-            }
-        }' | sort -n
-}
 
 # Kills of a run, each after a few realizations more were stored. False, with everything removed, where the run was over before the last.
 killed()
@@ -27,17 +14,17 @@ killed()
     start small.yaml --study restarted --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     kill=0
     while [ $kill -lt "$times" ]; do
-        until [ "$(grep -c 'MPI is started again' background)" -eq $kill ] || [ -z "$(processes)" ]; do sleep 0.01; done
+        until [ "$(grep -c 'the ranks are started again' background)" -eq $kill ] || [ -z "$(processes)" ]; do sleep 0.01; done
         [ -n "$(processes)" ] || break
         wait_segments restarted $(($(segments restarted) + 2))
-        kill -9 "$(of_session "$victim" | head -n 1)" 2>/dev/null || true
+        kill -9 "$($victim | head -n 1)" 2>/dev/null || true
         kill=$((kill + 1))
     done
     status=0
     wait "$session" || status=$?
     session=
     [ $status -eq 0 ] || { cat background >&2; fail "status $status"; }
-    [ "$(grep -c 'MPI is started again' background)" -ne "$times" ] || return 0
+    [ "$(grep -c 'the ranks are started again' background)" -ne "$times" ] || return 0
     tries=$((tries + 1))
     [ $tries -lt 20 ] || fail "over before the last kill, $tries times"
     rm -rf restarted
@@ -46,13 +33,16 @@ killed()
 
 # Four ranks in turn: more starts than may be in vain, and none was.
 tries=0
-for case in 'rank 4' 'mpirun 1'; do
+starters() { named $starter; }
+for case in 'ranks 4' 'starters 1'; do
     until killed $case; do :; done
-    case $case in
-    rank*) why='mpirun noticed that process rank .* exited on signal 9 (Killed)' ;;
-    *) why='mpirun died of signal 9 (Killed)' ;;
+    case "$starter $case" in
+    mpirun\ ranks*) why='mpirun noticed that process rank .* exited on signal 9 (Killed)' ;;
+    mpirun*) why='mpirun died of signal 9 (Killed)' ;;
+    *ranks*) why='the starter noticed that rank . died of signal 9 (Killed; memory may have run out)' ;;
+    *) why='the starter died of signal 9 (Killed)' ;;
     esac
-    grep -q "^$why; MPI is started again" background || { cat background >&2; fail "it did not say why"; }
+    grep -q "^$why; the ranks are started again" background || { cat background >&2; fail "it did not say why"; }
     same undisturbed restarted
     expect 0 "$fracas" verify restarted
     sqlite3 restarted/index.sqlite "SELECT text FROM event WHERE kind = 'restarted'" > said
@@ -61,6 +51,7 @@ for case in 'rank 4' 'mpirun 1'; do
 done
 
 # Nothing gets done: three starts, then status 6 with the last reason. With something done in between, it is not given up.
+[ $starter = mpirun ] || exit 0
 mkdir bin
 real=$(command -v mpirun)
 cat > bin/mpirun <<END
@@ -73,8 +64,8 @@ exit 1
 END
 chmod +x bin/mpirun
 expect 6 env PATH="$PWD/bin:$PATH" "$fracas" run small.yaml --study broken --jobs 2
-said '^There are not enough slots available in the system; MPI is started again'
-said '^fracas: There are not enough slots .*; MPI was started 3 times, the last 3 in vain; .*same command goes on'
+said '^There are not enough slots available in the system; the ranks are started again'
+said '^fracas: There are not enough slots .*; the ranks were started 3 times, the last 3 in vain; .*same command goes on'
 [ "$(wc -l < starts)" -eq 3 ] || fail "$(wc -l < starts) starts"
 rm starts
 expect 0 env BROKEN=2 PATH="$PWD/bin:$PATH" "$fracas" run small.yaml --study broken --jobs 2

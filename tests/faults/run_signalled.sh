@@ -1,4 +1,5 @@
 # ctest-labels: storm
+# ctest-mpirun
 # ctest-timeout: 1800
 # Every signal that asks for an end, once and twice, from the first instant of a run to its last: status 3, or 0 where it was done
 # anyway, or the signal's own at the very end; nothing is left running, and the same command goes on to the bytes of an undisturbed run. And MPI that hangs at its end.
@@ -7,15 +8,15 @@
 campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
 
-# reached STAGE: whether the run in the background is so far: its study is there, mpirun, servers, so many segments, all segments, or
-# MPI is started again.
+# reached STAGE: whether the run in the background is so far: its study is there, its starter, servers, so many segments, all segments, or
+# the ranks are started again.
 reached()
 {
     case $1 in
     study) [ -e study ] ;;
-    mpirun) [ -n "$(named mpirun)" ] ;;
+    starter) [ -n "$(named $starter)" ] ;;
     servers) [ -n "$(named fracas-server)" ] ;;
-    again) grep -q 'MPI is started again' background ;;
+    again) grep -q 'the ranks are started again' background ;;
     end) [ -e study/study.h5 ] ;;
     *) [ "$(segments study)" -ge "$1" ] ;;
     esac
@@ -27,7 +28,7 @@ until_reached()
     until reached "$1" || ! grep -q '^State:.[^Z]' "/proc/$session/status" 2>/dev/null; do :; done
 }
 
-# one SIGNALS STAGE KILL: signals at that stage; KILL: a rank is killed there, and the signals meet MPI being started again.
+# one SIGNALS STAGE KILL: signals at that stage; KILL: a rank is killed there, and the signals meet the next start.
 interrupted=0 over=0 again=0
 one()
 {
@@ -35,10 +36,7 @@ one()
     start small.yaml --study study --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     until_reached "$2"
     if [ -n "$3" ]; then
-        kill -9 $(cat /proc/[0-9]*/stat 2>/dev/null | awk -v session="$session" '
-            {name[$1] = $2; parent[$1] = $4; of[$1] = $6}
-            END {for (p in name) if (of[p] == session && name[p] ~ /^\(fracas/ && name[parent[p]] == "(mpirun)") {print p; exit}}') \
-            2>/dev/null || true
+        kill -9 "$(ranks | head -n 1)" 2>/dev/null || true
         until_reached again
         ! reached again || again=$((again + 1))
     fi
@@ -69,7 +67,7 @@ resumed()
 }
 
 for signals in INT TERM HUP USR1 USR2 'INT INT' 'TERM TERM' 'HUP TERM' 'USR1 USR1' 'USR2 USR1' 'USR1 INT'; do
-    for stage in study mpirun servers 1 10 25 39 40 end; do
+    for stage in study starter servers 1 10 25 39 40 end; do
         one "$signals" $stage ''
         resumed
     done
@@ -115,6 +113,6 @@ mkdir hang
 printf '#!/bin/sh\n"%s" "$@"\nexec sleep 1000\n' "$(command -v mpirun)" > hang/mpirun
 chmod +x hang/mpirun
 began=$(date +%s)
-expect 0 env PATH="$PWD/hang:$PATH" "$fracas" run small.yaml --study hung --jobs 2
+expect 0 env FRACAS_MPIRUN=1 PATH="$PWD/hang:$PATH" "$fracas" run small.yaml --study hung --jobs 2
 [ $(($(date +%s) - began)) -lt 500 ] || fail "it waited for MPI"
 same undisturbed hung

@@ -40,7 +40,7 @@ time_step()
 
 expect 0 "$fracas" run plate.yaml --study plain
 for change in none odd double; do
-    expect 0 env change=$change PATH="$work/bin:$PATH" "$fracas" run plate.yaml --study $change
+    expect 0 env change=$change FRACAS_MPIRUN=1 PATH="$work/bin:$PATH" "$fracas" run plate.yaml --study $change
 done
 same plain none
 same plain odd

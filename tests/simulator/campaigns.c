@@ -122,12 +122,6 @@ fracas_err __wrap_fracas_allocation_jobs(int wanted, int64_t parts, int *jobs)
     return FRACAS_OK;
 }
 
-fracas_err __wrap_fracas_limits_check(const fracas_run_options *options)
-{
-    (void)options;
-    return FRACAS_OK;
-}
-
 fracas_err __wrap_fracas_space_check(const char *study, const fracas_campaign *campaign,
                                      const fracas_run_options *options, const double *bytes)
 {

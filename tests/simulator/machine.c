@@ -6,14 +6,15 @@
 #include "tests/simulator/oracle.h"
 #include "tests/simulator/vfs.h"
 
-#include "campaigns/scheduler/launch/mpirun.h"
 #include "campaigns/scheduler/launch/reap.h"
+#include "campaigns/scheduler/launch/starter.h"
 #include "campaigns/scheduler/run.h"
 #include "campaigns/scheduler/status/channel.h"
 #include "campaigns/scheduler/types/mailbox.h"
 
 #include <errno.h>
 #include <math.h>
+#include <poll.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -219,12 +220,6 @@ static void start_rank(run *r, int number)
     r->rank[number] = p;
 }
 
-fracas_err __wrap_fracas_scratch_create(fracas_scratch *scratch)
-{
-    *scratch = (fracas_scratch){.session.lock = -1, .shared.lock = -1};
-    return FRACAS_OK;
-}
-
 void __wrap_fracas_scratch_remove(fracas_scratch *scratch)
 {
     (void)scratch;
@@ -232,10 +227,16 @@ void __wrap_fracas_scratch_remove(fracas_scratch *scratch)
 
 void __wrap_fracas_scratch_import(void) {}
 
-fracas_err __wrap_fracas_mpirun_start(int jobs, int argc, char **argv,
-                                      const fracas_scratch *scratch, fracas_mpirun *mpirun)
+static fracas_err check(int jobs)
 {
-    (void)argc, (void)argv, (void)scratch;
+    (void)jobs;
+    return FRACAS_OK;
+}
+
+static fracas_err start(const fracas_ranks *ranks, fracas_scratch *scratch, fracas_starter *starter)
+{
+    (void)scratch;
+    const int jobs = ranks->jobs;
     int out[2], errors[2];
     const size_t n = (size_t)jobs;
     run *r = need(calloc(1, sizeof *r));
@@ -255,8 +256,14 @@ fracas_err __wrap_fracas_mpirun_start(int jobs, int argc, char **argv,
         start_rank(r, i);
         r->living += !(farm.hosts > 1 && i % 2);
     }
-    *mpirun = (fracas_mpirun){r->mpirun->pid, out[0], errors[0]};
+    *starter = (fracas_starter){r->mpirun->pid, out[0], errors[0]};
     return FRACAS_OK;
+}
+
+const fracas_starter_kind *__wrap_fracas_starter_choose(void)
+{
+    static const fracas_starter_kind simulated = {"mpirun", check, start};
+    return &simulated;
 }
 
 void __wrap_fracas_reap_begin(fracas_reap *reap)
@@ -333,8 +340,9 @@ void __wrap_fracas_mailbox_close(fracas_mailbox *box)
     while (r->nclosed < r->jobs) process_wait(INFINITY);
 }
 
-void __wrap_fracas_mailbox_abort(void)
+void __wrap_fracas_mailbox_abort(const fracas_mailbox *box)
 {
+    (void)box;
     trace("MPI_Abort: %s", fracas_message());
     process_end(world.current, FRACAS_ENVIRONMENT << 8);
 }
@@ -405,6 +413,13 @@ fracas_err __wrap_fracas_mailbox_receive(fracas_mailbox *box, int *from, fracas_
     process_wake(p->run->rank[mail->from], 1e-3 * roll(DICE_DELAY));
     free(mail);
     return FRACAS_OK;
+}
+
+void __wrap_fracas_mailbox_wait(fracas_mailbox *box, int fd, int most)
+{
+    (void)box;
+    struct pollfd from = {.fd = fd, .events = POLLIN};
+    poll(&from, 1, most);
 }
 
 void __wrap_fracas_mailbox_version(char *text, size_t size)

@@ -6,7 +6,7 @@
 
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/worker/child.h"
-#include "campaigns/scheduler/worker/process.h"
+#include "campaigns/scheduler/types/process.h"
 #include "campaigns/scheduler/worker/server.h"
 #include "campaigns/scheduler/worker/supervisor.h"
 

@@ -10,6 +10,10 @@ work=$(mktemp -d)
 trap 'status=$?; kill_session; rm -rf "$work"; exit $status' EXIT
 cd "$work"
 session= # of the run in the background, if there is one
+case ${FRACAS_MPIRUN:-0} in # by what this test's runs start their ranks
+0) starter=fracas-starter ;;
+*) starter=mpirun ;;
+esac
 
 fail()
 {
@@ -103,7 +107,7 @@ wait_checkpoints()
     done
 }
 
-# Every process of the session: parent, mpirun, ranks, supervisors, servers, children. Words of stat: 3 state, 6 session, 20 threads
+# Every process of the session: parent, starter, ranks, supervisors, servers, children. Words of stat: 3 state, 6 session, 20 threads
 # (one that is a zombie while its other threads still die holds its files, and so the lock).
 processes()
 {
@@ -117,6 +121,15 @@ named()
     for pid in $(processes); do
         [ "$(cat "/proc/$pid/comm" 2>/dev/null)" != "$1" ] || echo "$pid"
     done
+}
+
+# ranks: those of them that the starter has started, by their number (or its place in time).
+ranks()
+{
+    for pid in $(processes); do
+        sed 's/(\([^)]*\))/\1/' "/proc/$pid/stat" 2>/dev/null
+    done | awk -v starter=$starter '{name[$1] = $2; parent[$1] = $4}
+        END {for (p in name) if (name[p] ~ /^fracas/ && name[parent[p]] == starter) print p}' | sort -n
 }
 
 kill_session()

@@ -12,7 +12,7 @@ fake()
     { printf '%s\n' '#!/bin/sh' 'start=$(($(cat count 2> /dev/null || echo 0) + 1)); echo $start > count'; cat; } > "$name/bin/mpirun"
     chmod +x "$name/bin/mpirun"
     # shellcheck disable=SC2016
-    (cd "$name" && PATH="$PWD/bin:$PATH" exec sh -c 'echo $$ > pid; status=0; "$@" > said 2>&1 || status=$?; echo $status > status' sh \
+    (cd "$name" && FRACAS_MPIRUN=1 PATH="$PWD/bin:$PATH" exec sh -c 'echo $$ > pid; status=0; "$@" > said 2>&1 || status=$?; echo $status > status' sh \
         "$@" "$fracas" run ../tiny.yaml --study study --jobs 1) &
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The checks before a run, under limits of the process. */
 #include "base/param.h"
+#include "campaigns/scheduler/launch/starter.h"
 #include "campaigns/scheduler/session/space.h"
 #include "tests/support/campaign_text.h"
 #include "tests/support/study_fixture.h"
@@ -58,20 +59,24 @@ static void a_study_has_to_fit(void **state)
     sample_remove(study);
 }
 
-static void mpi_needs_files(void **state)
+static void a_start_needs_files(void **state)
 {
     static const struct {
+        const fracas_starter_kind *kind;
         int jobs;
         rlim_t files, most, bytes; /* soft and hard limit of open files, size of a file */
         const char *said;          /* NULL: nothing is wrong */
     } each[] = {
-        {2, 1000, 1000, RLIM_INFINITY, NULL},
-        {2, 49, 1000, RLIM_INFINITY, NULL}, /* raised */
-        {2, 49, 60, RLIM_INFINITY, NULL},
-        {2, 49, 49, RLIM_INFINITY, "may open 49 files, MPI needs 50"},
-        {100000, 1000, 1000, RLIM_INFINITY, "MPI needs 5160"}, /* as 1024, all of one machine */
-        {2, 1000, 1000, 8 << 20, NULL},
-        {2, 1000, 1000, (8 << 20) - 1, "a file may have 8388607 bytes"},
+        {&fracas_starter_mpirun, 2, 1000, 1000, RLIM_INFINITY, NULL},
+        {&fracas_starter_mpirun, 2, 49, 1000, RLIM_INFINITY, NULL}, /* raised */
+        {&fracas_starter_mpirun, 2, 49, 60, RLIM_INFINITY, NULL},
+        {&fracas_starter_mpirun, 2, 49, 49, RLIM_INFINITY, "may open 49 files, this run needs 50"},
+        {&fracas_starter_mpirun, 100000, 1000, 1000, RLIM_INFINITY,
+         "this run needs 5160"}, /* as 1024, all of one machine */
+        {&fracas_starter_mpirun, 2, 1000, 1000, 8 << 20, NULL},
+        {&fracas_starter_mpirun, 2, 1000, 1000, (8 << 20) - 1, "a file may have 8388607 bytes"},
+        {&fracas_starter_local, 2, 45, 60, (8 << 20) - 1, NULL},
+        {&fracas_starter_local, 100, 300, 300, RLIM_INFINITY, "this run needs 340"},
     };
     for (size_t i = 0; i < FRACAS_COUNT(each); i++) {
         int status;
@@ -79,20 +84,18 @@ static void mpi_needs_files(void **state)
         const pid_t pid = fork();
         if (pid == 0) {
             const struct rlimit files = {each[i].files, each[i].most};
-            fracas_run_options_init(&options);
-            options.jobs = each[i].jobs;
             if (setrlimit(RLIMIT_NOFILE, &files)) _exit(2);
             set_limit(RLIMIT_FSIZE, each[i].bytes);
-            const fracas_err err = fracas_limits_check(&options);
+            const fracas_err err = each[i].kind->check(each[i].jobs);
             struct rlimit now;
             getrlimit(RLIMIT_NOFILE, &now);
             _exit(each[i].said
                       ? err != FRACAS_ENVIRONMENT || !strstr(fracas_message(), each[i].said)
-                      : err || now.rlim_cur < 50);
+                      : err || now.rlim_cur < 46);
         }
         assert_int_equal(waitpid(pid, &status, 0), pid);
         if (status) fail_msg("case %zu: %x", i, (unsigned)status);
     }
 }
 
-TESTS(a_study_has_to_fit, mpi_needs_files)
+TESTS(a_study_has_to_fit, a_start_needs_files)

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/launch/allocation.h"
 
+#include "base/param.h"
+
 #include <ctype.h>
 #include <inttypes.h>
 #include <limits.h>
@@ -58,6 +60,17 @@ fracas_err fracas_allocation_jobs(int wanted, int64_t parts, int *jobs)
                        "--jobs %d: this machine gives the run %d cores; %d processes are the most, "
                        "one a core is the best",
                        *jobs, cores, MOST_A_CORE * cores);
+}
+
+bool fracas_allocation_spreads(void)
+{
+    static const char *const hosts[] = {"PBS_NODEFILE", "PE_HOSTFILE", "LSB_HOSTS",
+                                        "OMPI_MCA_orte_default_hostfile",
+                                        "PRTE_MCA_prte_default_hostfile"};
+    for (size_t i = 0; i < FRACAS_COUNT(hosts); i++)
+        if (getenv(hosts[i])) return true;
+    const char *nodes = getenv("SLURM_JOB_NUM_NODES");
+    return nodes && atoi(nodes) > 1;
 }
 
 fracas_err fracas_allocation_check(void)

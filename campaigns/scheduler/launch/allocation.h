@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Sum of a list as Slurm writes it, "16(x2),8" = 40; 0 if it is none. */
@@ -18,6 +19,9 @@ int fracas_allocation_cores(void);
  * outside Slurm when `wanted` is far above the cores, as after a typing error, or has several parts
  * and more threads than cores. */
 FRACAS_MUST_USE fracas_err fracas_allocation_jobs(int wanted, int64_t parts, int *jobs);
+
+/* The surroundings may name several machines: nodes of a Slurm job, or a list of hosts. */
+bool fracas_allocation_spreads(void);
 
 /* FRACAS_USAGE in one of several processes started by srun without MPI: each would run the whole
  * campaign. */

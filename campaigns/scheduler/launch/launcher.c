@@ -20,24 +20,24 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Seconds until MPI counts as hung: at its start once a signal asks to end; at its start, before a
- * warning; after the last message of rank 0 or the end of mpirun. */
+/* Seconds until a start counts as hung: before a message of rank 0, once a signal asks to end;
+ * then, before a warning; after the last message of rank 0 or the end of the starter. */
 enum { PATIENCE_ASKED = 5, PATIENCE = 60, PATIENCE_END = 10 };
 
 enum { NOISE = 16384, MOST_BARREN = 3 };
 
-/* One start of mpirun. */
+/* One start of the ranks. */
 typedef struct {
-    fracas_mpirun mpirun;
+    fracas_starter starter;
     fracas_scratch scratch;
     fracas_ending ending;
     bool speaks;          /* rank 0 has sent a message: every rank can be signalled */
     bool drained, killed; /* by this process */
-    bool gone;            /* mpirun was reaped: its number may be another process's */
+    bool gone;            /* the starter was reaped: its number may be another process's */
     bool warned;          /* about its silence */
     bool gained;          /* realizations became durable */
     double began;
-    double ended; /* time of the ending, or of mpirun's end; 0: not yet */
+    double ended; /* time of the ending, or of the starter's end; 0: not yet */
     char line[4096];
     size_t nline;
     char noise[NOISE]; /* the last of stderr and of foreign lines on stdout */
@@ -45,6 +45,7 @@ typedef struct {
 } launch;
 
 typedef struct {
+    const fracas_starter_kind *kind;
     launch now;
     fracas_reap reap;
     fracas_progress progress;
@@ -54,7 +55,7 @@ typedef struct {
     int starts, barren;       /* barren: starts in a row without gain */
 } launcher;
 
-/* Keeps the last of it, a part of NOISE at a time: mpirun prints the reason at its end. */
+/* Keeps the last of it, a part of NOISE at a time: a starter prints the reason at its end. */
 static void keep_noise(launch *now, const char *text, size_t size)
 {
     const size_t room = sizeof now->noise - 1;
@@ -98,7 +99,7 @@ static bool read_lines(launcher *p)
     launch *now = &p->now;
     char buffer[4096];
     size_t n;
-    bool more = read_some(now->mpirun.out, buffer, sizeof buffer, &n);
+    bool more = read_some(now->starter.out, buffer, sizeof buffer, &n);
     for (size_t i = 0; i < n; i++) {
         if (buffer[i] != '\n') {
             if (now->nline < sizeof now->line - 1) now->line[now->nline++] = buffer[i];
@@ -115,7 +116,7 @@ static bool read_errors(launch *now)
 {
     char buffer[4096];
     size_t n;
-    bool more = read_some(now->mpirun.errors, buffer, sizeof buffer, &n);
+    bool more = read_some(now->starter.errors, buffer, sizeof buffer, &n);
     keep_noise(now, buffer, n);
     return more;
 }
@@ -128,11 +129,11 @@ static bool is_asked(launcher *p)
     return p->asked > 0;
 }
 
-/* All processes of the run on this machine die with mpirun, others when they lose it. */
+/* All processes of the run on this machine die with the starter, others when they lose it. */
 static void kill_run(launch *now)
 {
     if (now->killed) return;
-    if (!now->gone) kill(-now->mpirun.pid, SIGKILL);
+    if (!now->gone) kill(-now->starter.pid, SIGKILL);
     now->killed = true;
 }
 
@@ -148,7 +149,7 @@ static void obey(launcher *p)
                 ? "draining: leases that run are finished and kept (again: stop at once)"
                 : "draining: leases that run are finished and kept, as the walltime is nearly "
                   "over");
-        kill(now->mpirun.pid, SIGUSR1); /* mpirun forwards it to the ranks */
+        kill(now->starter.pid, SIGUSR1); /* which forwards it to the ranks */
         now->drained = true;
     }
     const bool nothing_begun = !now->speaks && fracas_now() - p->asked > PATIENCE_ASKED;
@@ -161,28 +162,28 @@ static void mind_silence(launcher *p)
     if (now->ended > 0 && fracas_now() - now->ended > PATIENCE_END) kill_run(now);
     if (now->speaks || now->warned || fracas_now() - now->began <= PATIENCE) return;
     fracas_progress_message(
-        &p->progress, "MPI has not started for a minute; check the limits on open files and file "
-                      "sizes (ulimit -n, ulimit -f), or stop with Ctrl-C");
+        &p->progress, "the ranks have not started for a minute; check the limits on open files and "
+                      "file sizes (ulimit -n, ulimit -f), or stop with Ctrl-C");
     now->warned = true;
 }
 
-/* mpirun ended PATIENCE_END ago, while its streams are still open. */
+/* The starter ended PATIENCE_END ago, while its streams are still open. */
 static bool is_overdue(launch *now)
 {
     siginfo_t info = {.si_pid = 0};
-    if (waitid(P_PID, (id_t)now->mpirun.pid, &info, WEXITED | WNOHANG | WNOWAIT) ||
+    if (waitid(P_PID, (id_t)now->starter.pid, &info, WEXITED | WNOHANG | WNOWAIT) ||
         info.si_pid == 0)
         return false;
     if (now->ended == 0) now->ended = fracas_now();
     return fracas_now() - now->ended > PATIENCE_END;
 }
 
-/* Reads both streams of mpirun to their ends. */
+/* Reads both streams of the starter to their ends. */
 static void read_streams(launcher *p)
 {
     launch *now = &p->now;
-    struct pollfd from[2] = {{.fd = now->mpirun.out, .events = POLLIN},
-                             {.fd = now->mpirun.errors, .events = POLLIN}};
+    struct pollfd from[2] = {{.fd = now->starter.out, .events = POLLIN},
+                             {.fd = now->starter.errors, .events = POLLIN}};
     while ((from[0].fd >= 0 || from[1].fd >= 0) && !is_overdue(now)) {
         obey(p);
         mind_silence(p);
@@ -193,13 +194,14 @@ static void read_streams(launcher *p)
     }
 }
 
-/* Reaps mpirun and all its descendants, which frees the study. Returns mpirun's status. */
+/* Reaps the starter and all its descendants, which frees the study. Returns the starter's status.
+ */
 static int wait_for_all(launcher *p)
 {
     launch *now = &p->now;
     int status = -1; /* no process has this one */
     const double began = fracas_now();
-    while (fracas_reap_wait(&p->reap, now->mpirun.pid, &status)) {
+    while (fracas_reap_wait(&p->reap, now->starter.pid, &status)) {
         now->gone |= status != -1;
         obey(p);
         if (fracas_now() - began > PATIENCE_END || now->killed) {
@@ -211,18 +213,16 @@ static int wait_for_all(launcher *p)
     return status == -1 ? 0 : status;
 }
 
-/* mpirun from start to end. */
-static fracas_err start(launcher *p, int jobs, int argc, char **argv, int *status)
+/* The ranks from start to end. */
+static fracas_err start(launcher *p, const fracas_ranks *ranks, int *status)
 {
-    memset(&p->now, 0, sizeof p->now);
+    p->now = (launch){.scratch = FRACAS_SCRATCH_NONE, .began = fracas_now()};
     p->starts++;
-    p->now.began = fracas_now();
-    fracas_err err = fracas_scratch_create(&p->now.scratch);
-    if (!err) err = fracas_mpirun_start(jobs, argc, argv, &p->now.scratch, &p->now.mpirun);
+    fracas_err err = p->kind->start(ranks, &p->now.scratch, &p->now.starter);
     if (!err) {
         read_streams(p);
-        close(p->now.mpirun.out);
-        close(p->now.mpirun.errors);
+        close(p->now.starter.out);
+        close(p->now.starter.errors);
         *status = wait_for_all(p);
     }
     fracas_scratch_remove(&p->now.scratch);
@@ -230,14 +230,15 @@ static fracas_err start(launcher *p, int jobs, int argc, char **argv, int *statu
 }
 
 /* The reason for an early end. */
-static void explain(const launch *now, int status, char *text, size_t size)
+static void explain(const launcher *p, int status, char *text, size_t size)
 {
+    const launch *now = &p->now;
     if (now->ending.ended) {
         snprintf(text, size, "%.600s", now->ending.text);
         return;
     }
     if (WIFSIGNALED(status)) {
-        snprintf(text, size, "mpirun died of signal %d (%s)", WTERMSIG(status),
+        snprintf(text, size, "%s died of signal %d (%s)", p->kind->name, WTERMSIG(status),
                  strsignal(WTERMSIG(status)));
         return;
     }
@@ -245,7 +246,7 @@ static void explain(const launch *now, int status, char *text, size_t size)
     fracas_mpirun_reason(now->noise, reason, sizeof reason);
     if (*reason) snprintf(text, size, "%s", reason);
     else
-        snprintf(text, size, "mpirun ended with status %d before the run was over",
+        snprintf(text, size, "%s ended with status %d before the run was over", p->kind->name,
                  WEXITSTATUS(status));
 }
 
@@ -275,18 +276,19 @@ static fracas_err go_on(launcher *p, int status)
                            "there is no mpirun; install Open MPI (Debian: openmpi-bin)");
     if (!now->speaks && fracas_mpirun_hopeless(now->noise, reason, sizeof reason))
         return fracas_fail(FRACAS_ENVIRONMENT, "%s", reason);
-    explain(now, status, reason, sizeof reason);
+    explain(p, status, reason, sizeof reason);
     p->barren = now->gained ? 0 : p->barren + 1;
     if (p->barren == MOST_BARREN) {
         char shown[2 * NOISE];
         fracas_text_show(now->noise, shown, sizeof shown);
         fprintf(stderr, "%s", shown);
-        return fracas_fail(FRACAS_ENVIRONMENT,
-                           "%s; MPI was started %d times, the last %d in vain; what was done is "
-                           "kept; the same command goes on from there",
-                           reason, p->starts, MOST_BARREN);
+        return fracas_fail(
+            FRACAS_ENVIRONMENT,
+            "%s; the ranks were started %d times, the last %d in vain; what was done "
+            "is kept; the same command goes on from there",
+            reason, p->starts, MOST_BARREN);
     }
-    snprintf(text, sizeof text, "%s; MPI is started again", reason);
+    snprintf(text, sizeof text, "%s; the ranks are started again", reason);
     fracas_progress_message(&p->progress, text);
     setenv(FRACAS_RESTARTED, reason, 1);
     for (const double until = fracas_now() + p->barren; fracas_now() < until && !is_asked(p);)
@@ -312,12 +314,12 @@ static void set_deadline(launcher *p, double walltime, double began)
     setenv(FRACAS_DEADLINE, text, 1);
 }
 
-static fracas_err run(launcher *p, int jobs, int argc, char **argv, bool *ran)
+static fracas_err run(launcher *p, const fracas_ranks *ranks, bool *ran)
 {
     if (is_asked(p)) return stopped(p);
     do {
         int status;
-        TRY(start(p, jobs, argc, argv, &status));
+        TRY(start(p, ranks, &status));
         if (!is_over(p)) TRY(go_on(p, status));
     } while (!is_over(p));
     const fracas_ending *ending = &p->now.ending;
@@ -325,16 +327,17 @@ static fracas_err run(launcher *p, int jobs, int argc, char **argv, bool *ran)
     return ending->err ? fracas_fail(ending->err, "%s", ending->text) : FRACAS_OK;
 }
 
-fracas_err fracas_launcher_run(const fracas_run_options *options, int jobs, double began, int argc,
-                               char **argv, bool *ran)
+fracas_err fracas_launcher_run(const fracas_starter_kind *kind, const fracas_ranks *ranks,
+                               double began, bool *ran)
 {
     OWNED launcher *p = calloc(1, sizeof *p);
     if (!p) return fracas_no_memory("the run");
+    p->kind = kind;
     p->durable = -1;
     fracas_progress_init(&p->progress, stderr);
     fracas_reap_begin(&p->reap);
-    set_deadline(p, options->walltime, began);
-    fracas_err err = run(p, jobs, argc, argv, ran);
+    set_deadline(p, ranks->options->walltime, began);
+    fracas_err err = run(p, ranks, ran);
     fracas_progress_end(&p->progress);
     return err;
 }

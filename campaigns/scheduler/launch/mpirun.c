@@ -3,16 +3,16 @@
 
 #include "base/own.h"
 #include "base/param.h"
+#include "campaigns/scheduler/launch/starter.h"
 #include "campaigns/scheduler/status/channel.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/prctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 static void set_environment(void)
@@ -39,59 +39,58 @@ static void set_environment(void)
     }
 }
 
-/* In the new process: never returns. */
-static _Noreturn void become_mpirun(char **arguments, pid_t parent, const fracas_scratch *scratch,
-                                    const int out[2], const int errors[2])
+static _Noreturn void become_mpirun(char **arguments, const fracas_scratch *scratch)
 {
     static const int reset[] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGPIPE};
-    setpgid(0, 0);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(FRACAS_INTERRUPTED); /* the parent died before the line above */
     for (size_t i = 0; i < FRACAS_COUNT(reset); i++) signal(reset[i], SIG_DFL);
     set_environment();
     fracas_scratch_export(scratch);
-    int null = open("/dev/null", O_RDONLY);
-    if (null >= 0) dup2(null, STDIN_FILENO);
-    dup2(out[1], STDOUT_FILENO);
-    dup2(errors[1], STDERR_FILENO);
     execvp(arguments[0], arguments);
     _exit(FRACAS_MPIRUN_MISSING);
 }
 
-fracas_err fracas_mpirun_start(int jobs, int argc, char **argv, const fracas_scratch *scratch,
-                               fracas_mpirun *mpirun)
+/* Runs `mpirun -n jobs <this program> argv[1] ...`. */
+static fracas_err start(const fracas_ranks *ranks, fracas_scratch *scratch, fracas_starter *starter)
 {
     char self[4096], count[16], colon[] = "./:";
     char *const before[] = {"mpirun", "--oversubscribe", "--bind-to", "none", "-n", count, self};
-    OWNED char **arguments = calloc(FRACAS_COUNT(before) + (size_t)argc + 1, sizeof *arguments);
+    const size_t given = ranks->argc > 1 ? (size_t)ranks->argc - 1 : 0;
+    OWNED char **arguments = calloc(FRACAS_COUNT(before) + given + 1, sizeof *arguments);
     if (!arguments) return fracas_no_memory("the arguments of mpirun");
     memcpy(arguments, before, sizeof before);
-    for (int i = 1; i < argc; i++) /* a lone colon separates programs for mpirun */
-        arguments[FRACAS_COUNT(before) + (size_t)i - 1] = strcmp(argv[i], ":") ? argv[i] : colon;
-    snprintf(count, sizeof count, "%d", jobs);
+    for (size_t i = 0; i < given; i++) { /* a lone colon separates programs for mpirun */
+        char *one = ranks->argv[i + 1];
+        arguments[FRACAS_COUNT(before) + i] = strcmp(one, ":") ? one : colon;
+    }
+    snprintf(count, sizeof count, "%d", ranks->jobs);
     ssize_t n = readlink("/proc/self/exe", self, sizeof self - 1);
     if (n < 0)
         return fracas_fail(FRACAS_ENVIRONMENT, "cannot find this program: /proc/self/exe: %s",
                            strerror(errno));
     self[n] = '\0';
-    int out[2] = {-1, -1}, errors[2] = {-1, -1};
-    pid_t parent = getpid(), pid = -1;
-    if (!pipe2(out, O_CLOEXEC) && !pipe2(errors, O_CLOEXEC)) pid = fork();
-    const int reason = errno;
-    if (pid == 0) become_mpirun(arguments, parent, scratch, out, errors);
-    fracas_err err = FRACAS_OK;
-    if (pid < 0) err = fracas_fail_system(reason, "cannot start mpirun");
-    if (out[1] >= 0) close(out[1]);
-    if (errors[1] >= 0) close(errors[1]);
-    if (err) {
-        if (out[0] >= 0) close(out[0]);
-        if (errors[0] >= 0) close(errors[0]);
-        return err;
-    }
-    setpgid(pid, pid); /* parent and child both do, whoever comes first */
-    *mpirun = (fracas_mpirun){pid, out[0], errors[0]};
+    TRY(fracas_scratch_create(scratch));
+    TRY(fracas_starter_fork(starter));
+    if (starter->pid == 0) become_mpirun(arguments, scratch);
     return FRACAS_OK;
 }
+
+/* Measured: Open MPI 4.1.4 hung with fewer than 24 + 4 jobs files, and with files below 4.2 MB, its
+ * shared memory. */
+static fracas_err check(int jobs)
+{
+    enum { FILES = 40, FILES_A_JOB = 5, FILE_SIZE = 8 << 20, MOST_JOBS = 1024 /* on a machine */ };
+    struct rlimit limit;
+    TRY(fracas_starter_raise_files(
+        FILES + FILES_A_JOB * (unsigned long)(jobs > MOST_JOBS ? MOST_JOBS : jobs)));
+    if (!getrlimit(RLIMIT_FSIZE, &limit) && limit.rlim_cur < FILE_SIZE)
+        return fracas_fail(FRACAS_ENVIRONMENT,
+                           "a file may have %llu bytes, MPI needs %d for its shared memory; raise "
+                           "the limit on the size of files (`ulimit -f`)",
+                           (unsigned long long)limit.rlim_cur, FILE_SIZE);
+    return FRACAS_OK;
+}
+
+const fracas_starter_kind fracas_starter_mpirun = {"mpirun", check, start};
 
 /* The first line of `output` with `key` in it; key NULL: with any letter. */
 static bool find_line(const char *output, const char *key, char *text, size_t size)
@@ -125,11 +124,12 @@ bool fracas_mpirun_hopeless(const char *output, char *text, size_t size)
 
 void fracas_mpirun_reason(const char *output, char *text, size_t size)
 {
-    static const char *const telling[] = {"mpirun noticed that",
+    static const char *const telling[] = {"noticed that",
                                           "MPI_ABORT was invoked",
                                           "lost communication with",
                                           "not enough slots",
                                           "fracas: ",
+                                          "ended with status",
                                           "unable to",
                                           "failed",
                                           "rror",

@@ -114,7 +114,7 @@ static fracas_err check_session(const fracas_scratch *scratch, int reason)
 fracas_err fracas_scratch_create(fracas_scratch *scratch)
 {
     const char *nodes = getenv("SLURM_JOB_NUM_NODES"), *named;
-    *scratch = (fracas_scratch){.session.lock = -1, .shared.lock = -1};
+    *scratch = (fracas_scratch)FRACAS_SCRATCH_NONE;
     if (nodes && atoi(nodes) > 1) return FRACAS_OK; /* nobody would remove those of other nodes */
     scratch->shared.lock = make_folder("/dev/shm", scratch->shared.path,
                                        sizeof scratch->shared.path);
@@ -148,5 +148,5 @@ void fracas_scratch_remove(fracas_scratch *scratch)
     if (*scratch->shared.path) remove_folder(scratch->shared.path);
     if (scratch->session.lock >= 0) close(scratch->session.lock);
     if (scratch->shared.lock >= 0) close(scratch->shared.lock);
-    *scratch = (fracas_scratch){.session.lock = -1, .shared.lock = -1};
+    *scratch = (fracas_scratch)FRACAS_SCRATCH_NONE;
 }

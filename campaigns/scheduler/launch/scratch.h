@@ -13,6 +13,10 @@ typedef struct {
         int lock;        /* held while the folder is there; -1: none */
     } session, shared;
 } fracas_scratch;
+#define FRACAS_SCRATCH_NONE                   \
+    {                                         \
+        .session.lock = -1, .shared.lock = -1 \
+    }
 
 /* Makes both folders, and removes those of this user's killed runs. None in a Slurm job of several
  * nodes, and no `shared` where none can be made: Open MPI then puts its files where it does

@@ -11,7 +11,6 @@
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/statvfs.h>
-#include <unistd.h>
 
 /* Checks the options, the same for all points, by one batch. */
 static fracas_err try_batch(const fracas_model *model, const fracas_run_options *options)
@@ -117,30 +116,5 @@ fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign
             "the disk of %s has room for %llu more files (`df -i`), a study needs %d and more; "
             "remove some, choose another --study, or start all the same with --ignore-space",
             study, (unsigned long long)disk.f_favail, FILES + (int)fmin(left, options->jobs));
-    return FRACAS_OK;
-}
-
-/* Measured: Open MPI 4.1.4 hung with fewer than 24 + 4 jobs files, and with files below 4.2 MB, its
- * shared memory. */
-fracas_err fracas_limits_check(const fracas_run_options *options)
-{
-    enum { FILES = 40, FILES_A_JOB = 5, FILE_SIZE = 8 << 20, MOST_JOBS = 1024 /* on a machine */ };
-    const long cores = sysconf(_SC_NPROCESSORS_ONLN), jobs = options->jobs ? options->jobs : cores;
-    const rlim_t files = FILES + FILES_A_JOB * (rlim_t)(jobs > MOST_JOBS ? MOST_JOBS : jobs);
-    struct rlimit limit;
-    if (!getrlimit(RLIMIT_NOFILE, &limit) && limit.rlim_cur < files) {
-        const struct rlimit raised = {limit.rlim_max < 2 * files ? limit.rlim_max : 2 * files,
-                                      limit.rlim_max};
-        if (raised.rlim_cur < files || setrlimit(RLIMIT_NOFILE, &raised))
-            return fracas_fail(FRACAS_ENVIRONMENT,
-                               "a process may open %llu files, MPI needs %llu for this run; raise "
-                               "the limit on open files (`ulimit -n`), or use fewer --jobs",
-                               (unsigned long long)limit.rlim_cur, (unsigned long long)files);
-    }
-    if (!getrlimit(RLIMIT_FSIZE, &limit) && limit.rlim_cur < FILE_SIZE)
-        return fracas_fail(FRACAS_ENVIRONMENT,
-                           "a file may have %llu bytes, MPI needs %d for its shared memory; raise "
-                           "the limit on the size of files (`ulimit -f`)",
-                           (unsigned long long)limit.rlim_cur, FILE_SIZE);
     return FRACAS_OK;
 }

@@ -22,8 +22,4 @@ FRACAS_MUST_USE fracas_err fracas_space_check(const char *study, const fracas_ca
                                               const fracas_run_options *options,
                                               const double *bytes);
 
-/* Before mpirun starts: raises this process's limit on open files. FRACAS_ENVIRONMENT,
- * naming the limit, if MPI would fail or hang under the limits on open files or file sizes. */
-FRACAS_MUST_USE fracas_err fracas_limits_check(const fracas_run_options *options);
-
 #endif

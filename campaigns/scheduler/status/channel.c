@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char mark[] = "@fracas ";
 
@@ -15,7 +16,7 @@ static void replace(char *text, char from, char to)
 
 void fracas_channel_init(fracas_channel *channel)
 {
-    channel->launcher = getenv(FRACAS_LAUNCHER_MARK) != NULL;
+    *channel = (fracas_channel){.launcher = getenv(FRACAS_LAUNCHER_MARK) != NULL};
     fracas_progress_init(&channel->progress, stderr);
 }
 
@@ -25,10 +26,9 @@ void fracas_channel_progress(fracas_channel *channel, const fracas_counts *count
         fracas_progress_update(&channel->progress, counts);
         return;
     }
-    printf("%sprogress %lld %lld %lld %lld %.9g\n", mark, (long long)counts->total,
-           (long long)counts->done, (long long)counts->memory, (long long)counts->failed,
-           counts->work);
-    fflush(stdout);
+    dprintf(STDOUT_FILENO, "%sprogress %lld %lld %lld %lld %.9g\n", mark, (long long)counts->total,
+            (long long)counts->done, (long long)counts->memory, (long long)counts->failed,
+            counts->work);
 }
 
 void fracas_channel_message(fracas_channel *channel, const char *format, ...)
@@ -44,8 +44,7 @@ void fracas_channel_message(fracas_channel *channel, const char *format, ...)
         return;
     }
     replace(text, '\n', '\v');
-    printf("%ssay %s\n", mark, text);
-    fflush(stdout);
+    dprintf(STDOUT_FILENO, "%ssay %s\n", mark, text);
 }
 
 void fracas_channel_end(fracas_channel *channel, fracas_err err, bool ran)
@@ -57,8 +56,7 @@ void fracas_channel_end(fracas_channel *channel, fracas_err err, bool ran)
     char text[1024];
     snprintf(text, sizeof text, "%s", err ? fracas_message() : "");
     replace(text, '\n', '\v');
-    printf("%send %d %d %d %s\n", mark, err, ran, channel->again, text);
-    fflush(stdout);
+    dprintf(STDOUT_FILENO, "%send %d %d %d %s\n", mark, err, ran, channel->again, text);
 }
 
 bool fracas_channel_receive(char *line, fracas_progress *progress, fracas_ending *ending)

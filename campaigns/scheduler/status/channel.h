@@ -12,16 +12,16 @@
 
 #include "campaigns/scheduler/status/progress.h"
 
-/* Set by the launcher in the environment of mpirun. */
+/* Set by the launcher in the environment of the ranks. */
 #define FRACAS_LAUNCHER_MARK "FRACAS_LAUNCHER"
 #define FRACAS_DEADLINE "FRACAS_DEADLINE" /* end of --walltime, s since 1970 */
 #define FRACAS_FREQUENCIES \
     "FRACAS_FREQUENCIES"                    /* fracas_frequencies_write; not on other machines */
-#define FRACAS_RESTARTED "FRACAS_RESTARTED" /* the reason for this restart of mpirun */
+#define FRACAS_RESTARTED "FRACAS_RESTARTED" /* the reason for this restart */
 
 typedef struct {
     bool launcher; /* one reads stdout */
-    bool again;    /* no worker is left, and the launcher is to start MPI again */
+    bool again;    /* no worker is left, and the launcher is to start the ranks again */
     fracas_progress progress;
 } fracas_channel;
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Messages between the ranks of a run. Only mailbox.c knows MPI. */
+/* Messages between the ranks of a run, by one of two transports: MPI, or sockets between the ranks
+ * that one process of this machine has started. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_TYPES_MAILBOX_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_TYPES_MAILBOX_H
 
@@ -8,32 +9,43 @@
 #include <stdbool.h>
 
 typedef struct fracas_letter fracas_letter;
+typedef struct fracas_sockets fracas_sockets;
+typedef struct fracas_transport fracas_transport;
 
 typedef struct {
-    int rank, size;        /* this rank, and the number of all */
-    fracas_letter *outbox; /* messages under way */
+    const fracas_transport *transport; /* set before fracas_mailbox_open */
+    int rank, size;                    /* this rank, and the number of all */
+    fracas_letter *outbox;             /* messages under way */
+    fracas_sockets *sockets;           /* local ranks only */
+    int pause;                         /* MPI is polled [ms] */
 } fracas_mailbox;
 
-/* Starts MPI; a process in which it does not start ends with FRACAS_ENVIRONMENT. Once. */
+/* Joins the other ranks; a process in which MPI does not start ends with FRACAS_ENVIRONMENT. Once.
+ */
 void fracas_mailbox_open(fracas_mailbox *box);
-/* Ends MPI, when every rank does. */
+/* Leaves them; MPI waits here until every rank does. */
 void fracas_mailbox_close(fracas_mailbox *box);
 /* Ends every rank at once: the others would wait for this one. */
-void fracas_mailbox_abort(void);
+void fracas_mailbox_abort(const fracas_mailbox *box);
 
-/* Sends a copy of the message without waiting for the rank: a hung one must not hold up the others.
- * Messages between two ranks keep their order. FRACAS_ENVIRONMENT if MPI fails or without memory.
- */
+/* Sends a copy of the message to any rank, without waiting for it: a hung one must not hold up the
+ * others. Messages between two ranks keep their order. FRACAS_ENVIRONMENT if the transport fails or
+ * without memory. */
 FRACAS_MUST_USE fracas_err fracas_mailbox_post(fracas_mailbox *box, int to,
                                                const fracas_packet *message);
-/* Frees the delivered messages; box->outbox is NULL when none is under way. */
+/* Goes on with what is under way, and frees the delivered messages; box->outbox is NULL when none
+ * is left. */
 FRACAS_MUST_USE fracas_err fracas_mailbox_clear(fracas_mailbox *box);
 
 /* *message, freed by the caller, is NULL when none has come. */
 FRACAS_MUST_USE fracas_err fracas_mailbox_receive(fracas_mailbox *box, int *from,
                                                   fracas_packet **message);
 
-/* "Open MPI v4.1.4", also before fracas_mailbox_open. */
+/* Sleeps until a message may have come, fd (-1: none) can be read, messages under way can go on, a
+ * signal comes, or `most` ms are over. Sockets end the sleep at once, MPI within 8 ms. */
+void fracas_mailbox_wait(fracas_mailbox *box, int fd, int most);
+
+/* "Open MPI v4.1.4", also before fracas_mailbox_open, and without MPI. */
 void fracas_mailbox_version(char *text, size_t size);
 
 #endif

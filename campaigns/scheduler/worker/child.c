@@ -2,7 +2,7 @@
 #include "campaigns/scheduler/worker/child.h"
 
 #include "campaigns/scheduler/types/clock.h"
-#include "campaigns/scheduler/worker/process.h"
+#include "campaigns/scheduler/types/process.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -48,11 +48,11 @@ static void note(fracas_link *link, const fracas_packet *message)
     }
 }
 
-fracas_err fracas_link_receive(fracas_link *link, int rank, int wait, fracas_packet **message)
+fracas_err fracas_link_receive(fracas_link *link, int rank, fracas_packet **message)
 {
     *message = NULL;
     struct pollfd from = {.fd = link->supervisor.server, .events = POLLIN};
-    if (poll(&from, 1, wait) <= 0) return FRACAS_OK;
+    if (poll(&from, 1, 0) <= 0) return FRACAS_OK;
     TRY(fracas_packet_read(link->supervisor.server, message));
     if (*message) note(link, *message);
     else if (!link->ended) return report_death(link, rank, message);

@@ -15,11 +15,11 @@ typedef struct {
     int deaths;  /* servers lost since the last segment or failure report */
 } fracas_link;
 
-/* Waits up to `wait` ms for a message of the server; *message, freed by the caller, is NULL if none
- * comes. After an unexpected end of the server of rank `rank` it is REPLACED, and a new server
- * starts, or LOST: there is none, or five died in a row with nothing settled in between.
- * FRACAS_ENVIRONMENT if it cannot be read or without memory. */
-FRACAS_MUST_USE fracas_err fracas_link_receive(fracas_link *link, int rank, int wait,
+/* *message, freed by the caller, is NULL if none of the server has come. After an unexpected end of
+ * the server of rank `rank` it is REPLACED, and a new server starts, or LOST: there is none, or
+ * five died in a row with nothing settled in between. FRACAS_ENVIRONMENT if it cannot be read or
+ * without memory. */
+FRACAS_MUST_USE fracas_err fracas_link_receive(fracas_link *link, int rank,
                                                fracas_packet **message);
 
 /* Sends a message of rank 0 to the server, unless it is for a server before. FRACAS_PACKET_FRESH

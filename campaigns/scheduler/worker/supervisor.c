@@ -4,7 +4,7 @@
 #include "base/param.h"
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/types/packet.h"
-#include "campaigns/scheduler/worker/process.h"
+#include "campaigns/scheduler/types/process.h"
 #include "campaigns/scheduler/worker/server.h"
 
 #include <errno.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Set-up and end of the processes of a run. */
-#ifndef FRACAS_CAMPAIGNS_SCHEDULER_WORKER_PROCESS_H
-#define FRACAS_CAMPAIGNS_SCHEDULER_WORKER_PROCESS_H
+#ifndef FRACAS_CAMPAIGNS_SCHEDULER_TYPES_PROCESS_H
+#define FRACAS_CAMPAIGNS_SCHEDULER_TYPES_PROCESS_H
 
 #include "base/err.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "campaigns/scheduler/worker/process.h"
+#include "campaigns/scheduler/types/process.h"
 
 #include "base/own.h"
 

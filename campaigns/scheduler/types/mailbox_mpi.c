@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "campaigns/scheduler/types/transport.h"
+
+#include <mpi.h>
+#include <poll.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { TAG = 0, PAUSE_MAX = 8 /* ms */ };
+
+struct fracas_letter {
+    fracas_letter *next;
+    MPI_Request request;
+    unsigned char bytes[];
+};
+
+static fracas_err failed(const char *what, int code)
+{
+    char reason[MPI_MAX_ERROR_STRING];
+    int length;
+    if (MPI_Error_string(code, reason, &length)) snprintf(reason, sizeof reason, "error %d", code);
+    return fracas_fail(FRACAS_ENVIRONMENT, "MPI cannot %s a message: %s", what, reason);
+}
+
+static void open_box(fracas_mailbox *box)
+{
+    if (!MPI_Init(NULL, NULL) && !MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN) &&
+        !MPI_Comm_rank(MPI_COMM_WORLD, &box->rank) && !MPI_Comm_size(MPI_COMM_WORLD, &box->size))
+        return;
+    fputs("fracas: MPI does not start\n", stderr);
+    _exit(FRACAS_ENVIRONMENT); /* ending with 0, it would leave the others waiting */
+}
+
+static void close_box(fracas_mailbox *box)
+{
+    (void)box;
+    MPI_Finalize();
+}
+
+static void abort_all(const fracas_mailbox *box)
+{
+    (void)box;
+    MPI_Abort(MPI_COMM_WORLD, FRACAS_ENVIRONMENT);
+}
+
+static fracas_err post(fracas_mailbox *box, int to, const fracas_packet *message)
+{
+    const size_t size = fracas_packet_bytes(message);
+    OWNED fracas_letter *letter = malloc(sizeof *letter + size);
+    if (!letter) return fracas_no_memory("a message");
+    memcpy(letter->bytes, message, size);
+    const int code = MPI_Isend(letter->bytes, (int)size, MPI_BYTE, to, TAG, MPI_COMM_WORLD,
+                               &letter->request);
+    if (code != MPI_SUCCESS) return failed("send", code);
+    letter->next = box->outbox;
+    box->outbox = letter;
+    letter = NULL;
+    return FRACAS_OK;
+}
+
+static fracas_err clear(fracas_mailbox *box)
+{
+    for (fracas_letter **at = &box->outbox; *at;) {
+        fracas_letter *letter = *at;
+        int taken;
+        const int code = MPI_Test(&letter->request, &taken, MPI_STATUS_IGNORE);
+        if (code != MPI_SUCCESS) return failed("send", code);
+        if (!taken) {
+            at = &letter->next;
+            continue;
+        }
+        *at = letter->next;
+        free(letter);
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err receive(fracas_mailbox *box, int *from, fracas_packet **message)
+{
+    *message = NULL;
+    int come, bytes;
+    MPI_Status status;
+    int code = MPI_Iprobe(MPI_ANY_SOURCE, TAG, MPI_COMM_WORLD, &come, &status);
+    if (code == MPI_SUCCESS && !come) return FRACAS_OK;
+    if (code == MPI_SUCCESS) code = MPI_Get_count(&status, MPI_BYTE, &bytes);
+    if (code != MPI_SUCCESS) return failed("probe", code);
+    OWNED fracas_packet *m = malloc((size_t)bytes);
+    if (!m) return fracas_no_memory("a message");
+    code = MPI_Recv(m, bytes, MPI_BYTE, status.MPI_SOURCE, TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    if (code != MPI_SUCCESS) return failed("receive", code);
+    *from = status.MPI_SOURCE;
+    *message = m;
+    m = NULL;
+    box->pause = 0;
+    return FRACAS_OK;
+}
+
+/* MPI is polled: the pause doubles while nothing happens. */
+static void wait_for_any(fracas_mailbox *box, int fd, int most)
+{
+    struct pollfd from = {.fd = fd, .events = POLLIN};
+    box->pause = box->pause ? 2 * box->pause : 1;
+    if (box->pause > PAUSE_MAX) box->pause = PAUSE_MAX;
+    if (poll(&from, 1, box->pause < most ? box->pause : most) > 0) box->pause = 0;
+}
+
+const fracas_transport fracas_transport_mpi = {
+    open_box, close_box, abort_all, post, clear, receive, wait_for_any,
+};
+
+void fracas_mailbox_version(char *text, size_t size)
+{
+    char version[MPI_MAX_LIBRARY_VERSION_STRING] = "unknown";
+    int length;
+    if (MPI_Get_library_version(version, &length) != MPI_SUCCESS) strcpy(version, "unknown");
+    snprintf(text, size, "%.*s", (int)strcspn(version, ",\n"), version);
+}
