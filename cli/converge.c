@@ -51,7 +51,7 @@ static fracas_err check_rank(void)
 {
     if (fracas_run_is_rank())
         return fracas_fail(FRACAS_USAGE,
-                           "converge: it starts several runs, each with an mpirun of its own: give "
+                           "converge: it starts several runs, each with ranks of its own: give "
                            "it --jobs N instead of starting it by mpirun or srun");
     return FRACAS_OK;
 }

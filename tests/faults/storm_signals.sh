@@ -1,6 +1,7 @@
 # 400 signals of 13 kinds to processes of runs, chosen at random, over campaigns of bars and, at the same time, of shells:
 # tests/support/storm_signals.py.
 # ctest-labels: storm
+# ctest-mpirun
 # ctest-timeout: 14400
 . tests/support/campaigns.sh
 

@@ -10,6 +10,7 @@
 #include <mpi.h>
 #include <poll.h>
 #include <sched.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -318,6 +319,16 @@ FILE *open_memstream(char **text, size_t *size)
 
 /* ---- processes ---- */
 
+static void be_rank(int rank)
+{
+    if (rank >= FAILING_RANKS) state = NULL;
+    if (!state) return;
+    where = 1 + rank * FAILING_DEPTHS;
+    ncode = 0;
+    find_code();
+    watch_calls();
+}
+
 static bool no_process(const char *what, int code_of)
 {
     if (!failing_call(FAILING_PROCESS, what, NULL)) return false;
@@ -330,8 +341,27 @@ pid_t fork(void)
     REAL(pid_t, fork, void);
     if (no_process("fork", EAGAIN)) return -1;
     const pid_t pid = real();
-    if (pid == 0 && where > 0 && (where - 1) % FAILING_DEPTHS < FAILING_DEPTHS - 1) where++;
+    if (pid == 0 && where > 0 && where < FAILING_STARTER &&
+        (where - 1) % FAILING_DEPTHS < FAILING_DEPTHS - 1)
+        where++;
     return pid;
+}
+
+/* The parent's starter and its ranks are known by the names that they take. */
+int prctl(int option, ...)
+{
+    static int (*real)(int, ...);
+    if (!real) real = (int (*)(int, ...))dlsym(RTLD_NEXT, "prctl");
+    unsigned long argument[4];
+    int rank;
+    va_list arguments;
+    va_start(arguments, option);
+    for (size_t a = 0; a < 4; a++) argument[a] = va_arg(arguments, unsigned long);
+    va_end(arguments);
+    const char *name = option == PR_SET_NAME ? (const char *)argument[0] : "";
+    if (strcmp(name, "fracas-starter") == 0) where = FAILING_STARTER;
+    if (sscanf(name, "fracas-rank-%d", &rank) == 1) be_rank(rank);
+    return real(option, argument[0], argument[1], argument[2], argument[3]);
 }
 
 int pipe2(int fd[2], int flags)
@@ -384,6 +414,7 @@ REFUSED(MAY, int, -1, poll, (struct pollfd * of, nfds_t n, int wait), (of, n, wa
 REFUSED(MAY, int, -1, ppoll,
         (struct pollfd * of, nfds_t n, const struct timespec *wait, const sigset_t *mask),
         (of, n, wait, mask), )
+REFUSED(MAY_WAIT, int, -1, sigwaitinfo, (const sigset_t *of, siginfo_t *info), (of, info), )
 REFUSED(MAY_WAIT, pid_t, -1, waitpid, (pid_t pid, int *status, int how), (pid, status, how), )
 REFUSED(MAY_WAIT, int, -1, waitid, (idtype_t what, id_t id, siginfo_t *info, int how),
         (what, id, info, how), )
@@ -451,6 +482,7 @@ static void read_how(const char *how)
 static int where_of(const char *text)
 {
     int rank, depth;
+    if (strcmp(text, "starter") == 0) return FAILING_STARTER;
     return sscanf(text, "%d.%d", &rank, &depth) == 2 ? 1 + rank * FAILING_DEPTHS + depth : 0;
 }
 

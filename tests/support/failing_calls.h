@@ -11,15 +11,13 @@
  *            process: fork, pipe2, socketpair
  *            wait: calls of fracas that a signal may interrupt, or that transfer a part
  *            system: these, and others of fracas that the system may refuse
- *     WHERE  parent; or RANK.DEPTH: 0.0 is rank 0, 0.1 its supervisor, 0.2 the server, 0.3 the
- *            process of a lease
- *     HOW    an error of errno (EIO, ENOSPC, EINTR, ...) or of the library; kill: the process dies
- *            before the call; torn: it dies after half of what it was to write; late: the call
- *            succeeds, and says that it has not; short: half of it is transferred
- *   FAILING_STATE  file of a failing_state: what was counted; with ENOSPC, all calls that need
- *                  space fail from then on, everywhere
- *   FAILING_ALONE  set where the parent starts no mpirun: only then its system calls can be watched
- *   FAILING_UNDER  part of the path of every file of the study, and of no other */
+ *     WHERE  parent; starter; or RANK.DEPTH: 0.0 is rank 0, 0.1 its supervisor, 0.2 the server, 0.3
+ * the process of a lease HOW    an error of errno (EIO, ENOSPC, EINTR, ...) or of the library;
+ * kill: the process dies before the call; torn: it dies after half of what it was to write; late:
+ * the call succeeds, and says that it has not; short: half of it is transferred FAILING_STATE  file
+ * of a failing_state: what was counted; with ENOSPC, all calls that need space fail from then on,
+ * everywhere FAILING_ALONE  set where the parent starts no mpirun: only then its system calls can
+ * be watched FAILING_UNDER  part of the path of every file of the study, and of no other */
 #ifndef FRACAS_TESTS_SUPPORT_FAILING_CALLS_H
 #define FRACAS_TESTS_SUPPORT_FAILING_CALLS_H
 
@@ -42,7 +40,8 @@ typedef enum {
 enum {
     FAILING_RANKS = 4,
     FAILING_DEPTHS = 4,
-    FAILING_WHERES = 1 + FAILING_RANKS * FAILING_DEPTHS /* the parent first */,
+    FAILING_STARTER = 1 + FAILING_RANKS * FAILING_DEPTHS, /* the parent first */
+    FAILING_WHERES,
     FAILING_SITES = 4096
 };
 

@@ -3,7 +3,7 @@
     failing_calls.py FRACAS FAILING_CALLS.SO FOLDER [WHAT ...]
 
 WHAT is CLASS:WHERE:HOW[:SAMPLES], or CLASS:WHERE:HOW:sites[SAMPLES]: the first call from each place in the program. WHERE may be
-`launcher`: the parent when it starts MPI. After each failure:
+`launcher`: the parent when it starts MPI; `starter`; or, of ranks without MPI, `local.RANK.DEPTH`. After each failure:
   - the program has ended by itself with status 0, 3 or 6, or died of the kill; never with 70, never by a signal of its own;
   - a status that is not 0 has a message, and that names the study or what failed;
   - status 0 means the bytes of an undisturbed run;
@@ -29,7 +29,7 @@ from study_rows import done_rows  # noqa: E402
 CLASSES = ["disk", "read", "sqlite", "hdf5", "mpi", "memory", "process", "wait", "system"]
 SITES = 4096
 RANKS = DEPTHS = 4
-NWHERES = 1 + RANKS * DEPTHS
+NWHERES = 1 + RANKS * DEPTHS + 1
 SEED = int(os.environ.get("FRACAS_STORM_SEED", "1"))
 LIMIT = 200  # s that a run may take: a fault must not make it wait for ever
 
@@ -86,7 +86,7 @@ class State:
         self.failed = data[-232:].split(b"\0")[0].decode(errors="replace")
         self.count = {}
         for w in range(NWHERES):
-            name = "parent" if w == 0 else f"{(w - 1) // DEPTHS}.{(w - 1) % DEPTHS}"
+            name = "parent" if w == 0 else "starter" if w == NWHERES - 1 else f"{(w - 1) // DEPTHS}.{(w - 1) % DEPTHS}"
             self.count[name] = dict(zip(CLASSES, numbers[w * len(CLASSES):]))
         return self
 
@@ -118,13 +118,13 @@ class Storm:
     def mpi_folder(self, study):  # its name is not part of the study's, whose calls fail
         return os.path.join(self.folder, "mpi" + os.path.basename(study)[5:])
 
-    def run(self, study, alone=True, options=(), fault=None, state=None, command="run"):
-        environment = {**os.environ, **ROOT, **(ALONE if alone else {})}
+    def run(self, study, alone=True, options=(), fault=None, state=None, command="run", mpirun="1"):
+        environment = {**os.environ, **ROOT, **(ALONE if alone else {}), "FRACAS_MPIRUN": mpirun}
         if alone:  # every such run is job 0, and one that ends removes the folder of the others
             environment["OMPI_MCA_orte_tmpdir_base"] = mpi = self.mpi_folder(study)
             os.makedirs(mpi, exist_ok=True)
         if fault:
-            environment.update(FAILING_CALLS=fault.replace("launcher", "parent"), FAILING_STATE=state.path, FAILING_UNDER=os.path.basename(study),
+            environment.update(FAILING_CALLS=fault.replace("launcher", "parent").replace("local.", ""), FAILING_STATE=state.path, FAILING_UNDER=os.path.basename(study),
                                LD_PRELOAD=self.library)
             if os.path.exists(f"{study}/study.h5"):
                 environment["FAILING_ALONE"] = "1"
@@ -147,6 +147,8 @@ class Storm:
 
     def setting(self, kind, where):
         """Where the study is from, whether without mpirun, and with which options the campaign is run."""
+        if where == "starter" or where.startswith("local."):
+            return False, {"alone": False, "options": SMALL, "mpirun": "0"}
         if where == "launcher":
             return False, {"alone": False, "options": SMALL}
         if where == "parent" and kind != "process":
@@ -173,7 +175,7 @@ class Storm:
         self.clean_up(study)
         if sites:
             return [f"{key:x}@1" for key in sorted(state.sites)]
-        return range(1, state.count[where][kind] + 1)
+        return range(1, state.count[where.replace("local.", "")][kind] + 1)
 
     def clean_up(self, study):
         shutil.rmtree(study, ignore_errors=True)

@@ -1,6 +1,8 @@
-"""The processes of a run, by their place: parent, its mpirun, mpirun's ranks, and below a rank, where there is one, the supervisor, then
+"""The processes of a run, by their place: parent, its starter, the starter's ranks, and below a rank, where there is one, the supervisor, then
 the compute server, then the child."""
 import glob
+
+STARTERS = ("mpirun", "fracas-starter")
 
 
 def read(path):
@@ -14,7 +16,7 @@ def read(path):
 class Tree:
     """The processes of a session."""
 
-    supervisor = False  # there are supervisors: some process was four below a rank's mpirun
+    supervisor = False  # there are supervisors: some process was four below a rank's starter
 
     def __init__(self, session, program):
         self.program = program[:15]  # as much as the kernel keeps of its name
@@ -41,8 +43,8 @@ class Tree:
         """Steps from a rank down to this process; -1 if it is below none."""
         steps = 0
         while pid in self.name:
-            if self.name.get(self.above[pid]) == "mpirun":
-                return steps if self.name[pid] == self.program else -1
+            if self.name.get(self.above[pid]) in STARTERS:
+                return steps if self.name[pid] == self.program or self.name[pid].startswith("fracas-rank-") else -1
             pid, steps = self.above[pid], steps + 1
         return -1
 
@@ -53,11 +55,13 @@ class Tree:
             Tree.supervisor |= depth >= 3
             if pid == session:
                 kind = "parent"
-            elif self.name[pid] == "mpirun":
-                kind = "mpirun"
+            elif self.name[pid] in STARTERS:
+                kind = "starter"
             elif depth == 0:
-                number = [w for w in read(f"/proc/{pid}/environ").split("\0") if w.startswith("OMPI_COMM_WORLD_RANK=")]
-                kind = "other rank" if number and number[0][21:] != "0" else "rank 0"
+                number = [w[21:] for w in read(f"/proc/{pid}/environ").split("\0") if w.startswith("OMPI_COMM_WORLD_RANK=")]
+                if self.name[pid].startswith("fracas-rank-"):
+                    number = [self.name[pid][12:]]
+                kind = "other rank" if number and number[0] != "0" else "rank 0"
             elif depth > 0:
                 kind = ([] if not Tree.supervisor else ["supervisor"] * (depth > 0)) + ["server", "child"]
                 kind = kind[min(depth, len(kind)) - 1]

@@ -2,7 +2,7 @@
 
     soak.py FRACAS FOLDER [LEASES]
 
-Every second a child (`fracas-lease`) is killed, every tenth time a compute server, and once, after a tenth of the leases, mpirun: from then on
+Every second a child (`fracas-lease`) is killed, every tenth time a compute server, and once, after a tenth of the leases, the starter: from then on
 launcher, ranks and supervisors live on. storm_kills.py looks at what is computed; this looks at what it costs. By the kind of process, with
 the median of a quarter of the time (the second, when all caches are full, and the last):
   - memory of its own (RssAnon) may be a tenth greater, and 2 MB: a rank 0 that lost 20 bytes a lease would be seen;
@@ -19,6 +19,9 @@ import statistics
 import subprocess
 import sys
 import time
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from process_tree import STARTERS  # noqa: E402
 
 CAMPAIGN = """\
 name: soak
@@ -61,7 +64,11 @@ def processes(session):
             pid, name, state = int(head.split()[0]), head.split("(", 1)[1], tail.split()
             if int(state[3]) != session or state[0] == "Z":
                 continue
-            if name == "fracas":
+            if name in STARTERS:
+                name = "starter"
+            elif name.startswith("fracas-rank-"):
+                name = "rank " + name[12:]
+            elif name == "fracas":
                 rank = [word for word in words(f"/proc/{pid}/environ").split("\0") if word.startswith("OMPI_COMM_WORLD_RANK=")]
                 name = "launcher" if pid == session else "rank " + rank[0][21:] if rank else "starting"
             found.append((pid, name))
@@ -122,15 +129,15 @@ while run.poll() is None:
     index.append(size("index.sqlite") + size("index.sqlite-wal"))
     turn += 1
     done = re.findall(r"(\d+) of \d+ realizations done", words(f"{folder}/said"))
-    if not killed["mpirun"] and done and int(done[-1]) >= leases / 10:
-        kill("mpirun", now)
+    if not killed["starter"] and done and int(done[-1]) >= leases / 10:
+        kill("starter", now)
     else:
         kill("fracas-server" if turn % 10 == 0 else "fracas-lease", now)
 if run.returncode:
     end(f"status {run.returncode}\n{words(said.name)[-2000:]}")
 segments = len(glob.glob(f"{study}/segments/*.h5"))
 print(f"{leases} leases, {len(samples)} s of computing, killed: {dict(killed)}, {segments} segments", flush=True)
-if not killed["mpirun"] or len(samples) < 40:
+if not killed["starter"] or len(samples) < 40:
     end("too short to see anything: more leases")
 
 wrong = []

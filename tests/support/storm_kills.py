@@ -2,7 +2,7 @@
 
     storm_kills.py FRACAS FOLDER [KILLS [REPLICAS]]
 
-Kinds of processes are known by their place: parent, its mpirun, mpirun's ranks, and below a rank, where there is one, the supervisor, then
+Kinds of processes are known by their place: parent, its starter, the starter's ranks, and below a rank, where there is one, the supervisor, then
 the compute server, then the child. FRACAS_STORM_SEED repeats the choices of a run, though not the moments at which they meet it.
 
 What must hold:
@@ -11,7 +11,7 @@ What must hold:
   - what is computed a second time was in flight at a kill in between. Precisely: of two batches that begin the same realization one after
     the other (the program writes a line for each batch that begins, FRACAS_TEST_LOG) there is a kill in between; at it, the realization
     was not done in the index; and the process that had begun it was the victim or below it, or the victim was one that ends the run:
-    parent, mpirun, a rank. So
+    parent, starter, a rank. So
         begun - realizations <= sum over kills of |begun before, not done, of the victim|,
     each realization counting once a kill. The lines come before the computing, and the index is read before the kill, so the bound is
     one in the safe direction by what happens in the milliseconds between;
@@ -48,8 +48,8 @@ sweep:
 replicas: {replicas}
 output: {{history: 100, interfaces: false}}
 """
-KINDS = ["parent", "mpirun", "rank 0", "other rank", "supervisor", "server", "child"]
-ENDS_THE_RUN = {"parent", "mpirun", "rank 0", "other rank"}
+KINDS = ["parent", "starter", "rank 0", "other rank", "supervisor", "server", "child"]
+ENDS_THE_RUN = {"parent", "starter", "rank 0", "other rank"}
 RATE = 25  # realizations a second that this machine shall compute: then 200 kills, each with a new start, come to 2000 of them
 MERGES = 0.07  # of the kills are left for when only study.h5 is to be written
 
@@ -158,8 +158,8 @@ class Storm:
         if kind == "parent":
             doomed |= set(tree.name)
         elif kind in ENDS_THE_RUN:
-            for mpirun in kinds.get("mpirun", []):
-                doomed |= tree.below(mpirun) - {mpirun}
+            for starter in kinds.get("starter", []):
+                doomed |= tree.below(starter) - {starter}
         late = time.monotonic() + 5
         while doomed & set(self.tree().name) and time.monotonic() < late:
             time.sleep(0.002)

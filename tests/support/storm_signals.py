@@ -5,7 +5,7 @@
 A study that is done is looked at, and a new one begun. A signal goes to one process, its kind chosen by chance (tests/support/process_tree.py), or to all at once:
 
   KILL; STOP, and CONT up to four seconds later; TERM, HUP, USR1, USR2, INT, QUIT, BUS, FPE, ABRT, XCPU; Ctrl-C twice, to the launcher and
-  its mpirun as a terminal sends it.
+  its starter as a terminal sends it.
 
 What must hold:
   - a run ends by itself with a documented status, or by a signal that its launcher got; none says or needs more than LIMIT seconds;
@@ -143,7 +143,7 @@ class Storm:
             return False
         name = chance.choices(list(WEIGHTS), list(WEIGHTS.values()))[0]
         if name == "ctrl-C twice":
-            kind, victims = "launcher, mpirun", kinds.get("parent", []) + kinds.get("mpirun", [])
+            kind, victims = "launcher, starter", kinds.get("parent", []) + kinds.get("starter", [])
             self.send(victims, "INT")
             time.sleep(chance.uniform(0, 0.3))
             self.send(victims, "INT")
@@ -154,7 +154,7 @@ class Storm:
             kind = chance.choice(sorted(kinds))
             victims = [chance.choice(sorted(kinds[kind]))]
             self.stop(victims) if name == "STOP" else self.send(victims, name)
-        fatal = name in ["KILL"] + OTHERS or "mpirun" not in kinds  # before it is ready, any signal ends it
+        fatal = name in ["KILL"] + OTHERS or "starter" not in kinds  # before it is ready, any signal ends it
         self.sent.append((name, kind, fatal and self.run.pid in victims))
         self.table[name, "launcher" if kind == "parent" else kind] += 1
         self.left -= 1
