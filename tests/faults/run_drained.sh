@@ -53,6 +53,16 @@ done
 expect 0 "$fracas" run small.yaml --study stopped
 same undisturbed stopped
 
+# The starter gets it alone, and passes it on.
+while :; do
+    start small.yaml --study passed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+    wait_segments passed 2
+    kill -TERM "$(named fracas-starter)" 2>/dev/null || true
+    ! interrupted passed || break
+done
+expect 0 "$fracas" run small.yaml --study passed
+same undisturbed passed
+
 # Drained by the user's own mpirun.
 while :; do
     launch -n 2 "$fracas" run small.yaml --study direct --lanes 1 --lease-time 0 --segment-size 1e-6 > background 2>&1 &

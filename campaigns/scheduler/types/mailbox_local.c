@@ -87,26 +87,34 @@ static void abort_all(const fracas_mailbox *box)
     _exit(FRACAS_ENVIRONMENT);
 }
 
+/* As much of the letter as its inbox takes now. */
+static fracas_err send_parts(fracas_mailbox *box, fracas_letter *letter)
+{
+    const int into = box->sockets->rank[letter->to].into;
+    bool *full = &box->sockets->rank[letter->to].full;
+    while (!*full && letter->sent < letter->size) {
+        heading head = {(uint32_t)box->rank, (uint32_t)letter->size};
+        const size_t left = letter->size - letter->sent, part = left < PART ? left : PART;
+        struct iovec body[] = {{&head, sizeof head}, {letter->bytes + letter->sent, part}};
+        const struct msghdr message = {.msg_iov = body, .msg_iovlen = 2};
+        if (sendmsg(into, &message, MSG_NOSIGNAL) >= 0) letter->sent += part;
+        else if (errno == EAGAIN) *full = true;
+        else if (errno == EPIPE || errno == ECONNRESET)
+            letter->sent = letter->size; /* it has ended: the starter knows if the run has, too */
+        else if (errno != EINTR)
+            return fracas_fail(FRACAS_ENVIRONMENT,
+                               "this process cannot send a message to rank %d: %s", letter->to,
+                               strerror(errno));
+    }
+    return FRACAS_OK;
+}
+
 static fracas_err clear(fracas_mailbox *box)
 {
-    fracas_sockets *s = box->sockets;
-    for (int r = 0; r < s->size; r++) s->rank[r].full = false;
+    for (int r = 0; r < box->size; r++) box->sockets->rank[r].full = false;
     for (fracas_letter **at = &box->outbox; *at;) {
         fracas_letter *letter = *at;
-        bool *full = &s->rank[letter->to].full;
-        while (!*full && letter->sent < letter->size) {
-            heading head = {(uint32_t)box->rank, (uint32_t)letter->size};
-            const size_t left = letter->size - letter->sent, part = left < PART ? left : PART;
-            struct iovec body[] = {{&head, sizeof head}, {letter->bytes + letter->sent, part}};
-            const struct msghdr message = {.msg_iov = body, .msg_iovlen = 2};
-            if (sendmsg(s->rank[letter->to].into, &message, MSG_NOSIGNAL) >= 0)
-                letter->sent += part;
-            else if (errno == EAGAIN) *full = true;
-            else if (errno == EPIPE || errno == ECONNRESET)
-                letter->sent = letter->size; /* it has ended: the starter knows what that means */
-            else if (errno != EINTR)
-                return fracas_fail_system(errno, "a message cannot be sent to another rank");
-        }
+        TRY(send_parts(box, letter));
         if (letter->sent < letter->size) {
             at = &letter->next;
             continue;
@@ -142,7 +150,9 @@ static fracas_err receive(fracas_mailbox *box, int *from, fracas_packet **messag
         if (n < 0 && errno == EINTR) continue;
         if (n < 0 && errno == EAGAIN) return FRACAS_OK;
         if (n < (ssize_t)sizeof head)
-            return fracas_fail_system(errno, "a message of another rank cannot be received");
+            return fracas_fail(FRACAS_ENVIRONMENT,
+                               "this process cannot receive a message of another rank: %s",
+                               strerror(errno));
         const size_t size = (size_t)n - sizeof head;
         fracas_packet **whole = &s->rank[head.from].message;
         size_t *received = &s->rank[head.from].received;
