@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How fast this machine leases and commits work: a whole run (mpirun, ranks, servers, leases,
+/* How fast this machine leases and commits work: a whole run (launcher, ranks, servers, leases,
  * segments, index, merge) of realizations that sleep instead of computing. Because they sleep, more
  * workers than cores measure the scheduler and not the machine. The numbers are those of rank 0.
  *
@@ -174,7 +174,7 @@ static void print_numbers(const bench *b, const fracas_timings *t, double wall, 
     } number[] = {
         {"workers", "workers", t->workers},
         {"tasks", "tasks of this run", t->rows},
-        {"wall", "wall, mpirun and merge included [s]", wall},
+        {"wall", "wall, start and merge included [s]", wall},
         {"efficiency", "efficiency: time of tasks / (workers x wall)",
          ratio(work, t->workers * wall)},
         {"tasks_per_second", "tasks/s, of the wall", ratio(t->rows, wall)},
@@ -182,7 +182,7 @@ static void print_numbers(const bench *b, const fracas_timings *t, double wall, 
         {"working", "first lease to the last worker's end [s]", working},
         {"working_efficiency", "efficiency in this", ratio(work, t->workers * working)},
         {"merging", "merge [s]", t->merging},
-        {"around", "start and end of mpirun, and the launcher [s]", wall - t->seconds},
+        {"around", "start and end of the ranks, and the launcher [s]", wall - t->seconds},
         {"leases", "leases", t->leases},
         {"messages", "messages to rank 0", t->messages},
         {"messages_per_second", "messages/s", ratio(t->messages, working)},

@@ -65,7 +65,7 @@ for i in 1 2 3; do
     [ "$half" -lt $all ] || fail "it was over before it could be stopped"
     [ $i -gt 1 ] || within "$(status_time)" 1 "status of a study half done [s]"
     "$bench" --tasks $all --points 100 --jobs 2 --study study --json > figures 2> said || { cat said; fail "going on"; }
-    # `planned` is rank 0's; `around` has the start of mpirun, and its end.
+    # `planned` is rank 0's; `around` has the start of the ranks, and their end.
     resume=$(awk -v a="$(number planned figures)" -v b="$(number around figures)" -v least=$resume 'BEGIN {print a + b < least ? a + b : least}')
     within "$(number memory figures)" 500e6 "memory of rank 0 [bytes]"
     expect 0 "$fracas" status study --json
