@@ -63,6 +63,8 @@ typedef struct {
     size_t size;
 } fracas_parcel;
 
+enum { FRACAS_PEERS_MAX = 64 };
+
 /* Processes that compute the realizations of a batch together, each its own parts of the body. Peer
  * 0 leads: its records are whole. All create the same batch, but for threads and watch, and
  * run it. */

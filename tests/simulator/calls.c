@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/simulator/calls.h"
 
+#include "tests/simulator/farm.h"
 #include "tests/simulator/machine.h"
 
 #include <dirent.h>
@@ -543,6 +544,8 @@ int __wrap_unsetenv(const char *name)
 
 int __wrap_gethostname(char *name, size_t size)
 {
-    snprintf(name, size, "farm");
+    const process *p = world.current;
+    const bool far = farm.hosts > 1 && p->role >= RANK && p->number % 2;
+    snprintf(name, size, far ? "barn" : "farm");
     return 0;
 }

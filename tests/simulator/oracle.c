@@ -138,6 +138,14 @@ static void lease_one(const process *server, const fracas_lease *lease, size_t i
     r->hold[r->next++ % MOST_HOLDS] = (hold){server, lease->id, i, now};
 }
 
+/* A helper is of another host than its leader. */
+static void help_one(const process *helper, const fracas_lease *lease)
+{
+    const process *leader = process_of((int)lease->meeting.port);
+    if (helper->number % 2 == leader->number % 2)
+        broken("rank %d is to help rank %d of its host", helper->number, leader->number);
+}
+
 fracas_err __real_fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now,
                                         fracas_lease *lease, bool *given);
 fracas_err __wrap_fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now,
@@ -169,7 +177,9 @@ fracas_err __wrap_fracas_director_post(fracas_director *director, size_t worker,
         trace("  lease %llu: %llu of point %llu from replica %lld", (unsigned long long)lease->id,
               (unsigned long long)lease->count, (unsigned long long)lease->point,
               (long long)lease->replica[0]);
-        for (size_t i = 0; i < lease->count; i++)
+        if (lease->role == FRACAS_LEASE_HELPS) trace("  to help");
+        if (lease->role == FRACAS_LEASE_HELPS) help_one(servers->started[servers->known], lease);
+        for (size_t i = 0; i < lease->count && lease->role != FRACAS_LEASE_HELPS; i++)
             lease_one(servers->started[servers->known], lease, i);
     }
     return __real_fracas_director_post(director, worker, kind, body, size);

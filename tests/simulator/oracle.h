@@ -5,6 +5,7 @@
  * - a segment in the index is never removed or written over;
  * - a lease goes out: none of its realizations is done, and none is with a living server that
  *   has not given it back, unless it has been there for 10 s (an overdue lease);
+ * - a worker is sent to help another: that is one of another host;
  * - a study is opened again: what a commit had returned is still done, every row that is done has
  *   durable bytes, no segment is damaged, and none that is whole is left out. */
 #ifndef FRACAS_TESTS_SIMULATOR_ORACLE_H

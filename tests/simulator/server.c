@@ -6,6 +6,7 @@
 
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/worker/child.h"
+#include "campaigns/scheduler/worker/connections.h"
 #include "campaigns/scheduler/types/process.h"
 #include "campaigns/scheduler/worker/server.h"
 #include "campaigns/scheduler/worker/supervisor.h"
@@ -144,8 +145,17 @@ static fracas_err send_all(int fd, fracas_packet **record, size_t count)
     return FRACAS_OK;
 }
 
+/* Others may come, whatever the body. */
+static fracas_err invite(const work *w)
+{
+    const fracas_meeting meeting = {.lease = w->lease.id, .port = (uint64_t)world.current->pid};
+    if (w->lease.role != FRACAS_LEASE_LEADS) return FRACAS_OK;
+    return fracas_packet_send(w->fd, FRACAS_PACKET_MEETING, &meeting, sizeof meeting);
+}
+
 static fracas_err compute(const work *w)
 {
+    TRY(invite(w));
     for (size_t from = 0, count; from < w->lease.count; from += count) {
         fracas_packet *record[FRACAS_LANES_MAX];
         TRY(fracas_compute_batch(&w->computation, from, record, &count));
@@ -154,10 +164,21 @@ static fracas_err compute(const work *w)
     return FRACAS_OK;
 }
 
+/* Computes along with a leading process, until that is gone. */
+static void help(const work *w)
+{
+    const process *leader = process_of((int)w->lease.meeting.port);
+    for (double rest = 0.01; leader && leader->alive; rest *= 1.3) {
+        call("helps");
+        process_sleep(world.now + rest * roll(DICE_DELAY));
+    }
+}
+
 static void child_main(void *argument)
 {
     work *w = argument;
-    fracas_err err = compute(w);
+    if (w->lease.role == FRACAS_LEASE_HELPS) help(w);
+    fracas_err err = w->lease.role == FRACAS_LEASE_HELPS ? FRACAS_OK : compute(w);
     fracas_trouble fault;
     if (err) fracas_trouble_take(err, &fault);
     if (err && fracas_packet_send(w->fd, FRACAS_PACKET_FAULT, &fault, sizeof fault))
@@ -222,6 +243,25 @@ static void fill(uint64_t point, int64_t replica, fracas_record *record)
         record->fragment[f].size = share(point, replica, 5 + f);
 }
 
+/* Seconds that a leading process loses by helpers: dead ones' part is computed again, hung ones are
+ * waited for. */
+static double lost_by_helpers(double seconds)
+{
+    double lost = 0;
+    for (size_t i = 0; i < world.nprocesses; i++) {
+        const process *p = world.process[i];
+        const work *w = p->argument;
+        if (p->role != LEASE_CHILD || w->lease.role != FRACAS_LEASE_HELPS ||
+            (int)w->lease.meeting.port != world.current->pid)
+            continue;
+        if (!p->alive) lost = fmax(lost, seconds);
+        else if (p->frozen_until > world.now)
+            lost = fmax(lost, fmin(p->frozen_until, world.now + FRACAS_PEERS_PATIENCE) - world.now +
+                                  seconds);
+    }
+    return lost;
+}
+
 fracas_err __wrap_fracas_solve(const fracas_computation *computation, const int64_t *replica,
                                size_t count, fracas_record *record)
 {
@@ -230,6 +270,8 @@ fracas_err __wrap_fracas_solve(const fracas_computation *computation, const int6
     for (size_t i = 0; i < count; i++)
         seconds = fmax(seconds, farm.seconds * (0.5 + share(point, replica[i], 20)));
     process_sleep(world.now + seconds * (0.8 + 0.4 * roll(DICE_DELAY)));
+    if (computation->lease->role == FRACAS_LEASE_LEADS)
+        process_sleep(world.now + lost_by_helpers(seconds));
     for (size_t i = 0; i < count; i++) {
         switch (farm_curse(point, replica[i])) {
         case SOUND: break;

@@ -105,7 +105,7 @@ static inline void hear(size_t from, fracas_packet_kind kind, const void *body, 
 static inline void ready(void)
 {
     for (size_t w = 0; w < WORKERS; w++)
-        hear(w, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
+        hear(w, FRACAS_PACKET_READY, &(fracas_ready){campaign->hash}, sizeof(fracas_ready));
 }
 
 static inline void begin_ready(double deadline)

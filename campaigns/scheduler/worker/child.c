@@ -3,6 +3,7 @@
 
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/types/process.h"
+#include "campaigns/scheduler/worker/group.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -29,15 +30,41 @@ static fracas_err send_all(int fd, fracas_packet **record, size_t count)
     return err;
 }
 
+/* Those of the leading process count. */
+static void drop_all(fracas_packet **record, size_t count)
+{
+    for (size_t i = 0; i < count; i++) free(record[i]);
+}
+
+/* Others may come to this process, or it comes to one; only surfaces are shared. */
+static fracas_err meet(const fracas_computation *computation, size_t *from, int fd)
+{
+    const fracas_lease *lease = computation->lease;
+    fracas_meeting meeting = {.lease = lease->id};
+    if (lease->role == FRACAS_LEASE_HELPS)
+        return fracas_group_join(computation->group, &lease->meeting, from);
+    if (!fracas_model_surface(computation->model)) return FRACAS_OK;
+    if (fracas_group_open(computation->group, &meeting)) return FRACAS_OK; /* alone */
+    return fracas_packet_send(fd, FRACAS_PACKET_MEETING, &meeting, sizeof meeting);
+}
+
 /* Sends the records of each batch when it is done. */
 static fracas_err compute(const fracas_computation *computation, fracas_models *models, int fd)
 {
     fracas_computation own = *computation;
+    FRACAS_CLEARED(fracas_group) group;
+    size_t from = 0;
+    fracas_group_init(&group);
     TRY(fracas_models_get(models, &own));
-    for (size_t from = 0, count; from < own.lease->count; from += count) {
+    if (own.lease->role != FRACAS_LEASE_ALONE) {
+        own.group = &group;
+        TRY(meet(&own, &from, fd));
+    }
+    for (size_t count; from < own.lease->count; from += count) {
         fracas_packet *record[FRACAS_LANES_MAX];
         TRY(fracas_compute_batch(&own, from, record, &count));
-        TRY(send_all(fd, record, count));
+        if (own.lease->role == FRACAS_LEASE_HELPS) drop_all(record, count);
+        else TRY(send_all(fd, record, count));
     }
     return FRACAS_OK;
 }
@@ -112,6 +139,8 @@ static fracas_err cut(fracas_child *child)
         if (child->size - at < fracas_packet_bytes(&head)) break;
         if (head.kind == FRACAS_PACKET_FAULT && head.size == sizeof(fracas_trouble)) {
             memcpy(child->fault, body + offsetof(fracas_trouble, text), sizeof child->fault);
+        } else if (head.kind == FRACAS_PACKET_MEETING && head.size == sizeof child->meeting) {
+            memcpy(&child->meeting, body, sizeof child->meeting);
         } else if (head.kind == FRACAS_PACKET_RECORD && child->count < child->lease.count) {
             TRY(fracas_packet_create(FRACAS_PACKET_RECORD, body, head.size,
                                      &child->record[child->count]));

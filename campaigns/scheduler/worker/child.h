@@ -21,8 +21,9 @@ typedef struct {
     bool late;              /* killed at its deadline */
     fracas_packet **record; /* lease.count, of which `count` are complete */
     size_t count;
-    char fault[1024];     /* its FAULT message; "": none */
-    unsigned char *bytes; /* incomplete messages */
+    fracas_meeting meeting; /* its MEETING message; port 0: none */
+    char fault[1024];       /* its FAULT message; "": none */
+    unsigned char *bytes;   /* incomplete messages */
     size_t size, capacity;
 } fracas_child;
 

@@ -6,7 +6,7 @@
 #include "base/err.h"
 #include "engine/engine.h"
 
-enum { FRACAS_PEERS_MAX = 64, FRACAS_PEERS_PATIENCE = 60 /* s */ };
+enum { FRACAS_PEERS_PATIENCE = 60 /* s */ };
 
 typedef struct {
     size_t count, number;

@@ -7,6 +7,7 @@
 #include "campaigns/scheduler/worker/compute.h"
 #include "campaigns/scheduler/worker/models.h"
 #include "campaigns/scheduler/worker/segment.h"
+#include "campaigns/store/file/disk.h"
 
 #include <errno.h>
 #include <math.h>
@@ -44,6 +45,12 @@ typedef struct {
 static bool works(const server *s)
 {
     return s->child.pid || s->own.runs;
+}
+
+/* Its child computes with another worker's, until there is a lease of its own. */
+static bool helps(const server *s)
+{
+    return s->child.pid && s->child.lease.role == FRACAS_LEASE_HELPS;
 }
 
 /* ---- messages to the rank ---- */
@@ -90,6 +97,21 @@ static fracas_err add_records(server *s, uint64_t point, const int64_t *replica,
     return err;
 }
 
+/* The campaign and the host, for comparison. */
+static fracas_err send_ready(server *s)
+{
+    char host[FRACAS_HOST_TEXT], boot[FRACAS_BOOT_TEXT];
+    fracas_disk_host(host, boot);
+    const fracas_ready ready = {s->campaign->hash, fracas_hash_of(host, strlen(host))};
+    return fracas_packet_send(s->rank, FRACAS_PACKET_READY, &ready, sizeof ready);
+}
+
+static fracas_err end_help(server *s)
+{
+    fracas_child_clear(&s->child);
+    return fracas_packet_send(s->rank, FRACAS_PACKET_HELPED, NULL, 0);
+}
+
 /* ---- leases ---- */
 
 /* Ends this process by SIGALRM after `seconds`; 0: no longer. */
@@ -121,8 +143,9 @@ static fracas_err start_next(server *s)
     set_alarm(fmax(lease->limit, 0));
     fracas_err err = fracas_models_get(&s->models, &computation);
     set_alarm(0);
+    if (err && lease->role == FRACAS_LEASE_HELPS) return end_help(s);
     if (err) return fail_lease(s, lease, 0, batch_of(s, lease, 0));
-    if (s->options->isolation == FRACAS_ISOLATION_LEASE)
+    if (s->options->isolation == FRACAS_ISOLATION_LEASE || lease->role != FRACAS_LEASE_ALONE)
         return fracas_child_start(&s->child, &computation, &s->models, s->rank);
     s->own = (own_lease){.runs = true, .computation = computation};
     memcpy(&s->own.lease, lease, fracas_lease_bytes(lease));
@@ -135,8 +158,13 @@ static fracas_err receive_child(server *s)
 {
     bool ended, good;
     TRY(fracas_child_receive(&s->child, &ended));
-    if (!ended) return FRACAS_OK;
     fracas_child *child = &s->child;
+    if (child->meeting.port)
+        TRY(fracas_packet_send(s->rank, FRACAS_PACKET_MEETING, &child->meeting,
+                               sizeof child->meeting));
+    child->meeting.port = 0;
+    if (!ended) return FRACAS_OK;
+    if (helps(s)) return end_help(s);
     const double seconds = fracas_now() - child->began;
     const uint64_t lease = child->lease.id;
     fracas_lease_failure failure;
@@ -258,13 +286,13 @@ static fracas_err wait_and_receive(server *s)
 /* Until STOP is obeyed or the rank is gone. */
 static fracas_err serve(server *s)
 {
-    TRY(fracas_packet_send(s->rank, FRACAS_PACKET_READY, &s->campaign->hash,
-                           sizeof s->campaign->hash));
+    TRY(send_ready(s));
     while (!s->orphan) {
         if (!works(s) && s->stopping) {
             if (s->segment.count) TRY(write_segment(s));
             return fracas_packet_send(s->rank, FRACAS_PACKET_ENDED, NULL, 0);
         }
+        if (helps(s) && s->nwaiting) TRY(end_help(s));
         while (!works(s) && s->nwaiting && !s->stopping) TRY(start_next(s));
         if (s->own.runs) TRY(advance(s));
         if (fracas_segment_wait(&s->segment, s->options) <= 0) TRY(write_segment(s));

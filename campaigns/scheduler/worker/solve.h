@@ -16,6 +16,7 @@ typedef struct {
     const fracas_model *model; /* at the lease's point ... */
     const fracas_field *field; /* ... and of its strengths: fracas_models_get */
     const fracas_lease *lease;
+    struct fracas_group *group; /* NULL: this process computes alone */
 } fracas_computation;
 
 /* Computes `count` replicas of the lease's point side by side into record[0] ... record[count - 1],
