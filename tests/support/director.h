@@ -22,7 +22,7 @@ static struct {
     size_t nleases, flushes, stops;
     int32_t kill; /* of the last STOP */
     struct {
-        uint64_t id, point, count;
+        uint64_t id, point, count, role;
         int64_t replica[64];
     } lease[32]; /* in the order given */
 } worker[WORKERS];
@@ -42,6 +42,7 @@ static inline fracas_err note(void *context, size_t to, const fracas_packet *mes
     worker[to].lease[i].id = lease.id;
     worker[to].lease[i].point = lease.point;
     worker[to].lease[i].count = lease.count;
+    worker[to].lease[i].role = lease.role;
     memcpy(worker[to].lease[i].replica, lease.replica, lease.count * sizeof *lease.replica);
     return FRACAS_OK;
 }

@@ -152,11 +152,11 @@ static void a_server_ends_at_a_message_that_does_not_fit(void **state)
     } wrong[] = {
         {99, NULL, 0, "a compute server got a message of kind 99"},
         {FRACAS_PACKET_STOP, &none, 2, "has 2 bytes, it must have 4"},
-        {FRACAS_PACKET_LEASE, &two, head, "a lease of 48 bytes"},
-        {FRACAS_PACKET_LEASE, &two, head + 8, "a lease of 56 bytes"},
-        {FRACAS_PACKET_LEASE, &none, head + 8, "a lease of 56 bytes"},
-        {FRACAS_PACKET_LEASE, &many, sizeof many, "a lease of 32816 bytes"},
-        {FRACAS_PACKET_LEASE, long_one, sizeof many + 8, "a lease of 32824 bytes"},
+        {FRACAS_PACKET_LEASE, &two, head, "a lease of 152 bytes"},
+        {FRACAS_PACKET_LEASE, &two, head + 8, "a lease of 160 bytes"},
+        {FRACAS_PACKET_LEASE, &none, head + 8, "a lease of 160 bytes"},
+        {FRACAS_PACKET_LEASE, &many, sizeof many, "a lease of 32920 bytes"},
+        {FRACAS_PACKET_LEASE, long_one, sizeof many + 8, "a lease of 32928 bytes"},
     };
     fracas_run_options_init(&options);
     for (size_t i = 0; i < FRACAS_COUNT(wrong); i++) {

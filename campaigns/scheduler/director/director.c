@@ -382,7 +382,7 @@ static fracas_err act(fracas_director *director, size_t worker, const fracas_pac
     case FRACAS_PACKET_SEGMENT: return on_segment(director, worker, message);
     case FRACAS_PACKET_FLUSHED: return on_flushed(director, worker);
     case FRACAS_PACKET_MEETING: return fracas_help_meet(director, worker, message);
-    case FRACAS_PACKET_HELPED: fracas_help_free(director, worker); return FRACAS_OK;
+    case FRACAS_PACKET_HELPED: return fracas_help_over(director, worker, message);
     case FRACAS_PACKET_REPLACED: return on_replaced(director, worker, message);
     case FRACAS_PACKET_TROUBLE:
     case FRACAS_PACKET_LOST:

@@ -4,13 +4,14 @@
  * ends its help. */
 #include "campaigns/scheduler/director/state.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 typedef struct fracas_helper {
     fracas_hash host;
     fracas_lease *lead; /* its lease, for helpers; its meeting has a port once it is open */
-    size_t helpers;     /* of that */
+    size_t helpers;     /* so many were sent to it */
     size_t leader;      /* one more than the worker that it helps; 0: none */
     uint64_t last;      /* one more than the lease that it helped with last */
 } fracas_helper;
@@ -68,6 +69,17 @@ void fracas_help_end(fracas_director *director, size_t worker)
 void fracas_help_free(fracas_director *director, size_t worker)
 {
     director->helper[worker].leader = 0;
+}
+
+fracas_err fracas_help_over(fracas_director *director, size_t worker, const fracas_packet *message)
+{
+    fracas_trouble why;
+    char text[1200];
+    TRY(fracas_packet_body(message, &why, sizeof why));
+    snprintf(text, sizeof text, "rank %zu has helped rank %zu: %s", worker,
+             director->helper[worker].leader - 1, why.text);
+    fracas_help_free(director, worker);
+    return fracas_index_event(director->index, "helped", text);
 }
 
 /* The worker's host has no part in the leader's lease, and the worker has not had one before. */

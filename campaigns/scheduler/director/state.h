@@ -61,6 +61,8 @@ FRACAS_MUST_USE fracas_err fracas_help_lease(fracas_director *director, size_t w
                                              const fracas_lease *lease);
 FRACAS_MUST_USE fracas_err fracas_help_meet(fracas_director *director, size_t worker,
                                             const fracas_packet *message);
+FRACAS_MUST_USE fracas_err fracas_help_over(fracas_director *director, size_t worker,
+                                            const fracas_packet *message);
 void fracas_help_end(fracas_director *director, size_t worker);
 void fracas_help_free(fracas_director *director, size_t worker);
 /* Sends idle workers to leases of other hosts, one of each host to each, each worker once. */

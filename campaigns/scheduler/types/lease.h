@@ -34,7 +34,7 @@ typedef struct {
     double limit;           /* longest allowed time [s] */
     uint64_t parts;         /* threads for a surface */
     uint64_t role;          /* fracas_lease_role */
-    fracas_meeting meeting; /* of those that help */
+    fracas_meeting meeting; /* to which helpers go */
     int64_t replica[FRACAS_LEASE_MAX];
 } fracas_lease;
 

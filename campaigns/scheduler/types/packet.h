@@ -26,7 +26,7 @@ typedef enum {
     FRACAS_PACKET_FLUSHED,  /* answer to FLUSH where all is in segments already: empty */
     FRACAS_PACKET_TROUBLE,  /* this server or rank cannot go on: fracas_trouble */
     FRACAS_PACKET_MEETING,  /* others may help with a lease: fracas_meeting, of its process */
-    FRACAS_PACKET_HELPED,   /* it helps no more: empty */
+    FRACAS_PACKET_HELPED,   /* it helps no more: fracas_trouble, why */
     FRACAS_PACKET_ENDED,    /* answer to STOP, nothing follows: empty */
     /* rank -> rank 0 */
     FRACAS_PACKET_REPLACED, /* its server died, READY of a new one follows: fracas_trouble */

@@ -66,7 +66,8 @@ static fracas_err compute(const fracas_computation *computation, fracas_models *
         if (own.lease->role == FRACAS_LEASE_HELPS) drop_all(record, count);
         else TRY(send_all(fd, record, count));
     }
-    return FRACAS_OK;
+    return own.lease->role == FRACAS_LEASE_HELPS ? fracas_fail(FRACAS_INTERRUPTED, "to the end")
+                                                 : FRACAS_OK;
 }
 
 /* The life of the child. */

@@ -14,7 +14,8 @@
 #include <sys/socket.h>
 #include <sys/time.h>
 
-static const double BETWEEN = 2; /* s from the first of those who come to the start */
+/* Time for others from the opening to the start: the first one's, and as much of it again; s. */
+static const double AGAIN = 0.5, LEAST = 0.1;
 
 /* The first message of a connection: who comes. */
 typedef struct {
@@ -132,6 +133,7 @@ fracas_err fracas_group_open(fracas_group *group, fracas_meeting *meeting)
         return failed("draw random numbers");
     TRY(listen_anywhere(group, &address));
     group->count = 1;
+    group->opened = fracas_now();
     memcpy(meeting->token, group->token, sizeof meeting->token);
     meeting->port = address.port;
     memcpy(meeting->host, address.host, sizeof meeting->host);
@@ -147,7 +149,8 @@ bool fracas_group_has_come(fracas_group *group)
         group->waiting[group->count] = fd;
         group->address[group->count++] = who.address;
     }
-    return group->count > 1 && fracas_now() >= group->first + BETWEEN;
+    return group->count > 1 &&
+           fracas_now() >= group->first + LEAST + AGAIN * (group->first - group->opened);
 }
 
 static void set_peers(fracas_group *group, size_t count, size_t number)

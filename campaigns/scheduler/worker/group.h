@@ -19,8 +19,8 @@ typedef struct fracas_group {
     uint64_t token[2];
     int waiting[FRACAS_PEERS_MAX]; /* connections to those who have come, from 1 on ... */
     fracas_address address[FRACAS_PEERS_MAX]; /* ... and where they listen */
-    size_t count;                             /* of them and this one; 0: others cannot come */
-    double first;                             /* fracas_now when the first of them came */
+    size_t count;                             /* they and this one; 0: others cannot come */
+    double opened, first; /* fracas_now of the opening, and when the first of them came */
     fracas_connections connections;
     fracas_peers peers;
 } fracas_group;

@@ -13,6 +13,7 @@
 #include <math.h>
 #include <poll.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
@@ -106,10 +107,12 @@ static fracas_err send_ready(server *s)
     return fracas_packet_send(s->rank, FRACAS_PACKET_READY, &ready, sizeof ready);
 }
 
-static fracas_err end_help(server *s)
+static fracas_err end_help(server *s, const char *why)
 {
+    fracas_trouble end = {0};
+    snprintf(end.text, sizeof end.text, "%s", why);
     fracas_child_clear(&s->child);
-    return fracas_packet_send(s->rank, FRACAS_PACKET_HELPED, NULL, 0);
+    return fracas_packet_send(s->rank, FRACAS_PACKET_HELPED, &end, sizeof end);
 }
 
 /* ---- leases ---- */
@@ -143,7 +146,7 @@ static fracas_err start_next(server *s)
     set_alarm(fmax(lease->limit, 0));
     fracas_err err = fracas_models_get(&s->models, &computation);
     set_alarm(0);
-    if (err && lease->role == FRACAS_LEASE_HELPS) return end_help(s);
+    if (err && lease->role == FRACAS_LEASE_HELPS) return end_help(s, fracas_message());
     if (err) return fail_lease(s, lease, 0, batch_of(s, lease, 0));
     if (s->options->isolation == FRACAS_ISOLATION_LEASE || lease->role != FRACAS_LEASE_ALONE)
         return fracas_child_start(&s->child, &computation, &s->models, s->rank);
@@ -164,7 +167,7 @@ static fracas_err receive_child(server *s)
                                sizeof child->meeting));
     child->meeting.port = 0;
     if (!ended) return FRACAS_OK;
-    if (helps(s)) return end_help(s);
+    if (helps(s)) return end_help(s, *child->fault ? child->fault : "its process died");
     const double seconds = fracas_now() - child->began;
     const uint64_t lease = child->lease.id;
     fracas_lease_failure failure;
@@ -292,7 +295,7 @@ static fracas_err serve(server *s)
             if (s->segment.count) TRY(write_segment(s));
             return fracas_packet_send(s->rank, FRACAS_PACKET_ENDED, NULL, 0);
         }
-        if (helps(s) && s->nwaiting) TRY(end_help(s));
+        if (helps(s) && s->nwaiting) TRY(end_help(s, "there is a lease of its own"));
         while (!works(s) && s->nwaiting && !s->stopping) TRY(start_next(s));
         if (s->own.runs) TRY(advance(s));
         if (fracas_segment_wait(&s->segment, s->options) <= 0) TRY(write_segment(s));
