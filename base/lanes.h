@@ -13,6 +13,7 @@
  *   lanes_max(a, b) / lanes_min(a, b)        a < b ? b : a, b < a ? b : a
  *   lanes_sqrt(a)                            the correctly rounded square root
  *   vu          LANES words of 64 bits (a plain uint64_t for LANES 1)
+ *   lanes_quotient(a, b)                     a/b to the 24 bits of a float, several times as fast
  *   lanes_bits(a) / lanes_double(b)          the words that represent the doubles, and back
  * and + - * / of C, for words also & | ^ << >>. Every operation is the IEEE one in every width and
  * instruction set, for the whole build has contraction off. A lane's bits depend on its own values
@@ -95,11 +96,21 @@ LANES_FUNCTION vd lanes_sqrt(vd a)
 {
     return __builtin_sqrt(a);
 }
+LANES_FUNCTION vd lanes_quotient(vd a, vd b)
+{
+    return (float)a / (float)b;
+}
 
 #else
 
 typedef double vd __attribute__((vector_size(8 * LANES)));
 typedef uint64_t vu __attribute__((vector_size(8 * LANES)));
+typedef float vf __attribute__((vector_size(4 * LANES)));
+LANES_FUNCTION vd lanes_quotient(vd a, vd b)
+{
+    return __builtin_convertvector(__builtin_convertvector(a, vf) / __builtin_convertvector(b, vf),
+                                   vd);
+}
 LANES_FUNCTION vd lanes_load(const double *from)
 {
     vd x;

@@ -22,6 +22,11 @@ typedef struct {
     vd dissipated; /* so far, by G_c [1] */
     vd past_onset; /* trial stress beyond that of onset [Pa] */
     vd softening;  /* trial stress of the break beyond that of onset [Pa] */
+    /* kinks of T(S), for its balance (engine/cohesive/balance.h) */
+    vd trial;  /* S [Pa] */
+    vd secant; /* T/S above S = 0, where D does not grow; below it is 1 */
+    vd limit;  /* S beyond which D grows [Pa] ... */
+    vd held;   /* ... and T there */
 } line_result;
 
 #include "engine/cohesive/laws.list.h"

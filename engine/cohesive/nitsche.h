@@ -56,8 +56,8 @@ LANES_FUNCTION line_result line_nitsche(const line_input *in)
     vd excess = trial - sigma_c;
     vd reached = damage * x;
     vmask loading = lanes_lt(reached, excess);
-    vd ratio = lanes_select(loading, excess, sigma_c - sigma_c * damage) /
-               lanes_select(loading, x, sigma_c + reached);
+    vd held = sigma_c - sigma_c * damage, limit = sigma_c + reached;
+    vd ratio = lanes_select(loading, excess, held) / lanes_select(loading, x, limit);
     vd now = lanes_select(loading, lanes_min(one, ratio), damage);
     vd tension = lanes_select(loading, sigma_c * (one - now), trial * ratio);
     vd traction = lanes_select(lanes_lt(zero, trial), tension, trial);
@@ -67,7 +67,11 @@ LANES_FUNCTION line_result line_nitsche(const line_input *in)
                          .damage = now,
                          .dissipated = now,
                          .past_onset = excess,
-                         .softening = x};
+                         .softening = x,
+                         .trial = trial,
+                         .secant = ratio,
+                         .limit = limit,
+                         .held = held};
 }
 
 /* ---- surfaces (engine/cohesive/series.h) ----

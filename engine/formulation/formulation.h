@@ -46,6 +46,7 @@ typedef struct {
     int width; /* lanes of the batch: 1, 4, 8 */
     int lanes; /* lanes of one kernel; the batch is width/lanes such groups */
     fracas_isa isa;
+    bool balanced; /* crossings are balanced in some lane */
     double *state; /* owned by the batch, laid out by the formulation, group after group */
     fracas_division division;
     fracas_team *team;          /* one member a part */
@@ -57,6 +58,8 @@ typedef struct {
     _Alignas(64) double time[FRACAS_LANES_MAX], drift[FRACAS_LANES_MAX], kick[FRACAS_LANES_MAX];
     /* in, out: the next time step: the model's, unless the formulation refines it */
     double next[FRACAS_LANES_MAX];
+    /* in: 1 where crossings are balanced (balance.5), else 0 */
+    double balance[FRACAS_LANES_MAX];
     /* out: energies [J] at this time (engine/energies.h). `created` and `friction` accumulate;
      * `work` is the load's since the step before, beside its `power` [W] now. */
     union {

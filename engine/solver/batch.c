@@ -209,6 +209,21 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
     return lane->running ? FRACAS_OK : finish_lane(batch, l, outcome, record);
 }
 
+/* Crossings are balanced once the time since the first onset is BALANCE_SPANS times that which the
+ * first break took: short runs go without, and do not pay  (balance.5). */
+static void set_balance(fracas_batch *batch, int l)
+{
+    enum { BALANCE_SPANS = 10 };
+    fracas_step *step = &batch->step;
+    fracas_lane *lane = &batch->lane[l];
+    if (lane->first_break == 0 && step->broken[l] > 0) lane->first_break = step->time[l];
+    const double onset = step->first_onset[l];
+    const bool on = lane->first_break > 0 &&
+                    step->time[l] - onset > BALANCE_SPANS * (lane->first_break - onset);
+    step->balance[l] = on;
+    step->balanced |= on;
+}
+
 /* The clock of a lane at the next step. */
 static void advance_clock(fracas_batch *batch, int l)
 {
@@ -232,7 +247,11 @@ static void advance_clock(fracas_batch *batch, int l)
 fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record, size_t *running)
 {
     fracas_step *step = &batch->step;
-    for (int l = 0; l < step->width; l++) advance_clock(batch, l);
+    step->balanced = false;
+    for (int l = 0; l < step->width; l++) {
+        set_balance(batch, l);
+        advance_clock(batch, l);
+    }
     batch->model->formulation->advance(batch->model, step);
     if (step->division.peers) TRY(batch->model->formulation->share(batch->model, step));
     *running = 0;

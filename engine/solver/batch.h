@@ -21,6 +21,7 @@ typedef struct {
     double pace;   /* s, time step of the last steps ... */
     double since;  /* s, ... since this time ... */
     int64_t paces; /* ... and how many: time = since + paces pace, without the round-off of a sum */
+    double first_break;         /* s, seen at this time; 0: none yet */
     int64_t counted, fragments; /* fragments when `counted` interfaces were broken; -1: unknown */
     bool running;
 } fracas_lane;

@@ -17,22 +17,23 @@ static const lane_kind bar_kind = {.scatter = 0.05, .back = BAR_STRENGTH - BAR_V
                        ring_kind = {.scatter = 0.05, .back = RING_STRENGTH - RING_V_LEFT},
                        stershic_kind = {.scatter = 0.1, .back = RING_STRENGTH - RING_V_LEFT};
 
-/* The last two on elements of different lengths. */
+/* The last two on elements of different lengths; the first and the last reach (balance.5). */
 static fracas_spec bar_case(int k, double *noise)
 {
-    fracas_spec spec = bar_reference(600, 1e5, 1.5e-7);
-    spec.geometry.length = 6e-3;
+    const bool is_long = k % 4 == 0;
+    fracas_spec spec = bar_reference(is_long ? 200 : 600, 1e5, is_long ? 4.5e-7 : 1.5e-7);
+    spec.geometry.length = 1e-5 * (double)spec.mesh.elements;
     if (k % 3 == 1) spec.cohesive.law = &fracas_law_rigid_link.kind;
     if (k == 2) until_settled(&spec, 1e-8, 0.05);
     if (k > 2) bar_perturb(&spec, 0.2, 1, noise);
     return spec;
 }
 
-/* Free, pulled, pushed outward; current, initial. */
+/* Free, pulled, pushed outward; current, initial. The free ones reach (balance.5). */
 static fracas_spec ring_case(int k, double *unused)
 {
-    fracas_spec spec = ring_reference(300, 1e5, 1.5e-7);
-    spec.geometry.radius = 3e-3 / (2 * M_PI);
+    fracas_spec spec = ring_reference(k < 2 ? 150 : 300, 1e5, k < 2 ? 4.5e-7 : 1.5e-7);
+    spec.geometry.radius = 1e-5 * (double)spec.mesh.elements / (2 * M_PI);
     if (k % 2) spec.geometry.direction = &fracas_direction_initial;
     spec.loading.radial = 1e5 * spec.geometry.radius;
     spec.loading.circumferential = 10;

@@ -76,7 +76,7 @@ static void a_free_ring_keeps_its_momenta(void **unused)
         assert_true(slide < rounding);
         if (current) assert_true(drift < rounding * radius);
         if (i == 3)
-            assert_true(drift > 1e-6 * scale * RING_RADIUS); /* why `current` is the default */
+            assert_true(drift > 1e-8 * scale * RING_RADIUS); /* why `current` is the default */
         if (i == 2) assert_true(drift < 3e-7 * scale * RING_RADIUS && drift > rounding * radius);
         /* what the harvest makes of it */
         double whole[3] = {0, 0, 0};

@@ -68,7 +68,7 @@ static void test_wrong_files(void **state)
         }
         find = put = (part){0};
     }
-    assert_int_equal(records, 248);
+    assert_int_equal(records, 249);
     free(base);
     unlink(path);
     fclose(in);

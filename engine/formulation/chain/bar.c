@@ -26,6 +26,7 @@ static fracas_bar_constants constants_of(const fracas_model *model)
                                   .young = young,
                                   .spring = spec->cohesive.beta * young / model->element_size,
                                   .beta = spec->cohesive.beta,
+                                  .whole = fracas_chain_whole(spec->cohesive.beta),
                                   .contact_offset = 4.5 *
                                                     fracas_pow(spec->loading.rate, 2.0 / 3.0) *
                                                     young * fracas_pow(energy, 2.0 / 3.0) *
@@ -95,8 +96,9 @@ static fracas_err bar_check_strength(const fracas_model *model, double strength)
 static void bar_advance(const fracas_model *model, fracas_step *step)
 {
     const fracas_bar_constants bar = constants_of(model);
-    fracas_bar_sweep *sweep = fracas_bar[step->isa][step->lanes]
-                                  ->sweep[fracas_law_of(&model->spec)->number][!model->sizes];
+    fracas_bar_sweep *sweep =
+        fracas_bar[step->isa][step->lanes]
+            ->sweep[fracas_law_of(&model->spec)->number][step->balanced][!model->sizes];
     for (int first = 0; first < step->width; first += step->lanes) sweep(&bar, step, first);
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The bar's sweep over lanes: a kernel (docs/theory/bar.md, docs/theory/cohesive.md). */
+#include "engine/cohesive/balance.h"
 #include "engine/cohesive/kernels.h"
 #include "engine/formulation/chain/bar_sweep.h"
 #include "engine/formulation/chain/chain_events.h"
@@ -29,6 +30,8 @@ typedef struct {
     vd drift, kick;                 /* dt [s], dt/(nodal mass) [m/(s Pa)] */
     vd load_stress;                 /* E rate t [Pa] */
     vd spring, compliance, modulus; /* K, 1/K, E/h [Pa/m] of elements of one length */
+    vd balance;                     /* 1 where crossings are balanced */
+    balance_coupling coupling;      /* for elements of one length */
     /* sums over the body, for the ledger, 0 at first */
     vd stress_squared, flux_energy, opening_energy, damage, velocity_squared, stress, slip;
 } bar_context;
@@ -62,8 +65,25 @@ LANES_FUNCTION vd bar_stress_rate(const bar_context *c, int uniform, const bar_e
            load;
 }
 
+/* Traction that balances a crossing, in lanes where that is on [Pa]  (balance.6). */
+LANES_FUNCTION vd bar_balance(const bar_context *c, int uniform, const line_input *in,
+                              const line_result *it, const bar_element *left,
+                              const bar_element *right)
+{
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0);
+    const vd rate = in->stiffness * (right->v_left - left->v_right) +
+                    lanes_select(lanes_le(one, in->damage), zero,
+                                 bar_stress_rate(c, uniform, left, right));
+    balance_coupling coupling = c->coupling;
+    if (!uniform)
+        coupling = balance_couple(in->stiffness, c->kick / left->size + c->kick / right->size,
+                                  c->drift, lanes_set(c->bar->whole));
+    return lanes_select(lanes_lt(zero, c->balance),
+                        balance_traction(&coupling, in, it, c->drift * rate), zero);
+}
+
 /* An interface in series with the flux. */
-LANES_FUNCTION bar_link bar_flux(bar_context *c, int uniform, int law, size_t e,
+LANES_FUNCTION bar_link bar_flux(bar_context *c, int uniform, int law, int balanced, size_t e,
                                  const bar_element *left, const bar_element *right)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
@@ -90,7 +110,14 @@ LANES_FUNCTION bar_link bar_flux(bar_context *c, int uniform, int law, size_t e,
     c->flux_energy += it.slip * (mean + it.traction);
     c->opening_energy += it.traction * (q - it.slip);
     c->damage += it.dissipated;
-    c->slip += it.slip;
+    /* forces and the load's power have the balance, energies do not */
+    vd traction = it.traction, slip = it.slip;
+    if (balanced) {
+        const vd extra = bar_balance(c, uniform, &in, &it, left, right);
+        traction += extra;
+        slip += lanes_select(lanes_le(one, it.damage), zero, extra * compliance);
+    }
+    c->slip += slip;
 
     vmask grows = lanes_lt(before, it.damage);
     vmask cracks = lanes_and(grows, lanes_le(before, zero)),
@@ -106,7 +133,7 @@ LANES_FUNCTION bar_link bar_flux(bar_context *c, int uniform, int law, size_t e,
         chain_note_events(c->step, c->first, c->bar->area, e,
                           &(chain_events){cracks, breaks, onset, broke, zero, lost});
     }
-    return (bar_link){.traction = it.traction, .slip = it.slip};
+    return (bar_link){.traction = traction, .slip = slip};
 }
 
 LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, int uniform, size_t e,
@@ -167,11 +194,11 @@ LANES_FUNCTION bar_link bar_linear(const bar_context *c, int uniform, const bar_
                                     : (right->stress - left->stress) / (left->size + right->size)};
 }
 
-LANES_FUNCTION bar_link bar_join(bar_context *c, int uniform, int flux, int law, size_t e,
-                                 const bar_element *left, const bar_element *right)
+LANES_FUNCTION bar_link bar_join(bar_context *c, int uniform, int flux, int law, int balanced,
+                                 size_t e, const bar_element *left, const bar_element *right)
 {
     if (law == BAR_OPERATOR) return bar_linear(c, uniform, left, right);
-    return flux ? bar_flux(c, uniform, law, e, left, right)
+    return flux ? bar_flux(c, uniform, law, balanced, e, left, right)
                 : bar_rigid_link(c, uniform, e, left, right);
 }
 
@@ -229,7 +256,7 @@ LANES_FUNCTION void bar_totals(const bar_context *c)
 }
 
 LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, int first,
-                            int uniform, int flux, int law)
+                            int uniform, int flux, int law, int balanced)
 {
     const vd zero = lanes_set(0.0);
     const size_t last = bar->elements - 1;
@@ -243,8 +270,11 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
                                           (lanes_set(bar->rate) * lanes_load(step->time + first)),
                            .spring = lanes_set(bar->spring),
                            .compliance = lanes_set(1.0 / bar->spring),
-                           .modulus = lanes_set(bar->young / bar->size)};
+                           .modulus = lanes_set(bar->young / bar->size),
+                           .balance = lanes_load(step->balance + first)};
     bar_context *c = &context;
+    if (balanced && uniform)
+        c->coupling = balance_couple(c->spring, c->kick + c->kick, c->drift, lanes_set(bar->whole));
 
     /* One pass in place: an element is written once both its interfaces are known; registers keep
      * the part for its right neighbour. The interface closing a periodic bar comes first. */
@@ -252,17 +282,17 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
     bar_link closing = {.traction = zero, .slip = zero}, left;
     if (bar->periodic) {
         bar_element end = bar_load(c, uniform, last);
-        closing = bar_join(c, uniform, flux, law, last, &end, &element);
+        closing = bar_join(c, uniform, flux, law, balanced, last, &end, &element);
     }
     bar_element next = bar_load(c, uniform, 1);
-    bar_link right = bar_join(c, uniform, flux, law, 0, &element, &next);
+    bar_link right = bar_join(c, uniform, flux, law, balanced, 0, &element, &next);
     if (bar->periodic) bar_finish(c, uniform, flux, 0, &element, &closing, &right, 0, 0);
     else bar_finish(c, uniform, flux, 0, &element, &closing, &right, 1, 0);
     for (size_t e = 1; e < last; e++) {
         left = right;
         element = next;
         next = bar_load(c, uniform, e + 1);
-        right = bar_join(c, uniform, flux, law, e, &element, &next);
+        right = bar_join(c, uniform, flux, law, balanced, e, &element, &next);
         bar_finish(c, uniform, flux, e, &element, &left, &right, 0, 0);
     }
     if (bar->periodic) bar_finish(c, uniform, flux, last, &next, &right, &closing, 0, 0);
@@ -270,30 +300,38 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
     if (law != BAR_OPERATOR) bar_totals(c);
 }
 
-#define BAR_SWEEP(name, uniform, flux, law)                                         \
+#define BAR_SWEEP(name, uniform, flux, law, balanced)                               \
     static void name(const fracas_bar_constants *bar, fracas_step *step, int first) \
     {                                                                               \
-        bar_run(bar, step, first, uniform, flux, law);                              \
+        bar_run(bar, step, first, uniform, flux, law, balanced);                    \
     }
 #if LANES == 1
-BAR_SWEEP(even_tied, 1, 0, BAR_OPERATOR)
-BAR_SWEEP(uneven_tied, 0, 0, BAR_OPERATOR)
-BAR_SWEEP(even_whole, 1, 1, BAR_OPERATOR)
-BAR_SWEEP(uneven_whole, 0, 1, BAR_OPERATOR)
+BAR_SWEEP(even_tied, 1, 0, BAR_OPERATOR, 0)
+BAR_SWEEP(uneven_tied, 0, 0, BAR_OPERATOR, 0)
+BAR_SWEEP(even_whole, 1, 1, BAR_OPERATOR, 0)
+BAR_SWEEP(uneven_whole, 0, 1, BAR_OPERATOR, 0)
 #endif
 
-#define BAR_FLUX(name) BAR_SWEEPS(name, 1)
-#define BAR_RIGID(name) BAR_SWEEPS(name, 0)
+#define BAR_FLUX(name)                                          \
+    BAR_SWEEP(even_##name, 1, 1, FRACAS_LAW_##name, 0)          \
+    BAR_SWEEP(uneven_##name, 0, 1, FRACAS_LAW_##name, 0)        \
+    BAR_SWEEP(even_balanced_##name, 1, 1, FRACAS_LAW_##name, 1) \
+    BAR_SWEEP(uneven_balanced_##name, 0, 1, FRACAS_LAW_##name, 1)
+#define BAR_RIGID(name)                                \
+    BAR_SWEEP(even_##name, 1, 0, FRACAS_LAW_##name, 0) \
+    BAR_SWEEP(uneven_##name, 0, 0, FRACAS_LAW_##name, 0)
 #define BAR_NO(name)
-#define BAR_SWEEPS(name, flux)                         \
-    BAR_SWEEP(even_##name, 1, flux, FRACAS_LAW_##name) \
-    BAR_SWEEP(uneven_##name, 0, flux, FRACAS_LAW_##name)
 #define FRACAS_LAW(name, bar, ring, membrane, shell) BAR_##bar(name)
 #include "engine/cohesive/laws.list.h"
 #undef FRACAS_LAW
-#undef BAR_SWEEPS
+#undef BAR_FLUX
+#undef BAR_RIGID
 
-#define BAR_SWEEPS(name, flux) [FRACAS_LAW_##name] = {uneven_##name, even_##name},
+#define BAR_FLUX(name) \
+    [FRACAS_LAW_##     \
+        name] = {{uneven_##name, even_##name}, {uneven_balanced_##name, even_balanced_##name}},
+#define BAR_RIGID(name) \
+    [FRACAS_LAW_##name] = {{uneven_##name, even_##name}, {uneven_##name, even_##name}},
 #define FRACAS_LAW(name, bar, ring, membrane, shell) BAR_##bar(name)
 const fracas_bar_kernel LANES_UNIT(fracas_bar) = {
 #if LANES == 1

@@ -24,6 +24,7 @@ typedef struct {
     int periodic;
     double young;           /* Pa */
     double beta, spring;    /* 1, Pa/m: nitsche, K = beta E/h */
+    double whole;           /* 1, (1 - 1/(2 beta))^2, nitsche  (balance.2) */
     double contact_offset;  /* Pa2: rigid-link, 4.5 rate^(2/3) E G_c^(2/3) rho^(1/3) */
     double size;            /* m, h: of every element, where all are alike */
     const double *sizes;    /* m, [elements]; NULL where all are alike */
@@ -37,11 +38,11 @@ typedef struct {
 /* Advances the lanes first .. first + lanes - 1 of the step. */
 typedef void fracas_bar_sweep(const fracas_bar_constants *bar, fracas_step *step, int first);
 
-/* A unit: [law][elements of one length: 0 no, 1 yes]. `operator`, of one lane alone, leaves
- * M^-1 (-K) w  (bar.6), (bar.7) in place of velocities, with `drift` and velocities 0, `kick` 1;
- * interfaces are [0: tied, 1: whole by their flux or in contact]. */
+/* A unit: [law][crossings balanced][elements of one length: 0 no, 1 yes]. `operator`, of one lane
+ * alone, leaves M^-1 (-K) w  (bar.6), (bar.7) in place of velocities, with `drift` and velocities
+ * 0, `kick` 1; interfaces are [0: tied, 1: whole by their flux or in contact]. */
 typedef struct {
-    fracas_bar_sweep *sweep[FRACAS_LAWS][2];
+    fracas_bar_sweep *sweep[FRACAS_LAWS][2][2];
     fracas_bar_sweep *operator[2][2];
 } fracas_bar_kernel;
 

@@ -38,6 +38,12 @@ static inline double fracas_chain_size(const fracas_model *model, size_t e)
     return model->sizes ? model->sizes[e] : model->element_size;
 }
 
+/* z^2 = (1 - 1/(2 beta))^2, of the factor beta of E/h  (balance.2). */
+static inline double fracas_chain_whole(double beta)
+{
+    return (1 - 0.5 / beta) * (1 - 0.5 / beta);
+}
+
 /* Place of a field in the state. */
 double *fracas_chain_field(const fracas_model *model, const fracas_step *step, size_t element,
                            int field, int lane);

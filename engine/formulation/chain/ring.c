@@ -51,7 +51,10 @@ static fracas_ring_constants constants_of(const fracas_model *model)
         .current = spec->geometry.direction == &fracas_direction_current,
         .young = young,
         .spring = fracas_law_of(spec)->contact(&spec->cohesive) * young / h,
+        .whole = fracas_chain_whole(fracas_law_of(spec)->contact(&spec->cohesive)),
         .size = h,
+        .bending = young * h / 12.0,
+        .corner = fracas_sinpi(2.0 / (double)model->elements),
         .radius = vertex_radius(model),
         .nodal_mass = 0.5 * spec->material.density * h,
         .fracture_energy = spec->cohesive.fracture_energy,
@@ -142,8 +145,8 @@ static void ring_lane_init(const fracas_model *model, const fracas_step *step, i
 static void ring_advance(const fracas_model *model, fracas_step *step)
 {
     const fracas_ring_constants ring = constants_of(model);
-    fracas_ring_sweep *sweep =
-        fracas_ring[step->isa][step->lanes]->sweep[fracas_law_of(&model->spec)->number];
+    fracas_ring_sweep *sweep = fracas_ring[step->isa][step->lanes]
+                                   ->sweep[fracas_law_of(&model->spec)->number][step->balanced];
     for (int first = 0; first < step->width; first += step->lanes) sweep(&ring, step, first);
 }
 

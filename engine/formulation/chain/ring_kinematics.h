@@ -4,6 +4,7 @@
 #define FRACAS_ENGINE_CHAIN_RING_KINEMATICS_H
 
 #include "base/lanes.h"
+#include "engine/cohesive/balance.h"
 #include "engine/cohesive/kernels.h"
 #include "engine/formulation/chain/chain_events.h"
 #include "engine/formulation/chain/ring_sweep.h"
@@ -29,11 +30,16 @@ LANES_FUNCTION vd ring_dot(ring_vector a, ring_vector b)
 {
     return a.x * b.x + a.y * b.y;
 }
+LANES_FUNCTION vd ring_cross(ring_vector a, ring_vector b)
+{
+    return a.x * b.y - a.y * b.x;
+}
 
 /* An element where its displacements are. */
 typedef struct {
     ring_vector chord, tangent; /* from left to right node [m], and its direction */
     vd strain, stress;          /* strain of the chord; E strain [Pa] */
+    vd per_length;              /* 1/l [1/m] */
 } ring_element;
 
 /* The directions of an interface: normal n, along which it opens, and r, outward. */
@@ -51,9 +57,12 @@ typedef struct {
     vd drift, kick;       /* dt [s]; dt/(nodal mass) of velocities [m/(s Pa)] */
     vd spring, modulus;   /* K, E/h [Pa/m] */
     vd compliance;        /* 1/K [m/Pa] */
+    vd bending, corner;   /* k [Pa m], sin(2 pi/n)  (ring.19) */
     vd inverse_size;      /* 1/h [1/m] */
     vd drive, next_drive; /* force on a node [Pa] now; velocity held half a step ahead [m/s] */
     vd inertia;           /* nodal mass/dt [Pa s/m] */
+    vd balance;           /* 1 where crossings are balanced */
+    balance_coupling coupling;
     /* sums over the body, for the ledger, 0 at first; of a part: energy per area [J/m2] */
     FRACAS_EACH_ENERGY(RING_SUM)
     vd flux_energy;
@@ -93,7 +102,8 @@ LANES_FUNCTION void ring_stretch(const ring_context *c, size_t e, ring_vector du
     element->chord = ring_add(start, du);
     vd length = lanes_sqrt(ring_dot(element->chord, element->chord)),
        sum = length + lanes_set(c->ring->size), inverse = lanes_set(1.0) / (length * sum);
-    element->tangent = ring_scale(sum * inverse, element->chord);
+    element->per_length = sum * inverse;
+    element->tangent = ring_scale(element->per_length, element->chord);
     /* (l - h)/h by the difference of squares: no digits of a small strain are lost */
     element->strain = (ring_dot(start, du) + ring_dot(element->chord, du)) * (length * inverse) *
                       c->inverse_size;
@@ -211,6 +221,8 @@ LANES_FUNCTION ring_context ring_context_of(const fracas_ring_constants *ring, f
                           .spring = lanes_set(ring->spring),
                           .modulus = lanes_set(ring->young / ring->size),
                           .compliance = lanes_set(1.0 / ring->spring),
+                          .bending = lanes_set(ring->bending),
+                          .corner = lanes_set(ring->corner),
                           .inverse_size = lanes_set(1.0 / ring->size),
                           .drive = level + rate * time,
                           .next_drive = level + rate * (time + ahead),

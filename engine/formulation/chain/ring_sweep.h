@@ -35,7 +35,9 @@ typedef struct {
     int current;  /* interfaces open along their elements' mean direction as it is, not as it was */
     double young; /* Pa */
     double spring;           /* Pa/m: nitsche, K = beta E/h; stershic, the stiffness of contact */
+    double whole;            /* 1, (1 - 1/(2 beta))^2, nitsche  (balance.2) */
     double size;             /* m, h */
+    double bending, corner;  /* Pa m, 1: k, sin(2 pi/n)  (ring.19) */
     double radius;           /* m, of the polygon's vertices */
     double nodal_mass;       /* kg/m2, rho h/2 */
     double fracture_energy;  /* J/m2; stershic: 0 where the critical opening is given */
@@ -54,9 +56,9 @@ enum { RING_COS, RING_SIN, RING_START_X, RING_START_Y, RING_TABLE };
 /* Advances the lanes first .. first + lanes - 1 of the step. */
 typedef void fracas_ring_sweep(const fracas_ring_constants *ring, fracas_step *step, int first);
 
-/* A unit: [law]. */
+/* A unit: [law][crossings balanced]. */
 typedef struct {
-    fracas_ring_sweep *sweep[FRACAS_LAWS];
+    fracas_ring_sweep *sweep[FRACAS_LAWS][2];
 } fracas_ring_kernel;
 
 #endif
