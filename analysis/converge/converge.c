@@ -66,9 +66,9 @@ static fracas_err note_study(fracas_convergence *convergence, const char *refine
                              const fracas_analysis *analysis, const char *study)
 {
     fracas_convergence_note *note;
-    OWNED fracas_warning *warning = NULL;
+    OWNED fracas_warning_line *line = NULL;
     size_t count;
-    TRY(fracas_analysis_warnings(analysis, &warning, &count));
+    TRY(fracas_analysis_warning_lines(analysis, &line, &count));
     if (count == 0) return FRACAS_OK;
     TRY(add_note(convergence, refinement, SIZE_MAX, &note));
     FRACAS_PRINT(note->text, "its report has %zu warning%s: fracas report %s", count,

@@ -184,16 +184,13 @@ static void print_decisions(const fracas_analysis *analysis, FILE *out)
 
 static void print_warnings(const fracas_analysis *analysis, FILE *out)
 {
-    OWNED fracas_warning *warning = NULL;
+    OWNED fracas_warning_line *line = NULL;
     size_t count;
-    if (fracas_analysis_warnings(analysis, &warning, &count)) {
+    if (fracas_analysis_warning_lines(analysis, &line, &count)) {
         fprintf(out, "%s\n", fracas_message());
         return;
     }
-    for (size_t i = 0; i < count; i++) {
-        const fracas_label label = fracas_analysis_label(analysis, warning[i].point);
-        fprintf(out, "warning: %s%s%s\n", label.text, *label.text ? ": " : "", warning[i].text);
-    }
+    for (size_t i = 0; i < count; i++) fprintf(out, "warning: %s\n", line[i].text);
 }
 
 void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out)

@@ -252,9 +252,9 @@ static void put_precision(const fracas_page *page)
 
 static fracas_err put_warnings(const fracas_page *page)
 {
-    OWNED fracas_warning *warning = NULL;
+    OWNED fracas_warning_line *line = NULL;
     size_t count;
-    TRY(fracas_analysis_warnings(page->analysis, &warning, &count));
+    TRY(fracas_analysis_warning_lines(page->analysis, &line, &count));
     if (count > 1) fprintf(page->out, "<h3 id=\"warnings\">Warnings: %zu</h3>\n", count);
     else fputs("<h3 id=\"warnings\">Warnings</h3>\n", page->out);
     if (count == 0) {
@@ -266,12 +266,7 @@ static fracas_err put_warnings(const fracas_page *page)
               page->out);
     } else {
         fputs("<ul class=\"warnings\" tabindex=\"0\">\n", page->out);
-        for (size_t i = 0; i < count; i++) {
-            const fracas_label label = fracas_analysis_label(page->analysis, warning[i].point);
-            fracas_markup(page->out, "<li>%s", label.text);
-            fputs(*label.text ? ": " : "", page->out);
-            fracas_markup(page->out, "%s</li>\n", warning[i].text);
-        }
+        for (size_t i = 0; i < count; i++) fracas_markup(page->out, "<li>%s</li>\n", line[i].text);
         fputs("</ul>\n", page->out);
     }
     return FRACAS_OK;

@@ -50,16 +50,28 @@ bool fracas_analysis_decided(const fracas_analysis *analysis, size_t point, char
 
 /* Something a reader must know before trusting a number. */
 typedef struct {
-    size_t point; /* SIZE_MAX: the study as a whole */
+    size_t point;     /* SIZE_MAX: the study as a whole */
+    const char *kind; /* one word */
+    double badness;   /* the larger of two of a kind is the worse */
     char text[480];
 } fracas_warning;
 
-extern const fracas_fields fracas_warning_fields; /* point, text */
+extern const fracas_fields fracas_warning_fields; /* point, kind, text */
 
 /* Every warning of the study in the order of its points; *warning freed by the caller with free().
  */
 FRACAS_MUST_USE fracas_err fracas_analysis_warnings(const fracas_analysis *analysis,
                                                     fracas_warning **warning, size_t *count);
+
+/* For a reader: a line a kind, with the number of its points, and the label and text of the worst.
+ */
+typedef struct {
+    char text[sizeof(fracas_label) + sizeof((fracas_warning){0}.text) + 80];
+} fracas_warning_line;
+
+/* *line freed by the caller with free(). */
+FRACAS_MUST_USE fracas_err fracas_analysis_warning_lines(const fracas_analysis *analysis,
+                                                         fracas_warning_line **line, size_t *count);
 
 /* True if some point, or every one, is a surface. */
 bool fracas_analysis_any_surface(const fracas_analysis *analysis);

@@ -2,16 +2,20 @@
 #include "analysis/summary/study.h"
 
 #include "analysis/data/format.h"
+#include "base/own.h"
 
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const fracas_field fields[] = {
     FRACAS_FIELD(fracas_warning, INDEX, "point", "1",
                  "number of the point; null: the study as a whole", point),
+    FRACAS_FIELD(fracas_warning, TEXT, "kind", "",
+                 "one word; `report` has one line for all points of a kind", kind),
     FRACAS_FIELD(fracas_warning, CHARS, "text", "", "the warning", text),
 };
 const fracas_fields fracas_warning_fields = FRACAS_FIELDS(fields);
@@ -30,10 +34,14 @@ typedef struct {
     fracas_warning *warning;
 } warning_list;
 
-FRACAS_PRINTF(3, 4) static void warn(warning_list *list, size_t point, const char *format, ...)
+FRACAS_PRINTF(5, 6)
+static void warn(warning_list *list, size_t point, const char *kind, double badness,
+                 const char *format, ...)
 {
     fracas_warning *warning = &list->warning[list->count++];
+    warning->kind = kind;
     warning->point = point;
+    warning->badness = badness;
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(warning->text, sizeof warning->text, format, arguments);
@@ -46,55 +54,58 @@ static void warn_of_outcomes(const fracas_point_statistics *statistics, size_t p
     long long all = (long long)statistics->realizations;
     for (int o = FRACAS_NONFINITE; o <= FRACAS_FAILED; o++)
         if (statistics->outcome[o] > 0)
-            warn(list, p,
+            warn(list, p, fracas_outcome_name(o), (double)statistics->outcome[o] / (double)all,
                  "%lld of %lld realizations ended %s and are left out: the means may be biased",
                  (long long)statistics->outcome[o], all, fracas_outcome_name(o));
     if (statistics->outcome[FRACAS_INTACT] > 0)
-        warn(list, p,
+        warn(list, p, "INTACT", (double)statistics->outcome[FRACAS_INTACT] / (double)all,
              "%lld of %lld realizations ended INTACT, nothing broken: if that is unexpected, load "
              "harder or raise time.end",
              (long long)statistics->outcome[FRACAS_INTACT], all);
     if (statistics->kept > 0)
         warn(
-            list, p,
+            list, p, "balance", (double)statistics->kept / (double)all,
             "%lld of %lld realizations lost their energy balance and count as they were before, at "
             "%s to %s (TIME_LIMIT), when nothing had broken for a third of that time: let time.end "
             "be earlier, or lower time.safety if that mends it",
             (long long)statistics->kept, all,
             fracas_with_unit(statistics->kept_at[0], 3, "s", false).text,
             fracas_with_unit(statistics->kept_at[1], 3, "s", false).text);
-    if (statistics->outcome[FRACAS_TIME_LIMIT] > statistics->kept)
-        warn(list, p,
+    const long long stopped = (long long)(statistics->outcome[FRACAS_TIME_LIMIT] -
+                                          statistics->kept);
+    if (stopped > 0)
+        warn(list, p, "TIME_LIMIT", (double)stopped / (double)all,
              "%lld of %lld realizations were stopped by time.end with cracks still running "
              "(TIME_LIMIT): raise time.end",
-             (long long)(statistics->outcome[FRACAS_TIME_LIMIT] - statistics->kept), all);
+             stopped, all);
 }
 
 static void warn_of_point(const fracas_point_statistics *statistics, size_t p, warning_list *list)
 {
-    if (statistics->usable == 0) warn(list, p, "no usable realization");
+    if (statistics->usable == 0) warn(list, p, "unusable", 1, "no usable realization");
     warn_of_outcomes(statistics, p, list);
     if (statistics->residual > residual_limit)
         warn(
-            list, p,
+            list, p, "residual", statistics->residual,
             "ledger residual up to %s of the dissipated energy (more than 1e-3): lower time.safety",
             fracas_digits(statistics->residual, 2).text);
     if (statistics->drifted > 0)
-        warn(list, p,
+        warn(list, p, "drift", statistics->drift,
              "energy drift above 1 %%: %lld of %lld usable realizations, their |residual| up to %s "
              "%% of their largest energy: lower time.safety",
              (long long)statistics->drifted, (long long)statistics->usable,
              fracas_digits(100 * statistics->drift, 2).text);
     if (statistics->created > created_limit)
-        warn(list, p,
+        warn(list, p, "created", statistics->created,
              "energy created at breaks up to %s of the dissipated energy (more than 1e-2): refine "
              "the mesh or raise cohesive.beta",
              fracas_digits(statistics->created, 2).text);
     if (statistics->elements < elements_limit)
-        warn(list, p, "a mean fragment has %.1f elements (fewer than 10): refine the mesh",
+        warn(list, p, "elements", -statistics->elements,
+             "a mean fragment has %.1f elements (fewer than 10): refine the mesh",
              statistics->elements);
     if (statistics->dust_share > dust_limit)
-        warn(list, p,
+        warn(list, p, "dust", statistics->dust_share,
              "%.1f %% of the fragments are dust, of so few elements that the mesh decides (more "
              "than 5 %%): refine the mesh",
              100 * statistics->dust_share);
@@ -108,21 +119,24 @@ static void warn_of_convergence(const fracas_point_statistics *statistics, size_
     if (of->unconverged == 0) return;
     const fracas_running *all = &of->row[of->count - 1];
     if (all->replicas < 2) {
-        warn(list, p, "one usable replica cannot say how well anything is known: raise replicas");
+        warn(list, p, "single", 1,
+             "one usable replica cannot say how well anything is known: raise replicas");
         return;
     }
     char text[320] = "";
+    double widest = 0;
     for (int h = 0; h < FRACAS_NHEADLINES; h++) {
         const fracas_settling *number = &all->number[h];
         if (of->converged[h] || !isfinite(number->value)) continue;
         const double relative = 0.5 * (number->high - number->low) / fabs(number->value);
+        widest = fmax(widest, relative);
         fracas_append(text, sizeof text, ", ", "%s to %s %%%s", fracas_headline_key[h],
                       fracas_digits(number->high > number->low ? 100 * relative : 0, 2).text,
                       fracas_replica_convergence_drifts(of, (fracas_headline)h) ? " (drifts)"
                       : fracas_settling_alike(number)                           ? " (all alike)"
                                                                                 : "");
     }
-    warn(list, p, "unconverged with %lld replicas, known %s: raise replicas",
+    warn(list, p, "unconverged", widest, "unconverged with %lld replicas, known %s: raise replicas",
          (long long)all->replicas, text);
 }
 
@@ -137,7 +151,7 @@ static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning
     const double dissipated = bands->energy[last][FRACAS_ENERGY_dissipated].mean;
     const double rise = dissipated - bands->energy[before][FRACAS_ENERGY_dissipated].mean;
     if (!(rise > rise_limit * dissipated)) return;
-    warn(list, p,
+    warn(list, p, "breaking", rise / dissipated,
          "bodies were still breaking at time.end: %s %% of the energy was dissipated in the last "
          "tenth of the time (more than 1 %%): raise time.end",
          fracas_digits(100 * rise / dissipated, 2).text);
@@ -146,7 +160,7 @@ static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning
 static void warn_of_decision(const fracas_decision *last, size_t p, warning_list *list)
 {
     if (!last || last->stop != 2) return;
-    warn(list, p,
+    warn(list, p, "maximum", fracas_decision_relative(last) / last->relative_half_width,
          "at the maximum of %lld replicas %s is known to %s %%, not to the %.3g %% asked for: "
          "raise replicas.maximum",
          (long long)last->maximum, fracas_analysis_quantity(last),
@@ -160,17 +174,18 @@ static void warn_of_study(const fracas_analysis *analysis, warning_list *list)
     const fracas_progress all = fracas_analysis_progress(analysis);
     const bool partial = fracas_analysis_partial(analysis, text, sizeof text);
     if (partial && all.settled)
-        warn(list, SIZE_MAX,
+        warn(list, SIZE_MAX, "study", 0,
              "%s, but study.h5 is not there or not of all of them: `fracas merge` writes it", text);
     else if (partial)
-        warn(list, SIZE_MAX,
+        warn(list, SIZE_MAX, "study", 0,
              "%s: every number is of these alone; `fracas run STUDY/campaign.yaml --study STUDY` "
              "completes the study",
              text);
     else if (!analysis->header.complete)
-        warn(list, SIZE_MAX, "the study is not complete: realizations are missing or FAILED");
+        warn(list, SIZE_MAX, "study", 0,
+             "the study is not complete: realizations are missing or FAILED");
     for (size_t n = 0; n < fracas_results_notes(analysis->results); n++)
-        warn(list, SIZE_MAX, "%s", fracas_results_note(analysis->results, n));
+        warn(list, SIZE_MAX, "study", 0, "%s", fracas_results_note(analysis->results, n));
 }
 
 static void warn_of_progress(const fracas_analysis *analysis, size_t p, warning_list *list)
@@ -179,9 +194,11 @@ static void warn_of_progress(const fracas_analysis *analysis, size_t p, warning_
     const long long here = (long long)(progress.done + progress.failed),
                     planned = (long long)progress.planned;
     if (!fracas_results_partial(analysis->results)) return;
-    if (here < planned) warn(list, p, "partial: %lld of %lld realizations done", here, planned);
+    if (here < planned)
+        warn(list, p, "partial", -(double)here / (double)planned,
+             "partial: %lld of %lld realizations done", here, planned);
     else if (!fracas_results_decided(analysis->results, p))
-        warn(list, p,
+        warn(list, p, "undecided", -(double)here,
              "partial: %lld realizations done, and the rule for replicas has not decided whether "
              "these are enough",
              here);
@@ -207,12 +224,54 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
         const double zones = fracas_columns_real(analysis->table, p, "cohesive.zone") /
                              analysis->point[p].size.mean;
         if (zones > zone_limit)
-            warn(&list, p,
+            warn(&list, p, "zone", zones,
                  "cohesive.zone is %.2g of a mean fragment (more than 0.25): it influences the "
                  "size: shorten it",
                  zones);
     }
     *warning = list.warning;
     *count = list.count;
+    return FRACAS_OK;
+}
+
+/* Points with a warning of the same kind share a line; each warning of the study has its own. */
+static bool same_line(const fracas_warning *a, const fracas_warning *b)
+{
+    return a == b ||
+           (a->point != SIZE_MAX && b->point != SIZE_MAX && strcmp(a->kind, b->kind) == 0);
+}
+
+/* The line of the kind of all[first], whose other warnings all come later. */
+static void write_line(const fracas_analysis *analysis, const fracas_warning *all, size_t count,
+                       size_t first, fracas_warning_line *line)
+{
+    const fracas_warning *worst = &all[first];
+    size_t points = 0;
+    for (const fracas_warning *next = worst; next < all + count; next++) {
+        if (!same_line(next, &all[first])) continue;
+        points++;
+        if (next->badness > worst->badness) worst = next;
+    }
+    const fracas_label label = fracas_analysis_label(analysis, worst->point);
+    if (points > 1)
+        FRACAS_PRINT(line->text, "%zu of %zu points, worst %zu (%s): %s", points,
+                     analysis->table->npoints, worst->point, label.text, worst->text);
+    else FRACAS_PRINT(line->text, "%s%s%s", label.text, *label.text ? ": " : "", worst->text);
+}
+
+fracas_err fracas_analysis_warning_lines(const fracas_analysis *analysis,
+                                         fracas_warning_line **line, size_t *count)
+{
+    OWNED fracas_warning *all = NULL;
+    size_t warnings;
+    *count = 0;
+    TRY(fracas_analysis_warnings(analysis, &all, &warnings));
+    *line = malloc((warnings + 1) * sizeof **line);
+    if (!*line) return fracas_no_memory("warnings");
+    for (size_t i = 0; i < warnings; i++) {
+        size_t first = 0;
+        while (first < i && !same_line(&all[first], &all[i])) first++;
+        if (first == i) write_line(analysis, all, warnings, i, &(*line)[(*count)++]);
+    }
     return FRACAS_OK;
 }

@@ -45,9 +45,10 @@ enum { FRACAS_FORECAST_QUICK = 64 };
 FRACAS_MUST_USE fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs,
                                                bool quick, fracas_forecast *forecast);
 
-/* Writes a warning; false, with any text, if it does not apply. */
-typedef bool fracas_plan_warning(const fracas_point *point, const fracas_forecast *forecast,
-                                 char *text, size_t size);
+/* Writes a warning; how bad it is (> 0), to be compared among points, or 0, with any text, if it
+ * does not apply. */
+typedef double fracas_plan_warning(const fracas_point *point, const fracas_forecast *forecast,
+                                   char *text, size_t size);
 
 /* Factor by which rotary inertia would lengthen the time step: 2.5 thickness/edge, at least 1 (2.5
  * to 3.1 on spheres with thickness/edge from 0.5 to 2.5); 1 for a body that has it or does not

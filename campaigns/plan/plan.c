@@ -145,13 +145,13 @@ static void put_range(text_sheet *sheet, size_t row, size_t column, double least
 
 /* ---- warnings ---- */
 
-/* Warning `which` of point p, with its number; false if it does not apply. */
-static bool warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
+enum { WARNING_TEXT = 400 }; /* bytes of a text */
+
+/* Warning `which` of point p, without its number; how bad it is, 0: it does not apply. */
+static double warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
 {
-    if (plan->forecast[p].estimated) return false;
-    int begin = snprintf(text, size, "point %zu: ", p);
-    return fracas_plan_warnings[which](&plan->campaign->point[p], &plan->forecast[p], text + begin,
-                                       size - (size_t)begin);
+    if (plan->forecast[p].estimated) return 0;
+    return fracas_plan_warnings[which](&plan->campaign->point[p], &plan->forecast[p], text, size);
 }
 
 /* ---- the plan as text ---- */
@@ -208,24 +208,27 @@ static bool any_surface_field(const campaign_plan *plan)
     return false;
 }
 
-/* Prints the first few warnings of each kind and counts the others, since most points of a design
- * may have the same. */
+/* Prints a line a kind of warning: how many points have it, and the worst one's text. */
 static void print_warnings(const campaign_plan *plan, FILE *out)
 {
-    enum { SHOWN = 4 };
-    size_t count[FRACAS_PLAN_WARNINGS] = {0}, last[FRACAS_PLAN_WARNINGS] = {0};
-    char text[400];
-    for (size_t p = 0; p < plan->table->npoints; p++)
-        for (int w = 0; w < FRACAS_PLAN_WARNINGS; w++) {
-            if (!warning_of(plan, p, w, text, sizeof text)) continue;
-            if (++count[w] <= SHOWN) fprintf(out, "warning: %s\n", text);
-            last[w] = p;
-        }
+    const size_t points = plan->table->npoints;
+    char text[WARNING_TEXT];
     for (int w = 0; w < FRACAS_PLAN_WARNINGS; w++) {
-        if (count[w] <= SHOWN) continue;
-        warning_of(plan, last[w], w, text, sizeof text);
-        fprintf(out, "warning: the same at %zu more, which --json lists, the last being %s\n",
-                count[w] - SHOWN, text);
+        size_t count = 0, worst = 0;
+        double most = 0;
+        for (size_t p = 0; p < points; p++) {
+            const double badness = warning_of(plan, p, w, text, sizeof text);
+            count += badness > 0;
+            if (!(badness > most)) continue;
+            most = badness;
+            worst = p;
+        }
+        if (count == 0) continue;
+        warning_of(plan, worst, w, text, sizeof text);
+        if (count == 1) fprintf(out, "warning: point %zu: %s\n", worst, text);
+        else
+            fprintf(out, "warning: %zu of %zu points (--json lists them), worst %zu: %s\n", count,
+                    points, worst, text);
     }
 }
 
@@ -330,10 +333,13 @@ static void print_json(const campaign_plan *plan, FILE *out)
     for (size_t p = 0; p < plan->table->npoints; p++) print_json_point(plan, p, &json);
     fracas_json_close(&json);
     fracas_json_array(&json, "warnings");
-    char text[400];
+    char text[WARNING_TEXT], whole[WARNING_TEXT + 40];
     for (size_t p = 0; p < plan->table->npoints; p++)
-        for (int w = 0; w < FRACAS_PLAN_WARNINGS; w++)
-            if (warning_of(plan, p, w, text, sizeof text)) fracas_json_text(&json, NULL, text);
+        for (int w = 0; w < FRACAS_PLAN_WARNINGS; w++) {
+            if (!(warning_of(plan, p, w, text, sizeof text) > 0)) continue;
+            snprintf(whole, sizeof whole, "point %zu: %s", p, text);
+            fracas_json_text(&json, NULL, whole);
+        }
     fracas_json_end(&json);
 }
 

@@ -51,74 +51,76 @@ static double wave_speed(const fracas_material *material)
     return sqrt(material->young / material->density);
 }
 
-/* A fracas_plan_warning: its condition, and its text as printf writes it where it holds. */
-#define WARNING(name, condition, ...)                                                        \
-    static bool name(const fracas_point *point, const fracas_forecast *forecast, char *text, \
-                     size_t size)                                                            \
-    {                                                                                        \
-        (void)point, (void)forecast;                                                         \
-        if (!(condition)) return false;                                                      \
-        snprintf(text, size, __VA_ARGS__);                                                   \
-        return true;                                                                         \
+/* A fracas_plan_warning: its condition, how bad it is (> 0), and its text as printf writes it. */
+#define WARNING(name, condition, badness, ...)                                                 \
+    static double name(const fracas_point *point, const fracas_forecast *forecast, char *text, \
+                       size_t size)                                                            \
+    {                                                                                          \
+        (void)point, (void)forecast;                                                           \
+        if (!(condition)) return 0;                                                            \
+        snprintf(text, size, __VA_ARGS__);                                                     \
+        return badness;                                                                        \
     }
 
 WARNING(
-    warn_coarse, forecast->coarseness > COARSE,
+    warn_coarse, forecast->coarseness > COARSE, forecast->coarseness,
     "elements are %.3g E G_c/sigma_c^2 long, above %.1g a crack's softening is not resolved: %s",
     forecast->coarseness, COARSE, finer(&point->spec, forecast).text)
 
-WARNING(warn_uniform, forecast->uniform,
+WARNING(warn_uniform, forecast->uniform, 1,
         "%s interfaces %sare equally strong and qualify at once; where the body breaks is then up "
         "to mesh and rounding: give the strength a scatter%s",
         forecast->equal ? "all" : "half of the", forecast->equal ? "" : "or more ",
         fracas_strength_scatter_remedy(&point->strength))
 
-WARNING(warn_lines, forecast->lines,
+WARNING(warn_lines, forecast->lines, 1,
         "interfaces are equally strong and the mesh is regular, so that cracks follow its lines: "
         "give mesh.amplitude, for instance 0.2")
 
 /* Finds wrong units of young and density, which no other check compares. */
 WARNING(warn_wave,
         wave_speed(&point->spec.material) < SLOWEST || wave_speed(&point->spec.material) > FASTEST,
+        fabs(log(wave_speed(&point->spec.material) / sqrt(SLOWEST * FASTEST))),
         "waves go at sqrt(young/density) = %.3g m/s, in solids at %.3g to %.3g: are material.young "
         "[Pa] and material.density [kg/m3] in the units meant? A bare number is SI",
         wave_speed(&point->spec.material), SLOWEST, FASTEST)
 
 WARNING(
-    warn_weak_load, forecast->bound < forecast->mean,
+    warn_weak_load, forecast->bound < forecast->mean, forecast->mean - forecast->bound,
     "until time.end the stress stays below %.3g MPa, the mean strength is %.3g MPa: the weakest "
     "interfaces will crack, or none: %s",
     1e-6 * forecast->bound, 1e-6 * forecast->mean, harder(point, forecast))
 
-WARNING(warn_repeated, forecast->repeated,
+WARNING(warn_repeated, forecast->repeated, (double)point->replicas,
         "its strengths are those of a file, so all its %" PRId64
         " replicas are equal: give it replicas: 1",
         point->replicas)
 
-WARNING(warn_folds, forecast->folds,
+WARNING(warn_folds, forecast->folds, 1,
         "the whole ring comes under compression, where it folds, as it has no bending stiffness: "
         "what breaks then means nothing: load it outward, and end a free ring that stays whole by "
         "%.3g s",
         2 * forecast->turn)
 
-WARNING(warn_lonely, forecast->lonely,
+WARNING(warn_lonely, forecast->lonely, point->spec.cohesive.zone,
         "cohesive.zone is longer than half of the ring: once an interface opens, none else can: "
         "shorten it to less than a quarter of a fragment")
 
 /* Laws without flux soften from the stress at the end of the step:
  * docs/decisions/onset-of-surfaces.md. */
 WARNING(warn_passed, forecast->spread > 0 && forecast->step_stress > 0.25 * forecast->spread,
+        forecast->step_stress / forecast->spread,
         "one time step adds %.3g Pa of stress, and nearly all strengths lie within %.3g Pa: "
         "interfaces that a step passes together are equally strong; lower time.safety %.2g times",
         forecast->step_stress, forecast->spread, 4 * forecast->step_stress / forecast->spread)
 
 WARNING(
-    warn_step, forecast->step_stress > forecast->mean,
+    warn_step, forecast->step_stress > forecast->mean, forecast->step_stress / forecast->mean,
     "one time step adds %.3g Pa of stress, more than the mean strength of %.3g Pa: are strength, "
     "material and loading in the units meant? A bare number is SI",
     forecast->step_stress, forecast->mean)
 
-WARNING(warn_turned, forecast->turned > TURNED,
+WARNING(warn_turned, forecast->turned > TURNED, forecast->turned,
         "the ring turns by %.2g rad until time.end, and geometry.direction is initial: interfaces "
         "that open along directions it no longer has are off from %.2g rad on: leave direction "
         "out, for current",
@@ -127,18 +129,20 @@ WARNING(warn_turned, forecast->turned > TURNED,
 WARNING(
     warn_short,
     point->strength.covariance && point->strength.correlation_length < forecast->element / 3,
+    forecast->element / point->strength.correlation_length,
     "strength.correlation_length is %.3g m, less than a third of an element of %.3g m: strengths "
     "are as good as independent: is that in m? A bare number is SI",
     point->strength.correlation_length, forecast->element)
 
 WARNING(warn_long,
         point->strength.covariance && point->strength.correlation_length > forecast->extent,
+        point->strength.correlation_length / forecast->extent,
         "strength.correlation_length is %.3g m, more than the %.3g m of the body: strengths of a "
         "replica are much alike, and differ from replica to replica: is that in m? A bare number "
         "is SI",
         point->strength.correlation_length, forecast->extent)
 
-WARNING(warn_flat, forecast->flat,
+WARNING(warn_flat, forecast->flat, 1,
         "strength.factor is the same at all interfaces: the body does not reach where %s changes "
         "along %s: are its coordinates in m?",
         point->strength.factor->path, point->strength.factor_along->name)
@@ -146,12 +150,13 @@ WARNING(warn_flat, forecast->flat,
 /* Fewer resolve no wave, let alone a crack. */
 #define FEW_STEPS 10
 
-WARNING(warn_few_steps, forecast->steps < FEW_STEPS,
+WARNING(warn_few_steps, forecast->steps < FEW_STEPS, 1 / (1.0 + (double)forecast->steps),
         "time.end %g s is reached in %" PRId64 " time step%s of %.3g s: are time.end, material and "
         "lengths in the units meant? A bare number is SI",
         point->spec.time.end, forecast->steps, forecast->steps == 1 ? "" : "s", forecast->time_step)
 
 WARNING(warn_bending, fracas_bending_steps(&point->spec, forecast->element) > 2,
+        fracas_bending_steps(&point->spec, forecast->element),
         "elements of %.2g m are small against the thickness of %.2g m, and bending waves limit the "
         "time step: time.rotary_inertia: 1 makes it about %.1f times as long",
         forecast->element, point->spec.geometry.thickness,
@@ -159,7 +164,7 @@ WARNING(warn_bending, fracas_bending_steps(&point->spec, forecast->element) > 2,
 
 /* Correlated neighbours leave the body fewer independent flaws than its volume suggests. */
 WARNING(warn_weakest,
-        fracas_strength_has_size_effect(&point->strength) && point->strength.covariance,
+        fracas_strength_has_size_effect(&point->strength) && point->strength.covariance, 1,
         "strengths are correlated, and their size effect is that of independent flaws: the body "
         "gets stronger as its mesh is refined: leave one of the two out, or compare on one mesh")
 

@@ -381,6 +381,52 @@ static void warnings_at_their_limits(void **state)
     free(warning);
 }
 
+/* Of one point, and of many points that lose more and more energy and have ever smaller fragments:
+ * a line a kind, of its worst point, and a line for the study. */
+static void a_line_a_kind_of_warning(void **state)
+{
+    static const fracas_column column[] = {{"cohesive.zone", "m", "", false}};
+    static const size_t many[] = {1, 18, 1000};
+    for (size_t i = 0; i < FRACAS_COUNT(many); i++) {
+        const size_t n = many[i];
+        fracas_value zone = {.real = 0, .text = ""};
+        OWNED fracas_point_row *row = calloc(n, sizeof *row);
+        OWNED fracas_point_statistics *point = calloc(n, sizeof *point);
+        assert_true(row && point);
+        for (size_t p = 0; p < n; p++) {
+            row[p].value = &zone;
+            point[p] = (fracas_point_statistics){.size.mean = 1,
+                                                 .realizations = 9,
+                                                 .usable = 9,
+                                                 .outcome = {9},
+                                                 .residual = p % 2 ? 0 : 0.5 / (double)(1 + p),
+                                                 .elements = 9.0 / (double)(1 + p)};
+        }
+        fracas_point_table table = {.ncolumns = 1, .column = column, .npoints = n, .point = row};
+        fracas_analysis analysis = {.table = &table, .point = point};
+        OWNED fracas_warning *warning = NULL;
+        OWNED fracas_warning_line *line = NULL;
+        size_t warnings, lines, residuals = 0;
+        OK(fracas_analysis_warnings(&analysis, &warning, &warnings));
+        OK(fracas_analysis_warning_lines(&analysis, &line, &lines));
+        for (size_t p = 0; p < n; p++) residuals += point[p].residual > 1e-3;
+        assert_int_equal(warnings, 1 + n + residuals);
+        assert_int_equal(lines, 3);
+        assert_string_equal(line[0].text, warning[0].text);
+        char expected[2][120] = {"ledger residual up to 0.50 of",
+                                 "a mean fragment has 9.0 elements"};
+        if (n > 1) {
+            snprintf(expected[0], sizeof *expected,
+                     "%zu of %zu points, worst 0 (): ledger residual up to 0.50 of", residuals, n);
+            snprintf(expected[1], sizeof *expected,
+                     "%zu of %zu points, worst %zu (): a mean fragment has %.1f elements", n, n,
+                     n - 1, 9.0 / (double)n);
+        }
+        for (int kind = 0; kind < 2; kind++)
+            assert_ptr_equal(strstr(line[1 + kind].text, expected[kind]), line[1 + kind].text);
+    }
+}
+
 /* Sizes 1, 1, 2, 4 mm, of which the ones differ by rounding: all are >= 1 mm, half >= 2 mm, a
  * quarter >= 4 mm. */
 static void figure_of_sizes(void **state)
@@ -441,4 +487,4 @@ static void ticks(void **state)
 TESTS(estimate_of_eight, estimate_of_few, estimates_as_text, digits_as_the_interval_supports,
       numbers_as_text, prefixes, columns_that_tell_points_apart, names_come_before_their_numbers,
       labels_leave_out_what_a_point_lacks, laws_of_a_point, statistics_of_records,
-      warnings_at_their_limits, figure_of_sizes, ticks)
+      warnings_at_their_limits, a_line_a_kind_of_warning, figure_of_sizes, ticks)
