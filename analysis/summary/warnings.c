@@ -27,7 +27,7 @@ static const double dust_limit = 0.05;     /* share of all fragments */
 static const double rise_limit = 0.01;     /* part of the dissipated energy */
 static const double zone_limit = 0.25;     /* part of a mean fragment (docs/results/ring.md) */
 
-enum { WARNINGS_PER_POINT = 18, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
+enum { WARNINGS_PER_POINT = 19, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
 
 typedef struct {
     size_t count;
@@ -168,6 +168,40 @@ static void warn_of_decision(const fracas_decision *last, size_t p, warning_list
          100 * last->relative_half_width);
 }
 
+/* deviation/mean of the strengths by their columns; NaN: equal, given, measured (`empirical`), with
+ * a size effect or correlated. */
+static double scatter_of(const fracas_point_table *table, size_t p)
+{
+    static const char *const without[] = {"strength.reference_volume", "strength.reference_area",
+                                          "strength.flaw_density", "strength.correlation_length"};
+    for (size_t i = 0; i < sizeof without / sizeof *without; i++)
+        if (isfinite(fracas_columns_real(table, p, without[i]))) return NAN;
+    const double mean = fracas_columns_real(table, p, "derived.strength_mean"),
+                 deviation = fracas_columns_real(table, p, "strength.deviation"),
+                 sigma = fracas_columns_real(table, p, "strength.sigma"),
+                 modulus = fracas_columns_real(table, p, "derived.strength_modulus"),
+                 range = fracas_columns_real(table, p, "strength.maximum") -
+                         fracas_columns_real(table, p, "strength.minimum");
+    if (isfinite(deviation)) return deviation / mean;
+    if (isfinite(sigma)) return sigma;           /* lognormal */
+    if (isfinite(modulus)) return 1.2 / modulus; /* weibull, to 10 % from shape 3 on */
+    return range / sqrt(12) / mean;              /* uniform */
+}
+
+/* Interfaces of a finer mesh of a bar or ring have the strengths that those of this one have. */
+static void warn_of_mesh(const fracas_point_table *table, size_t p, warning_list *list)
+{
+    const double effect = FRACAS_MESH_EFFECT * scatter_of(table, p),
+                 volume = fracas_columns_real(table, p, "derived.length") *
+                          fracas_columns_real(table, p, "geometry.area") /
+                          fracas_columns_real(table, p, "mesh.elements");
+    if (!(effect > FRACAS_MESH_EFFECT_NOTABLE) || !(volume > 0)) return;
+    warn(list, p, "mesh", effect,
+         "strengths scatter without a reference size: halving the elements lowers the count by "
+         "about %.1f %%: give strength.reference_volume, here %.6g mm3, for a count that stays",
+         100 * effect, 1e9 * volume);
+}
+
 static void warn_of_study(const fracas_analysis *analysis, warning_list *list)
 {
     char text[128];
@@ -221,6 +255,7 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
         if (analysis->point[p].outcome[FRACAS_TIME_LIMIT] == 0) /* those are warned of already */
             warn_of_end(&analysis->point[p].bands,
                         fracas_columns_real(analysis->table, p, "time.end"), p, &list);
+        warn_of_mesh(analysis->table, p, &list);
         const double zones = fracas_columns_real(analysis->table, p, "cohesive.zone") /
                              analysis->point[p].size.mean;
         if (zones > zone_limit)

@@ -177,6 +177,48 @@ static fracas_err extent_of_body(const fracas_model *model, double *diagonal)
     return FRACAS_OK;
 }
 
+/* Upper bound of the opening of an interface until time.end t [m]. A crack unloads the body at the
+ * wave speed c: under a strain e t its faces part at 2 c e t, by c e t^2 altogether, and at most by
+ * the body's extension, e t times its size. Where the load is not steady, e t is the final strain.
+ */
+static double available_opening(const fracas_spec *spec, const fracas_forecast *forecast)
+{
+    const double t = spec->time.end, E = spec->material.young;
+    double strain = forecast->bound / E, size = fracas_spec_length(spec);
+    if (fracas_spec_is_surface(spec)) {
+        const fracas_stretch stretch = fracas_loading_traits_of(spec)->surface(spec, t);
+        strain = stretch.strain * fmax(1, fabs(stretch.ratio));
+        size = forecast->extent;
+    }
+    return strain * fmin(sqrt(E / spec->material.density) * t, size);
+}
+
+/* Opening and fragments where the factor of the strengths is least; `mean`: strength without it
+ * [Pa]. */
+static void describe_weakest(const fracas_spec *spec, double mean, double least,
+                             fracas_forecast *forecast)
+{
+    const double weak = least * mean, energy = fracas_spec_fracture_energy(spec, weak),
+                 rate = fracas_spec_strain_rate(spec);
+    forecast->factor = least;
+    forecast->opening = 2 * energy / weak;
+    forecast->available = available_opening(spec, forecast);
+    forecast->pieces = cbrt(24 * energy / (spec->material.density * rate * rate));
+}
+
+/* The part of the count that depends on the elements by the strengths. On surfaces it depends on
+ * them with a reference as well (docs/results/sampling.md). */
+static double mesh_effect_of(const fracas_point *point, const fracas_model *model,
+                             fracas_extent extent)
+{
+    const fracas_strength *strength = &point->strength;
+    if (fracas_model_surface(model) || fracas_strength_has_size_effect(strength) ||
+        strength->covariance || fracas_strength_is_given(strength))
+        return 0;
+    return FRACAS_MESH_EFFECT * fracas_strength_deviation(strength, extent) /
+           fracas_strength_mean(strength, extent);
+}
+
 static fracas_err describe(const fracas_point *point, const fracas_model *model, bool estimated,
                            fracas_forecast *forecast)
 {
@@ -196,7 +238,8 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
                              (mean * mean);
     forecast->element = fracas_model_element_size(model);
     forecast->coarseness = forecast->element / softening;
-    if (point->strength.covariance) TRY(extent_of_body(model, &forecast->extent));
+    if (point->strength.covariance || point->strength.factor)
+        TRY(extent_of_body(model, &forecast->extent));
     forecast->flat = point->strength.factor && factor.least == factor.most;
     forecast->uniform = factor.least == factor.most && strength_at(point, extent.mean, 0.25) ==
                                                            strength_at(point, extent.mean, 0.75);
@@ -214,6 +257,10 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->step_stress = spec->material.young * fabs(fracas_spec_strain_rate(spec)) *
                             forecast->time_step;
     if (fracas_shape_of(spec)->round) describe_ring(spec, forecast);
+    forecast->volume = extent.mean.volume;
+    forecast->mesh_effect = mesh_effect_of(point, model, extent.mean);
+    forecast->factor = 1;
+    if (point->strength.factor) describe_weakest(spec, mean / factor.mean, factor.least, forecast);
     forecast->repeated = fracas_strength_is_given(&point->strength) && point->replicas > 1;
     return estimated ? FRACAS_OK : check_strengths(model, point, extent.least, factor.most);
 }

@@ -25,10 +25,16 @@ typedef struct {
     bool repeated;      /* several replicas with strengths from a file: all are equal */
     double mean;        /* strength of an interface [Pa] */
     double element;     /* mean element size [m] */
-    double extent;  /* diagonal of the box around all interfaces [m], for correlated strengths */
-    bool flat;      /* a factor of the strengths is the same at all interfaces */
-    bool estimated; /* from a coarser mesh, without a check of strengths */
-    double bound;   /* on the stress in the uncracked body until time.end [Pa], or INFINITY */
+    double extent; /* diagonal of the box around all interfaces [m], for correlated strengths */
+    bool flat;     /* a factor of the strengths is the same at all interfaces */
+    double volume; /* a mean interface has [m3] */
+    double mesh_effect; /* share of the count that halved elements lose (FRACAS_MESH_EFFECT) */
+    double factor;      /* the least of the factors of the strengths; 1: there are none */
+    double opening;     /* critical opening where it acts, at the mean strength there [m] */
+    double available;   /* opening that the load can give an interface until time.end [m] */
+    double pieces;      /* size of fragments there, by Grady's law [m]; NaN without a strain rate */
+    bool estimated;     /* from a coarser mesh, without a check of strengths */
+    double bound;       /* on the stress in the uncracked body until time.end [Pa], or INFINITY */
 } fracas_forecast;
 
 /* The forecast of one point, without speed, time and bytes. FRACAS_USAGE if strengths from a file
@@ -55,7 +61,7 @@ typedef double fracas_plan_warning(const fracas_point *point, const fracas_forec
  * bend. */
 double fracas_bending_steps(const fracas_spec *spec, double element);
 
-enum { FRACAS_PLAN_WARNINGS = 17 };
+enum { FRACAS_PLAN_WARNINGS = 20 };
 extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];
 
 #endif

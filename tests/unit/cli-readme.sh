@@ -9,6 +9,8 @@ trap 'rm -rf "$folder"' EXIT
 sed -n '/^```yaml$/,/^```$/p' README.md | sed '/^```/d' >"$folder/my-bar.yaml"
 "$fracas" plan --json "$folder/my-bar.yaml" >"$folder/plan"
 [ "$(grep -c '"replicas": 16' "$folder/plan")" = 12 ] || { cat "$folder/plan"; exit 1; }
+/usr/bin/python3 -c 'import json, sys; assert json.load(open(sys.argv[1]))["warnings"] == []' "$folder/plan" ||
+    { "$fracas" plan "$folder/my-bar.yaml" | grep ^warning; exit 1; }
 
 commands=$(sed -n 's/^    tools\/fracas \([a-z]*\) .*/\1/p' README.md | sort -u | grep -vx -e test -e help)
 for command in $commands; do

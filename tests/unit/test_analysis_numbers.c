@@ -427,6 +427,57 @@ static void a_line_a_kind_of_warning(void **state)
     }
 }
 
+/* A bar of 50 mm, 1 mm2 and 2500 elements: 0.02 mm3 an interface. Counts fall by 0.28
+ * deviation/mean where elements are halved; from 1 % on that is said, unless the strengths know a
+ * volume. */
+static void strengths_that_the_mesh_changes(void **state)
+{
+    enum { NCOLUMNS = 10, VARIED = 6 };
+    static const fracas_column column[NCOLUMNS] = {
+        {"derived.length", "m", "", false},
+        {"derived.strength_mean", "Pa", "", false},
+        {"geometry.area", "m2", "", false},
+        {"mesh.elements", "1", "", false},
+        {"derived.strength_modulus", "1", "", false},
+        {"strength.deviation", "Pa", "", false},
+        {"strength.maximum", "Pa", "", false},
+        {"strength.minimum", "Pa", "", false},
+        {"strength.sigma", "1", "", false},
+        {"strength.reference_volume", "m3", "", false},
+    };
+    static const struct {
+        double varied[VARIED]; /* from derived.strength_modulus on */
+        const char *lowers;    /* NULL: no warning */
+    } table[] = {
+        {{10, NAN, NAN, NAN, NAN, NAN},
+         "by about 3.4 %: give strength.reference_volume, here 0.02 mm3"},
+        {{40, NAN, NAN, NAN, NAN, NAN}, NULL},
+        {{10, NAN, NAN, NAN, NAN, 2e-11}, NULL},
+        {{NAN, 30e6, NAN, NAN, NAN, NAN}, "by about 2.8 %:"},
+        {{NAN, 10e6, NAN, NAN, NAN, NAN}, NULL},
+        {{NAN, NAN, 301e6, 299e6, NAN, NAN}, NULL},
+        {{NAN, NAN, 350e6, 250e6, NAN, NAN}, "by about 2.7 %:"}, /* 0.28/3/sqrt(12) */
+        {{NAN, NAN, NAN, NAN, 0.1, NAN}, "by about 2.8 %:"},
+        {{NAN, NAN, NAN, NAN, NAN, NAN}, NULL},
+    };
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
+        fracas_value value[NCOLUMNS] = {{0.05, ""}, {300e6, ""}, {1e-6, ""}, {2500, ""}};
+        for (size_t c = 0; c < VARIED; c++)
+            value[NCOLUMNS - VARIED + c] = (fracas_value){table[i].varied[c], ""};
+        fracas_point_row row = {.value = value};
+        fracas_point_table points = {
+            .ncolumns = NCOLUMNS, .column = column, .npoints = 1, .point = &row};
+        fracas_point_statistics point = {
+            .size.mean = 1, .realizations = 9, .usable = 9, .outcome = {9}, .elements = 100};
+        fracas_analysis analysis = {.table = &points, .point = &point, .header.complete = true};
+        OWNED fracas_warning *warning = NULL;
+        size_t count;
+        OK(fracas_analysis_warnings(&analysis, &warning, &count));
+        assert_int_equal(count, table[i].lowers != NULL);
+        if (table[i].lowers) assert_has(warning->text, table[i].lowers);
+    }
+}
+
 /* Sizes 1, 1, 2, 4 mm, of which the ones differ by rounding: all are >= 1 mm, half >= 2 mm, a
  * quarter >= 4 mm. */
 static void figure_of_sizes(void **state)
@@ -487,4 +538,5 @@ static void ticks(void **state)
 TESTS(estimate_of_eight, estimate_of_few, estimates_as_text, digits_as_the_interval_supports,
       numbers_as_text, prefixes, columns_that_tell_points_apart, names_come_before_their_numbers,
       labels_leave_out_what_a_point_lacks, laws_of_a_point, statistics_of_records,
-      warnings_at_their_limits, a_line_a_kind_of_warning, figure_of_sizes, ticks)
+      warnings_at_their_limits, a_line_a_kind_of_warning, strengths_that_the_mesh_changes,
+      figure_of_sizes, ticks)

@@ -102,24 +102,75 @@ static void test_a_line_a_kind(void **state)
     for (size_t i = 0; i < FRACAS_COUNT(many); i++) {
         char lengths[160], said[160], last[64];
         snprintf(lengths, sizeof lengths,
-                 many[i] == 1 ? "sweep:\n  - geometry.length: [2 m]\n"
-                              : "sweep:\n  - geometry.length: {from: 1 m, to: 2 m, points: %d}\n",
+                 many[i] == 1
+                     ? "sweep:\n  - geometry.length: [0.1 m]\n"
+                     : "sweep:\n  - geometry.length: {from: 50 mm, to: 100 mm, points: %d}\n",
                  many[i]);
         OWN(fracas_campaign) campaign = read_replaced("", lengths);
         OWNED char *text = plan_text(campaign, 1, false), *json = plan_text(campaign, 1, true);
         assert_int_equal(campaign->npoints, many[i]);
-        /* E G_c/sigma_c^2 = 306 um; the 100 elements are of 20 mm, 65 of it (3 digits) */
+        /* E G_c/sigma_c^2 = 306 um; the 100 elements are of 1 mm, 3.27 of it */
         if (many[i] == 1)
-            snprintf(said, sizeof said, "warning: point 0: elements are 65.5 E G_c/sigma_c^2 long");
+            snprintf(said, sizeof said, "warning: point 0: elements are 3.27 E G_c/sigma_c^2 long");
         else
             snprintf(said, sizeof said,
-                     "warning: %d of %d points (--json lists them), worst %d: elements are 65.5 ",
+                     "warning: %d of %d points (--json lists them), worst %d: elements are 3.27 ",
                      many[i], many[i], many[i] - 1);
         assert_has(text, said);
         assert_int_equal(lines_with(text, "warning: "), 1);
         assert_int_equal(lines_with(json, ": elements are "), many[i]);
-        snprintf(last, sizeof last, "\"point %d: elements are 65.5 ", many[i] - 1);
+        snprintf(last, sizeof last, "\"point %d: elements are 3.27 ", many[i] - 1);
         assert_has(json, last);
+    }
+}
+
+/* Strengths that scatter make counts depend on the mesh, unless they have a size effect; the volume
+ * that the plan names leaves this mesh's strengths as they are. */
+static void test_strengths_that_the_mesh_changes(void **state)
+{
+    static const char words[] = "without a reference size: halving the elements lowers the count ";
+    static const struct {
+        const char *strength, *lowers; /* NULL: no warning */
+    } table[] = {
+        {"distribution: weibull, scale: 300 MPa, shape: 10", "by about 3.4 %"}, /* 0.28 0.1203 */
+        {"distribution: weibull, scale: 300 MPa, shape: 40", NULL},
+        {"distribution: normal, mean: 300 MPa, deviation: 30 MPa", "by about 2.8 %"},
+        {"distribution: uniform, minimum: 250 MPa, maximum: 350 MPa", "by about 2.7 %"},
+        {"distribution: uniform, minimum: 299 MPa, maximum: 301 MPa", NULL},
+        {"distribution: constant, value: 300 MPa", NULL},
+        {"distribution: weibull, scale: 300 MPa, shape: 10, reference_area: 1 mm2", NULL},
+        {"distribution: weibull, scale: 300 MPa, shape: 10, covariance: exponential, "
+         "correlation_length: 1 mm",
+         NULL},
+        {"distribution: flaws, flaw_density: 1e11 1/m3, minimum: 100 MPa, maximum: 400 MPa, "
+         "exponent: 2",
+         NULL},
+    };
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
+        char text[300];
+        snprintf(text, sizeof text, "sweep:\n  - strength: [{%s}]\n  - mesh.elements: [3000]\n",
+                 table[i].strength);
+        OWN(fracas_campaign) campaign = read_replaced("", text);
+        OWNED char *plan = plan_text(campaign, 1, false);
+        const char *found = strstr(plan, words);
+        assert_int_equal(found != NULL, table[i].lowers != NULL);
+        if (!found) continue;
+        assert_has(plan, table[i].lowers);
+        const char *remedy = strstr(plan, "set strength.reference_volume: ");
+        double volume = 0;
+        assert_true(remedy &&
+                    sscanf(remedy, "set strength.reference_volume: %lf mm3", &volume) == 1);
+        fracas_strength with = campaign->point[0].strength;
+        with.reference_volume = 1e-9 * volume;
+        fracas_forecast forecast;
+        OK(fracas_forecast_make(campaign, 0, &forecast));
+        const fracas_extent extent = {.volume = forecast.volume};
+        for (double u = 0.01; u < 1; u += 0.14) {
+            const fracas_probability p = fracas_probability_of(u);
+            const double now = fracas_strength_quantile(&campaign->point[0].strength, extent, p);
+            /* the volume has six digits */
+            assert_true(fabs(fracas_strength_quantile(&with, extent, p) / now - 1) < 1e-6);
+        }
     }
 }
 
@@ -337,6 +388,7 @@ static void test_write_fails(void **state)
     fclose(full);
 }
 
-TESTS(test_cost, test_text, test_json, test_warnings, test_a_line_a_kind, test_heavy_tail,
-      test_flaws_of_small_elements, test_bound_of_a_rings_stress, test_warnings_of_rings,
-      test_refused, test_refined, test_refined_too_far, test_write_fails)
+TESTS(test_cost, test_text, test_json, test_warnings, test_a_line_a_kind,
+      test_strengths_that_the_mesh_changes, test_heavy_tail, test_flaws_of_small_elements,
+      test_bound_of_a_rings_stress, test_warnings_of_rings, test_refused, test_refined,
+      test_refined_too_far, test_write_fails)
