@@ -14,6 +14,7 @@ store@campaigns/store/file/writer.c@return fracas_disk_sync_folder(writer->path)
 store@campaigns/store/index/index_rows.c@"PRAGMA synchronous = FULL"@"PRAGMA synchronous = NORMAL"@a commit returns before its fsync
 scheduler@campaigns/scheduler/director/director.c@fracas_scheduler_lost(director->scheduler, worker);
     director->phase@director->phase@leases of a dead server are forgotten
+scheduler@campaigns/scheduler/director/help.c@fracas_hash_equal(&h[w].host, &h[worker].host)@0@a worker helps another of its host
 scheduler@campaigns/scheduler/lease/scheduler.c@t->returned++;@@two workers take turns with what never ends
 scheduler@campaigns/scheduler/worker/link.c@!link->unknown && @@a new server gets the messages for the former one'
 

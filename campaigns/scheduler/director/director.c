@@ -363,9 +363,9 @@ static fracas_err on_replaced(fracas_director *director, size_t worker,
     fracas_trouble trouble;
     TRY(fracas_packet_body(message, &trouble, sizeof trouble));
     fracas_scheduler_lost(director->scheduler, worker);
+    director->phase[worker] = STARTING;
     fracas_help_end(director, worker);
     fracas_help_free(director, worker);
-    director->phase[worker] = STARTING;
     director->flushing[worker] = false;
     /* First: without it the new server hears nothing, not even STOP after an error below. */
     TRY(fracas_director_post(director, worker, FRACAS_PACKET_FRESH, NULL, 0));
