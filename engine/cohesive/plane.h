@@ -33,6 +33,9 @@ typedef struct {
     vd m_n, m_t;  /* Pa */
     vd q_n, q_t;  /* m */
     vmask opened; /* flux held against strength, even with onset_mean: by a shell's open layer */
+    /* All layers of the Gauss point were broken before this step, are after it: only then a broken
+     * one loses its mean. True where there is one layer. */
+    vmask were_broken, are_broken;
 } plane_input;
 
 typedef struct {

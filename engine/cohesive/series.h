@@ -62,6 +62,7 @@ typedef struct {
     vmask cracked; /* has had its onset ... */
     vmask cracks;  /* ... in this step ... */
     vmask cut;     /* ... with its peak cut */
+    vmask parted;  /* has lost its mean before this step */
 } series_trial;
 
 /* The law's answer to a trial. */
@@ -79,11 +80,11 @@ LANES_FUNCTION series_trial series_begin(const plane_interface *at, const plane_
                                          const series_state *state)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
-    const vmask was_broken = lanes_le(one, state->damage),
-                was_cracked = lanes_lt(zero, state->peak);
+    const vmask was_cracked = lanes_lt(zero, state->peak);
     series_trial t;
-    t.m_n = lanes_select(was_broken, zero, in->m_n);
-    t.m_t = lanes_select(was_broken, zero, in->m_t);
+    t.parted = lanes_and(in->were_broken, lanes_le(one, state->damage));
+    t.m_n = lanes_select(t.parted, zero, in->m_n);
+    t.m_t = lanes_select(t.parted, zero, in->m_t);
     t.trial_n = t.m_n + at->k_n * in->q_n;
     t.trial_t = t.m_t + at->k_t * in->q_t; /* (cohesive.12) */
 
@@ -152,8 +153,9 @@ LANES_FUNCTION plane_result series_finish(const plane_interface *at, const plane
         r.created = lanes_select(t->cut, fallen, zero);
     }
 
-    /* once it is */
-    vmask broken = lanes_and(r.cracked, lanes_le(one, it->damage));
+    /* once all layers are */
+    const vmask ended = lanes_and(r.cracked, lanes_le(one, it->damage)),
+                broken = lanes_and(in->are_broken, ended);
     vd push = plane_min(in->q_n, zero);
     if (friction) { /* the mean presses no more */
         vd limit = at->mu_c * (zero - at->k_n * push);
@@ -162,9 +164,11 @@ LANES_FUNCTION plane_result series_finish(const plane_interface *at, const plane
     }
     vd bent = r.t_t * at->softness_t;
     vd after = half * (at->k_n * push * push + r.t_t * bent);
-    r.breaks = lanes_and(broken, lanes_lt(state->damage, one));
-    if (!at->calm)
-        r.created += lanes_select(r.breaks, after - (r.flux + r.stored), zero); /* (cohesive.6) */
+    r.breaks = lanes_and(ended, lanes_lt(state->damage, one));
+    if (!at->calm) { /* (cohesive.6) */
+        const vd dropped = lanes_select(broken, after - (r.flux + r.stored), zero);
+        r.created += lanes_select(t->parted, zero, dropped);
+    }
     r.t_n = lanes_select(broken, at->k_n * push, r.t_n);
     r.s_n = lanes_select(broken, zero, r.s_n);
     r.s_t = lanes_select(broken, zero, r.s_t);

@@ -33,8 +33,13 @@ void LANES_UNIT(plane_call)(const plane_case *const *kind, const plane_at *in, p
                             plane_out *out)
 {
     plane_case kinds[LANES];
-    double opened[LANES];
-    for (int l = 0; l < LANES; l++) kinds[l] = *kind[l], opened[l] = in[l].opened;
+    double opened[LANES], whole[2][LANES];
+    for (int l = 0; l < LANES; l++) {
+        kinds[l] = *kind[l];
+        opened[l] = in[l].opened;
+        whole[0][l] = in[l].others_were_whole;
+        whole[1][l] = in[l].others_are_whole;
+    }
     plane_interface at = {
         OF(kinds, k_n),  OF(kinds, k_t),    OF(kinds, sigma_c), OF(kinds, beta_c),
         OF(kinds, mu_c), OF(kinds, energy), OF(kinds, opening), .onset_mean = kinds->onset_mean};
@@ -42,8 +47,13 @@ void LANES_UNIT(plane_call)(const plane_case *const *kind, const plane_at *in, p
     at.softness_t = lanes_set(1.0) / at.k_t;
     at.per_beta_c = lanes_set(1.0) / at.beta_c;
     const plane_input input = {
-        OF(in, m_n), OF(in, m_t), OF(in, q_n), OF(in, q_t),
-        .opened = lanes_lt(lanes_set(0.0), gathered(opened, sizeof *opened))};
+        OF(in, m_n),
+        OF(in, m_t),
+        OF(in, q_n),
+        OF(in, q_t),
+        .opened = lanes_lt(lanes_set(0.0), gathered(opened, sizeof *opened)),
+        .were_broken = lanes_le(gathered(whole[0], sizeof **whole), lanes_set(0.0)),
+        .are_broken = lanes_le(gathered(whole[1], sizeof **whole), lanes_set(0.0))};
     const int friction = kinds->mu_c > 0;
     _Alignas(64) double point[SURFACE_POINT_FIELDS_MOST * LANES];
     plane_result r;

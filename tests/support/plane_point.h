@@ -31,7 +31,8 @@ typedef struct {
 
 typedef struct {
     double m_n, m_t, q_n, q_t;
-    int opened; /* another layer is */
+    int opened;                              /* another layer is */
+    int others_were_whole, others_are_whole; /* before this step, after it */
 } plane_at;
 
 typedef struct {

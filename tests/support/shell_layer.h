@@ -34,16 +34,23 @@ static inline void energies_of(const layer_law *law, const double m[2], const do
     }
 }
 
-/* Without friction, by openings: theory of the law, not its code. `opened`: another layer of the
- * point has cracked before. */
+/* Layers of its Gauss point, itself included: some had cracked before; all had broken before; all
+ * have broken now. */
+typedef struct {
+    bool opened, were_broken, are_broken;
+} layer_beside;
+
+/* Without friction, by openings: theory of the law, not its code. */
 static inline layer_answer layer_of(const layer_law *law, layer *x, const double mean[2],
-                                    const double q[2], bool opened)
+                                    const double q[2], layer_beside beside)
 {
+    const bool opened = beside.opened;
     layer_answer a = {.spent = 0};
     const double old_c = law->opening > 0 ? law->opening
                                           : 2 * law->energy / x->peak; /* of the peak it had */
     const int was_broken = x->peak > 0 && x->widest >= old_c;
-    const double m[2] = {was_broken ? 0 : mean[0], was_broken ? 0 : mean[1]},
+    const bool parted = beside.were_broken;
+    const double m[2] = {parted ? 0 : mean[0], parted ? 0 : mean[1]},
                  trial[2] = {m[0] + law->k[0] * q[0], m[1] + law->k[1] * q[1]};
     const double s = effective_of(trial, law->beta_c);
     double whole = 0;
@@ -91,16 +98,17 @@ static inline layer_answer layer_of(const layer_law *law, layer *x, const double
         const double held = a.flux + a.stored;
         a.broken = 1;
         a.breaks = !was_broken;
+        if (!beside.are_broken) return a; /* its mean stays */
         a.t[0] = law->k[0] * fmin(0, q[0]);
         a.t[1] = a.s[0] = a.s[1] = a.flux = 0;
         a.stored = 0.5 * law->k[0] * fmin(0, q[0]) * fmin(0, q[0]);
-        if (a.breaks) a.created += a.stored - held;
+        if (!parted) a.created += a.stored - held;
     }
     return a;
 }
 
 static inline layer_answer rubbed_layer(const layer_law *law, layer *x, const double mean[2],
-                                        const double q[2], bool opened)
+                                        const double q[2], layer_beside beside)
 {
     const plane_case kind = {.law = PLANE_NITSCHE,
                              .k_n = law->k[0],
@@ -112,8 +120,13 @@ static inline layer_answer rubbed_layer(const layer_law *law, layer *x, const do
                              .opening = law->opening,
                              .onset_mean = law->by_mean};
     const plane_case *kinds[] = {&kind};
-    const plane_at at = {
-        .m_n = mean[0], .m_t = mean[1], .q_n = q[0], .q_t = q[1], .opened = opened};
+    const plane_at at = {.m_n = mean[0],
+                         .m_t = mean[1],
+                         .q_n = q[0],
+                         .q_t = q[1],
+                         .opened = beside.opened,
+                         .others_were_whole = !beside.were_broken,
+                         .others_are_whole = !beside.are_broken};
     const double was = x->rubbed.damage;
     plane_out out;
     plane_call_baseline_1(kinds, &at, &x->rubbed, &out);

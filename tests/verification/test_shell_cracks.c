@@ -14,6 +14,7 @@ typedef struct {
     shell_sight *unit; /* [interface][Gauss point][36]: of each displacement of the - element, then
                           of the + element */
     layer *memory;     /* [interface][Gauss point][layer] */
+    bool *parted;      /* [interface][Gauss point]: all layers broken */
     double *strength, *force; /* [interface][Gauss point], [unknown] */
     double elastic, cohesive, dissipated, created, rubbed, bending;
     long seen[7]; /* layers: intact, loading, unloading, broken, pressed and broken, pressed and
@@ -26,6 +27,7 @@ static twin twin_of(const fracas_model *model, const fracas_batch *batch)
     twin t = {.model = model,
               .unit = zeroed(36 * n, sizeof *t.unit),
               .memory = zeroed(SHELL_LAYERS * n, sizeof *t.memory),
+              .parted = zeroed(n, sizeof *t.parted),
               .strength = vector_of(n),
               .force = vector_of(unknowns_of(model))};
     for (size_t i = 0; i < n; i++)
@@ -44,6 +46,7 @@ static void twin_clear(twin *t)
 {
     free(t->unit);
     free(t->memory);
+    free(t->parted);
     free(t->strength);
     free(t->force);
 }
@@ -75,10 +78,42 @@ static void count(twin *t, const layer_answer *a)
     t->seen[6] += a->cut;
 }
 
+static const double place[SHELL_LAYERS] = {-0.5, 0, 0.5};
+
+/* The layers of Gauss point number `point` of the body. All lose their means in the step in which
+ * the last of them breaks: it is found by a trial. */
+static layer_beside point_of(twin *t, const layer_law *law, const shell_sight *at, size_t point,
+                             layer_answer answer[SHELL_LAYERS])
+{
+    const double h = t->model->spec.geometry.thickness;
+    layer *memory = t->memory + SHELL_LAYERS * point, before[SHELL_LAYERS];
+    layer_beside beside = {.are_broken = false};
+    memcpy(before, memory, sizeof before);
+    for (int k = 0; k < SHELL_LAYERS; k++) beside.opened = beside.opened || memory[k].peak > 0;
+    beside.were_broken = t->parted[point];
+    beside.are_broken = t->parted[point];
+    for (int trial = 0; trial < 2; trial++) {
+        memcpy(memory, before, sizeof before);
+        bool broken = true;
+        for (int k = 0; k < SHELL_LAYERS; k++) {
+            double mean[2], q[2];
+            for (int d = 0; d < 2; d++) {
+                mean[d] = at->n[d] / h + 12 * place[k] * at->m[d] / (h * h);
+                q[d] = at->jump[d] + place[k] * h * at->turn[d];
+            }
+            answer[k] = law->mu_c > 0 ? rubbed_layer(law, memory + k, mean, q, beside)
+                                      : layer_of(law, memory + k, mean, q, beside);
+            broken = broken && answer[k].broken;
+        }
+        beside.are_broken = broken;
+    }
+    t->parted[point] = beside.are_broken;
+    return beside;
+}
+
 static void twin_point(twin *t, size_t i, int g, const double *u)
 {
-    static const double place[SHELL_LAYERS] = {-0.5, 0, 0.5},
-                        weight[SHELL_LAYERS] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
+    static const double weight[SHELL_LAYERS] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
     const fracas_cohesive *cohesive = &t->model->spec.cohesive;
     const double h = t->model->spec.geometry.thickness, beta_c = cohesive->coupling;
     const shell_sight *unit = t->unit + 36 * (3 * i + (size_t)g);
@@ -105,19 +140,12 @@ static void twin_point(twin *t, size_t i, int g, const double *u)
     }
     double n[2] = {0}, m[2] = {0}, carried_u[2] = {0}, carried_t[2] = {0}, half_n[2] = {0},
            half_m[2] = {0}, spent = 0;
-    int broken = 1, breaks = 0;
-    const layer *layers = &t->memory[(3 * i + (size_t)g) * SHELL_LAYERS];
-    const bool opened = layers[0].peak > 0 || layers[1].peak > 0 || layers[2].peak > 0;
+    layer_answer answer[SHELL_LAYERS];
+    const layer_beside beside = point_of(t, &law, &at, 3 * i + (size_t)g, answer);
+    int breaks = 0;
     for (int k = 0; k < SHELL_LAYERS; k++) {
         const double z = place[k] * h, w = weight[k] * h;
-        double mean[2], q[2];
-        for (int d = 0; d < 2; d++) {
-            mean[d] = at.n[d] / h + 12 * z * at.m[d] / (h * h * h);
-            q[d] = at.jump[d] + z * at.turn[d];
-        }
-        layer *memory = &t->memory[(3 * i + (size_t)g) * SHELL_LAYERS + (size_t)k];
-        const layer_answer a = law.mu_c > 0 ? rubbed_layer(&law, memory, mean, q, opened)
-                                            : layer_of(&law, memory, mean, q, opened);
+        const layer_answer a = answer[k];
         count(t, &a);
         for (int d = 0; d < 2; d++) {
             n[d] += w * a.t[d];
@@ -133,9 +161,9 @@ static void twin_point(twin *t, size_t i, int g, const double *u)
         t->created += unit->length * w * a.created;
         t->rubbed += unit->length * w * a.rubbed;
         spent += unit->length * w * a.spent;
-        broken = broken && a.broken;
         breaks = breaks || a.breaks;
     }
+    const bool broken = beside.are_broken;
     const double sheared = 0.5 * unit->length * shearing * at.lift * at.lift;
     if (!broken) t->elastic += sheared;
     if (broken && breaks) t->created -= sheared;

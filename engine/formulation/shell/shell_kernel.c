@@ -353,86 +353,137 @@ LANES_FUNCTION plane_input shell_input(const fracas_surface_constants *s, const 
                          .q_t = p->jump[1] + lanes_set(z) * p->turn[1]};
 }
 
-/* The layers by the law, and together  (shell.12), (shell.13), (shell.14), (shell.15). */
+/* Sums over the layers of a Gauss point. */
+typedef struct {
+    surface_opening all; /* but for its bending and shearing off */
+    vd n[2], m[2], carried_u[2], carried_t[2];
+    vd used_n[2], used_m[2]; /* N, M at the damage halfway through the step */
+    vd spent;                /* dissipated in this step */
+    vmask cracked, breaks;   /* some layer is past its onset, breaks in this step */
+} shell_layers;
+
+LANES_FUNCTION shell_layers shell_no_layers(void)
+{
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0);
+    shell_layers of;
+    of.all.flux = of.all.stored = of.all.dissipated = of.all.created = of.all.rubbed = zero;
+    of.all.whole = of.all.broken = lanes_lt(zero, one);
+    of.cracked = of.breaks = lanes_lt(one, zero);
+    of.spent = zero;
+    UNROLL_FOR (int j = 0; j < 2; j++)
+        of.n[j] = of.m[j] = of.carried_u[j] = of.carried_t[j] = of.used_n[j] = of.used_m[j] = zero;
+    return of;
+}
+
+/* Adds layer k by the law  (shell.12), (shell.13), (shell.14). */
+LANES_FUNCTION plane_result shell_layer(const surface_context *c, const plane_interface *interface,
+                                        int law, int k, const plane_input *in, double *point,
+                                        shell_layers *of)
+{
+    static const double weight[SHELL_LAYERS] = SHELL_LAYER_WEIGHTS;
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0);
+    const double h = c->constants->thickness;
+    const vd z = lanes_set(layer_place[k] * h), w = lanes_set(weight[k] * h);
+    const vd share = lanes_set(weight[k]),
+             moment = lanes_set(12.0 * weight[k] * layer_place[k] / h);
+    surface_opening *all = &of->all;
+    all->whole = lanes_and(all->whole, lanes_le(lanes_load(surface_at(point, SURFACE_PEAK)), zero));
+    const plane_result r = plane_law(law, interface, in, point);
+    const plane_traction flux = plane_flux(interface, in);
+    const vd t[2] = {lanes_select(r.cracked, r.t_n, flux.n),
+                     lanes_select(r.cracked, r.t_t, flux.t)};
+    const vd carried[2] = {lanes_select(r.cracked, r.s_n, in->q_n),
+                           lanes_select(r.cracked, r.s_t, in->q_t)};
+    const vd used[2] = {lanes_select(r.cracked, r.midway_n, flux.n),
+                        lanes_select(r.cracked, r.midway_t, flux.t)};
+    UNROLL_FOR (int j = 0; j < 2; j++) {
+        of->n[j] += w * t[j];
+        of->m[j] += w * z * t[j];
+        of->carried_u[j] += share * carried[j];
+        of->carried_t[j] += moment * carried[j];
+        of->used_n[j] += w * used[j];
+        of->used_m[j] += w * z * used[j];
+    }
+    const vd whole = lanes_set(0.5) * (in->q_n * (in->m_n + flux.n) + in->q_t * (in->m_t + flux.t));
+    all->flux += w * lanes_select(r.cracked, r.flux, whole);
+    all->stored += w * lanes_select(r.cracked, r.stored, zero);
+    all->dissipated += w * r.dissipated;
+    all->created += w * r.created;
+    all->rubbed += w * lanes_select(r.cracked, r.rubbed, zero);
+    all->broken = lanes_and(all->broken, lanes_le(one, r.damage));
+    of->spent += w * lanes_select(r.cracked, r.spent, zero);
+    of->cracked = lanes_or(of->cracked, r.cracked);
+    of->breaks = lanes_or(of->breaks, r.breaks);
+    return r;
+}
+
+/* All of them. `opened`, `were_broken`, `are_broken` as in plane_input. */
+LANES_FUNCTION shell_layers shell_evaluate(const surface_context *c,
+                                           const plane_interface *interface, int law,
+                                           const double *place, const shell_point *p, vmask opened,
+                                           vmask were_broken, vmask are_broken, double *fields,
+                                           vd *damage, vmask *cracks, vmask *breaks)
+{
+    shell_layers of = shell_no_layers();
+    UNROLL_FOR (int k = 0; k < SHELL_LAYERS; k++) {
+        plane_input in = shell_input(c->constants, place, p, k);
+        in.opened = opened;
+        in.were_broken = were_broken;
+        in.are_broken = are_broken;
+        const plane_result r = shell_layer(c, interface, law, k, &in,
+                                           surface_at(fields, k * c->constants->point_fields), &of);
+        damage[k] = r.damage;
+        cracks[k] = r.cracks;
+        breaks[k] = r.breaks;
+    }
+    return of;
+}
+
+/* The law at all layers, and their sums  (shell.14), (shell.15). */
 LANES_FUNCTION surface_opening shell_crack(const surface_context *c,
                                            const plane_interface *interface, int law,
                                            const double *place, shell_point *p, double *fields,
                                            vd *damage, vmask *cracks, vmask *breaks)
 {
-    static const double weight[SHELL_LAYERS] = SHELL_LAYER_WEIGHTS;
-    const fracas_surface_constants *s = c->constants;
+    const int size = SHELL_LAYERS * c->constants->point_fields;
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
-    const vmask none = lanes_lt(one, zero), every = lanes_lt(zero, one);
-    surface_opening all;
-    all.flux = all.stored = all.dissipated = all.created = all.rubbed = zero;
-    all.whole = all.broken = every;
-    vmask cracked = none, breaks_one = none, opened = none;
-    vd spent = zero, n[2], m[2], carried_u[2], carried_t[2], used_n[2], used_m[2];
-    UNROLL_FOR (int j = 0; j < 2; j++)
-        n[j] = m[j] = carried_u[j] = carried_t[j] = used_n[j] = used_m[j] = zero;
     /* The mean stress is linear through the thickness and knows nothing of an open face. The layers
      * beside it carry the flux, and it cracks them  (shell.12). */
-    UNROLL_FOR (int k = 0; k < SHELL_LAYERS; k++)
-        opened = lanes_or(
-            opened,
-            lanes_lt(zero, lanes_load(surface_at(fields, k * s->point_fields + SURFACE_PEAK))));
+    vmask opened = lanes_lt(one, zero), broken = lanes_lt(zero, one);
     UNROLL_FOR (int k = 0; k < SHELL_LAYERS; k++) {
-        double *point = surface_at(fields, k * s->point_fields);
-        const vd z = lanes_set(layer_place[k] * s->thickness),
-                 w = lanes_set(weight[k] * s->thickness);
-        const vd share = lanes_set(weight[k]),
-                 moment = lanes_set(12.0 * weight[k] * layer_place[k] / s->thickness);
-        plane_input in = shell_input(s, place, p, k);
-        in.opened = opened;
-        all.whole = lanes_and(all.whole,
-                              lanes_le(lanes_load(surface_at(point, SURFACE_PEAK)), zero));
-        const plane_result r = plane_law(law, interface, &in, point);
-        const plane_traction flux = plane_flux(interface, &in);
-        const vd t[2] = {lanes_select(r.cracked, r.t_n, flux.n),
-                         lanes_select(r.cracked, r.t_t, flux.t)};
-        const vd carried[2] = {lanes_select(r.cracked, r.s_n, in.q_n),
-                               lanes_select(r.cracked, r.s_t, in.q_t)};
-        const vd used[2] = {lanes_select(r.cracked, r.midway_n, flux.n),
-                            lanes_select(r.cracked, r.midway_t, flux.t)};
-        UNROLL_FOR (int j = 0; j < 2; j++) {
-            n[j] += w * t[j];
-            m[j] += w * z * t[j];
-            carried_u[j] += share * carried[j];
-            carried_t[j] += moment * carried[j];
-            used_n[j] += w * used[j];
-            used_m[j] += w * z * used[j];
-        }
-        const vd whole = lanes_set(0.5) * (in.q_n * (in.m_n + flux.n) + in.q_t * (in.m_t + flux.t));
-        all.flux += w * lanes_select(r.cracked, r.flux, whole);
-        all.stored += w * lanes_select(r.cracked, r.stored, zero);
-        all.dissipated += w * r.dissipated;
-        all.created += w * r.created;
-        all.rubbed += w * lanes_select(r.cracked, r.rubbed, zero);
-        all.broken = lanes_and(all.broken, lanes_le(one, r.damage));
-        spent += w * lanes_select(r.cracked, r.spent, zero);
-        cracked = lanes_or(cracked, r.cracked);
-        breaks_one = lanes_or(breaks_one, r.breaks);
-        damage[k] = r.damage;
-        cracks[k] = r.cracks;
-        breaks[k] = r.breaks;
+        const double *point = fields + k * c->constants->point_fields * LANES;
+        opened = lanes_or(opened, lanes_lt(zero, lanes_load(point + SURFACE_PEAK * LANES)));
+        broken = lanes_and(broken, lanes_le(one, lanes_load(point + SURFACE_DAMAGE * LANES)));
     }
+    /* The step in which the last layer breaks is done again: all lose their means in it. */
+    vd before[SHELL_LAYERS * SURFACE_POINT_FIELDS_MOST];
+    if (!interface->calm)
+        for (int i = 0; i < size; i++) before[i] = lanes_load(surface_at(fields, i));
+    shell_layers of = shell_evaluate(c, interface, law, place, p, opened, broken, broken, fields,
+                                     damage, cracks, breaks);
+    if (!interface->calm && lanes_any(lanes_and(of.all.broken, of.breaks))) {
+        for (int i = 0; i < size; i++) lanes_store(surface_at(fields, i), before[i]);
+        of = shell_evaluate(c, interface, law, place, p, opened, broken, of.all.broken, fields,
+                            damage, cracks, breaks);
+    }
+    surface_opening all = of.all;
     /* by the work of N and of M on the jumps  (shell.15) */
-    const vd stretched = plane_max(zero, used_n[0] * p->jump[0] + used_n[1] * p->jump[1]);
-    const vd bent = plane_max(zero, used_m[0] * p->turn[0] + used_m[1] * p->turn[1]),
+    const vd stretched = plane_max(zero, of.used_n[0] * p->jump[0] + of.used_n[1] * p->jump[1]);
+    const vd bent = plane_max(zero, of.used_m[0] * p->turn[0] + of.used_m[1] * p->turn[1]),
              sum = stretched + bent;
-    all.bending = spent * (bent / lanes_select(lanes_lt(zero, sum), sum, one));
+    all.bending = of.spent * (bent / lanes_select(lanes_lt(zero, sum), sum, one));
     /* the stiffness against shearing off goes with the last layer  (shell.14) */
     const vd sheared = p->shearing * p->lift, kept = lanes_select(all.broken, zero, sheared);
-    all.flux = lanes_select(cracked, two * all.flux, shell_energy(p)) + kept;
-    all.stored = lanes_select(cracked, two * all.stored, zero);
+    all.flux = lanes_select(of.cracked, two * all.flux, shell_energy(p)) + kept;
+    all.stored = lanes_select(of.cracked, two * all.stored, zero);
     all.created = all.created -
-                  lanes_select(lanes_and(all.broken, breaks_one), lanes_set(0.5) * sheared, zero);
+                  lanes_select(lanes_and(all.broken, of.breaks), lanes_set(0.5) * sheared, zero);
     p->shearing = lanes_select(all.broken, zero, p->shearing);
     UNROLL_FOR (int j = 0; j < 2; j++) {
-        p->n[j] = lanes_select(cracked, n[j], p->n[j]);
-        p->m[j] = lanes_select(cracked, m[j], p->m[j]);
-        p->carried_u[j] = lanes_select(cracked, carried_u[j], p->carried_u[j]);
-        p->carried_t[j] = lanes_select(cracked, carried_t[j], p->carried_t[j]);
+        p->n[j] = lanes_select(of.cracked, of.n[j], p->n[j]);
+        p->m[j] = lanes_select(of.cracked, of.m[j], p->m[j]);
+        p->carried_u[j] = lanes_select(of.cracked, of.carried_u[j], p->carried_u[j]);
+        p->carried_t[j] = lanes_select(of.cracked, of.carried_t[j], p->carried_t[j]);
     }
     return all;
 }

@@ -174,7 +174,8 @@ LANES_FUNCTION surface_opening membrane_crack(const surface_context *c,
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
     const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]);
-    const plane_input in = membrane_input(c->constants, place, p, 0);
+    plane_input in = membrane_input(c->constants, place, p, 0);
+    in.were_broken = in.are_broken = lanes_lt(zero, one);
     const vmask whole = lanes_le(lanes_load(surface_at(point, SURFACE_PEAK)), zero);
     const plane_result r = plane_law(law, interface, &in, point);
     const surface_opening all = {
