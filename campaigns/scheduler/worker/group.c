@@ -15,7 +15,7 @@
 #include <sys/time.h>
 
 /* Time for others from the opening to the start: the first one's, and as much of it again; s. */
-static const double AGAIN = 0.5, LEAST = 0.1;
+static const double AGAIN = 1, LEAST = 0.3;
 
 /* The first message of a connection: who comes. */
 typedef struct {
