@@ -268,7 +268,7 @@ static fracas_err look(fracas_batch *batch, const fracas_record *record)
 {
     const fracas_batch_watch *watch = batch->watch;
     bool due = watch && (!watch->due || watch->due(watch->context));
-    TRY(fracas_peers_tell((fracas_peers *)batch->step.division.peers, &due, sizeof due));
+    TRY(fracas_peers_tell(batch->step.division.peers, &due, sizeof due));
     if (!due) return FRACAS_OK;
     TRY(fracas_peers_gather(batch->model, &batch->step, -1));
     return watch ? watch->pause(watch->context, batch, record) : FRACAS_OK;

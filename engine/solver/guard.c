@@ -27,7 +27,7 @@ fracas_err fracas_guard_beside(const fracas_model *model, fracas_step *step, int
     for (size_t f = 0; f < count; f++)
         *energy += !whole && sums[f].elements == 1 ? -sums[f].strain_energy
                                                    : sums[count + f].kinetic;
-    return fracas_peers_tell((fracas_peers *)step->division.peers, energy, sizeof *energy);
+    return fracas_peers_tell(step->division.peers, energy, sizeof *energy);
 }
 
 /* Remembers the last step with a sound balance, and whether fragments were final then: nothing had

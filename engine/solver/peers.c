@@ -3,9 +3,8 @@
 
 #include <stdlib.h>
 
-fracas_err fracas_peers_tell(void *context, void *bytes, size_t size)
+fracas_err fracas_peers_tell(const fracas_peers *peers, void *bytes, size_t size)
 {
-    const fracas_peers *peers = context;
     if (!peers) return FRACAS_OK;
     const size_t count = peers->count;
     OWNED fracas_parcel *parcel = calloc(2 * count, sizeof *parcel);
@@ -16,9 +15,14 @@ fracas_err fracas_peers_tell(void *context, void *bytes, size_t size)
     return peers->exchange(peers->context, parcel, parcel + count);
 }
 
+static fracas_err transfer(void *peers, void *bytes, size_t size)
+{
+    return fracas_peers_tell(peers, bytes, size);
+}
+
 fracas_err fracas_peers_begin(fracas_batch *batch)
 {
-    fracas_peers *peers = (fracas_peers *)batch->step.division.peers;
+    const fracas_peers *peers = batch->step.division.peers;
     bool loaded = false;
     int lanes = batch->step.lanes;
     for (size_t l = 0; l < batch->count; l++)
@@ -31,9 +35,8 @@ fracas_err fracas_peers_begin(fracas_batch *batch)
                            "instruction set with --isa",
                            lanes, batch->step.lanes);
     for (size_t l = 0; l < batch->count && peers && loaded; l++)
-        TRY(fracas_peers_leads(&batch->step)
-                ? fracas_batch_save(batch, l, fracas_peers_tell, peers)
-                : fracas_batch_load(batch, l, fracas_peers_tell, peers));
+        TRY(peers->number == 0 ? fracas_batch_save(batch, l, transfer, (void *)peers)
+                               : fracas_batch_load(batch, l, transfer, (void *)peers));
     return FRACAS_OK;
 }
 

@@ -5,8 +5,8 @@
 
 #include "engine/solver/batch.h"
 
-/* The leading peer's bytes, to all others. `peers` may be NULL. A fracas_transfer. */
-FRACAS_MUST_USE fracas_err fracas_peers_tell(void *peers, void *bytes, size_t size);
+/* The leading peer's bytes, to all others. */
+FRACAS_MUST_USE fracas_err fracas_peers_tell(const fracas_peers *peers, void *bytes, size_t size);
 
 /* Before the first step: the leading peer's lanes, where it has loaded some, to all others. */
 FRACAS_MUST_USE fracas_err fracas_peers_begin(fracas_batch *batch);
