@@ -15,6 +15,7 @@ static const char *const slope_legend[] = {
     "width of its 95 % interval (Student's t with points - 2 degrees of freedom).",
     "chi2/dof: scatter of the points about the line over what their errors explain; where it is "
     "above 1 the interval is wider by its square root. Mott, Grady: exponents of the theories.",
+    "series mixed: the line is through points that differ in more than the strain rate.",
     NULL,
 };
 static const char *const window_legend[] = {

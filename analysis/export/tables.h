@@ -90,7 +90,7 @@ const char *const *fracas_result_table_legend(const fracas_analysis *analysis);
  * false if there are none. */
 bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, size_t size);
 
-/* Tables beside the headline one. A row for all points and for each series with a slope; a row for
+/* Tables beside the headline one. A row for each series with a slope and for all points; a row for
  * every two neighbouring rates of a series; a row a series: its crossover, or why there is none; a
  * row a ring: velocities of its fragments. A table without rows has only its head. */
 typedef enum {

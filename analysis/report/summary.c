@@ -178,27 +178,57 @@ static fracas_err put_headlines(fracas_page *page)
                              (const char *const[]){legend, NULL}, built);
 }
 
+typedef struct {
+    char text[64];
+} slope_text;
+
+static slope_text write_slope(const fracas_slope *slope)
+{
+    const fracas_estimate k = {
+        .n = slope->n, .mean = slope->slope, .half_width = slope->half_width};
+    slope_text made;
+    fracas_format_estimate(&k, 1, "\u00b1", made.text, sizeof made.text);
+    return made;
+}
+
+/* Slopes of series, and of the line through all their points, named as such. */
+static void put_mixed_slopes(const fracas_page *page, const fracas_size_slope *list, size_t count)
+{
+    enum { NAMED = 6 };
+    const fracas_size_slope *all = &list[count - 1];
+    fputs("<p>", page->out);
+    for (size_t i = 0; i + 1 < count && i < NAMED; i++) {
+        fprintf(page->out, "%s%s (",
+                i ? ", " : "The mean size goes with the strain rate to the power ",
+                write_slope(&list[i].slope).text);
+        fracas_markup(page->out, "%s)", list[i].name);
+    }
+    if (count > NAMED + 1) fprintf(page->out, " and so on in %zu series more", count - 1 - NAMED);
+    fprintf(page->out,
+            "%s A line through all %" PRId64 " points, of the power %s, mixes %" PRId64
+            " series, which differ in more than the strain rate (<a href=\"#slopes\">slopes</a>)"
+            ".</p>\n",
+            count > 1 ? " (Mott: -1, Grady: -2/3)." : "No series has the points for a slope.",
+            all->slope.n, write_slope(&all->slope).text, all->mixes);
+}
+
 static fracas_err put_slope(const fracas_page *page)
 {
     OWNED fracas_size_slope *list = NULL;
     size_t count;
     TRY(fracas_size_slopes(page->analysis, &list, &count));
-    if (count > 0) {
-        const fracas_slope *slope = &list->slope;
-        const fracas_estimate k = {
-            .n = slope->n, .mean = slope->slope, .half_width = slope->half_width};
-        const double scatter = slope->chi2 / slope->freedom;
-        char value[64];
-        fracas_format_estimate(&k, 1, "\u00b1", value, sizeof value);
+    if (count > 0 && list[count - 1].mixes > 1) put_mixed_slopes(page, list, count);
+    else if (count > 0) {
+        const fracas_slope *slope = &list[count - 1].slope;
         fprintf(page->out,
                 "<p>Over %" PRId64 " points the mean size goes with the strain rate to the power "
                 "%s (Mott: -1, Grady: -2/3)",
-                slope->n, value);
+                slope->n, write_slope(slope).text);
         if (slope->misfit < FRACAS_MISFIT_LIMIT)
             fprintf(page->out,
                     ", but they are not on one line: their scatter about it is %s times what their "
                     "errors explain (<a href=\"#slopes\">slopes</a>)",
-                    fracas_digits(sqrt(scatter), 2).text);
+                    fracas_digits(sqrt(slope->chi2 / slope->freedom), 2).text);
         fputs(".</p>\n", page->out);
     }
     return FRACAS_OK;

@@ -67,7 +67,8 @@ fracas_slope fracas_slope_of(const double *x, const double *y, const fracas_mean
 
 /* log(mean size) against log(strain rate) over some points of a study. */
 typedef struct {
-    char name[128]; /* for the series, "all points" for the first */
+    char name[128]; /* for the series, or "all points", "all points, 3 series mixed" */
+    int64_t mixes;  /* series that the points are of: above 1 they differ in more than the rate */
     fracas_slope slope;
     double mott, grady; /* exponents of the theories: FRACAS_SLOPE_MOTT, FRACAS_SLOPE_GRADY */
 } fracas_size_slope;
@@ -75,8 +76,8 @@ typedef struct {
 /* series, points, slope, ... */
 extern const fracas_fields fracas_slope_fields;
 
-/* Slope of all points together, and, if there are several series (points equal in all parameters
- * but those that make the rate), of each series with FRACAS_SLOPE_POINTS usable points or more;
+/* Slope of each series (points equal in all parameters but those that make the rate) with
+ * FRACAS_SLOPE_POINTS usable points or more, if there are several, and last of all points together;
  * without enough points altogether, none. *list freed by the caller with free(). */
 FRACAS_MUST_USE fracas_err fracas_size_slopes(const struct fracas_analysis *analysis,
                                               fracas_size_slope **list, size_t *count);

@@ -11,6 +11,8 @@
 #define NUMBER(key, doc, member) FRACAS_FIELD(fracas_size_slope, NUMBER, key, "1", doc, member)
 static const fracas_field fields[] = {
     FRACAS_FIELD(fracas_size_slope, CHARS, "series", "", "name of the series, or all points", name),
+    FRACAS_FIELD(fracas_size_slope, INTEGER, "mixes", "1",
+                 "series that the points are of; above 1 they differ in more than the rate", mixes),
     FRACAS_FIELD(fracas_size_slope, INTEGER, "points", "1", "points on the line", slope.n),
     NUMBER("slope", "d log(mean size)/d log(strain rate)", slope.slope),
     NUMBER("standard_error", "standard error of the slope", slope.standard_error),
@@ -128,13 +130,31 @@ static fracas_slope fit_series(const fitter *of, size_t series)
     return fracas_slope_of(of->x, of->y, of->error, n);
 }
 
-static void add_slope(const fitter *of, size_t series, const char *name, fracas_size_slope *list,
-                      size_t *count)
+static void add_slope(const fitter *of, size_t series, const char *name, int64_t mixes,
+                      fracas_size_slope *list, size_t *count)
 {
     fracas_size_slope *next = &list[*count];
-    *next = (fracas_size_slope){"", fit_series(of, series), FRACAS_SLOPE_MOTT, FRACAS_SLOPE_GRADY};
+    *next = (fracas_size_slope){"", mixes, fit_series(of, series), FRACAS_SLOPE_MOTT,
+                                FRACAS_SLOPE_GRADY};
     FRACAS_PRINT(next->name, "%s", name);
     *count += isfinite(next->slope.slope);
+}
+
+static void add_slopes(const fitter *of, const fracas_size_series *series, size_t nseries,
+                       fracas_size_slope *list, size_t *count)
+{
+    int64_t mixes = 0;
+    char name[64] = "all points";
+    for (size_t s = 0; s < nseries; s++) {
+        bool broke = false;
+        for (size_t i = 0; i < series[s].n; i++) broke = broke || !series[s].point[i].whole;
+        mixes += broke;
+        if (nseries > 1) add_slope(of, s, series[s].name, 1, list, count);
+    }
+    if (mixes > 1) FRACAS_PRINT(name, "all points, %lld series mixed", (long long)mixes);
+    const size_t before = *count;
+    add_slope(of, SIZE_MAX, name, mixes, list, count);
+    if (*count == before) *count = 0;
 }
 
 fracas_err fracas_size_slopes(const fracas_analysis *analysis, fracas_size_slope **list,
@@ -154,15 +174,13 @@ fracas_err fracas_size_slopes(const fracas_analysis *analysis, fracas_size_slope
     FRACAS_TAKE(&room, of.error, npoints);
     TRY(fracas_room_check(&room, "the slopes of the study"));
     TRY(fracas_size_series_create(analysis, &series, &nseries));
-    *list = calloc(nseries + 1, sizeof **list);
+    *list = calloc(nseries + 2, sizeof **list);
     for (size_t p = 0; p < npoints; p++) of.series[p] = SIZE_MAX;
     for (size_t s = 0; s < nseries; s++)
         for (const fracas_size_point *at = series[s].point; at < series[s].point + series[s].n;
              at++)
             if (!at->whole) of.series[at->point] = s;
-    if (*list) add_slope(&of, SIZE_MAX, "all points", *list, count);
-    for (size_t s = 0; s < nseries && nseries > 1 && *count > 0; s++)
-        add_slope(&of, s, series[s].name, *list, count);
+    if (*list) add_slopes(&of, series, nseries, *list, count);
     fracas_size_series_free(series, nseries);
     return *list ? FRACAS_OK : fracas_no_memory("the slopes of the study");
 }

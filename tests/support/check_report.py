@@ -148,8 +148,14 @@ def slope(group):
     return len(x), exponent, error, half_width, chi2, misfit, together
 
 
-expected = [slope(rows)] + ([slope(group) for group in groups.values()] if len(groups) > 1 else [])
-expected = [fit for fit in expected if fit]
+expected = [slope(group) for group in groups.values()] if len(groups) > 1 else []
+expected = [fit for fit in [*expected, slope(rows)] if fit] if slope(rows) else []
+mixed = sum(any(row["rate"] > 0 and row["size.mean"] > 0 and row["count.mean"] != 1 for row in group) for group in groups.values())
+for i, ours in enumerate(summary["slopes"], 1):
+    last = i == len(expected)
+    assert ours["mixes"] == (mixed if last else 1) and (not last or ours["series"] == "all points" + f", {mixed} series mixed" * (mixed > 1))
+assert ("series, which differ in more than the strain rate" in open(os.path.join(report, "index.html"), encoding="utf-8").read()) == (
+    bool(expected) and mixed > 1)
 assert len(summary["slopes"]) == len(expected)
 for ours, theirs in zip(summary["slopes"], expected):
     assert ours["points"] == theirs[0] and ours["mott"] == -1 and math.isclose(ours["grady"], -2 / 3)
