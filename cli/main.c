@@ -11,6 +11,7 @@
 #include "campaigns/scheduler/status/channel.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -157,6 +158,7 @@ int main(int argc, char **argv)
 {
     on_exit(say_why_hdf5_ends, NULL);
     open_standard_streams();
+    signal(SIGCHLD, SIG_DFL); /* nobody can wait for a child where it is ignored */
     if (!getenv(FRACAS_LAUNCHER_MARK)) fracas_text_guard_stdout(); /* else the status channel */
     fracas_err code = dispatch(argc, argv);
     const bool bad = ferror(stdout);

@@ -29,6 +29,10 @@ same undisturbed closed
 same undisturbed all-closed
 grep -q fracas: all-closed/lock && fail "a message went into the lock"
 
+# Children that end unheard, unless somebody asks for their ends.
+expect 0 env --ignore-signal=CHLD "$fracas" run small.yaml --study unheard --jobs 2
+same undisturbed unheard
+
 # An environment without anything; a campaign file whose name mpirun would take for a separator of programs.
 cp small.yaml :
 expect 0 env -i FRACAS_MPIRUN="${FRACAS_MPIRUN-}" "$fracas" run : --study bare --jobs 1

@@ -21,7 +21,7 @@ scheduler@campaigns/scheduler/worker/link.c@!link->unknown && @@a new server get
 changed() # FILE FROM TO
 {
     FROM=$2 TO=$3 perl -0pe 's/\Q$ENV{FROM}\E/$ENV{TO}/ or exit 3' "$1" ||
-        { echo "FAILED: $1 has no \"$2\": bring the list up to date"; exit 1; }
+        { echo "FAILED: $1 has no \"$2\": bring the list up to date" >&2; exit 1; }
 }
 
 plant() # LIBRARY FILE FROM TO WHAT

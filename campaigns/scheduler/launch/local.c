@@ -21,18 +21,19 @@ static fracas_err check(int jobs)
     return fracas_starter_raise_files(FILES + FILES_A_JOB * (unsigned long)jobs);
 }
 
+/* A rank. The signals that its starter awaits reach it from here on. */
 static _Noreturn void live(const fracas_ranks *ranks, fracas_sockets *sockets, int rank,
-                           const sigset_t *mask)
+                           const sigset_t *awaited)
 {
     bool ran;
     fracas_mailbox box;
     fracas_signals_catch_rank();
-    sigprocmask(SIG_SETMASK, mask, NULL);
+    sigprocmask(SIG_UNBLOCK, awaited, NULL);
     fracas_sockets_take(sockets, rank, &box);
     exit(ranks->life(ranks->options, &box, &ran));
 }
 
-static fracas_err fork_ranks(const fracas_ranks *ranks, const sigset_t *mask, pid_t *pid)
+static fracas_err fork_ranks(const fracas_ranks *ranks, const sigset_t *awaited, pid_t *pid)
 {
     OWN(fracas_sockets) sockets = NULL;
     TRY(fracas_sockets_create(ranks->jobs, &sockets));
@@ -40,7 +41,7 @@ static fracas_err fork_ranks(const fracas_ranks *ranks, const sigset_t *mask, pi
         char name[32]; /* the system keeps 15 bytes */
         snprintf(name, sizeof name, "fracas-rank-%d", r);
         TRY(fracas_process_fork(name, FRACAS_OOM_SAME, "a rank", &pid[r]));
-        if (pid[r] == 0) live(ranks, sockets, r, mask);
+        if (pid[r] == 0) live(ranks, sockets, r, awaited);
     }
     return FRACAS_OK;
 }
@@ -67,15 +68,14 @@ static int reap(const fracas_ranks *ranks, pid_t *pid)
 static _Noreturn void start_ranks(const fracas_ranks *ranks)
 {
     static const int passed[] = {SIGUSR1, SIGUSR2, SIGTERM, SIGINT, SIGHUP};
-    sigset_t awaited, before;
+    sigset_t awaited;
     sigemptyset(&awaited);
     sigaddset(&awaited, SIGCHLD);
     for (size_t i = 0; i < FRACAS_COUNT(passed); i++) sigaddset(&awaited, passed[i]);
-    sigprocmask(SIG_BLOCK, &awaited, &before);
-    signal(SIGCHLD, SIG_DFL); /* nobody could reap them if it were ignored */
+    sigprocmask(SIG_BLOCK, &awaited, NULL);
     setenv(FRACAS_LAUNCHER_MARK, "1", 1);
     OWNED pid_t *pid = calloc((size_t)ranks->jobs, sizeof *pid);
-    if (!pid || fork_ranks(ranks, &before, pid)) {
+    if (!pid || fork_ranks(ranks, &awaited, pid)) {
         fprintf(stderr, "fracas: %s\n", pid ? fracas_message() : "no memory for the ranks");
         _exit(FRACAS_ENVIRONMENT);
     }
