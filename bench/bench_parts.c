@@ -108,7 +108,7 @@ static pid_t start_group(fracas_group *group)
     fracas_meeting meeting = {0};
     size_t from;
     fracas_group_init(group);
-    demand(fracas_group_open(group, &meeting));
+    demand(fracas_group_open(group, FRACAS_PEERS_MAX, &meeting));
     const pid_t pid = fork();
     if (!pid) {
         fracas_group_init(group);

@@ -52,6 +52,7 @@ static inline fracas_err note(void *context, size_t to, const fracas_packet *mes
 static fracas_campaign *campaign;
 static fracas_run_options options;
 static fracas_channel channel;
+static bool one_host; /* of all workers */
 static fracas_director *director;
 
 /* Ends the run prepared last, if any. */
@@ -88,6 +89,7 @@ static inline void begin(double deadline)
                                          .options = &options,
                                          .study = study,
                                          .workers = WORKERS,
+                                         .one_host = one_host,
                                          .send = note,
                                          .channel = &channel,
                                          .now = now,

@@ -3,16 +3,19 @@
 #include "tests/support/director.h"
 #include "tests/support/test.h"
 
+static void say_ready(size_t w, const char *host)
+{
+    const fracas_ready ready = {campaign->hash, fracas_hash_of(host, strlen(host))};
+    hear(w, FRACAS_PACKET_READY, &ready, sizeof ready);
+}
+
 /* Worker 0 has the one realization, which leads; worker 1 is ready on a host. */
 static void lead(const char *host)
 {
     prepare("replicas: 1", "");
     begin(0);
-    for (size_t w = 0; w < WORKERS; w++) {
-        const char *name = w ? host : "a";
-        const fracas_ready ready = {campaign->hash, fracas_hash_of(name, strlen(name))};
-        hear(w, FRACAS_PACKET_READY, &ready, sizeof ready);
-    }
+    say_ready(0, "a");
+    say_ready(1, host);
     assert_leases(1, 0);
     assert_int_equal(worker[0].lease[0].role, FRACAS_LEASE_LEADS);
 }
@@ -54,6 +57,25 @@ static void a_worker_of_the_same_host_does_not_help(void **state)
     assert_leases(1, 0);
 }
 
+/* Nobody listens on a machine that has all workers. */
+static void nobody_leads_where_no_other_host_is(void **state)
+{
+    one_host = true;
+    prepare("replicas: 1", "");
+    begin(0);
+    say_ready(0, "a");
+    assert_int_equal(worker[0].lease[0].role, FRACAS_LEASE_ALONE);
+    one_host = false;
+}
+
+static void nobody_leads_where_all_hosts_are_one(void **state)
+{
+    const fracas_trouble trouble = {.code = FRACAS_ENVIRONMENT, .text = "gone"};
+    lead("a");
+    hear(0, FRACAS_PACKET_REPLACED, &trouble, sizeof trouble);
+    assert_int_equal(worker[1].lease[0].role, FRACAS_LEASE_ALONE);
+}
+
 /* The lease of a leader that is gone is the helper's own now; nobody helps any more. */
 static void a_helper_takes_the_lease_of_a_leader_that_is_gone(void **state)
 {
@@ -69,5 +91,5 @@ static void a_helper_takes_the_lease_of_a_leader_that_is_gone(void **state)
 }
 
 TESTS_EACH(NULL, end, an_idle_worker_of_another_host_helps_once,
-           a_worker_of_the_same_host_does_not_help,
-           a_helper_takes_the_lease_of_a_leader_that_is_gone)
+           a_worker_of_the_same_host_does_not_help, nobody_leads_where_no_other_host_is,
+           nobody_leads_where_all_hosts_are_one, a_helper_takes_the_lease_of_a_leader_that_is_gone)

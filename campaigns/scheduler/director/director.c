@@ -164,6 +164,7 @@ static fracas_err lease_worker(fracas_director *director, size_t worker)
         if (fracas_director_too_late(director, worker, time)) break;
         TRY(fracas_scheduler_next(director->scheduler, worker, time, &lease, &given));
         if (!given) break;
+        if (!fracas_help_may_come(director, worker)) lease.role = FRACAS_LEASE_ALONE;
         TRY(mark_leased(director, &lease));
         TRY(fracas_director_post(director, worker, FRACAS_PACKET_LEASE, &lease,
                                  fracas_lease_bytes(&lease)));

@@ -33,6 +33,15 @@ void fracas_help_ready(fracas_director *director, size_t worker, const fracas_ha
     director->helper[worker].host = *host;
 }
 
+bool fracas_help_may_come(const fracas_director *director, size_t worker)
+{
+    const fracas_helper *h = director->helper;
+    for (size_t w = 0; !director->setup.one_host && w < director->setup.workers; w++)
+        if (director->phase[w] != ENDED && !fracas_hash_equal(&h[w].host, &h[worker].host))
+            return true;
+    return false;
+}
+
 fracas_err fracas_help_lease(fracas_director *director, size_t worker, const fracas_lease *lease)
 {
     if (lease->role != FRACAS_LEASE_LEADS) return FRACAS_OK;

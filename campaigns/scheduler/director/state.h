@@ -54,6 +54,8 @@ FRACAS_MUST_USE fracas_err fracas_director_announce(fracas_director *director, c
                                                     const char *text);
 FRACAS_MUST_USE fracas_err fracas_help_create(size_t workers, struct fracas_helper **helper);
 void fracas_help_destroy(struct fracas_helper *helper, size_t workers); /* NULL is allowed */
+/* There is a worker of another host, or one whose host is not known yet. */
+bool fracas_help_may_come(const fracas_director *director, size_t worker);
 /* A worker is ready on this host; it gets a lease; others may come to help with that; it is over;
  * the worker helps no more. */
 void fracas_help_ready(fracas_director *director, size_t worker, const fracas_hash *host);

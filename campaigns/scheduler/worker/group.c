@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/group.h"
 
+#include "base/param.h"
 #include "campaigns/scheduler/types/clock.h"
 
 #include <errno.h>
@@ -14,24 +15,25 @@
 #include <sys/socket.h>
 #include <sys/time.h>
 
-/* Time for others from the opening to the start: the first one's, and as much of it again; s. */
-static const double AGAIN = 1, LEAST = 0.3;
+/* Time for others from the opening to the start: the first one's, and as much of it again; for one
+ * who has connected to tell the token; for the others to meet; s. */
+static const double AGAIN = 1, LEAST = 0.3, GUEST = 1, MEETING = 5;
 
 /* The first message of a connection: who comes. */
 typedef struct {
-    uint64_t token[2], number; /* 0: not known yet */
+    uint64_t token, number; /* the first token; 0: not known yet */
     fracas_address address;
 } hello;
 
 /* The answer, at the start: everyone's place. */
 typedef struct {
-    uint64_t count, number, from;
+    uint64_t token, count, number, from; /* the second token: no stranger leads */
     fracas_address address[FRACAS_PEERS_MAX];
 } roster;
 
 void fracas_group_init(fracas_group *group)
 {
-    *group = (fracas_group){.listener = -1};
+    *group = (fracas_group){.listener = -1, .guest = -1};
 }
 
 /* ---- sockets ---- */
@@ -41,8 +43,7 @@ static fracas_err failed(const char *what)
     return fracas_fail_system(errno, "a process for one body cannot %s", what);
 }
 
-/* Steps exchange short messages: none waits for the next. A host that is gone is noticed. A
- * stranger does not hold up anyone. */
+/* Steps exchange short messages: none waits for the next. A host that is gone is noticed. */
 static void set_up(int fd)
 {
     const int on = 1, idle = 30, apart = 10, probes = 3;
@@ -104,35 +105,58 @@ static bool hear(int fd, void *bytes, size_t size)
     return recv(fd, bytes, size, MSG_WAITALL) == (ssize_t)size;
 }
 
-/* The next who knows the token; -1: there is none now. */
-static int accept_one(const fracas_group *group, hello *who)
+/* The guest's message; *wait: it may still come. */
+static bool hear_guest(const fracas_group *group, hello *who, bool *wait)
 {
-    for (;;) {
-        const int fd = accept4(group->listener, NULL, NULL, SOCK_CLOEXEC);
-        if (fd < 0 && errno == EINTR) continue;
-        if (fd < 0) return -1;
-        set_up(fd);
-        if (hear(fd, who, sizeof *who) && !memcmp(who->token, group->token, sizeof who->token))
-            return fd;
+    const ssize_t n = recv(group->guest, who, sizeof *who, MSG_PEEK | MSG_DONTWAIT);
+    const bool begun = n > 0 && n < (ssize_t)sizeof *who,
+               silent = n < 0 && (errno == EAGAIN || errno == EINTR);
+    *wait = (begun || silent) && fracas_now() < group->guest_came + GUEST;
+    return n == (ssize_t)sizeof *who && who->token == group->token[0] &&
+           hear(group->guest, who, sizeof *who);
+}
+
+/* The next who knows the token; -1: there is none now. Strangers are many, or silent, at no one's
+ * cost but that of others who come. */
+static int accept_one(fracas_group *group, hello *who)
+{
+    for (int tries = 0; tries < FRACAS_PEERS_MAX; tries++) {
+        bool wait;
+        if (group->guest < 0) {
+            group->guest = accept4(group->listener, NULL, NULL, SOCK_CLOEXEC);
+            group->guest_came = fracas_now();
+        }
+        if (group->guest < 0) return -1;
+        const bool known = hear_guest(group, who, &wait);
+        if (wait) return -1;
+        const int fd = group->guest;
+        group->guest = -1;
+        if (known) set_up(fd);
+        if (known) return fd;
         close(fd);
     }
+    return -1;
 }
 
 static void stop_listening(fracas_group *group)
 {
-    if (group->listener >= 0) close(group->listener);
-    group->listener = -1;
+    int *const fd[] = {&group->listener, &group->guest};
+    for (size_t i = 0; i < FRACAS_COUNT(fd); i++) {
+        if (*fd[i] >= 0) close(*fd[i]);
+        *fd[i] = -1;
+    }
 }
 
 /* ---- the leading process ---- */
 
-fracas_err fracas_group_open(fracas_group *group, fracas_meeting *meeting)
+fracas_err fracas_group_open(fracas_group *group, size_t most, fracas_meeting *meeting)
 {
     fracas_address address;
     if (getrandom(group->token, sizeof group->token, 0) != sizeof group->token)
         return failed("draw random numbers");
     TRY(listen_anywhere(group, &address));
     group->count = 1;
+    group->most = most < FRACAS_PEERS_MAX ? most : FRACAS_PEERS_MAX;
     group->opened = fracas_now();
     memcpy(meeting->token, group->token, sizeof meeting->token);
     meeting->port = address.port;
@@ -143,7 +167,7 @@ fracas_err fracas_group_open(fracas_group *group, fracas_meeting *meeting)
 bool fracas_group_has_come(fracas_group *group)
 {
     hello who;
-    for (int fd; group->listener >= 0 && group->count < FRACAS_PEERS_MAX &&
+    for (int fd; group->listener >= 0 && group->count < group->most &&
                  (fd = accept_one(group, &who)) >= 0;) {
         if (group->count == 1) group->first = fracas_now();
         group->waiting[group->count] = fd;
@@ -162,7 +186,7 @@ static void set_peers(fracas_group *group, size_t count, size_t number)
 
 fracas_err fracas_group_start(fracas_group *group, size_t from)
 {
-    roster all = {.count = group->count, .from = from};
+    roster all = {.token = group->token[1], .count = group->count, .from = from};
     memcpy(all.address, group->address, sizeof all.address);
     stop_listening(group);
     memcpy(group->connections.fd, group->waiting, sizeof group->waiting);
@@ -185,8 +209,8 @@ static fracas_err wait_for_start(fracas_group *group, roster *all)
     struct pollfd from = {.fd = group->connections.fd[0], .events = POLLIN};
     while (poll(&from, 1, -1) < 0 && errno == EINTR)
         ;
-    if (!hear(from.fd, all, sizeof *all) || all->count > FRACAS_PEERS_MAX ||
-        all->number >= all->count)
+    if (!hear(from.fd, all, sizeof *all) || all->token != group->token[1] || all->number < 1 ||
+        all->number >= all->count || all->count > FRACAS_PEERS_MAX)
         return fracas_fail(FRACAS_ENVIRONMENT, "a process for one body was not needed");
     return FRACAS_OK;
 }
@@ -194,16 +218,15 @@ static fracas_err wait_for_start(fracas_group *group, roster *all)
 /* Connections to the others: to lower numbers from here, to higher ones from there. */
 static fracas_err meet_others(fracas_group *group, const roster *all)
 {
-    enum { PATIENCE = 5000 /* ms */ };
-    hello own = {.number = all->number}, who;
-    memcpy(own.token, group->token, sizeof own.token);
+    const double until = fracas_now() + MEETING;
+    hello own = {.token = group->token[0], .number = all->number}, who;
     for (size_t p = 1; p < all->number; p++) {
         TRY(connect_to(&all->address[p], &group->connections.fd[p]));
         if (!say(group->connections.fd[p], &own, sizeof own)) return failed("greet another");
     }
     for (size_t left = all->count - 1 - all->number; left > 0; left--) {
-        struct pollfd from = {.fd = group->listener, .events = POLLIN};
-        const int fd = poll(&from, 1, PATIENCE) == 1 ? accept_one(group, &who) : -1;
+        int fd;
+        while ((fd = accept_one(group, &who)) < 0 && fracas_now() < until) poll(NULL, 0, 5);
         if (fd < 0) return failed("meet another");
         const bool known = who.number > all->number && who.number < all->count &&
                            group->connections.fd[who.number] < 0;
@@ -220,7 +243,7 @@ static fracas_err join(fracas_group *group, const fracas_meeting *meeting, size_
     roster all;
     fracas_address there = {.port = meeting->port};
     memcpy(group->token, meeting->token, sizeof group->token);
-    memcpy(own.token, meeting->token, sizeof own.token);
+    own.token = group->token[0];
     memcpy(there.host, meeting->host, sizeof there.host);
     there.host[sizeof there.host - 1] = '\0';
     TRY(listen_anywhere(group, &own.address));

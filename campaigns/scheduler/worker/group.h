@@ -15,8 +15,11 @@ typedef struct {
 } fracas_address;
 
 typedef struct fracas_group {
-    int listener; /* for others; -1: closed */
-    uint64_t token[2];
+    int listener;                  /* for others; -1: closed */
+    int guest;                     /* who comes and has not told the token yet; -1: nobody */
+    double guest_came;             /* fracas_now */
+    uint64_t token[2];             /* told by those who come; by the leading process at the start */
+    size_t most;                   /* processes */
     int waiting[FRACAS_PEERS_MAX]; /* connections to those who have come, from 1 on ... */
     fracas_address address[FRACAS_PEERS_MAX]; /* ... and where they listen */
     size_t count;                             /* they and this one; 0: others cannot come */
@@ -28,15 +31,18 @@ typedef struct fracas_group {
 /* No group: a process alone. */
 void fracas_group_init(fracas_group *group);
 
-/* Listens; *meeting says where, for those who come. FRACAS_ENVIRONMENT without a socket. */
-FRACAS_MUST_USE fracas_err fracas_group_open(fracas_group *group, fracas_meeting *meeting);
+/* Listens for up to `most` processes with this one; *meeting says where, for those who come.
+ * FRACAS_ENVIRONMENT without a socket. */
+FRACAS_MUST_USE fracas_err fracas_group_open(fracas_group *group, size_t most,
+                                             fracas_meeting *meeting);
 
 /* Comes to a meeting, and waits until its computation starts from realization *from of the lease.
- * FRACAS_ENVIRONMENT if it never does. */
+ * FRACAS_ENVIRONMENT if it never does, or if a stranger answers. */
 FRACAS_MUST_USE fracas_err fracas_group_join(fracas_group *group, const fracas_meeting *meeting,
                                              size_t *from);
 
-/* Others have come, and those behind the first have had time to. Call it now and then. */
+/* Others have come, and those behind the first have had time to. Waits for nobody. Call it now and
+ * then. */
 bool fracas_group_has_come(fracas_group *group);
 /* Then: starts with them from realization `from` of the lease on. FRACAS_ENVIRONMENT: alone. */
 FRACAS_MUST_USE fracas_err fracas_group_start(fracas_group *group, size_t from);
