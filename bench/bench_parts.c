@@ -43,7 +43,7 @@ static double step_part(fracas_step *step, fracas_surface_sweep *sweep,
     return seconds_of(CLOCK_PROCESS_CPUTIME_ID) - began;
 }
 
-/* Of the body divided anew; the least of some rounds counts for each part. */
+/* The body is divided anew; the least of some rounds counts for each part. */
 static part_times time_parts(fracas_bench_body *body, size_t parts)
 {
     const fracas_surface_constants c = fracas_surface_constants_of(body->model);

@@ -310,7 +310,7 @@ fracas_err fracas_batch_run(fracas_batch *batch, fracas_record *record)
 {
     TRY(fracas_batch_begin(batch));
     if (batch->watch) TRY(batch->watch->begin(batch->watch->context, batch, record));
-    TRY(fracas_peers_begin(batch));
+    TRY(fracas_peers_begin(batch, record));
     TRY(run_lanes(batch, record));
     return run_again(batch, record);
 }

@@ -79,6 +79,7 @@ typedef struct {
     lane_tape tape;
     int pauses;
     bool loads;
+    bool drifts; /* lane 1 has drifted before it begins, and was sound until step 50 */
     size_t count;
 } keeper;
 
@@ -88,6 +89,11 @@ static fracas_err begin(void *context, fracas_batch *batch, fracas_record *recor
     k->tape.at = 0;
     for (size_t l = 0; l < k->count && k->loads; l++)
         OK(fracas_batch_load(batch, l, get_from_tape, &k->tape));
+    if (!k->drifts) return FRACAS_OK;
+    batch->lane[1].running = false;
+    batch->lane[1].guard.final = true;
+    batch->lane[1].guard.sound = 50;
+    record[1].outcome = FRACAS_ENERGY_DRIFT;
     return FRACAS_OK;
 }
 
@@ -198,6 +204,46 @@ static void membranes_have_the_same_bytes(void **unused)
     compare(model, 8, 3);
 }
 
+/* The others compute it again with the leading one. */
+static void a_drift_before_the_start_is_known_to_all(void **unused)
+{
+    fracas_record alone[3], together[3];
+    keeper k = {.count = 3, .drifts = true};
+    crew c;
+    OWN(fracas_model) model = distorted_model(octant(), 0.1, 3);
+    OK(run(model, 3, 1, NULL, &k, alone));
+    assert_int_equal(alone[1].steps, 50);
+    free(k.tape.byte);
+    k = (keeper){.count = 3, .drifts = true};
+    fork_crew(&c, 2);
+    const fracas_err err = run(model, 3, 1, &c, &k, together);
+    end_crew(&c, !err);
+    OK(err);
+    for (size_t l = 0; l < 3; l++) assert_same_record(&alone[l], &together[l]);
+    free(k.tape.byte);
+    clear(alone, 3);
+    clear(together, 3);
+}
+
+/* As from another build, or another library of mathematics. */
+static void another_body_is_refused(void **unused)
+{
+    crew c;
+    fracas_record record;
+    keeper k = {.count = 1};
+    fracas_spec spec = octant();
+    fork_crew(&c, 2);
+    if (c.peers.number == 1) spec.material.density = nextafter(spec.material.density, 0);
+    OWN(fracas_model) model = distorted_model(spec, 0.1, 3);
+    const fracas_err err = run(model, 1, 1, &c, &k, &record);
+    if (c.peers.number == 1)
+        _exit(err == FRACAS_ENVIRONMENT && strstr(fracas_message(), "another body") ? 0 : 1);
+    end_crew(&c, true);
+    assert_int_equal(err, FRACAS_ENVIRONMENT);
+    fracas_record_clear(&record);
+    free(k.tape.byte);
+}
+
 /* One dies at its first exchange, in the middle, or in the last steps: the others fail. */
 static void a_death_ends_all(void **unused)
 {
@@ -217,4 +263,5 @@ static void a_death_ends_all(void **unused)
     }
 }
 
-TESTS(shells_have_the_same_bytes, membranes_have_the_same_bytes, a_death_ends_all)
+TESTS(shells_have_the_same_bytes, membranes_have_the_same_bytes,
+      a_drift_before_the_start_is_known_to_all, another_body_is_refused, a_death_ends_all)
