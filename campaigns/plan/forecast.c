@@ -177,10 +177,9 @@ static fracas_err extent_of_body(const fracas_model *model, double *diagonal)
     return FRACAS_OK;
 }
 
-/* Upper bound of the opening of an interface until time.end t [m]. A crack unloads the body at the
- * wave speed c: under a strain e t its faces part at 2 c e t, by c e t^2 altogether, and at most by
- * the body's extension, e t times its size. Where the load is not steady, e t is the final strain.
- */
+/* Largest opening of an interface until time.end t [m]. A crack unloads the body at the wave speed
+ * c: under a strain e t its faces part at 2 c e t, by c e t^2 altogether, and at most by the body's
+ * extension, e t times its size. Other loads have the final strain in place of e t. */
 static double available_opening(const fracas_spec *spec, const fracas_forecast *forecast)
 {
     const double t = spec->time.end, E = spec->material.young;
@@ -200,7 +199,6 @@ static void describe_weakest(const fracas_spec *spec, double mean, double least,
 {
     const double weak = least * mean, energy = fracas_spec_fracture_energy(spec, weak),
                  rate = fracas_spec_strain_rate(spec);
-    forecast->factor = least;
     forecast->opening = 2 * energy / weak;
     forecast->available = available_opening(spec, forecast);
     forecast->pieces = cbrt(24 * energy / (spec->material.density * rate * rate));
@@ -259,8 +257,8 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     if (fracas_shape_of(spec)->round) describe_ring(spec, forecast);
     forecast->volume = extent.mean.volume;
     forecast->mesh_effect = mesh_effect_of(point, model, extent.mean);
-    forecast->factor = 1;
-    if (point->strength.factor) describe_weakest(spec, mean / factor.mean, factor.least, forecast);
+    forecast->factor = fmin(1, factor.least);
+    if (forecast->factor < 1) describe_weakest(spec, mean / factor.mean, factor.least, forecast);
     forecast->repeated = fracas_strength_is_given(&point->strength) && point->replicas > 1;
     return estimated ? FRACAS_OK : check_strengths(model, point, extent.least, factor.most);
 }

@@ -29,10 +29,10 @@ typedef struct {
     bool flat;     /* a factor of the strengths is the same at all interfaces */
     double volume; /* a mean interface has [m3] */
     double mesh_effect; /* share of the count that halved elements lose (FRACAS_MESH_EFFECT) */
-    double factor;      /* the least of the factors of the strengths; 1: there are none */
-    double opening;     /* critical opening where it acts, at the mean strength there [m] */
+    double factor;      /* the least of the factors of the strengths; 1: none is below */
+    double opening;     /* critical opening there, at the mean strength [m]; 0 without a factor */
     double available;   /* opening that the load can give an interface until time.end [m] */
-    double pieces;      /* size of fragments there, by Grady's law [m]; NaN without a strain rate */
+    double pieces;      /* size of fragments there, by Grady's law [m]; as `opening`, or NaN */
     bool estimated;     /* from a coarser mesh, without a check of strengths */
     double bound;       /* on the stress in the uncracked body until time.end [Pa], or INFINITY */
 } fracas_forecast;

@@ -148,9 +148,7 @@ WARNING(warn_flat, forecast->flat, 1,
         point->strength.factor->path, point->strength.factor_along->name)
 
 WARNING(
-    warn_never,
-    forecast->factor<1 && point->spec.cohesive.fracture_energy> 0 &&
-        forecast->opening > forecast->available,
+    warn_never, point->spec.cohesive.fracture_energy > 0 && forecast->opening > forecast->available,
     forecast->opening / forecast->available,
     "where strength.factor is %.2g interfaces break at an opening of 2 fracture_energy/strength "
     "= %.2g m, and until time.end the load opens none by more than %.2g m: they crack and never "
@@ -164,15 +162,14 @@ WARNING(
 
 WARNING(
     warn_shatters,
-    forecast->factor<1 && point->spec.cohesive.critical_opening> 0 &&
-        forecast->pieces < CRUSHED * forecast->element &&
+    point->spec.cohesive.critical_opening > 0 && forecast->pieces < CRUSHED * forecast->element &&
         forecast->pieces >= CRUSHED * cbrt(forecast->factor) * forecast->element,
     forecast->element / forecast->pieces,
     "where strength.factor is %.2g the fracture energy, strength critical_opening/2, is as many "
     "times smaller: fragments of %.2g m, less than half an element of %.2g m: that part "
     "shatters: give fracture_energy, which stays the same, or raise the least factor to %.2g",
     forecast->factor, forecast->pieces, forecast->element,
-    forecast->factor *pow(CRUSHED * forecast->element / forecast->pieces, 3))
+    pow(CRUSHED * forecast->element / forecast->pieces, 3) * forecast->factor)
 
 WARNING(
     warn_mesh_effect, forecast->mesh_effect > FRACAS_MESH_EFFECT_NOTABLE, forecast->mesh_effect,
