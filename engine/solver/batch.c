@@ -213,7 +213,7 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
  * first break took: short runs go without, and do not pay  (balance.5). */
 static void set_balance(fracas_batch *batch, int l)
 {
-    enum { BALANCE_SPANS = 10 };
+    enum { BALANCE_SPANS = 6 };
     fracas_step *step = &batch->step;
     fracas_lane *lane = &batch->lane[l];
     if (lane->first_break == 0 && step->broken[l] > 0) lane->first_break = step->time[l];
