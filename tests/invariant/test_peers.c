@@ -182,6 +182,8 @@ static void shells_have_the_same_bytes(void **unused)
     OWN(fracas_model) model = distorted_model(octant(), 0.1, 3);
     compare(model, 1, 3);
     compare(model, 3, 2);
+    model->tolerance = 5e-6; /* the guard looks beside the ledger, and ends it at step 344 */
+    compare(model, 1, 2);
 }
 
 /* Of four blocks: one of five processes has no elements. */
