@@ -14,7 +14,7 @@ material: {young: 370 GPa, poisson: 0.25, density: 3900 kg/m3}
 cohesive: {fracture_energy: 100 J/m2}
 strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}
 loading: {rate: 3e4 1/s}
-time: {end: 0.1 us}
+time: {end: 0.3 us}
 replicas: 1
 output: {history: 20, interfaces: true}
 END

@@ -64,7 +64,10 @@ fracas_err fracas_allocation_jobs(int wanted, int64_t parts, int *jobs)
 
 bool fracas_allocation_spreads(void)
 {
-    static const char *const hosts[] = {"PBS_NODEFILE", "PE_HOSTFILE", "LSB_HOSTS",
+    static const char *const hosts[] = {"PBS_NODEFILE",
+                                        "PE_HOSTFILE",
+                                        "LSB_HOSTS",
+                                        "LSB_DJOB_HOSTFILE",
                                         "OMPI_MCA_orte_default_hostfile",
                                         "PRTE_MCA_prte_default_hostfile"};
     for (size_t i = 0; i < FRACAS_COUNT(hosts); i++)
