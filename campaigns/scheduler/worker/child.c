@@ -48,8 +48,10 @@ static fracas_err meet(const fracas_computation *computation, size_t *from, int 
 {
     const fracas_lease *lease = computation->lease;
     fracas_meeting meeting = {.lease = lease->id};
-    if (lease->role == FRACAS_LEASE_HELPS)
-        return fracas_group_join(computation->group, &lease->meeting, from);
+    if (lease->role == FRACAS_LEASE_HELPS) {
+        TRY(fracas_group_join(computation->group, &lease->meeting, from));
+        return fracas_packet_send(fd, FRACAS_PACKET_MEETING, &lease->meeting, sizeof meeting);
+    }
     const size_t most = most_of(computation->model);
     if (!fracas_model_surface(computation->model) || most < 2 ||
         fracas_group_open(computation->group, most, &meeting))

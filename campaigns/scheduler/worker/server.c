@@ -162,10 +162,11 @@ static fracas_err receive_child(server *s)
     bool ended, good;
     TRY(fracas_child_receive(&s->child, &ended));
     fracas_child *child = &s->child;
-    if (child->meeting.port)
+    if (child->meeting.port && !helps(s)) {
         TRY(fracas_packet_send(s->rank, FRACAS_PACKET_MEETING, &child->meeting,
                                sizeof child->meeting));
-    child->meeting.port = 0;
+        child->meeting.port = 0;
+    }
     if (!ended) return FRACAS_OK;
     if (helps(s)) return end_help(s, *child->fault ? child->fault : "its process died");
     const double seconds = fracas_now() - child->began;
@@ -225,7 +226,7 @@ static fracas_err on_stop(server *s, const fracas_packet *message)
         s->own.runs = false;
     }
     s->stopping = true;
-    return FRACAS_OK;
+    return helps(s) && !s->child.meeting.port ? end_help(s, "it had not begun") : FRACAS_OK;
 }
 
 static fracas_err on_lease(server *s, const fracas_packet *message)
