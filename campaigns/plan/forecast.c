@@ -71,7 +71,8 @@ static fracas_err check_count(const fracas_model *model, const fracas_strength *
 /* Samples the strength of each interface and checks it. */
 static fracas_err check_places(const fracas_model *model, const fracas_strength *strength)
 {
-    const size_t n = fracas_model_interfaces(model);
+    const size_t n = fracas_model_strengths(model),
+                 each = fracas_model_strengths_per_interface(model);
     OWN(fracas_field) field = NULL;
     TRY(fracas_model_field(model, strength, &field));
     OWNED double(*position)[3] = malloc(n * sizeof *position);
@@ -83,7 +84,8 @@ static fracas_err check_places(const fracas_model *model, const fracas_strength 
         fracas_err err = fracas_model_check_strength(model, sigma_c[i]);
         if (err)
             return fracas_fail_within(err, "%s, interface %zu at x = %.9g m, y = %.9g m",
-                                      strength->file->path, i, position[i][0], position[i][1]);
+                                      strength->file->path, i / each, position[i][0],
+                                      position[i][1]);
     }
     return FRACAS_OK;
 }
@@ -160,7 +162,7 @@ static void describe_ring(const fracas_spec *spec, fracas_forecast *forecast)
 /* Diagonal of the box around all interfaces [m]. */
 static fracas_err extent_of_body(const fracas_model *model, double *diagonal)
 {
-    const size_t n = fracas_model_interfaces(model);
+    const size_t n = fracas_model_strengths(model);
     double square = 0;
     OWNED double(*position)[3] = malloc((n + 1) * sizeof *position);
     if (!position) return fracas_no_memory("the places of interfaces");

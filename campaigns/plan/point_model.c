@@ -56,7 +56,7 @@ fracas_extent fracas_model_extent(const fracas_model *model, size_t interface)
                            fracas_model_interface_area(model, interface) / share};
 }
 
-static size_t strengths_of(const fracas_model *model)
+size_t fracas_model_strengths(const fracas_model *model)
 {
     return fracas_model_interfaces(model) * fracas_model_strengths_per_interface(model);
 }
@@ -66,7 +66,7 @@ fracas_err fracas_model_field(const fracas_model *model, const fracas_strength *
 {
     const size_t n = fracas_model_interfaces(model);
     OWNED fracas_extent *extent = malloc(n * sizeof *extent);
-    OWNED double(*position)[3] = malloc(strengths_of(model) * sizeof *position);
+    OWNED double(*position)[3] = malloc(fracas_model_strengths(model) * sizeof *position);
     if (n > 0 && (!extent || !position)) return fracas_no_memory("the interfaces of a mesh");
     for (size_t i = 0; i < n; i++) extent[i] = fracas_model_extent(model, i);
     fracas_model_interface_positions(model, position);
@@ -81,7 +81,7 @@ fracas_err fracas_model_field(const fracas_model *model, const fracas_strength *
 fracas_err fracas_model_factors(const fracas_model *model, const fracas_strength *strength,
                                 fracas_factor_range *range)
 {
-    const size_t n = strengths_of(model);
+    const size_t n = fracas_model_strengths(model);
     *range = (fracas_factor_range){1, 1, 1};
     if (!strength->factor || n == 0) return FRACAS_OK;
     OWNED double(*position)[3] = malloc(n * sizeof *position);

@@ -20,6 +20,9 @@ FRACAS_MUST_USE fracas_err fracas_model_field(const fracas_model *model,
                                               const fracas_strength *strength,
                                               fracas_field **field);
 
+/* Strengths of a realization: rows that fracas_model_interface_positions and a field fill. */
+size_t fracas_model_strengths(const fracas_model *model);
+
 /* Volume and area of an interface per strength: equal parts if it has several. */
 fracas_extent fracas_model_extent(const fracas_model *model, size_t interface);
 
