@@ -14,19 +14,22 @@
 
 #include "engine/cohesive/kernels.h"
 
-/* G/2 of whole and of broken interfaces, and the least B/dS: of a body and its time step. */
+/* G/2 of whole and of broken interfaces, the least B/dS, and the lanes whose crossings are
+ * balanced: of a body and its time step. */
 typedef struct {
     vd whole, broken, least;
+    vmask on;
 } balance_coupling;
 
 /* `spring` is K [Pa/m], `kick` dt/M summed over both sides [m/(s Pa)], `drift` dt [s], `square`
- * z^2. */
-LANES_FUNCTION balance_coupling balance_couple(vd spring, vd kick, vd drift, vd square)
+ * z^2, `on` 1 or 0. */
+LANES_FUNCTION balance_coupling balance_couple(vd spring, vd kick, vd drift, vd square, vd on)
 {
     const vd half = lanes_set(0.5), broken = half * (spring * kick * drift);
     return (balance_coupling){.whole = broken * square,
                               .broken = broken,
-                              .least = lanes_max(lanes_set(0.1), lanes_sqrt(half * broken))};
+                              .least = lanes_max(lanes_set(0.1), lanes_sqrt(half * broken)),
+                              .on = lanes_lt(lanes_set(0.0), on)};
 }
 
 /* e [Pa], 0 where no kink is passed; `change` is dS. */
@@ -56,7 +59,8 @@ LANES_FUNCTION vd balance_traction(const balance_coupling *c, const line_input *
     const vd missing = bend * product; /* C */
     const vd half_coupling = lanes_select(lanes_le(one, in->damage), c->broken, c->whole);
     const vd ahead = change - half_coupling * (it->traction - in->mean); /* B */
-    passes = lanes_and(passes, lanes_lt(zero, (ahead - c->least * change) * change));
+    passes = lanes_and(lanes_and(passes, c->on),
+                       lanes_lt(zero, (ahead - c->least * change) * change));
     const vd extra = ahead * lanes_quotient(missing, ahead * ahead - half_coupling * missing);
     return lanes_select(passes, extra, zero);
 }

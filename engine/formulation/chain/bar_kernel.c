@@ -30,7 +30,6 @@ typedef struct {
     vd drift, kick;                 /* dt [s], dt/(nodal mass) [m/(s Pa)] */
     vd load_stress;                 /* E rate t [Pa] */
     vd spring, compliance, modulus; /* K, 1/K, E/h [Pa/m] of elements of one length */
-    vd balance;                     /* 1 where crossings are balanced */
     balance_coupling coupling;      /* for elements of one length */
     /* sums over the body, for the ledger, 0 at first */
     vd stress_squared, flux_energy, opening_energy, damage, velocity_squared, stress, slip;
@@ -65,7 +64,7 @@ LANES_FUNCTION vd bar_stress_rate(const bar_context *c, int uniform, const bar_e
            load;
 }
 
-/* Traction that balances a crossing, in lanes where that is on [Pa]  (balance.6). */
+/* Traction that balances a crossing [Pa]  (balance.6) */
 LANES_FUNCTION vd bar_balance(const bar_context *c, int uniform, const line_input *in,
                               const line_result *it, const bar_element *left,
                               const bar_element *right)
@@ -77,9 +76,9 @@ LANES_FUNCTION vd bar_balance(const bar_context *c, int uniform, const line_inpu
     balance_coupling coupling = c->coupling;
     if (!uniform)
         coupling = balance_couple(in->stiffness, c->kick / left->size + c->kick / right->size,
-                                  c->drift, lanes_set(c->bar->whole));
-    return lanes_select(lanes_lt(zero, c->balance),
-                        balance_traction(&coupling, in, it, c->drift * rate), zero);
+                                  c->drift, lanes_set(c->bar->whole),
+                                  lanes_load(c->step->balance + c->first));
+    return balance_traction(&coupling, in, it, c->drift * rate);
 }
 
 /* An interface in series with the flux. */
@@ -270,11 +269,11 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
                                           (lanes_set(bar->rate) * lanes_load(step->time + first)),
                            .spring = lanes_set(bar->spring),
                            .compliance = lanes_set(1.0 / bar->spring),
-                           .modulus = lanes_set(bar->young / bar->size),
-                           .balance = lanes_load(step->balance + first)};
+                           .modulus = lanes_set(bar->young / bar->size)};
     bar_context *c = &context;
     if (balanced && uniform)
-        c->coupling = balance_couple(c->spring, c->kick + c->kick, c->drift, lanes_set(bar->whole));
+        c->coupling = balance_couple(c->spring, c->kick + c->kick, c->drift, lanes_set(bar->whole),
+                                     lanes_load(step->balance + first));
 
     /* One pass in place: an element is written once both its interfaces are known; registers keep
      * the part for its right neighbour. The interface closing a periodic bar comes first. */

@@ -61,7 +61,6 @@ typedef struct {
     vd inverse_size;      /* 1/h [1/m] */
     vd drive, next_drive; /* force on a node [Pa] now; velocity held half a step ahead [m/s] */
     vd inertia;           /* nodal mass/dt [Pa s/m] */
-    vd balance;           /* 1 where crossings are balanced */
     balance_coupling coupling;
     /* sums over the body, for the ledger, 0 at first; of a part: energy per area [J/m2] */
     FRACAS_EACH_ENERGY(RING_SUM)

@@ -109,9 +109,7 @@ LANES_FUNCTION void ring_join(ring_context *c, int law, int balanced, size_t e,
     if (balanced) {
         const vd rate = ring_trial_rate(c, left, right, at, at_right, frame, p,
                                         lanes_le(one, before));
-        const vd extra = lanes_select(lanes_lt(zero, c->balance),
-                                      balance_traction(&c->coupling, &in, &it, c->drift * rate),
-                                      zero);
+        const vd extra = balance_traction(&c->coupling, &in, &it, c->drift * rate);
         traction += extra;
         slip += lanes_select(lanes_le(one, it.damage), zero, extra * c->compliance);
     }
@@ -181,11 +179,10 @@ LANES_FUNCTION void ring_flux(const fracas_ring_constants *ring, fracas_step *st
     ring_context context = ring_context_of(ring, step, first, RING_FIELDS, dt, lanes_set(0.5) * dt),
                  *c = &context;
 
-    if (balanced) {
-        context.balance = lanes_load(step->balance + first);
+    if (balanced)
         context.coupling = balance_couple(c->spring, c->kick + c->kick, c->drift,
-                                          lanes_set(ring->whole));
-    }
+                                          lanes_set(ring->whole),
+                                          lanes_load(step->balance + first));
 
     /* One pass in place, as the bar's; the closing interface comes first. */
     ring_held held = {0};
