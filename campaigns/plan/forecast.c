@@ -145,8 +145,8 @@ static double surface_stress_bound(const fracas_spec *spec, double t)
            fmax(1.0, 1.0 / spec->cohesive.coupling);
 }
 
-/* Forecasts of rings alone. A compressed ring without bending stiffness folds, starting from
- * round-off; held radial velocities keep it round. */
+/* Forecasts of rings alone. A compressed ring with next to no bending stiffness folds, starting
+ * from round-off; held radial velocities keep it round. */
 static void describe_ring(const fracas_spec *spec, fracas_forecast *forecast)
 {
     const fracas_loading_traits *traits = fracas_loading_traits_of(spec);

@@ -96,11 +96,12 @@ WARNING(warn_repeated, forecast->repeated, (double)point->replicas,
         " replicas are equal: give it replicas: 1",
         point->replicas)
 
-WARNING(warn_folds, forecast->folds, 1,
-        "the whole ring comes under compression, where it folds, as it has no bending stiffness: "
-        "what breaks then means nothing: load it outward, and end a free ring that stays whole by "
-        "%.3g s",
-        2 * forecast->turn)
+WARNING(
+    warn_folds, forecast->folds, 1,
+    "the whole ring comes under compression, where it folds, with next to no bending stiffness: "
+    "what breaks then means nothing: load it outward, and end a free ring that stays whole by "
+    "%.3g s",
+    2 * forecast->turn)
 
 WARNING(warn_lonely, forecast->lonely, point->spec.cohesive.zone,
         "cohesive.zone is longer than half of the ring: once an interface opens, none else can: "
