@@ -65,7 +65,7 @@ typedef struct {
 
 enum { FRACAS_PEERS_MAX = 64 };
 
-/* Processes that compute the realizations of a batch together, each its own parts of the body. Peer
+/* Processes for the realizations of one batch, each with its own parts of the body. Peer
  * 0 leads: its records are whole. All create the same batch, but for threads and watch, and
  * run it. */
 typedef struct {

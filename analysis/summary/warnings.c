@@ -188,7 +188,7 @@ static double scatter_of(const fracas_point_table *table, size_t p)
     return range / sqrt(12) / mean;              /* uniform */
 }
 
-/* Interfaces of a finer mesh of a bar or ring have the strengths that those of this one have. */
+/* On a finer mesh of a bar or ring, interfaces keep the strengths of this one's. */
 static void warn_of_mesh(const fracas_point_table *table, size_t p, warning_list *list)
 {
     const double effect = FRACAS_MESH_EFFECT * scatter_of(table, p),

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The balance of crossings: a traction that does the work which the time integration misses where
- * an interface passes a kink of its law T(S) within a step (docs/theory/balance.md).
+/* The balance of crossings: a traction for the work that the time integration misses where an
+ * interface passes a kink of its law T(S) within a step (docs/theory/balance.md).
  *
  * S the trial traction, S_0 that of the step before, dS = S - S_0; at S_k the slope of T goes from
  * a_0 to a_1, y_0 = S_0 - S_k, y = S - S_k, y_0 y < 0:

@@ -209,8 +209,8 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
     return lane->running ? FRACAS_OK : finish_lane(batch, l, outcome, record);
 }
 
-/* Crossings are balanced once the time since the first onset is BALANCE_SPANS times that which the
- * first break took: short runs go without, and do not pay  (balance.5). */
+/* Crossings are balanced from BALANCE_SPANS spans after the first onset on, a span being from there
+ * to the first break: short runs do not pay  (balance.5). */
 static void set_balance(fracas_batch *batch, int l)
 {
     enum { BALANCE_SPANS = 6 };

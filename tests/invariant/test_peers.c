@@ -135,7 +135,7 @@ static void clear(fracas_record *record, size_t count)
     for (size_t l = 0; l < count; l++) fracas_record_clear(&record[l]);
 }
 
-/* Two to `most` processes, and those that go on from a state of one. */
+/* Two to `most` processes, also from a state of one. */
 static void compare(const fracas_model *model, size_t count, size_t most)
 {
     fracas_record alone[8], together[8];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* ctest-labels: slow-sanitize */
-/* Strips in motion that are bent until they break: a crack through the thickness costs h G_c by
+/* Strips in motion, bent until they break: a crack through the thickness costs h G_c by
  * length, and the method puts next to nothing in (docs/theory/shell.md). */
 #include "tests/support/shell.h"
 #include "tests/support/test.h"
@@ -40,7 +40,7 @@ static bool is_weak(const fracas_model *model, size_t interface)
     return true;
 }
 
-/* Velocities of a curvature and a strain that grow alike all over. The last cells at both ends turn
+/* Velocities of a uniform curvature and strain. The last cells at both ends turn
  * on as rigid bodies, by nodes whose motion out of the plane, with a pull all of it, is held. */
 static void set_moving(fracas_batch *batch, const strip_case *it)
 {

@@ -117,7 +117,7 @@ static inline void begin_ready(double deadline)
     ready();
 }
 
-/* The worker has computed the lease that it was given as number `i`. */
+/* The worker has computed its lease number `i`. */
 static inline void computed(size_t from, size_t i, double seconds)
 {
     const fracas_lease_report report = {.lease = worker[from].lease[i].id, .seconds = seconds};

@@ -347,7 +347,7 @@ pid_t fork(void)
     return pid;
 }
 
-/* The parent's starter and its ranks are known by the names that they take. */
+/* The parent's starter and its ranks are known by their names. */
 int prctl(int option, ...)
 {
     static int (*real)(int, ...);

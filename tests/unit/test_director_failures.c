@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Rank 0 with realizations that fail, workers that are lost, and messages that do not fit. */
+/* Rank 0 with failing realizations, lost workers, and messages too long. */
 #include "tests/support/director.h"
 
-/* The worker cannot compute the realization that it was given as number `i`. */
+/* The worker cannot compute its realization number `i`. */
 static void failed(size_t from, size_t i)
 {
     const fracas_lease_failure failure = {
@@ -30,7 +30,7 @@ static void points_with_failures_are_named(void **state)
     fracas_index_close(index);
 }
 
-/* ---- workers that are lost, and messages that do not fit ---- */
+/* ---- lost workers, and messages too long ---- */
 
 static const fracas_trouble gone = {
     .code = FRACAS_ENVIRONMENT, .again = 1, .text = "its server is gone"};

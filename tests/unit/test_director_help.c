@@ -76,7 +76,7 @@ static void nobody_leads_where_all_hosts_are_one(void **state)
     assert_int_equal(worker[1].lease[0].role, FRACAS_LEASE_ALONE);
 }
 
-/* The lease of a leader that is gone is the helper's own now; nobody helps any more. */
+/* The lease of a dead leader is the helper's own now; nobody helps any more. */
 static void a_helper_takes_the_lease_of_a_leader_that_is_gone(void **state)
 {
     const fracas_trouble trouble = {.code = FRACAS_ENVIRONMENT, .text = "gone"};

@@ -130,7 +130,7 @@ static void silent_strangers_hold_up_nobody(void **unused)
     close(slow);
 }
 
-/* Another process has the port of a leading one that is gone, and makes helpers lead. */
+/* A stranger has the port of a dead leading process, and makes helpers lead. */
 static void a_stranger_does_not_lead(void **unused)
 {
     FRACAS_CLEARED(fracas_group) group;

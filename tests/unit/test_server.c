@@ -184,7 +184,7 @@ static void assert_next(int fd, fracas_packet_kind kind)
     assert_int_equal(message->kind, kind);
 }
 
-/* Its helping process waits for a leading one that may be a stranger. */
+/* Its helping process waits for a leading one, perhaps a stranger. */
 static void a_help_that_has_not_begun_delays_no_drain(void **state)
 {
     fracas_campaign *plain = read_text(plain_campaign);

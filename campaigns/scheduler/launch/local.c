@@ -21,7 +21,7 @@ static fracas_err check(int jobs)
     return fracas_starter_raise_files(FILES + FILES_A_JOB * (unsigned long)jobs);
 }
 
-/* A rank. The signals that its starter awaits reach it from here on. */
+/* A rank. Signals for its starter reach it from here on. */
 static _Noreturn void live(const fracas_ranks *ranks, fracas_sockets *sockets, int rank,
                            const sigset_t *awaited)
 {
@@ -46,7 +46,7 @@ static fracas_err fork_ranks(const fracas_ranks *ranks, const sigset_t *awaited,
     return FRACAS_OK;
 }
 
-/* Returns the number of ranks that have ended well. */
+/* Returns the number of ranks ended well. */
 static int reap(const fracas_ranks *ranks, pid_t *pid)
 {
     int ended = 0, status;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A group: processes of leases on several hosts that compute one body together, peer 0 being the
+/* A group: processes of leases on several hosts for one body, peer 0 being the
  * lease's own. It computes alone until others have come, and again when one of them is gone. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_WORKER_GROUP_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_WORKER_GROUP_H
@@ -31,7 +31,7 @@ typedef struct fracas_group {
 /* No group: a process alone. */
 void fracas_group_init(fracas_group *group);
 
-/* Listens for up to `most` processes with this one; *meeting says where, for those who come.
+/* Listens for up to `most` processes with this one; *meeting says where.
  * FRACAS_ENVIRONMENT without a socket. */
 FRACAS_MUST_USE fracas_err fracas_group_open(fracas_group *group, size_t most,
                                              fracas_meeting *meeting);

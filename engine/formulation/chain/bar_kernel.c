@@ -64,7 +64,7 @@ LANES_FUNCTION vd bar_stress_rate(const bar_context *c, int uniform, const bar_e
            load;
 }
 
-/* Traction that balances a crossing [Pa]  (balance.6) */
+/* Balancing traction of a crossing [Pa]  (balance.6) */
 LANES_FUNCTION vd bar_balance(const bar_context *c, int uniform, const line_input *in,
                               const line_result *it, const bar_element *left,
                               const bar_element *right)
