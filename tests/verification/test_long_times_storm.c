@@ -15,8 +15,9 @@ static const struct {
               {"ring", 1e4, 2510, true, true},
               {"ring", 1e5, 8380, true, true}};
 
-/* 1.1e-2: the fine ring's vibration falls to 5 % of what is dissipated. Against the small step
- * dissipated energy within 0.1 %, vibrating within 3 %: means of eight with 900 breaks or more. */
+/* 1.1e-2: the vibration of a fast bar and ring falls to 5 % of the dissipated energy. Against the
+ * small step dissipated energy within 0.1 %, vibrating within 3 %: means of eight with 900 breaks
+ * or more. */
 static void ledgers_close_and_states_are_right(void **unused)
 {
     for (size_t b = 0; b < sizeof bodies / sizeof *bodies; b++) {
