@@ -75,6 +75,28 @@ start()
     session=$!
 }
 
+# hold: from now on no run of $faulty computes but while a wait_segments lets it. Whatever is signalled, killed or read behind the wait
+# finds the run in the middle, on a machine of any speed. `release` lets it go on.
+hold()
+{
+    release
+    : > gate.arrived
+    : > gate
+    export FRACAS_TEST_GATE="$work/gate"
+    program=$faulty
+}
+
+release()
+{
+    rm -f "$work/gate"
+}
+
+# let_through: the batches that wait at the gate now may begin, if a gate is there.
+let_through()
+{
+    [ ! -e "$work/gate" ] || cat "$work/gate.arrived" > "$work/gate"
+}
+
 # busy TIME: how many seconds later than TIME, that of a free machine, a small run ends: the pace of this machine, now.
 busy()
 {
@@ -92,6 +114,7 @@ wait_segments()
     while [ "$(segments "$1")" -lt "$2" ]; do
         polls=$((polls + 1))
         [ $polls -lt 6000 ] || fail "no $2 segments in $1"
+        let_through
         sleep 0.01
     done
 }

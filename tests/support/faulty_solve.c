@@ -13,13 +13,18 @@
  * With FILE, at most 1023 bytes, the fault strikes once: the process that creates this file.
  *
  * With FRACAS_TEST_LOG=FILE, where FILE exists, a line is appended for each batch that begins: pid,
- * pid of the parent, point, replicas. */
+ * pid of the parent, point, replicas.
+ *
+ * With FRACAS_TEST_GATE=FILE a batch waits before it begins. It appends a byte to FILE.arrived, n
+ * of all, and goes on when FILE has n bytes or more, or is not there: hold of campaigns.sh. */
 #include "campaigns/scheduler/worker/models.h"
 #include "campaigns/scheduler/worker/solve.h"
 #include "tests/support/test.h"
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 fracas_err __real_fracas_solve(const fracas_computation *computation, const int64_t *replica,
@@ -108,9 +113,32 @@ static void log_batch(uint64_t point, const int64_t *replica, size_t count)
     close(fd);
 }
 
+/* The place of this batch in the row before the gate, from 1. */
+static off_t arrive(const char *gate)
+{
+    char row[1024];
+    if (snprintf(row, sizeof row, "%s.arrived", gate) >= (int)sizeof row) abort();
+    const int fd = open(row, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0 || write(fd, "\n", 1) != 1) abort(); /* a test that counts must not miss one */
+    const off_t place = lseek(fd, 0, SEEK_CUR);     /* behind its own byte */
+    close(fd);
+    return place;
+}
+
+static void wait_at_gate(void)
+{
+    const char *gate = getenv("FRACAS_TEST_GATE");
+    struct stat of;
+    if (!gate || stat(gate, &of)) return;
+    const off_t place = arrive(gate);
+    while (!stat(gate, &of) && of.st_size < place)
+        nanosleep(&(struct timespec){.tv_nsec = 5000000}, NULL);
+}
+
 fracas_err __wrap_fracas_solve(const fracas_computation *computation, const int64_t *replica,
                                size_t count, fracas_record *record)
 {
+    wait_at_gate();
     log_batch(computation->lease->point, replica, count);
     TRY(strike_if_asked(computation->lease->point, replica, count));
     return __real_fracas_solve(computation, replica, count, record);
