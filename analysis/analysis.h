@@ -25,15 +25,26 @@ FRACAS_MUST_USE fracas_err fracas_analysis_create(const char *study, const fraca
 void fracas_analysis_destroy(fracas_analysis *analysis); /* NULL is allowed */
 FRACAS_OWNER(fracas_analysis, fracas_analysis_destroy)
 
-/* The result table, one line a point, for a terminal. */
-void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out);
+/* Draws the means of the report against this parameter or statistic, in series by this parameter;
+ * NULL: chosen by what varies. FRACAS_USAGE for a key that is unknown or does not vary. */
+FRACAS_MUST_USE fracas_err fracas_analysis_axes(fracas_analysis *analysis, const char *x,
+                                                const char *series);
+
+/* Points with figures of their own: "3,17,200-210", or "all"; else all of few points, of many a
+ * choice. FRACAS_USAGE, with the part that is wrong, for anything else. */
+FRACAS_MUST_USE fracas_err fracas_analysis_points(fracas_analysis *analysis, const char *list);
+
+/* The result table, one line a point, for a terminal of so many columns; 0: as wide as it is. */
+void fracas_analysis_print_table(const fracas_analysis *analysis, int columns, FILE *out);
 /* The same numbers, all other statistics and the fits of STUDY/fits.csv as one JSON document. */
 FRACAS_MUST_USE fracas_err fracas_analysis_write_json(const fracas_analysis *analysis,
                                                       const char *study, FILE *out);
 
-/* STUDY/report/: index.html (self-contained), points.csv, fragments.csv, summary.json and one SVG
- * file a figure (and one CSV file a crack pattern of a ring). */
-FRACAS_MUST_USE fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study);
+/* In `folder`, NULL: STUDY/report, made if it is not there: index.html (self-contained),
+ * points.csv, fragments.csv, summary.json and one SVG file a figure (and one CSV file a crack
+ * pattern of a ring). `refresh`: the page loads itself again after so many seconds; 0: never. */
+FRACAS_MUST_USE fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study,
+                                               const char *folder, int refresh);
 
 /* A Frictionless Data Package in `folder`, made if it is not there: points.csv, realizations.csv,
  * fragments.csv, statistics.csv, energies.csv, convergence.csv, with `histories` histories.csv, and
@@ -50,7 +61,7 @@ void fracas_analysis_reference(FILE *out);
 
 typedef enum { FRACAS_SHOW_CRACKS, FRACAS_SHOW_FRAGMENTS, FRACAS_SHOW_MESH } fracas_surface_show;
 
-enum { FRACAS_MOMENTS = 6 }; /* times of a row of pictures */
+enum { FRACAS_MOMENTS = 6, FRACAS_FRAMES = 24 }; /* times of a row of pictures, of a film */
 
 /* Where the reader is, far away, z upward: from x toward y by the azimuth, above the plane of both
  * by the elevation [degrees]. */
@@ -68,19 +79,23 @@ typedef struct {
     size_t point;
     int64_t replica;
     size_t count;       /* pictures */
-    const double *time; /* s, of each; NULL: evenly from the first onset (without it) to the end */
+    const double *time; /* s, of each; NULL: after even shares of the breaks, and at the end */
     fracas_surface_show show;
     const fracas_view *view; /* NULL: a flat surface as it lies, any other by FRACAS_VIEW_DEFAULT */
     double explode;     /* >= 0: fragments moved by this times (their centroid - that of all) */
     bool table;         /* the first times of all replicas as CSV, too */
+    bool grids;         /* for ParaView in the place of pictures: analysis/report/grids.h */
+    bool film;          /* a page of all of them in the place of pictures */
+    bool dots;          /* pictures, as PNG, too */
     const char *folder; /* made if it is not there; NULL: STUDY/pictures */
 } fracas_picture_request;
 
-/* Writes surface-point-P-replica-R-K.svg for K from 1, with `table` also times-point-P.csv. Prints
+/* Writes surface-point-P-replica-R-K.svg for K from 1 (`grids`: .hdf of fragments and cracks of
+ * a surface; `film`: surface-point-P-replica-R.html), with `table` also times-point-P.csv. Prints
  * on `out` their names and the times at which the realization first cracked, broke, and cracked
- * through. FRACAS_USAGE, with the choices there are, for an unknown point, replica or time, a point
- * that is no surface, and a study without interfaces. FRACAS_DAMAGED if study.h5 is missing or of
- * another campaign: only a complete study has the meshes. */
+ * through (surfaces). FRACAS_USAGE, with the choices there are, for an unknown point, replica or
+ * time, grids of a bar or ring, and a study without interfaces. FRACAS_DAMAGED if study.h5 is
+ * missing or of another campaign: only a complete study has the meshes. */
 FRACAS_MUST_USE fracas_err fracas_pictures_write(const char *study,
                                                  const fracas_picture_request *request, FILE *out);
 

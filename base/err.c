@@ -11,22 +11,30 @@
 
 /* The one mutable object outside the callers' storage, as errno is. A message belongs to the thread
  * of its failure and lives until the next failure there. */
-static _Thread_local char message[1024];
+static _Thread_local char message[23 << 10];
+enum { LINE = 1024 }; /* bytes of one failure */
 
 fracas_err fracas_fail(fracas_err code, const char *format, ...)
 {
-    char text[sizeof message];
+    char text[LINE];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    fracas_text_show(text, message, sizeof message);
+    fracas_text_show(text, message, LINE);
+    return code;
+}
+
+fracas_err fracas_fail_also(fracas_err code, const char *text)
+{
+    const size_t used = strlen(message), room = sizeof message - used;
+    snprintf(message + used, room, "\n%s", text);
     return code;
 }
 
 fracas_err fracas_fail_within(fracas_err code, const char *format, ...)
 {
-    char context[sizeof message];
+    char context[LINE];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(context, sizeof context, format, arguments);
@@ -81,7 +89,7 @@ static const char *what_is_there(int reason)
 
 fracas_err fracas_fail_system(int reason, const char *format, ...)
 {
-    char text[sizeof message];
+    char text[LINE];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);

@@ -36,6 +36,10 @@ FRACAS_MUST_USE fracas_err fracas_fail(fracas_err code, const char *format, ...)
 FRACAS_MUST_USE fracas_err fracas_fail_within(fracas_err code, const char *format, ...)
     FRACAS_PRINTF(2, 3);
 
+/* Puts `text`, itself a message, on a line of its own below the present message, and returns
+ * `code`. The lines together are cut at 23 KiB. */
+FRACAS_MUST_USE fracas_err fracas_fail_also(fracas_err code, const char *text);
+
 /* FRACAS_ENVIRONMENT with "<the formatted text>: <strerror(reason)>; <remedy>". The remedies cover
  * the limits of long runs: disk, quota, open files, size of files, memory, a failing or read-only
  * disk. FRACAS_DAMAGED, and in our words, for a link or a pipe in the place of a file

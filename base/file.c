@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <ftw.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -71,4 +72,16 @@ bool fracas_folder_is_own(const char *path)
 bool fracas_folder_create(const char *path)
 {
     return !mkdir(path, 0777) || (errno == EEXIST && fracas_folder_is_own(path));
+}
+
+static int remove_one(const char *path, const struct stat *info, int type, struct FTW *place)
+{
+    (void)info, (void)type, (void)place;
+    remove(path);
+    return 0; /* the rest is removed all the same */
+}
+
+void fracas_folder_remove(const char *path)
+{
+    nftw(path, remove_one, 8, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
 }

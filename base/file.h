@@ -26,5 +26,7 @@ bool fracas_file_is_own(const char *path);
 bool fracas_folder_is_own(const char *path);
 /* Makes a folder, which may be there, and is no link. False, and errno. */
 bool fracas_folder_create(const char *path);
+/* Removes a folder with all in it, as far as it can; links are not followed. */
+void fracas_folder_remove(const char *path);
 
 #endif

@@ -26,7 +26,7 @@ static void before_value(fracas_json *json, const char *key)
 {
     if (!json->first[json->depth]) putc(',', json->out);
     json->first[json->depth] = false;
-    if (json->depth > 0) fprintf(json->out, "\n%*s", 2 * json->depth, "");
+    if (json->depth > 0 && !json->line) fprintf(json->out, "\n%*s", 2 * json->depth, "");
     if (key) {
         write_text(json->out, key);
         fputs(": ", json->out);
@@ -45,7 +45,7 @@ void fracas_json_close(fracas_json *json)
 {
     const char end = json->end[json->depth];
     bool empty = json->first[json->depth--];
-    if (!empty) fprintf(json->out, "\n%*s", 2 * json->depth, "");
+    if (!empty && !json->line) fprintf(json->out, "\n%*s", 2 * json->depth, "");
     putc(end, json->out);
 }
 

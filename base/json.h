@@ -10,6 +10,7 @@
 typedef struct {
     FILE *out;
     int depth;
+    bool line;      /* set after the beginning: everything in one line */
     bool first[16]; /* nothing written yet at this depth */
     char end[16];   /* closing bracket of this depth */
 } fracas_json;

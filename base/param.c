@@ -24,7 +24,8 @@ double fracas_param_get(const fracas_param *param, const void *section)
     case FRACAS_INTEGER: return (double)*(const int64_t *)place(param, section);
     case FRACAS_BOOLEAN: return *(const bool *)place(param, section) ? 1.0 : 0.0;
     case FRACAS_CHOICE: return index_of(param, chosen(param, section));
-    case FRACAS_ATTACHMENT: return NAN;
+    case FRACAS_ATTACHMENT:
+    case FRACAS_NUMBERS: return NAN;
     case FRACAS_REAL: break;
     }
     return *(const double *)place(param, section);
@@ -37,7 +38,8 @@ void fracas_param_set(const fracas_param *param, void *section, double value)
     case FRACAS_INTEGER: *(int64_t *)at = (int64_t)value; break;
     case FRACAS_BOOLEAN: *(bool *)at = value != 0.0; break;
     case FRACAS_CHOICE: *(const fracas_kind **)at = param->choices[(size_t)value]; break;
-    case FRACAS_ATTACHMENT: break;
+    case FRACAS_ATTACHMENT:
+    case FRACAS_NUMBERS: break;
     case FRACAS_REAL: *(double *)at = value; break;
     }
 }
@@ -47,32 +49,31 @@ void fracas_param_clear(const fracas_param *param, void *section)
     void *at = (char *)section + param->offset;
     if (param->type == FRACAS_REAL) *(double *)at = NAN;
     else if (param->type == FRACAS_CHOICE) *(const fracas_kind **)at = NULL;
-    else if (param->type == FRACAS_ATTACHMENT) fracas_param_attach(param, section, NULL);
+    else if (fracas_param_is_object(param)) fracas_param_place(param, section, NULL);
 }
 
 bool fracas_param_is_given(const fracas_param *param, const void *section)
 {
     if (!param->optional) return true;
-    if (param->type == FRACAS_ATTACHMENT) return fracas_param_attachment(param, section) != NULL;
+    if (fracas_param_is_object(param)) return fracas_param_object(param, section) != NULL;
     return !isnan(fracas_param_get(param, section));
 }
 
-const fracas_attachment *fracas_param_attachment(const fracas_param *param, const void *section)
+const void *fracas_param_object(const fracas_param *param, const void *section)
 {
-    return *(const fracas_attachment *const *)place(param, section);
+    return *(const void *const *)place(param, section);
 }
 
-void fracas_param_attach(const fracas_param *param, void *section,
-                         const fracas_attachment *attachment)
+void fracas_param_place(const fracas_param *param, void *section, const void *object)
 {
-    *(const fracas_attachment **)(void *)((char *)section + param->offset) = attachment;
+    *(const void **)(void *)((char *)section + param->offset) = object;
 }
 
 const char *fracas_param_text(const fracas_param *param, const void *section)
 {
     if (param->type == FRACAS_CHOICE && chosen(param, section)) return chosen(param, section)->name;
     const fracas_attachment *attachment = param->type == FRACAS_ATTACHMENT
-                                              ? fracas_param_attachment(param, section)
+                                              ? fracas_param_object(param, section)
                                               : NULL;
     return attachment ? attachment->digest : "";
 }

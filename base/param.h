@@ -17,11 +17,12 @@
 #include <stdint.h>
 
 typedef enum {
-    FRACAS_REAL,      /* double, may carry a unit */
-    FRACAS_INTEGER,   /* int64_t */
-    FRACAS_BOOLEAN,   /* bool */
-    FRACAS_CHOICE,    /* const fracas_kind *, one of `choices`, no parameters; default: the first */
-    FRACAS_ATTACHMENT /* const fracas_attachment *, a file named by its path; NULL: none given */
+    FRACAS_REAL,    /* double, may carry a unit */
+    FRACAS_INTEGER, /* int64_t */
+    FRACAS_BOOLEAN, /* bool */
+    FRACAS_CHOICE,  /* const fracas_kind *, one of `choices`, no parameters; default: the first */
+    FRACAS_ATTACHMENT, /* const fracas_attachment *, a file named by its path; NULL: none given */
+    FRACAS_NUMBERS     /* const fracas_numbers *, in sections for runs alone; NULL: none given */
 } fracas_param_type;
 
 /* A value of a selector. Objects with functions (a law, a distribution) have it as first member. */
@@ -35,6 +36,12 @@ typedef struct {
     size_t size;      /* bytes, without the final NUL */
     char digest[33];  /* hexadecimal XXH3 of the content: its part in a point's identity */
 } fracas_attachment;
+
+/* A list of whole numbers. */
+typedef struct {
+    size_t n;
+    const int64_t *value;
+} fracas_numbers;
 
 /* A required value has no default. */
 #define FRACAS_REQUIRED NAN
@@ -109,8 +116,14 @@ static inline bool fracas_param_is_text(const fracas_param *param)
     return param->type == FRACAS_CHOICE || param->type == FRACAS_ATTACHMENT;
 }
 
+/* True for types whose value is a pointer into the campaign's memory. */
+static inline bool fracas_param_is_object(const fracas_param *param)
+{
+    return param->type == FRACAS_ATTACHMENT || param->type == FRACAS_NUMBERS;
+}
+
 /* The parameter's value in the section's struct at `section`, as a double: for a choice its index
- * (NaN for none of them); for an attachment NaN. */
+ * (NaN for none of them); for an object NaN. */
 double fracas_param_get(const fracas_param *param, const void *section);
 
 /* Stores the value for "not given": NaN, or NULL. */
@@ -120,13 +133,12 @@ void fracas_param_clear(const fracas_param *param, void *section);
 bool fracas_param_is_given(const fracas_param *param, const void *section);
 
 /* Stores `value` (SI, already validated; for a choice its index) in the section's struct; does
- * nothing for an attachment. */
+ * nothing for an object. */
 void fracas_param_set(const fracas_param *param, void *section, double value);
 
-/* The same of an attachment; NULL for none. */
-const fracas_attachment *fracas_param_attachment(const fracas_param *param, const void *section);
-void fracas_param_attach(const fracas_param *param, void *section,
-                         const fracas_attachment *attachment);
+/* The same of an object; NULL for none. */
+const void *fracas_param_object(const fracas_param *param, const void *section);
+void fracas_param_place(const fracas_param *param, void *section, const void *object);
 
 /* Text for the value of a choice or attachment in a point: the name, the digest; "" where there is
  * none, and for any other type. */

@@ -66,6 +66,22 @@ void fracas_text_show(const char *text, char *shown, size_t size)
     shown[used] = '\0';
 }
 
+void fracas_text_wrap(const char *text, int indent, int columns, FILE *out)
+{
+    int at = indent;
+    for (bool first = true; *text; first = false) {
+        const int length = (int)strcspn(text, " ");
+        const bool breaks = !first && columns && at + 1 + length >= columns;
+        if (breaks) fprintf(out, "\n%*s", indent, "");
+        else if (!first) putc(' ', out);
+        at = (breaks ? indent : at + !first) + length;
+        fprintf(out, "%.*s", length, text);
+        text += length;
+        text += strspn(text, " ");
+    }
+    putc('\n', out);
+}
+
 /* ---- stdout ---- */
 
 typedef struct {

@@ -26,6 +26,10 @@ size_t fracas_text_show_character(const char *text, char shown[FRACAS_TEXT_SHOWN
 /* Writes `text` into `shown` with each byte of hidden characters as \xNN, cut to `size` bytes. */
 void fracas_text_show(const char *text, char *shown, size_t size);
 
+/* Prints a text and a line break, broken at spaces into lines of at most `columns` characters (0:
+ * no limit). The first begins behind `indent` characters, the others with so many spaces. */
+void fracas_text_wrap(const char *text, int indent, int columns, FILE *out);
+
 /* Replaces stdout by a stream with the same rule, until fclose(stdout).
  * Without memory stdout stays as it is. */
 void fracas_text_guard_stdout(void);

@@ -70,8 +70,7 @@ static size_t digits(const char *text)
     return strspn(text, "0123456789");
 }
 
-/* Length of the number at the start of `text`; 0 if there is none. */
-static size_t number_length(const char *text)
+size_t fracas_number_length(const char *text)
 {
     size_t at = text[0] == '+' || text[0] == '-';
     size_t whole = digits(text + at), fraction = 0;
@@ -108,7 +107,7 @@ static fracas_err number_value(const char *text, double *value)
 
 fracas_err fracas_number_read(const char *text, double *value)
 {
-    size_t length = number_length(text);
+    size_t length = fracas_number_length(text);
     if (length == 0 || text[length] != '\0')
         return fracas_fail(FRACAS_USAGE, "`%s` is not a number", text);
     return number_value(text, value);
@@ -213,6 +212,18 @@ static double unit_factor(ut_system *system, ut_unit *found, ut_unit *expected)
     return convert_once(found, expected, 0.0) == 0.0 ? convert_once(ratio, one, 1.0) : 0.0;
 }
 
+/* The unit written as `name`; *found stays NULL if there is none such. */
+static fracas_err parse_unit(ut_system *system, const char *name, ut_unit **found)
+{
+    bool plain, from = false;
+    TRY(match(plain_unit, name, &plain));
+    if (plain) TRY(match(origin, name, &from));
+    plain = plain && !from;
+    *found = plain ? ut_parse(system, name, UT_UTF8) : NULL;
+    if (!*found && plain && ut_get_status() == UT_OS) return fracas_no_memory("a unit");
+    return FRACAS_OK;
+}
+
 /* Factor from the unit written as `name` to `expected`; FRACAS_USAGE names its fault. `text`: the
  * whole value. */
 static fracas_err parse_factor(ut_system *system, const char *text, const char *name,
@@ -224,12 +235,8 @@ static fracas_err parse_factor(ut_system *system, const char *text, const char *
     if (!expected)
         return fracas_fail(FRACAS_BUG, "a parameter table has the unit `%s`, unknown to UDUNITS-2",
                            si);
-    bool plain, from = false;
-    TRY(match(plain_unit, name, &plain));
-    if (plain) TRY(match(origin, name, &from));
-    plain = plain && !from;
-    OWN(ut_unit) found = plain ? ut_parse(system, name, UT_UTF8) : NULL;
-    if (!found && plain && ut_get_status() == UT_OS) return fracas_no_memory("a unit");
+    OWN(ut_unit) found = NULL;
+    TRY(parse_unit(system, name, &found));
     if (!found)
         return fracas_fail(FRACAS_USAGE, "`%s` has an unknown unit, `%s`; expected %s, in %s", text,
                            name, what, write_in);
@@ -244,6 +251,84 @@ static fracas_err parse_factor(ut_system *system, const char *text, const char *
     return fracas_fail(FRACAS_USAGE,
                        "`%s` is counted from an origin of its own; expected %s, in %s", text, what,
                        write_in);
+}
+
+/* ---- dimensions ---- */
+
+static const char *const base_units[] = {"m", "kg", "s", "K"};
+
+static ut_status visit_product(const ut_unit *unit, int count, const ut_unit *const *basic,
+                               const int *powers, void *dimension)
+{
+    (void)unit;
+    for (int b = 0; b < count; b++) {
+        if (ut_is_dimensionless(basic[b])) continue; /* an angle */
+        const char *symbol = ut_get_symbol(basic[b], UT_ASCII);
+        size_t i = 0;
+        while (i < 4 && (!symbol || strcmp(base_units[i], symbol) != 0)) i++;
+        if (i == 4) return UT_BAD_ARG;
+        ((fracas_dimension *)dimension)->power[i] = powers[b];
+    }
+    return UT_SUCCESS;
+}
+
+static ut_status visit_basic(const ut_unit *unit, void *dimension)
+{
+    return visit_product(unit, 1, &unit, &(int){1}, dimension);
+}
+
+static ut_status visit_scaled(const ut_unit *unit, double scale, const ut_unit *of,
+                              double origin_at, void *dimension);
+
+static ut_status visit_other(const ut_unit *unit, double of, const ut_unit *reference,
+                             void *dimension)
+{
+    (void)unit, (void)of, (void)reference, (void)dimension;
+    return UT_BAD_ARG;
+}
+
+static ut_status visit_time(const ut_unit *unit, const ut_unit *of, double origin_at,
+                            void *dimension)
+{
+    return visit_other(unit, origin_at, of, dimension);
+}
+
+static const ut_visitor visitor = {visit_basic, visit_product, visit_scaled, visit_time,
+                                   visit_other};
+
+static ut_status visit_scaled(const ut_unit *unit, double scale, const ut_unit *of,
+                              double origin_at, void *dimension)
+{
+    (void)unit, (void)scale;
+    return origin_at == 0 ? ut_accept_visitor(of, &visitor, dimension) : UT_BAD_ARG;
+}
+
+static fracas_err parse_dimension(ut_system *system, const char *name, double *factor,
+                                  fracas_dimension *dimension)
+{
+    OWN(ut_unit) found = NULL;
+    TRY(parse_unit(system, name, &found));
+    *dimension = (fracas_dimension){{0}};
+    if (!found) return fracas_fail(FRACAS_USAGE, "unknown unit `%s`", name);
+    if (ut_accept_visitor(found, &visitor, dimension) != UT_SUCCESS)
+        return fracas_fail(FRACAS_USAGE, "unit `%s` is none of length, mass, time, temperature",
+                           name);
+    char si[64];
+    snprintf(si, sizeof si, "m%g kg%g s%g K%g", dimension->power[0], dimension->power[1],
+             dimension->power[2], dimension->power[3]);
+    OWN(ut_unit) expected = ut_parse(system, si, UT_ASCII);
+    if (!expected) return fracas_no_memory("a unit");
+    *factor = unit_factor(system, found, expected);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_units_parse(const fracas_units *units, const char *name, double *factor,
+                              fracas_dimension *dimension)
+{
+    locale_t before = enter_plain_locale();
+    fracas_err err = parse_dimension(units->system, name, factor, dimension);
+    uselocale(before);
+    return err;
 }
 
 /* Reads the unit `name` after the number in `text`. */
@@ -267,7 +352,7 @@ fracas_err fracas_units_read(const fracas_units *units, const char *text, const 
 {
     const char *what, *write_in;
     fracas_units_describe(si, &what, &write_in);
-    size_t length = number_length(text);
+    size_t length = fracas_number_length(text);
     const char *unit = text + length + strspn(text + length, " ");
     bool apart = unit > text + length || strcmp(unit, "%") == 0;
     if (length == 0 || (*unit && !apart))

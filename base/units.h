@@ -7,6 +7,8 @@
 #include "base/own.h"
 #include "base/err.h"
 
+#include <stddef.h>
+
 #define FRACAS_NUMBER_TEXT 32 /* buffer of fracas_number_write, bytes */
 
 /* Rounds to 15 significant decimal digits, as "%.15g" does; -0 becomes 0. Values reached by
@@ -36,6 +38,19 @@ FRACAS_OWNER(fracas_units, fracas_units_destroy)
  * unit expected. */
 FRACAS_MUST_USE fracas_err fracas_units_read(const fracas_units *units, const char *text,
                                              const char *si, double *value);
+
+/* Powers of m, kg, s and K. */
+typedef struct {
+    double power[4];
+} fracas_dimension;
+
+/* The unit `name`, a product of powers of names, as `factor` times SI units of this dimension.
+ * FRACAS_USAGE, naming it, if it is none, or of another dimension than these four have. */
+FRACAS_MUST_USE fracas_err fracas_units_parse(const fracas_units *units, const char *name,
+                                              double *factor, fracas_dimension *dimension);
+
+/* Length of the number at the start of `text`; 0 if there is none. */
+size_t fracas_number_length(const char *text);
 
 /* Names the quantity of a value in the unit `si` with its article, "a stress", and the units to
  * write, "Pa or MPa"; "a value" and `si` itself for a dimension without a name. */

@@ -108,7 +108,7 @@ static fracas_err write_campaign(const bench *b)
                 "fracture_energy: 100 J/m2, beta: 4}\n"
                 "strength: {distribution: constant, value: 300 MPa}\nloading: {type: imposed-rate, "
                 "rate: 1 1/s}\n"
-                "time: {stop: settled, end: 300 ns, quiet: 50 ns, safety: 0.25}\noutput: {history: "
+                "time: {stop: quiet, end: 300 ns, quiet: 50 ns, safety: 0.25}\noutput: {history: "
                 "0}\nreplicas: %d\n",
                 b->tasks / b->points);
     if (out && b->points > 1)

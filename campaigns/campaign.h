@@ -25,6 +25,21 @@ typedef struct {
     int64_t parts; /* threads of a realization on a surface; 0: chosen by the run */
 } fracas_parallel;
 
+enum { FRACAS_MOST_INSTANTS = 10000 }; /* at which fields of a realization are written */
+
+/* Fields that a run writes at its end, beside the study (campaigns/file/chosen.h). */
+typedef struct {
+    const fracas_kind *of;          /* which realizations */
+    const fracas_numbers *replicas; /* where they are listed */
+    double every;                   /* s, from 0 on; 0: at onset, peak and end */
+} fracas_wanted_fields;
+
+/* Keys of the figures of means in a report; NULL: the report chooses. In no hash. */
+typedef struct fracas_report_keys {
+    const char *x;      /* on the abscissa: a parameter's path, or a statistic's key */
+    const char *series; /* path of the parameter whose values make the series */
+} fracas_report_keys;
+
 /* A point, resolved. */
 typedef struct {
     fracas_spec spec;
@@ -48,6 +63,8 @@ typedef struct fracas_campaign {
     bool common_random_numbers; /* replica r draws the same at every point */
     fracas_output output;       /* the same for all points */
     fracas_parallel parallel;
+    fracas_wanted_fields fields;
+    fracas_report_keys report;
     size_t npoints;
     fracas_point *point;       /* plan order = file order of the sweep, last axis fastest */
     fracas_point_table table;  /* the same points as columns */
@@ -70,8 +87,14 @@ FRACAS_MUST_USE fracas_err fracas_campaign_read(const char *path, fracas_campaig
 /* The same with a loaded unit database, whose loading takes longer than reading a file. */
 FRACAS_MUST_USE fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path,
                                                      fracas_campaign **campaign);
+/* The same from `size` bytes of text, which stand for the file `name`. */
+FRACAS_MUST_USE fracas_err fracas_campaign_read_text(const char *text, size_t size,
+                                                     const char *name, fracas_campaign **campaign);
 void fracas_campaign_destroy(fracas_campaign *campaign); /* NULL is allowed */
 FRACAS_OWNER(fracas_campaign, fracas_campaign_destroy)
+
+/* FRACAS_USAGE, with the remedy, if there is no point number `point`, from 0. */
+FRACAS_MUST_USE fracas_err fracas_campaign_has(const fracas_campaign *campaign, size_t point);
 
 /* Gives every point `replicas` (1 to 1e9), as if in the file: the campaign's hash changes, too.
  * FRACAS_USAGE, and no change, if a rule decides the replicas of a point. */
@@ -90,6 +113,11 @@ FRACAS_MUST_USE fracas_err fracas_campaign_extends(const fracas_campaign *now,
 /* The reference page of the campaign file (docs/formats/campaign-file-keys.md), from the parameter
  * tables. FRACAS_ENVIRONMENT without memory, and nothing is printed. */
 FRACAS_MUST_USE fracas_err fracas_campaign_reference(FILE *out);
+/* The JSON schema (2020-12) of campaign files, likewise: a file that it refuses is refused. */
+FRACAS_MUST_USE fracas_err fracas_campaign_schema(FILE *out);
+/* A campaign file of the model to start from, with all of its keys. FRACAS_USAGE, with the nearest,
+ * for an unknown model. */
+FRACAS_MUST_USE fracas_err fracas_campaign_template(const char *model, FILE *out);
 /* Prints the columns of /point that follow from the others, as docs/formats/study.md has them. */
 void fracas_derived_reference(FILE *out);
 

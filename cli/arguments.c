@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
 
+#include "base/terminal.h"
+#include "base/units.h"
 #include "campaigns/file/words.h"
 
 #include <errno.h>
@@ -10,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 const fracas_option fracas_json_option[] = {{"json", NULL, "print it as JSON"}, {0}};
 
@@ -22,6 +25,19 @@ static size_t find(const fracas_command *command, const char *name)
     for (size_t i = 0; command->options && command->options[i].name; i++)
         if (!strcmp(command->options[i].name, name)) return i;
     return FRACAS_MOST_OPTIONS;
+}
+
+int fracas_cli_columns(const fracas_arguments *arguments)
+{
+    return fracas_given(arguments, "wide") ? 0 : fracas_terminal_of(STDOUT_FILENO).columns;
+}
+
+fracas_call fracas_operand_text(const fracas_command *command)
+{
+    fracas_call call = {""};
+    if (command->operand)
+        snprintf(call.text, sizeof call.text, command->optional ? "[%s]" : "%s", command->operand);
+    return call;
 }
 
 const char *fracas_given(const fracas_arguments *arguments, const char *option)
@@ -56,7 +72,7 @@ static fracas_err unknown_option(const fracas_command *command, const char *give
     fracas_words_init(&words, found);
     char option[FRACAS_MOST_OPTIONS][32];
     for (size_t i = 0; command->options && command->options[i].name; i++) {
-        if (command->refused && !strcmp(command->refused, command->options[i].name)) continue;
+        if (!fracas_option_is_shown(command, &command->options[i])) continue;
         snprintf(option[i], sizeof option[i], "--%s", command->options[i].name);
         fracas_words_add(&words, option[i]);
     }
@@ -157,7 +173,8 @@ fracas_err fracas_arguments_read(const fracas_command *command, int argc, char *
     if (optind < arguments->argc)
         return fracas_fail(FRACAS_USAGE, "%s: one argument too many: `%s`; see `fracas help %s`",
                            command->name, argv[optind], command->name);
-    const char *missing = command->operand && !arguments->operand ? command->operand
+    const bool needed = command->operand && !command->optional;
+    const char *missing = needed && !arguments->operand           ? command->operand
                           : command->second && !arguments->second ? command->second
                                                                   : NULL;
     if (missing)
@@ -271,4 +288,15 @@ fracas_err fracas_arguments_time(const fracas_arguments *arguments, const char *
                            arguments->command->name, option, text);
     *seconds = value;
     return FRACAS_OK;
+}
+
+fracas_err fracas_cli_read_time(const fracas_units *units, const char *text, double *seconds)
+{
+    char spaced[64];
+    text += strspn(text, " ");
+    const int digits = (int)strspn(text, "+-.0123456789eE");
+    snprintf(spaced, sizeof spaced,
+             digits > 0 && text[digits] && text[digits] != ' ' ? "%.*s %s" : "%.*s%s", digits, text,
+             text + digits);
+    return fracas_units_read(units, spaced, "s", seconds);
 }

@@ -7,6 +7,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <string.h>
 
 typedef struct {
     const char *name;     /* "jobs" for --jobs */
@@ -24,6 +25,7 @@ struct fracas_campaign;
 typedef struct {
     const char *name;
     const char *operand;          /* its name in the help; NULL: none */
+    bool optional;                /* the operand may be left out */
     const char *second;           /* a second operand */
     const char *doc;              /* one sentence, no full stop */
     const char *more;             /* paragraph for `fracas help NAME` */
@@ -37,13 +39,40 @@ typedef struct {
 } fracas_command;
 
 extern const fracas_option fracas_json_option[]; /* --json alone */
+#define FRACAS_WIDE_OPTION                                                      \
+    {                                                                           \
+        "wide", NULL, "tables as wide as they are, also on a narrower terminal" \
+    }
 
 extern const fracas_command fracas_command_run, fracas_command_plan, fracas_command_status,
     fracas_command_report, fracas_command_export, fracas_command_picture, fracas_command_verify,
     fracas_command_sample, fracas_command_distributions, fracas_command_reference,
     fracas_command_reindex, fracas_command_merge, fracas_command_gc, fracas_command_extend,
     fracas_command_retry, fracas_command_merge_studies, fracas_command_compare,
-    fracas_command_submit, fracas_command_converge, fracas_command_fit, fracas_command_bench;
+    fracas_command_submit, fracas_command_converge, fracas_command_fit, fracas_command_bench,
+    fracas_command_man, fracas_command_completion, fracas_command_init, fracas_command_replay,
+    fracas_command_doctor;
+
+#define FRACAS_PROGRAM_DOC "from a campaign file to a report of fragment statistics"
+
+/* "[FOLDER]": the operand, "" of a command without one. */
+typedef struct {
+    char text[24];
+} fracas_call;
+fracas_call fracas_operand_text(const fracas_command *command);
+
+/* All of them, in the order of the help, up to a NULL. */
+extern const fracas_command *const fracas_commands[];
+
+/* FRACAS_USAGE, with the nearest, for an unknown name. */
+FRACAS_MUST_USE fracas_err fracas_command_find(const char *name, const fracas_command **command);
+
+/* False for the option that the command refuses. */
+static inline bool fracas_option_is_shown(const fracas_command *command,
+                                          const fracas_option *option)
+{
+    return !command->refused || strcmp(command->refused, option->name) != 0;
+}
 
 struct fracas_arguments {
     const fracas_command *command;
@@ -84,6 +113,15 @@ FRACAS_MUST_USE fracas_err fracas_arguments_word(const fracas_arguments *argumen
 FRACAS_MUST_USE fracas_err fracas_arguments_time(const fracas_arguments *arguments,
                                                  const char *option, double *seconds);
 
+/* Columns for tables on standard output: the terminal's; 0, no limit: there is none, or --wide. */
+int fracas_cli_columns(const fracas_arguments *arguments);
+
+/* An instant or interval of a realization [s]: "26us" or "26 us". A campaign file wants the space,
+ * a command line is easier without. FRACAS_USAGE for anything else. */
+struct fracas_units;
+FRACAS_MUST_USE fracas_err fracas_cli_read_time(const struct fracas_units *units, const char *text,
+                                                double *seconds);
+
 /* FRACAS_DAMAGED, with the remedy, if `study` is no folder of a study. */
 FRACAS_MUST_USE fracas_err fracas_cli_check_study(const char *study);
 
@@ -97,8 +135,16 @@ struct fracas_analysis;
 FRACAS_MUST_USE fracas_err fracas_cli_analyse(const char *study, struct fracas_campaign **campaign,
                                               struct fracas_analysis **analysis);
 
-/* Prints the result table, or with `json` the statistics, and writes the report of all realizations
- * done by now: the last step of `fracas run`, and `fracas report`. */
-FRACAS_MUST_USE fracas_err fracas_cli_report(const char *study, bool json);
+typedef struct {
+    bool json, quiet;       /* the statistics as JSON, or nothing, in the place of the table */
+    const char *output;     /* folder; NULL: STUDY/report */
+    int columns;            /* for the table; 0: no limit */
+    const char *x, *series; /* keys of the figures; NULL: the campaign's */
+    const char *points;     /* points with figures of their own; NULL: chosen */
+} fracas_report_view;
+
+/* Prints the result table and writes the report of all realizations done by now: the last step of
+ * `fracas run`, and `fracas report`. */
+FRACAS_MUST_USE fracas_err fracas_cli_report(const char *study, const fracas_report_view *view);
 
 #endif

@@ -10,6 +10,7 @@
 static const fracas_option options[] = {
     {"by", "COLUMNS", "match points by these columns alone, as loading.rate,strength.shape"},
     {"json", NULL, "print it as JSON"},
+    FRACAS_WIDE_OPTION,
     {0}};
 
 /* study.h5 does not say whether random numbers are common: the campaign does. */
@@ -31,7 +32,8 @@ static fracas_err print(const fracas_arguments *arguments, const fracas_analysis
                                         .common = common_a && common_b};
     FRACAS_CLEARED(fracas_comparison) comparison = {0};
     TRY(fracas_compare(a, b, &how, &comparison));
-    if (!fracas_given(arguments, "json")) return fracas_comparison_print(&comparison, a, b, stdout);
+    if (!fracas_given(arguments, "json"))
+        return fracas_comparison_print(&comparison, a, b, fracas_cli_columns(arguments), stdout);
     fracas_comparison_write_json(&comparison, a, b, stdout);
     return FRACAS_OK;
 }

@@ -19,7 +19,7 @@
 static const fracas_option options[] = {
     FRACAS_RUN_OPTIONS,
     {"study", "DIR", "folder of the studies (studies/NAME-converge)"},
-    {"only", "mesh|step|beta", "refine that alone (all three in turn)"},
+    {"only", "mesh|step|beta|end", "refine that alone (all in turn)"},
     {"tolerance", "PERCENT", "a change within which a number holds (2)"},
     {"json", NULL, "print the result as JSON"},
     {0}};
@@ -27,8 +27,9 @@ static const fracas_option options[] = {
 enum { NAME = 8, STUDY_PATH = PATH_MAX + NAME };
 
 /* The order of the runs, short ones first. */
-static const fracas_refinement order[] = {FRACAS_REFINE_NOTHING, FRACAS_REFINE_STEP,
-                                          FRACAS_REFINE_BETA, FRACAS_REFINE_MESH};
+static const fracas_refinement order[] = {FRACAS_REFINE_NOTHING, FRACAS_REFINE_END,
+                                          FRACAS_REFINE_STEP, FRACAS_REFINE_BETA,
+                                          FRACAS_REFINE_MESH};
 
 typedef struct {
     const fracas_arguments *arguments;
@@ -176,7 +177,7 @@ static fracas_err print_costs(const converging *c)
         const double factor = cost_of(refined) / cost_of(base_of(c)), time = factor * base;
         total += time;
         write_duration(time, text);
-        fprintf(stderr, "fracas:   %s  %-25s %4zu point%s  %6.3g times the work  %8s\n",
+        fprintf(stderr, "fracas:   %-4s  %-25s %4zu point%s  %6.3g times the work  %8s\n",
                 fracas_refinement_name[order[i]], fracas_refinement_doc[order[i]],
                 refined->campaign->npoints, refined->campaign->npoints == 1 ? " " : "s", factor,
                 text);
@@ -266,7 +267,7 @@ static fracas_err compare(const converging *c, double tolerance)
         fracas_convergence_write_json(convergence, stdout);
         return FRACAS_OK;
     }
-    TRY(fracas_convergence_print(convergence, stdout));
+    TRY(fracas_convergence_print(convergence, fracas_cli_columns(c->arguments), stdout));
     printf("report: %s/report/index.html; all digits: %s/converge.csv; a study's own report: "
            "fracas report %s\n",
            c->folder, c->folder, c->study[FRACAS_REFINE_NOTHING]);
@@ -306,17 +307,19 @@ static fracas_err converge(const fracas_arguments *arguments)
 const fracas_command fracas_command_converge = {
     .name = "converge",
     .operand = "FILE",
-    .doc = "Runs FILE with mesh, step and beta refined in turn, and says which numbers move",
-    .more = "\nThe campaign of FILE as it is, with half the time step, with interfaces twice as "
-            "stiff, and on a mesh of half the size is computed, each as\n"
-            "a study in DIR; then every headline number is compared with what it is without: a "
-            "table, and figures on the page DIR/report/index.html.\n"
-            "It ends with 0 whatever moved. The same command goes on with what was interrupted, "
-            "prints the result of what is complete, and extends\n"
-            "all studies by more --replicas. FILE itself is run anew, as a study of its own: the "
-            "same strengths in all studies, of which those of step\n"
-            "and beta make pairs. Strengths that scatter much and have no reference volume belong "
-            "to interfaces: mesh moves with their number.\n",
+    .doc = "Runs FILE with mesh, step, beta and end refined in turn, and says which numbers move",
+    .more =
+        "\nThe campaign of FILE as it is, to twice its end, with half the time step, with "
+        "interfaces twice as stiff, and on a mesh of half the size is\n"
+        "computed, each as a study in DIR; then every headline number is compared with what it is "
+        "without: a "
+        "table, and figures on the page DIR/report/index.html.\n"
+        "It ends with 0 whatever moved. The same command goes on with what was interrupted, "
+        "prints the result of what is complete, and extends\n"
+        "all studies by more --replicas. FILE itself is run anew, as a study of its own: the "
+        "same strengths in all studies, of which all but\n"
+        "those of mesh make pairs. Strengths that scatter much and have no reference volume belong "
+        "to interfaces: mesh moves with their number.\n",
     .options = options,
     .refused = "part",
     .why = "is of one study; here there are several, which are compared when all of them are "

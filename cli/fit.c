@@ -5,17 +5,23 @@
 #include "analysis/export/tables.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
+#include "campaigns/scheduler/launch/allocation.h"
 
 #include <errno.h>
 #include <limits.h>
+#include <math.h>
 #include <stdint.h>
+#include <time.h>
 #include <unistd.h>
 
 static const fracas_option options[] = {
     {"point", "P", "fit the point of this number alone, from 0, and keep the fits of the others",
      0},
+    {"jobs", "N", "processes that fit, a point each at a time (one a core); the fits are the same",
+     0},
     {"resamples", "B", "resamples of intervals and p-values, 99 to 100000 (999)", 0},
     {"json", NULL, "print the fits as JSON", 0},
+    FRACAS_WIDE_OPTION,
     {0}};
 
 /* Reads valid fits of the other points before any computation; NULL without a file. */
@@ -30,6 +36,34 @@ static fracas_err read_others(const char *study, const fracas_analysis *analysis
     return FRACAS_OK;
 }
 
+/* A line on a terminal that is written over. */
+static void show_progress(void *context, size_t done, size_t saved, size_t all)
+{
+    const time_t *began = context;
+    const double elapsed = difftime(time(NULL), *began);
+    char left[48] = "", before[48] = "";
+    if (!isatty(STDERR_FILENO)) return;
+    if (done > saved && done < all) {
+        const long s = lround(elapsed * (double)(all - done) / (double)(done - saved));
+        snprintf(left, sizeof left, ", some %ld:%02ld left", s / 60, s % 60);
+    }
+    if (saved > 0) snprintf(before, sizeof before, ", %zu of them by an earlier call", saved);
+    fprintf(stderr, "\rfitted %zu of %zu points%s%s\033[K%s", done, all, before, left,
+            done == all ? "\n" : "");
+}
+
+/* Many processes fit the whole study; one point is fitted in this one. */
+static fracas_err make_fits(const fracas_arguments *arguments, const fracas_analysis *analysis,
+                            size_t point, int resamples, fracas_fits **fits)
+{
+    time_t began = time(NULL);
+    int jobs = fracas_allocation_cores();
+    TRY(fracas_arguments_integer(arguments, "jobs", 1, 1024, &jobs));
+    if (point != SIZE_MAX) return fracas_fits_create(analysis, point, resamples, fits);
+    const fracas_fits_work work = {jobs, arguments->operand, show_progress, &began};
+    return fracas_fits_create_by(analysis, resamples, &work, fits);
+}
+
 static fracas_err fit_study(const fracas_arguments *arguments, const fracas_analysis *analysis,
                             size_t point, int resamples)
 {
@@ -38,13 +72,14 @@ static fracas_err fit_study(const fracas_arguments *arguments, const fracas_anal
     OWN(fracas_fits) fits = NULL;
     OWN(fracas_fits) older = NULL;
     TRY(read_others(study, analysis, point != SIZE_MAX, &older));
-    TRY(fracas_fits_create(analysis, point, resamples, &fits));
+    TRY(make_fits(arguments, analysis, point, resamples, &fits));
     const size_t made = fits->n; /* rows to show, out of all rows */
     fracas_err code = older ? fracas_fits_complete(fits, older) : FRACAS_OK;
     if (!code) code = fracas_fits_write(fits, study); /* first: the reader of the output may end */
+    if (!code && point == SIZE_MAX) fracas_fits_forget_part(study);
     fits->n = made;
     if (json) fracas_fits_write_json(fits, stdout);
-    else fracas_fits_print(fits, analysis, stdout);
+    else fracas_fits_print(fits, analysis, fracas_cli_columns(arguments), stdout);
     if (!code && !json) printf("\nfits: %s/" FRACAS_FITS_FILE "\n", study);
     return code;
 }
@@ -71,8 +106,9 @@ const fracas_command fracas_command_fit = {
     .operand = "STUDY",
     .doc = "Fits families of distributions to the fragment sizes of every point",
     .more = "\nBy maximum likelihood, with intervals and p-values that resample realizations: half "
-            "a minute or so for a point. They are kept in\n"
-            "STUDY/fits.csv, for the report.\n",
+            "a minute or so for a point, on all cores. They are kept in\n"
+            "STUDY/fits.csv, for the report. Each point is saved when it is done: after Ctrl-C the "
+            "same command goes on.\n",
     .options = options,
     .run = fit,
 };

@@ -17,28 +17,28 @@
 #include <string.h>
 #include <unistd.h>
 
-static const fracas_command *const commands[] = {
-    &fracas_command_run,           &fracas_command_plan,          &fracas_command_status,
-    &fracas_command_report,        &fracas_command_fit,           &fracas_command_export,
-    &fracas_command_compare,       &fracas_command_picture,       &fracas_command_verify,
-    &fracas_command_sample,        &fracas_command_distributions, &fracas_command_reference,
-    &fracas_command_extend,        &fracas_command_retry,         &fracas_command_merge,
-    &fracas_command_merge_studies, &fracas_command_reindex,       &fracas_command_gc,
-    &fracas_command_submit,        &fracas_command_converge,      &fracas_command_bench,
+const fracas_command *const fracas_commands[] = {
+    &fracas_command_run,        &fracas_command_plan,          &fracas_command_status,
+    &fracas_command_report,     &fracas_command_fit,           &fracas_command_export,
+    &fracas_command_compare,    &fracas_command_picture,       &fracas_command_verify,
+    &fracas_command_replay,     &fracas_command_sample,        &fracas_command_distributions,
+    &fracas_command_reference,  &fracas_command_extend,        &fracas_command_retry,
+    &fracas_command_merge,      &fracas_command_merge_studies, &fracas_command_reindex,
+    &fracas_command_gc,         &fracas_command_submit,        &fracas_command_converge,
+    &fracas_command_bench,      &fracas_command_doctor,        &fracas_command_man,
+    &fracas_command_completion, &fracas_command_init,          NULL,
 };
-enum { NCOMMANDS = sizeof commands / sizeof *commands };
 
 static void print_usage(FILE *out)
 {
-    fputs("fracas " FRACAS_VERSION
-          ": from a campaign file to a report of fragment statistics\n\nusage:\n",
-          out);
-    for (size_t i = 0; i < NCOMMANDS; i++) {
+    fputs("fracas " FRACAS_VERSION ": " FRACAS_PROGRAM_DOC "\n\nusage:\n", out);
+    for (size_t i = 0; fracas_commands[i]; i++) {
         char call[40];
-        const char *operand = commands[i]->operand ? commands[i]->operand : "",
-                   *second = commands[i]->second ? commands[i]->second : "";
-        snprintf(call, sizeof call, "%s %s %s", commands[i]->name, operand, second);
-        fprintf(out, "  fracas %-17s %s\n", call, commands[i]->doc);
+        const fracas_command *command = fracas_commands[i];
+        const char *second = command->second ? command->second : "";
+        snprintf(call, sizeof call, "%s %s %s", command->name, fracas_operand_text(command).text,
+                 second);
+        fprintf(out, "  fracas %-17s %s\n", call, command->doc);
     }
     fputs("  fracas help COMMAND      what COMMAND does, and its options\n"
           "  fracas --version         the version, and what computes here\n",
@@ -48,27 +48,27 @@ static void print_usage(FILE *out)
 static void print_help(const fracas_command *command)
 {
     printf("usage: fracas %s%s%s%s%s%s\n\n%s.\n%s", command->name, command->operand ? " " : "",
-           command->operand ? command->operand : "", command->second ? " " : "",
+           fracas_operand_text(command).text, command->second ? " " : "",
            command->second ? command->second : "", command->options ? " [options]" : "",
            command->doc, command->more);
     if (command->options) puts("\noptions:");
     for (const fracas_option *option = command->options; option && option->name; option++) {
         char call[40];
-        if (command->refused && !strcmp(command->refused, option->name)) continue;
+        if (!fracas_option_is_shown(command, option)) continue;
         snprintf(call, sizeof call, "--%s %s", option->name,
                  option->argument ? option->argument : "");
         printf("  %-28s %s\n", call, option->doc);
     }
 }
 
-static fracas_err find_command(const char *name, const fracas_command **command)
+fracas_err fracas_command_find(const char *name, const fracas_command **command)
 {
     fracas_words words;
     fracas_words_init(&words, name);
-    for (size_t i = 0; i < NCOMMANDS; i++) {
-        *command = commands[i];
-        if (!strcmp(commands[i]->name, name)) return FRACAS_OK;
-        fracas_words_add(&words, commands[i]->name);
+    for (size_t i = 0; fracas_commands[i]; i++) {
+        *command = fracas_commands[i];
+        if (!strcmp((*command)->name, name)) return FRACAS_OK;
+        fracas_words_add(&words, (*command)->name);
     }
     fracas_words_add(&words, "help");
     return fracas_fail(FRACAS_USAGE, "unknown command `%s`%s", name,
@@ -87,7 +87,7 @@ static fracas_err run_command(int argc, char **argv)
 {
     const fracas_command *command;
     fracas_arguments arguments;
-    TRY(find_command(argv[1], &command));
+    TRY(fracas_command_find(argv[1], &command));
     TRY(fracas_arguments_read(command, argc, argv, &arguments));
     if (!arguments.help) return run(&arguments);
     print_help(command);
@@ -101,7 +101,7 @@ static fracas_err help(int argc, char **argv)
         return FRACAS_OK;
     }
     const fracas_command *command;
-    TRY(find_command(argv[2], &command));
+    TRY(fracas_command_find(argv[2], &command));
     print_help(command);
     return FRACAS_OK;
 }
@@ -154,6 +154,16 @@ static void say_why_hdf5_ends(int status, void *unused)
     _exit(FRACAS_ENVIRONMENT);
 }
 
+/* Each line of the message: those of a campaign file with several errors. */
+static void print_message(void)
+{
+    for (const char *line = fracas_message(); line;) {
+        const char *end = strchr(line, '\n');
+        fprintf(stderr, "fracas: %.*s\n", end ? (int)(end - line) : (int)strlen(line), line);
+        line = end ? end + 1 : NULL;
+    }
+}
+
 int main(int argc, char **argv)
 {
     on_exit(say_why_hdf5_ends, NULL);
@@ -165,7 +175,7 @@ int main(int argc, char **argv)
     if ((fclose(stdout) || bad) && !code)
         code = fracas_fail(FRACAS_ENVIRONMENT,
                            "the output could not be written; is the disk full?");
-    if (code) fprintf(stderr, "fracas: %s\n", fracas_message());
+    if (code) print_message();
     if (code == FRACAS_BUG)
         fputs("fracas: this is a fault of fracas, not yours. Please report it with this message, "
               "the version (" FRACAS_VERSION "),\nfracas: the command line, and the campaign file "

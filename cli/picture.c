@@ -16,31 +16,22 @@ static const fracas_option options[] = {
     {"point", "P", "which point (0): the first column of report/points.csv"},
     {"replica", "R", "which of its replicas (0)"},
     {"times", "LIST",
-     "times, as 26us,28us, or how many, evenly from the first onset to the end (6)"},
+     "times, as 26us,28us, or how many, each after as many breaks, the last at the end (6)"},
     {"show", "WHAT", "cracks, fragments (these, and the cracks), or mesh (that, too) (fragments)"},
     {"view", "A,H",
      "from where, as 45,30: azimuth from x toward y, elevation above the plane of both, "
      "in degrees"},
     {"explode", "FACTOR",
      "fragments apart: moved by FACTOR times (their centroid - that of the surface) (0)"},
+    {"film", NULL, "one page with a slider in the place of pictures, of 24 times unless said"},
+    {"png", NULL, "pictures as PNG files, too, 1600 dots wide"},
+    {"vtk", NULL, "grids for ParaView in the place of pictures: fragments and cracks at each time"},
     {"table", NULL, "first onset, break and crack through of all replicas of the point, as CSV"},
     {"output", "FOLDER", "where to; also -o FOLDER (STUDY/pictures)", 'o'},
     {0}};
 
 enum { MOST_TIMES = 1000 };
 static const double most_apart = 10;
-
-/* "26us" or "26 us" [s]: a campaign file wants the space, a command line is easier without. */
-static fracas_err read_time(const fracas_units *units, const char *one, double *time)
-{
-    char text[64];
-    one += strspn(one, " ");
-    const int digits = (int)strspn(one, "+-.0123456789eE");
-    snprintf(text, sizeof text,
-             digits > 0 && one[digits] && one[digits] != ' ' ? "%.*s %s" : "%.*s%s", digits, one,
-             one + digits);
-    return fracas_units_read(units, text, "s", time);
-}
 
 /* "26us,28us"; *time freed by the caller. */
 static fracas_err read_list(const char *text, double **time, size_t *count)
@@ -53,7 +44,7 @@ static fracas_err read_list(const char *text, double **time, size_t *count)
     TRY(fracas_units_create(&units));
     char *rest = copy;
     for (char *one; (one = strsep(&rest, ","));) {
-        fracas_err err = read_time(units, one, &(*time)[(*count)++]);
+        fracas_err err = fracas_cli_read_time(units, one, &(*time)[(*count)++]);
         if (err) return fracas_fail_within(err, "picture: --times is `%s`", text);
     }
     return FRACAS_OK;
@@ -64,7 +55,7 @@ static fracas_err read_times(const fracas_arguments *arguments, fracas_picture_r
                              double **time)
 {
     const char *text = fracas_given(arguments, "times");
-    int count = FRACAS_MOMENTS;
+    int count = request->film ? FRACAS_FRAMES : FRACAS_MOMENTS;
     *time = NULL;
     if (text && strspn(text, "0123456789") != strlen(text)) {
         TRY(read_list(text, time, &request->count));
@@ -124,7 +115,14 @@ static fracas_err picture(const fracas_arguments *arguments)
                                       .replica = replica,
                                       .show = (fracas_surface_show)show,
                                       .table = fracas_given(arguments, "table") != NULL,
+                                      .grids = fracas_given(arguments, "vtk") != NULL,
+                                      .film = fracas_given(arguments, "film") != NULL,
+                                      .dots = fracas_given(arguments, "png") != NULL,
                                       .folder = fracas_given(arguments, "output")};
+    if (request.grids && (request.film || request.dots))
+        return fracas_fail(FRACAS_USAGE,
+                           "picture: --vtk is in the place of pictures: call it without --film and "
+                           "--png");
     TRY(read_view(arguments, &request, &view));
     TRY(read_times(arguments, &request, &time));
     TRY(fracas_cli_read_campaign(arguments->operand, &campaign));
@@ -135,15 +133,15 @@ static fracas_err picture(const fracas_arguments *arguments)
 const fracas_command fracas_command_picture = {
     .name = "picture",
     .operand = "STUDY",
-    .doc = "Draws broken surfaces of STUDY as SVG files",
+    .doc = "Draws broken bodies of STUDY as SVG files, or as a film",
     .more =
-        "\nOne file a time: the surface as it was before any motion, its broken interfaces dark, "
+        "\nOne file a time: the body as it was before any motion, its broken interfaces dark, "
         "cracked ones grey, each fragment\n"
-        "filled, dust in orange. Then it prints when the realization first cracked, first broke, "
-        "and first cracked through, from one\n"
-        "edge to the other (annulus: inner and outer; plate: left and right, or bottom and top). "
-        "The campaign must say\n"
-        "`output: {interfaces: true}`.\n\n"
+        "filled, dust in orange; a bar with periodic ends is a circle. Then it prints when the "
+        "realization first cracked, first broke,\n"
+        "and (surfaces) first cracked through, from one edge to the other (annulus: inner and "
+        "outer; plate: left and right, or bottom\n"
+        "and top). The campaign must say `output: {interfaces: true}`.\n\n"
         "A surface that is not flat is shaded and seen from --view (45,35.264: the direction (1, "
         "1, 1)), z upward; what is hidden is left\n"
         "out. --explode 0.15 moves its fragments apart, so that the gaps and the inside show.\n",

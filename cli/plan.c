@@ -3,23 +3,28 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
-#include "campaigns/plan/plan.h"
+#include "campaigns/scheduler/written_fields.h"
 
 #include <limits.h>
 
-static const fracas_option options[] = {{"json", NULL, "print it as JSON"},
-                                        {"quick", NULL, "estimate large surfaces, unchecked"},
-                                        {"jobs", "N", "processes that would compute (one a core)"},
-                                        {0}};
+static const fracas_option known[] = {{"json", NULL, "print it as JSON"},
+                                      {"points", NULL, "list more than 100 points, too"},
+                                      {"quick", NULL, "estimate large surfaces, unchecked"},
+                                      {"jobs", "N", "processes that would compute (one a core)"},
+                                      FRACAS_WIDE_OPTION,
+                                      {0}};
 
 static fracas_err plan(const fracas_arguments *arguments)
 {
-    int jobs = 0;
-    TRY(fracas_arguments_integer(arguments, "jobs", 1, INT_MAX, &jobs));
+    fracas_plan_options options = {.quick = fracas_given(arguments, "quick"),
+                                   .json = fracas_given(arguments, "json"),
+                                   .points = fracas_given(arguments, "points"),
+                                   .columns = fracas_cli_columns(arguments)};
+    TRY(fracas_arguments_integer(arguments, "jobs", 1, INT_MAX, &options.jobs));
     OWN(fracas_campaign) campaign = NULL;
     TRY(fracas_campaign_read(arguments->operand, &campaign));
-    return fracas_plan_print(campaign, jobs, fracas_given(arguments, "quick"), stdout,
-                             fracas_given(arguments, "json"));
+    if (!options.quick) TRY(fracas_written_fields_size(campaign, &options.fields));
+    return fracas_plan_print(campaign, &options, stdout);
 }
 
 const fracas_command fracas_command_plan = {
@@ -30,6 +35,6 @@ const fracas_command fracas_command_plan = {
             "found here too.\n"
             "A study that exists is not looked at: `fracas status STUDY` says what is done of it "
             "and how long the rest takes.\n",
-    .options = options,
+    .options = known,
     .run = plan,
 };

@@ -13,12 +13,14 @@
 #include <string.h>
 
 static const fracas_option options[] = {
+    {"schema", NULL, "a JSON schema of the same instead, for editors"},
     {"statistics", NULL, "every table of the JSON summary instead"},
     {"study", NULL, "every dataset of study.h5 and column of index.sqlite instead"},
     {0}};
 
 static fracas_err reference(const fracas_arguments *arguments)
 {
+    if (fracas_given(arguments, "schema")) return fracas_campaign_schema(stdout);
     if (fracas_given(arguments, "statistics")) fracas_analysis_reference(stdout);
     else if (!fracas_given(arguments, "study")) return fracas_campaign_reference(stdout);
     else {

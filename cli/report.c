@@ -7,13 +7,27 @@
 #include "analysis/fit/fits.h"
 #include "base/param.h"
 #include "campaigns/campaign.h"
+#include "campaigns/scheduler/status/describe.h"
+#include "cli/look.h"
 
 #include <errno.h>
 #include <limits.h>
+#include <math.h>
 #include <string.h>
 #include <unistd.h>
 
-static const fracas_option report_options[] = {{"json", NULL, "print the statistics as JSON"}, {0}};
+static const fracas_option report_options[] = {
+    {"x", "KEY",
+     "draw mean counts and sizes against this parameter or statistic (the strain rate)"},
+    {"series", "KEY", "draw a series for each value of this parameter"},
+    {"points", "LIST", "draw figures of these points, as 3,17,20-25 or all (all of 16, 6 of more)"},
+    {"output", "FOLDER", "where to; also -o FOLDER (STUDY/report)", 'o'},
+    {"json", NULL, "print the statistics as JSON"},
+    {"live", NULL, "write the report again and again until the study is computed"},
+    FRACAS_INTERVAL_OPTION("30s"),
+    {"quiet", NULL, "only write the report"},
+    FRACAS_WIDE_OPTION,
+    {0}};
 
 fracas_err fracas_cli_check_study(const char *study)
 {
@@ -56,32 +70,99 @@ static fracas_err print_hidden_fits(const fracas_analysis *analysis, const char 
     return FRACAS_OK;
 }
 
-fracas_err fracas_cli_report(const char *study, bool json)
+/* Keys of the command come before those of the campaign. */
+static fracas_err set_axes(fracas_analysis *analysis, const fracas_campaign *campaign,
+                           const fracas_report_view *view)
+{
+    const char *x = view->x ? view->x : campaign->report.x,
+               *series = view->series ? view->series : campaign->report.series;
+    if (view->points) TRY(fracas_analysis_points(analysis, view->points));
+    return x || series ? fracas_analysis_axes(analysis, x, series) : FRACAS_OK;
+}
+
+static fracas_err page_of(const char *study, const fracas_report_view *view, char **page)
+{
+    return view->output ? fracas_path(page, "%s/index.html", view->output)
+                        : fracas_path(page, "%s/report/index.html", study);
+}
+
+/* Prints the table and writes the last page. */
+static fracas_err finish(const fracas_analysis *analysis, const char *study,
+                         const fracas_report_view *view)
+{
+    OWNED char *page = NULL;
+    if (view->json) TRY(fracas_analysis_write_json(analysis, study, stdout));
+    else if (!view->quiet) fracas_analysis_print_table(analysis, view->columns, stdout);
+    TRY(fracas_report_write(analysis, study, view->output, 0));
+    if (view->json || view->quiet) return FRACAS_OK;
+    TRY(print_hidden_fits(analysis, study));
+    TRY(page_of(study, view, &page));
+    printf("report: %s\n", page);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_cli_report(const char *study, const fracas_report_view *view)
 {
     OWN(fracas_campaign) campaign = NULL;
     OWN(fracas_analysis) analysis = NULL;
     TRY(fracas_cli_analyse(study, &campaign, &analysis));
-    if (json) TRY(fracas_analysis_write_json(analysis, study, stdout));
-    else fracas_analysis_print_table(analysis, stdout);
-    TRY(fracas_report_write(analysis, study));
-    if (json) return FRACAS_OK;
-    TRY(print_hidden_fits(analysis, study));
-    printf("report: %s/report/index.html\n", study);
+    TRY(set_axes(analysis, campaign, view));
+    return finish(analysis, study, view);
+}
+
+/* ---- while the study is computed ---- */
+
+typedef struct {
+    int seconds; /* after which a page loads itself again */
+    fracas_report_view view;
+} live_report;
+
+/* Nothing done yet, or an index out of reach for a moment, is no error before the last look. */
+static fracas_err write_page(void *context, const fracas_look *look, bool last)
+{
+    const live_report *live = context;
+    OWN(fracas_analysis) analysis = NULL;
+    OWNED char *page = NULL;
+    const fracas_err err = fracas_analysis_create(look->study, &look->campaign->hash,
+                                                  &look->campaign->table, &analysis);
+    if (!last && (err == FRACAS_INTERRUPTED || err == FRACAS_IN_USE)) return FRACAS_OK;
+    TRY(err);
+    TRY(set_axes(analysis, look->campaign, &live->view));
+    if (last) return finish(analysis, look->study, &live->view);
+    const fracas_counts counts = fracas_look_counts(look);
+    char text[256];
+    TRY(fracas_report_write(analysis, look->study, live->view.output, live->seconds));
+    fracas_counts_describe(&counts, false, look->rate, look->left, text, sizeof text);
+    TRY(page_of(look->study, &live->view, &page));
+    if (!live->view.quiet) fprintf(stderr, "fracas: %s: %s\n", page, text);
     return FRACAS_OK;
 }
 
 static fracas_err report(const fracas_arguments *arguments)
 {
-    return fracas_cli_report(arguments->operand, fracas_given(arguments, "json"));
+    double interval = 30;
+    const fracas_report_view view = {.json = fracas_given(arguments, "json"),
+                                     .quiet = fracas_given(arguments, "quiet"),
+                                     .columns = fracas_cli_columns(arguments),
+                                     .x = fracas_given(arguments, "x"),
+                                     .series = fracas_given(arguments, "series"),
+                                     .points = fracas_given(arguments, "points"),
+                                     .output = fracas_given(arguments, "output")};
+    TRY(fracas_watch_interval(arguments, "live", &interval));
+    if (!fracas_given(arguments, "live")) return fracas_cli_report(arguments->operand, &view);
+    live_report live = {(int)fmin(ceil(interval), 86400), view};
+    return fracas_watch(arguments->operand, interval, write_page, &live);
 }
 
 const fracas_command fracas_command_report = {
     .name = "report",
     .operand = "STUDY",
     .doc = "Prints the result table and writes STUDY/report",
-    .more = "\nThe report is index.html with its figures, and the numbers as CSV files. Of a study "
-            "that is being computed, or was interrupted,\n"
-            "it is of what is done by now, and says so.\n",
+    .more =
+        "\nThe report is index.html with its figures, and the numbers as CSV files. Of a study "
+        "that is being computed, or was interrupted,\n"
+        "it is of what is done by now, and says so. With --live an open page loads itself again "
+        "until the last one.\n",
     .options = report_options,
     .run = report,
 };
@@ -98,10 +179,9 @@ static fracas_err export(const fracas_arguments *arguments)
     OWN(fracas_campaign) campaign = NULL;
     OWN(fracas_analysis) analysis = NULL;
     OWNED char *folder = NULL;
-    const char *to = fracas_given(arguments, "to");
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
-    TRY(to ? fracas_path(&folder, "%s", to)
-           : fracas_output_folder_in(arguments->operand, "export", &folder));
+    TRY(fracas_output_folder_in(fracas_given(arguments, "to"), arguments->operand, "export",
+                                &folder));
     TRY(fracas_export_write(analysis, folder, fracas_given(arguments, "histories") != NULL));
     printf("export: %s/datapackage.json\n", folder);
     return FRACAS_OK;

@@ -3,9 +3,11 @@
 #include "cli/run.h"
 
 #include "base/param.h"
+#include "base/terminal.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/session/upkeep.h"
+#include "campaigns/scheduler/written_fields.h"
 #include "campaigns/store/store.h"
 
 #include <inttypes.h>
@@ -13,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 const fracas_option fracas_cli_run_options[FRACAS_NRUN_OPTIONS + 1] = {
     FRACAS_STUDY_OPTION, FRACAS_RUN_OPTIONS, {0}};
@@ -40,6 +43,8 @@ fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas
     run->study = fracas_given(arguments, "study");
     run->shuffle = fracas_given(arguments, "shuffle");
     run->force = fracas_given(arguments, "force");
+    run->quiet = fracas_given(arguments, "quiet");
+    run->wide = fracas_given(arguments, "wide");
     run->ignore_space = fracas_given(arguments, "ignore-space");
     TRY(fracas_arguments_integer(arguments, "jobs", 1, INT_MAX, &run->jobs));
     TRY(fracas_arguments_integer(arguments, "replicas", 1, INT_MAX, &replicas));
@@ -60,14 +65,6 @@ fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas
     return fracas_arguments_real(arguments, "segment-size", 1048576.0, &run->segment_bytes);
 }
 
-/* The folder of the run's study. */
-static fracas_err find_study(const fracas_run_options *run, char *study, size_t size)
-{
-    OWN(fracas_campaign) campaign = NULL;
-    TRY(fracas_run_campaign(run, &campaign));
-    return fracas_study_folder(run, campaign, study, size);
-}
-
 fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv)
 {
     bool ran;
@@ -77,10 +74,17 @@ fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv)
 
     char study[PATH_MAX], message[1024]; /* the error, for after the report */
     snprintf(message, sizeof message, "%s", fracas_message());
-    TRY(find_study(run, study, sizeof study));
+    OWN(fracas_campaign) campaign = NULL;
+    TRY(fracas_run_campaign(run, &campaign));
+    TRY(fracas_study_folder(run, campaign, study, sizeof study));
     if (!ran) fprintf(stderr, "fracas: %s is complete, nothing to compute\n", study);
-    TRY(fracas_cli_report(study, false));
-    return end ? fracas_fail(end, "%s", message) : FRACAS_OK;
+    const fracas_report_view view = {
+        .quiet = run->quiet, .columns = run->wide ? 0 : fracas_terminal_of(STDOUT_FILENO).columns};
+    TRY(fracas_cli_report(study, &view));
+    const fracas_err fields = fracas_written_fields(study, campaign, stderr);
+    if (!end) return fields;
+    if (fields) fprintf(stderr, "fracas: %s\n", fracas_message());
+    return fracas_fail(end, "%s", message);
 }
 
 /* "K/N" of a study of one part, else "". The run will report a damaged index. */

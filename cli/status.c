@@ -1,32 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "cli/cli.h"
+/* The command status: one look as text or JSON, or looks at intervals. */
+#include "cli/look.h"
 
+#include "analysis/data/columns.h"
 #include "analysis/data/format.h"
+#include "analysis/export/tables.h"
 #include "analysis/summary/statistics.h"
 #include "base/json.h"
-#include "campaigns/campaign.h"
-#include "campaigns/scheduler/session/prepare.h"
-#include "campaigns/store/checkpoint.h"
-#include "campaigns/store/store.h"
+#include "base/terminal.h"
+#include "campaigns/scheduler/status/describe.h"
+#include "cli/cli.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* State of a study: all realizations, and each point's. */
-typedef struct {
-    const char *study;
-    const fracas_campaign *campaign;
-    fracas_index *index;
-    bool complete;          /* study.h5 is of this campaign and nothing is left to compute */
-    fracas_lock_state lock; /* held: a run computes it now */
-    char holder[FRACAS_HOLDER_TEXT]; /* the lock's */
-    int part, parts;                 /* its part of the campaign */
-    int64_t part_all, part_left;     /* realizations of the part, and its uncomputed ones */
-    fracas_index_counts all;
-    fracas_index_counts *point; /* campaign->npoints */
-} fracas_status;
+#include <unistd.h>
 
 static const char *const lock_name[] = {"free", "held", "left", "elsewhere"}; /* by lock state */
 static const char *const lock_text[] = {
@@ -57,12 +46,12 @@ static void write_failure(void *json, const fracas_index_row *row, const char *r
 }
 
 /* The decisions on the replicas of a point, by round. */
-static fracas_err write_decisions(fracas_json *json, const fracas_status *status, size_t p)
+static fracas_err write_decisions(fracas_json *json, const fracas_look *look, size_t p)
 {
     OWNED fracas_decision *decision = NULL;
     size_t count;
-    if (status->campaign->point[p].rule.maximum == 0) return FRACAS_OK;
-    TRY(fracas_index_decisions(status->index, &status->campaign->point[p].hash, &decision, &count));
+    if (look->campaign->point[p].rule.maximum == 0) return FRACAS_OK;
+    TRY(fracas_index_decisions(look->index, &look->campaign->point[p].hash, &decision, &count));
     fracas_json_array(json, "decisions");
     for (size_t d = 0; d < count; d++) {
         fracas_json_object(json, NULL);
@@ -79,113 +68,131 @@ static fracas_err write_decisions(fracas_json *json, const fracas_status *status
     return FRACAS_OK;
 }
 
-/* ---- realizations that compute for long ---- */
-
-typedef struct {
-    const fracas_status *status;
-    fracas_json *json; /* NULL: text */
-    bool any;
-} long_ones;
-
-static fracas_err tell_checkpoint(void *context, const fracas_checkpoint_head *head, double age)
+static void write_long_ones(fracas_json *json, const fracas_look *look)
 {
-    long_ones *l = context;
-    const fracas_point_table *table = &l->status->campaign->table;
-    size_t p = 0;
-    while (p < table->npoints && !fracas_hash_equal(&table->point[p].hash, &head->point)) p++;
-    if (p == table->npoints) return FRACAS_OK;
-    if (l->json) {
-        fracas_json_object(l->json, NULL);
-        fracas_json_integer(l->json, "point", (int64_t)p);
-        fracas_json_integer(l->json, "replica", head->replica);
-        fracas_json_integer(l->json, "steps", head->steps);
-        fracas_json_real(l->json, "time", head->time);
-        fracas_json_real(l->json, "end", head->end);
-        fracas_json_real(l->json, "age", age);
-        fracas_json_close(l->json);
-        return FRACAS_OK;
+    fracas_json_array(json, "checkpoints");
+    for (size_t i = 0; i < look->nlong; i++) {
+        const fracas_long_one *one = &look->long_one[i];
+        fracas_json_object(json, NULL);
+        fracas_json_integer(json, "point", (int64_t)one->point);
+        fracas_json_integer(json, "replica", one->head.replica);
+        fracas_json_integer(json, "steps", one->head.steps);
+        fracas_json_real(json, "time", one->head.time);
+        fracas_json_real(json, "end", one->head.end);
+        fracas_json_real(json, "age", one->age);
+        fracas_json_close(json);
     }
-    if (!l->any) fputs("\ncheckpoints   of realizations that compute for long\n", stdout);
-    l->any = true;
-    printf("  point %zu replica %" PRId64 ": %s, %.3g of at most %.3g us, %" PRId64
-           " steps, %.0f s ago\n",
-           p, head->replica, head->over ? "computed" : "computing", 1e6 * head->time,
-           1e6 * head->end, head->steps, age);
-    return FRACAS_OK;
+    fracas_json_close(json);
 }
 
-static fracas_err write_json(const fracas_status *status)
+static fracas_err write_point(fracas_json *json, const fracas_look *look, size_t p)
+{
+    const fracas_unfinished_point *point = &look->running.point[p];
+    fracas_json_object(json, NULL);
+    fracas_json_integer(json, "point", (int64_t)p);
+    fracas_json_text(json, "hash", fracas_hash_hex(&look->campaign->point[p].hash).text);
+    write_counts(json, &point->counts);
+    fracas_fields_json_object(json, "count", &fracas_estimate_fields, &point->count);
+    fracas_fields_json_object(json, "size", &fracas_estimate_fields, &point->size);
+    const fracas_err code = write_decisions(json, look, p);
+    fracas_json_close(json);
+    return code;
+}
+
+static void write_state(fracas_json *json, const fracas_look *look)
+{
+    fracas_json_text(json, "study", look->study);
+    fracas_json_text(json, "campaign", look->campaign->name);
+    fracas_json_boolean(json, "complete", look->complete);
+    fracas_json_boolean(json, "running", look->lock == FRACAS_LOCK_HELD);
+    fracas_json_text(json, "lock", lock_name[look->lock]);
+    fracas_json_text(json, "holder", look->holder);
+    fracas_json_integer(json, "part", look->part);
+    fracas_json_integer(json, "parts", look->parts);
+    fracas_json_integer(json, "part_realizations", look->part_all);
+    fracas_json_integer(json, "part_planned", look->part_left);
+    fracas_json_real(json, "rate", look->rate);
+    fracas_json_real(json, "seconds_left", look->left);
+    write_counts(json, &look->running.all);
+    fracas_json_integer(json, "segments", look->running.all.segments);
+    fracas_json_integer(json, "bytes", look->running.all.bytes);
+}
+
+fracas_err fracas_look_write_json(const fracas_look *look, bool line, FILE *out)
 {
     fracas_json json;
-    fracas_json_begin(&json, stdout);
-    fracas_json_text(&json, "study", status->study);
-    fracas_json_text(&json, "campaign", status->campaign->name);
-    fracas_json_boolean(&json, "complete", status->complete);
-    fracas_json_boolean(&json, "running", status->lock == FRACAS_LOCK_HELD);
-    fracas_json_text(&json, "lock", lock_name[status->lock]);
-    fracas_json_text(&json, "holder", status->holder);
-    fracas_json_integer(&json, "part", status->part);
-    fracas_json_integer(&json, "parts", status->parts);
-    fracas_json_integer(&json, "part_realizations", status->part_all);
-    fracas_json_integer(&json, "part_planned", status->part_left);
-    write_counts(&json, &status->all);
-    fracas_json_integer(&json, "segments", status->all.segments);
-    fracas_json_integer(&json, "bytes", status->all.bytes);
+    fracas_json_begin(&json, out);
+    json.line = line;
+    write_state(&json, look);
     fracas_json_array(&json, "points");
     fracas_err code = FRACAS_OK;
-    for (size_t i = 0; i < status->campaign->npoints; i++) {
-        fracas_json_object(&json, NULL);
-        fracas_json_integer(&json, "point", (int64_t)i);
-        fracas_json_text(&json, "hash", fracas_hash_hex(&status->campaign->point[i].hash).text);
-        write_counts(&json, &status->point[i]);
-        if (!code) code = write_decisions(&json, status, i);
-        fracas_json_close(&json);
-    }
+    for (size_t p = 0; p < look->campaign->npoints && !code; p++)
+        code = write_point(&json, look, p);
     fracas_json_close(&json);
-    fracas_json_array(&json, "checkpoints");
-    if (!code)
-        code = fracas_checkpoints_each(status->study, tell_checkpoint,
-                                       &(long_ones){status, &json, false});
-    fracas_json_close(&json);
+    write_long_ones(&json, look);
     fracas_json_array(&json, "failures");
-    if (!code && status->all.failed)
-        code = fracas_index_failures(status->index, &status->campaign->table, write_failure, &json);
+    if (!code && look->running.all.failed)
+        code = fracas_index_failures(look->index, &look->campaign->table, write_failure, &json);
     fracas_json_end(&json);
     return code;
 }
 
-static fracas_err print_points(const fracas_status *status)
+/* ---- as text ---- */
+
+static const fracas_table_column point_columns[] = {
+#define AT(member) offsetof(fracas_unfinished_point, member)
+    {"realizations", "", FRACAS_CELL_INTEGER, AT(counts.realizations)},
+    {"done", "", FRACAS_CELL_INTEGER, AT(counts.done)},
+    {"failed", "", FRACAS_CELL_INTEGER, AT(counts.failed)},
+    {"fragments", "", FRACAS_CELL_ESTIMATE, AT(count)},
+    {"size", "m", FRACAS_CELL_ESTIMATE, AT(size), .prefixed = 1},
+#undef AT
+};
+
+static fracas_err print_points(const fracas_look *look, int width)
 {
-    const fracas_point_table *table = &status->campaign->table;
-    OWNED bool *varies = malloc((table->ncolumns + 1) * sizeof *varies);
-    if (!varies) return fracas_no_memory("the points");
-    for (size_t c = 0; c < table->ncolumns; c++) varies[c] = fracas_point_table_varies(table, c);
-    fputs("\nrealizations    done  failed  point\n", stdout);
-    for (size_t i = 0; i < table->npoints; i++) {
-        const fracas_index_counts *counts = &status->point[i];
-        printf("%12" PRId64 "%8" PRId64 "%8" PRId64 "  %zu", counts->realizations, counts->done,
-               counts->failed, i);
-        for (size_t c = 0; c < table->ncolumns; c++) {
-            if (!varies[c]) continue;
-            const fracas_value *value = &table->point[i].value[c];
-            if (*value->text) printf(" %s=%s", table->column[c].path, value->text);
-            else if (!isnan(value->real)) printf(" %s=%g", table->column[c].path, value->real);
-        }
-        putchar('\n');
+    const fracas_point_table *points = &look->campaign->table;
+    const fracas_table_rows rows = {.first = look->running.point,
+                                    .count = points->npoints,
+                                    .size = sizeof *look->running.point};
+    FRACAS_CLEARED(fracas_columns) columns = {0};
+    FRACAS_CLEARED(fracas_result_table) table = {0};
+    TRY(fracas_columns_create(points, &columns));
+    TRY(fracas_table_empty(points->npoints, FRACAS_COUNT(point_columns) + 1,
+                           (const char *const[FRACAS_COUNT(point_columns) + 1]){"point"}, &table));
+    fracas_table_fill(&table, 1, point_columns, FRACAS_COUNT(point_columns), &rows, false);
+    for (size_t p = 0; p < points->npoints; p++) {
+        char label[FRACAS_CELL - 24];
+        fracas_columns_label(points, &columns, p, label, sizeof label);
+        snprintf(fracas_result_table_cell(&table, FRACAS_RESULT_TABLE_HEAD + p, 0), FRACAS_CELL,
+                 "%zu %s", p, label);
     }
+    putchar('\n');
+    fracas_table_print(&table, "", 1, true, width, stdout);
     return FRACAS_OK;
 }
 
-static fracas_err print_decisions(const fracas_status *status)
+static void print_long_ones(const fracas_look *look)
+{
+    if (look->nlong) fputs("\ncheckpoints   of realizations that compute for long\n", stdout);
+    for (size_t i = 0; i < look->nlong; i++) {
+        const fracas_checkpoint_head *head = &look->long_one[i].head;
+        printf("  point %zu replica %" PRId64 ": %s, %.3g of at most %.3g us, %" PRId64
+               " steps, %.0f s ago\n",
+               look->long_one[i].point, head->replica, head->over ? "computed" : "computing",
+               1e6 * head->time, 1e6 * head->end, head->steps, look->long_one[i].age);
+    }
+}
+
+static fracas_err print_decisions(const fracas_look *look)
 {
     bool first = true;
-    for (size_t p = 0; p < status->campaign->npoints; p++) {
-        const fracas_sequential_rule *rule = &status->campaign->point[p].rule;
+    for (size_t p = 0; p < look->campaign->npoints; p++) {
+        const fracas_sequential_rule *rule = &look->campaign->point[p].rule;
         OWNED fracas_decision *decision = NULL;
         size_t count;
         if (rule->maximum == 0) continue;
-        TRY(fracas_index_decisions(status->index, &status->campaign->point[p].hash, &decision,
-                                   &count));
+        TRY(fracas_index_decisions(look->index, &look->campaign->point[p].hash, &decision, &count));
         if (first && count)
             fputs("\ndecisions on replicas\npoint  round  replicas  of what        mean  +-  half "
                   "width\n",
@@ -214,104 +221,104 @@ static void print_failure(void *any, const fracas_index_row *row, const char *re
            row->attempts, reason);
 }
 
-static const char *state_of(const fracas_status *status, char text[5000])
+static void print_event(void *context, const char *time, const char *kind, const char *text)
 {
-    if (status->lock == FRACAS_LOCK_HELD) return "being computed";
-    if (status->complete)
-        return status->all.failed == 0 ? "complete" : "computed, some realizations FAILED (below)";
-    if (status->parts > 1 && status->part_left == 0)
-        return "its part is complete: `fracas merge-studies` makes one study of all parts";
-    /* not the user's file: the study may have been extended since */
-    snprintf(text, 5000,
-             "interrupted: `fracas run %.2000s/campaign.yaml --study %.2000s` resumes it",
-             status->study, status->study);
-    return text;
+    (void)context;
+    printf("  %.19sZ  %-15s %s\n", time, kind, text);
 }
 
-static fracas_err print_text(const fracas_status *status)
+static fracas_err print_events(const fracas_look *look)
 {
-    const fracas_index_counts *all = &status->all;
-    printf("study         %s of campaign %s\n", status->study, status->campaign->name);
-    char state[5000];
-    printf("state         %s\n", state_of(status, state));
-    if (status->parts > 1)
-        printf("part          %d of %d: %" PRId64 " realizations, %" PRId64 " to be computed\n",
-               status->part, status->parts, status->part_all, status->part_left);
-    if (status->lock != FRACAS_LOCK_FREE)
-        printf("lock          %s: %s\n", lock_text[status->lock], status->holder);
+    fputs("\nevents\n", stdout);
+    return fracas_index_events(look->index, print_event, NULL);
+}
+
+static void print_counts(const fracas_look *look)
+{
+    const fracas_index_counts *all = &look->running.all;
     printf("realizations  %" PRId64 ": %" PRId64 " done, %" PRId64 " failed, %" PRId64
            " leased, %" PRId64 " planned\n",
            all->realizations, all->done, all->failed, all->leased, all->planned);
+    if (isfinite(look->left))
+        printf("pace          %.3g realizations/s, %s left\n", look->rate,
+               fracas_duration_text(look->left).text);
     fputs("outcomes     ", stdout);
     for (int o = 0; o < FRACAS_NOUTCOMES; o++)
         if (all->outcome[o]) printf(" %" PRId64 " %s", all->outcome[o], fracas_outcome_name(o));
     printf("\nsegments      %" PRId64 ", %.1f MB\n", all->segments, (double)all->bytes / 1e6);
-    TRY(print_points(status));
-    TRY(print_decisions(status));
-    TRY(fracas_checkpoints_each(status->study, tell_checkpoint, &(long_ones){status, NULL, false}));
+}
+
+static fracas_err print_text(const fracas_look *look, int width)
+{
+    char state[FRACAS_STATE_TEXT];
+    printf("study         %s of campaign %s\nstate         ", look->study, look->campaign->name);
+    fracas_paint(look->complete && !look->running.all.failed ? FRACAS_GREEN
+                 : fracas_look_going(look)                   ? FRACAS_CYAN
+                                                             : FRACAS_YELLOW);
+    fputs(fracas_look_state(look, state), stdout);
+    fracas_paint(FRACAS_PLAIN);
+    putchar('\n');
+    if (look->parts > 1)
+        printf("part          %d of %d: %" PRId64 " realizations, %" PRId64 " to be computed\n",
+               look->part, look->parts, look->part_all, look->part_left);
+    if (look->lock != FRACAS_LOCK_FREE)
+        printf("lock          %s: %s\n", lock_text[look->lock], look->holder);
+    print_counts(look);
+    TRY(print_points(look, width));
+    TRY(print_decisions(look));
+    print_long_ones(look);
     bool first = true;
-    if (!all->failed) return FRACAS_OK;
-    return fracas_index_failures(status->index, &status->campaign->table, print_failure, &first);
+    if (!look->running.all.failed) return FRACAS_OK;
+    return fracas_index_failures(look->index, &look->campaign->table, print_failure, &first);
 }
 
-/* Counts the part of the study. */
-static fracas_err count_part(fracas_status *status)
-{
-    OWNED fracas_index_row *row = NULL;
-    size_t count;
-    TRY(fracas_index_part(status->index, &status->part, &status->parts));
-    status->part_all = status->all.realizations;
-    status->part_left = fracas_index_missing(&status->all);
-    if (status->parts < 2) return FRACAS_OK;
-    TRY(fracas_index_rows(status->index, &status->campaign->table, &row, &count));
-    count = fracas_run_part(status->part, status->parts, row, count);
-    status->part_all = (int64_t)count;
-    status->part_left = 0;
-    for (size_t i = 0; i < count; i++)
-        status->part_left += row[i].status == FRACAS_PLANNED || row[i].status == FRACAS_LEASED;
-    return FRACAS_OK;
-}
+/* ---- the command ---- */
 
-/* Without a run nothing is leased: old leases are to be computed again. */
-static void unlease(fracas_index_counts *counts)
-{
-    counts->planned += counts->leased;
-    counts->leased = 0;
-}
+static const fracas_option options[] = {
+    {"json", NULL, "print it as JSON"},
+    {"verbose", NULL, "also the events of its runs: starts, losses, decisions, ends"},
+    {"watch", NULL, "look again and again until the study is computed"},
+    FRACAS_INTERVAL_OPTION("2s"),
+    FRACAS_WIDE_OPTION,
+    {"prometheus", "FILE", "also write it to FILE for Prometheus, whole at each look"},
+    {0}};
 
-static fracas_err count(fracas_status *status)
+static fracas_err print_once(const fracas_arguments *arguments, const fracas_campaign *campaign)
 {
-    const fracas_campaign *campaign = status->campaign;
-    TRY(fracas_index_count_points(status->index, &campaign->table, &status->all, status->point));
-    TRY(count_part(status));
-    TRY(fracas_study_lock_state(status->study, &status->lock, status->holder));
-    if (status->lock == FRACAS_LOCK_FREE || status->lock == FRACAS_LOCK_LEFT) {
-        unlease(&status->all);
-        for (size_t p = 0; p < campaign->npoints; p++) unlease(&status->point[p]);
+    enum { SECONDS = 1 };
+    const char *file = fracas_given(arguments, "prometheus");
+    FRACAS_CLEARED(fracas_look) look = {0};
+    OWNED double *cost = NULL;
+    TRY(fracas_look_take(arguments->operand, campaign, NULL, &look));
+    if (isfinite(look.left)) {
+        TRY(fracas_look_costs(campaign, SECONDS, &cost));
+        fracas_look_pace(&look, cost);
     }
-    status->complete = false;
-    if (status->all.planned || status->all.leased) return FRACAS_OK; /* no file need be read */
-    int64_t failed;
-    return fracas_study_settled(status->study, status->index, campaign, &status->complete, &failed);
+    if (file) TRY(fracas_look_write_prometheus(&look, file));
+    if (fracas_given(arguments, "json")) return fracas_look_write_json(&look, false, stdout);
+    TRY(print_text(&look, fracas_cli_columns(arguments)));
+    return fracas_given(arguments, "verbose") ? print_events(&look) : FRACAS_OK;
 }
 
 static fracas_err status(const fracas_arguments *arguments, const fracas_campaign *campaign)
 {
-    OWN(fracas_index) index = NULL;
-    OWNED fracas_index_counts *point = calloc(campaign->npoints, sizeof *point);
-    if (!point) return fracas_no_memory("the counts of the points");
-    TRY(fracas_index_open(arguments->operand, false, &index));
-    fracas_status state = {
-        .study = arguments->operand, .campaign = campaign, .index = index, .point = point};
-    TRY(count(&state));
-    return fracas_given(arguments, "json") ? write_json(&state) : print_text(&state);
+    double interval = 2;
+    TRY(fracas_watch_interval(arguments, "watch", &interval));
+    if (!fracas_given(arguments, "watch")) return print_once(arguments, campaign);
+    fracas_watch_view view = {.json = fracas_given(arguments, "json"),
+                              .prometheus = fracas_given(arguments, "prometheus")};
+    return fracas_watch(arguments->operand, interval, fracas_watch_show, &view);
 }
 
 const fracas_command fracas_command_status = {
     .name = "status",
     .operand = "STUDY",
     .doc = "Says how far STUDY is, point by point",
-    .more = "\nIt only looks: it can be asked while the study is being computed.\n",
-    .options = fracas_json_option,
+    .more = "\nIt only looks: it can be asked while the study is being computed, from another "
+            "shell or host. With --watch a terminal shows a\n"
+            "map of the replicas and their means; Ctrl-C ends that and leaves the run alone. "
+            "Elsewhere each look is a line, with --json\n"
+            "an object of one line.\n",
+    .options = options,
     .run_on = status,
 };

@@ -185,7 +185,10 @@ const fracas_command fracas_command_merge_studies = {
 /* ---- gc ---- */
 
 static const fracas_option gc_options[] = {
-    {"dry-run", NULL, "only say what it would remove"}, {"json", NULL, "print it as JSON"}, {0}};
+    {"dry-run", NULL, "only say what it would remove"},
+    {"merged", NULL, "segments too: study.h5 stands for all"},
+    {"json", NULL, "print it as JSON"},
+    {0}};
 
 static void print_item(void *context, const fracas_collected *item)
 {
@@ -210,11 +213,15 @@ static fracas_err gc(const fracas_arguments *arguments, const fracas_campaign *c
 {
     output out;
     uint64_t freed = 0;
+    const bool merged = fracas_given(arguments, "merged");
+    if (merged && fracas_given(arguments, "dry-run"))
+        return fracas_fail(FRACAS_USAGE, "--dry-run says nothing of --merged: give one of the two");
     begin(&out, arguments);
     out.dry = fracas_given(arguments, "dry-run");
     if (out.json) fracas_json_boolean(out.json, "dry_run", out.dry);
     if (out.json) fracas_json_array(out.json, "found");
-    fracas_err code = fracas_upkeep_collect(out.study, campaign, out.dry, print_item, &out, &freed);
+    fracas_err code = fracas_upkeep_collect(out.study, campaign, out.dry, merged, print_item, &out,
+                                            &freed);
     if (out.json) {
         fracas_json_close(out.json);
         fracas_json_integer(out.json, "bytes", (int64_t)freed);
@@ -229,10 +236,13 @@ const fracas_command fracas_command_gc = {
     .name = "gc",
     .operand = "STUDY",
     .doc = "Removes from STUDY what nobody needs",
-    .more = "\nHalf-written files, segments whose realizations another segment has, damaged ones "
-            "that were set aside, what interrupted\n"
-            "commands left behind, attachments that campaign.yaml does not name; and gives free "
-            "pages of the index back. What it does not know it lists and leaves.\n",
+    .more =
+        "\nHalf-written files, segments whose realizations another segment has, damaged ones "
+        "that were set aside, what interrupted\n"
+        "commands left behind, attachments that campaign.yaml does not name; and gives free "
+        "pages of the index back. What it does not know it lists and leaves.\n"
+        "With --merged study.h5, once compared byte by byte, gets a second name in segments/ and "
+        "stands for all others.\n",
     .options = gc_options,
     .run_on = gc,
 };

@@ -24,7 +24,9 @@ double fracas_energy_lost(const double energy[FRACAS_ENERGIES])
 double fracas_energy_residual(const double energy[FRACAS_ENERGIES], double initial)
 {
     double residual = fracas_energy_held(energy, 0);
-    for (int e = 0; e < FRACAS_ENERGIES; e++)
+    for (int e = 0; e < FRACAS_ENERGIES; e++) {
+        if (fracas_energies[e].role == FRACAS_ROLE_DAMPING) residual += energy[e];
         if (fracas_energies[e].role >= FRACAS_ROLE_SOURCE) residual -= energy[e];
+    }
     return residual - initial;
 }

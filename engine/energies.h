@@ -11,6 +11,7 @@ typedef enum {
     FRACAS_ROLE_STORED,  /* + */
     FRACAS_ROLE_SINK,    /* +, lost so far */
     FRACAS_ROLE_PART,    /* 0, part of the energy above it */
+    FRACAS_ROLE_DAMPING, /* +, lost so far by the time integration: no measure of other energies */
     FRACAS_ROLE_SOURCE,  /* -, put in by the method so far */
     FRACAS_ROLE_LOAD     /* -, work of the load so far, integrated by the ledger (bar.13) */
 } fracas_energy_role;
@@ -23,6 +24,7 @@ typedef enum {
     X(dissipated, SINK, "J", "energy dissipated by opening cracks")               \
     X(dissipated_bending, PART, "J", "part of bending in `dissipated`")           \
     X(friction, SINK, "J", "energy dissipated by friction of closed cracks")      \
+    X(damped, DAMPING, "J", "energy damped by the time integration")              \
     X(created, SOURCE, "J", "energy that the method put in at onsets and breaks") \
     X(work, LOAD, "J", "work of the loading")
 
@@ -44,6 +46,7 @@ enum { FRACAS_EACH_ENERGY(FRACAS_ENERGY_PLACE) FRACAS_ENERGIES }; /* FRACAS_ENER
 #define FRACAS_TERM_STORED(key) " + " #key
 #define FRACAS_TERM_SINK(key) " + " #key
 #define FRACAS_TERM_PART(key) ""
+#define FRACAS_TERM_DAMPING(key) " + " #key
 #define FRACAS_TERM_SOURCE(key) " - " #key
 #define FRACAS_TERM_LOAD(key) " - " #key
 #define FRACAS_ENERGY_TERM(key, role, unit, meaning) FRACAS_TERM_##role(key)
@@ -63,8 +66,8 @@ double fracas_energy_held(const double energy[FRACAS_ENERGIES], int first);
 /* Sum of the sinks [J]: energy lost so far. */
 double fracas_energy_lost(const double energy[FRACAS_ENERGIES]);
 
-/* residual = held - sources - load - initial [J], with held = fracas_energy_held(energy, 0)
- * (bar.14) */
+/* residual = held + damping - sources - load - initial [J], with held = fracas_energy_held(energy,
+ * 0) (bar.14) */
 double fracas_energy_residual(const double energy[FRACAS_ENERGIES], double initial);
 
 #endif

@@ -34,6 +34,11 @@ double fracas_model_bytes(const fracas_model *model);
 double fracas_model_lane_bytes(const fracas_model *model);
 double fracas_model_time_step(const fracas_model *model); /* s, = safety * critical */
 int64_t fracas_model_steps(const fracas_model *model);    /* steps to time.end, at most */
+/* The most parts in which a realization can be computed at once. */
+size_t fracas_model_parts_most(const fracas_model *model);
+/* Largest time.safety with which the ledger stays closed for long after break-up: within 1e-3 of
+ * the dissipated and 1e-2 of the vibrating energy to 100 times the break-up time. */
+double fracas_model_long_safety(const fracas_model *model);
 
 /* The mesh of a surface, which lives as long as the model; NULL for bars and rings. */
 const struct fracas_surface *fracas_model_surface(const fracas_model *model);
@@ -129,13 +134,18 @@ fracas_lane_progress fracas_batch_progress(const fracas_batch *batch, size_t lan
 
 /* A look at a batch that runs; an error ends it. */
 typedef struct fracas_batch_watch {
-    /* Before the first step: lanes may be loaded, with the records of those that are over. */
+    /* Before the first step: lanes may be loaded, with the records of those that are over. NULL:
+     * nothing. */
     fracas_err (*begin)(void *context, fracas_batch *batch, fracas_record *record);
     /* Every 64 steps: whether to look now. NULL: always. */
     bool (*due)(void *context);
-    /* Then: lanes may be saved. */
+    /* Then: lanes may be saved, and their fields taken. */
     fracas_err (*pause)(void *context, fracas_batch *batch, const fracas_record *record);
     void *context;
+    int every; /* steps, in the place of 64; 0: 64, as other peers have it */
+    /* Once no lane runs any more; lanes that drifted may then run again from their start. NULL:
+     * nothing. */
+    fracas_err (*end)(void *context, fracas_batch *batch, const fracas_record *record);
 } fracas_batch_watch;
 
 #endif

@@ -14,6 +14,12 @@ void fracas_record_init(fracas_record *record)
         .mass = NAN,
         .residual = NAN,
         .residual_end = NAN,
+        .vibrating = NAN,
+        .transits = NAN,
+        .growth = NAN,
+        .rest = NAN,
+        .rest_variance = NAN,
+        .rest_bound = NAN,
         .momentum = {NAN, NAN, NAN},
     };
     for (int e = 0; e < FRACAS_ENERGIES; e++) record->energy[e] = NAN;

@@ -29,6 +29,12 @@ typedef struct {
     double velocity[3]; /* m/s, of the centre of mass with the background, half a step later */
     double angular_momentum[3]; /* kg m2/s, about the centre of mass */
     double spin[3]; /* rad/s, rigid body's; 0 in a bar and about an axis without inertia */
+    /* Its shape at end_time (docs/theory/fragments.md). */
+    double volume;       /* m3, before any motion */
+    double semi_axis[3]; /* m, of the ellipsoid of the same second moments, the largest first ... */
+    double axis[3][3];   /* ... and their directions, unit vectors */
+    double extent;       /* m, largest distance of two of its nodes */
+    double crack_area;   /* m2, of its faces on broken interfaces, before any motion */
 } fracas_fragment;
 
 typedef struct {
@@ -51,6 +57,7 @@ typedef struct {
     int64_t outcome;   /* fracas_outcome */
     int64_t fragments; /* dust included */
     int64_t fragments_dust;
+    int64_t fragments_held;  /* on an edge moved by the load */
     int64_t broken, cracked; /* interfaces */
     int64_t steps;
     double onset_time;          /* s, first onset, NaN if none */
@@ -59,7 +66,11 @@ typedef struct {
     FRACAS_ENERGY_MEMBERS;      /* at end_time */
     double residual;            /* J, largest absolute value over the run */
     double residual_end;        /* J */
-    double momentum[3];         /* kg m/s, of the peculiar motion, half a step after end_time */
+    double vibrating;           /* J, energy beside the motion of each fragment as a rigid body */
+    /* How final the count is (docs/theory/settled.md); NaN without an onset: k, Delta, ... */
+    double transits, growth;
+    double rest, rest_variance, rest_bound; /* ... R, its variance, B; NaN also of surfaces */
+    double momentum[3]; /* kg m/s, of the peculiar motion, half a step after end_time */
     size_t nfragment, nhistory, ninterface; /* rows below; nfragment == fragments unless FAILED */
     fracas_fragment *fragment;              /* owned by the record, freed by fracas_record_clear */
     fracas_history_row *history;

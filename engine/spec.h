@@ -13,15 +13,17 @@
 
 typedef struct {
     const fracas_kind *shape;      /* bar, ring; plate, annulus, sphere, file: surfaces */
-    const fracas_kind *ends;       /* bar: periodic, held */
+    const fracas_kind *ends;       /* bar: periodic, held, free */
     const fracas_kind *direction;  /* ring: initial, current; in which its interfaces open */
     const fracas_kind *part;       /* sphere: whole, octant */
     double length;                 /* m, bar */
+    double gap;                    /* m, bar with free ends: to a wall beyond each; NaN: none */
     double radius;                 /* m, ring, sphere */
     double area;                   /* m2, bar and ring: of the cross-section */
     double width, height;          /* m, plate */
     double inner, outer;           /* m, annulus: radii */
     const fracas_attachment *file; /* file: the mesh */
+    const fracas_kind *unit;       /* file: of its coordinates; NULL: m */
     double thickness;              /* m, surfaces */
     const fracas_kind *edge[FRACAS_EDGES]; /* surfaces: edges of each tag; of any other the first */
 } fracas_geometry;
@@ -77,6 +79,9 @@ typedef struct {
 typedef struct {
     const fracas_kind *stop;
     double end;            /* s: set time, or cap */
+    double transits;       /* 1, settled: least k */
+    double growth;         /* 1, settled: largest Delta */
+    double rest;           /* 1, settled, bar and ring: largest R by the count */
     double quiet;          /* s */
     double quiet_fraction; /* 1 */
     double multiple;       /* 1, peak-multiple */

@@ -75,7 +75,8 @@ void fracas_comparison_clear(fracas_comparison *comparison);
 /* As a table for a terminal, and as one JSON document. */
 FRACAS_MUST_USE fracas_err fracas_comparison_print(const fracas_comparison *comparison,
                                                    const fracas_analysis *a,
-                                                   const fracas_analysis *b, FILE *out);
+                                                   const fracas_analysis *b, int columns,
+                                                   FILE *out);
 void fracas_comparison_write_json(const fracas_comparison *comparison, const fracas_analysis *a,
                                   const fracas_analysis *b, FILE *out);
 

@@ -5,6 +5,8 @@
 #include "analysis/export/tables.h"
 #include "analysis/data/format.h"
 #include "base/json.h"
+#include "base/sheet.h"
+#include "base/text.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -52,19 +54,22 @@ static void paint_value(const fracas_compared_value *value,
     format_p(value->p_holm, cell[P_HOLM]);
 }
 
-static void print_head(const fracas_compared_point *point, FILE *out)
+static void print_head(const fracas_compared_point *point, int columns, FILE *out)
 {
-    fprintf(out,
-            "\n%s%spoint %zu of A and %zu of B, %" PRId64 " and %" PRId64
-            " realizations%s%s; p from %s%" PRId64 " assignments\n",
-            point->label.text, *point->label.text ? ": " : "", point->a, point->b, point->used_a,
-            point->used_b, point->paired ? ", paired by replica" : "",
-            point->used_a && point->used_b ? "" : " (no test)", point->exact ? "all " : "",
-            point->permutations);
+    char text[640];
+    FRACAS_PRINT(text,
+                 "%s%spoint %zu of A and %zu of B, %" PRId64 " and %" PRId64
+                 " realizations%s%s; p from %s%" PRId64 " assignments",
+                 point->label.text, *point->label.text ? ": " : "", point->a, point->b,
+                 point->used_a, point->used_b, point->paired ? ", paired by replica" : "",
+                 point->used_a && point->used_b ? "" : " (no test)", point->exact ? "all " : "",
+                 point->permutations);
+    putc('\n', out);
+    fracas_text_wrap(text, 0, columns, out);
     if (*point->differs) fprintf(out, "  they differ in %s\n", point->differs);
 }
 
-static fracas_err print_point(const fracas_compared_point *point, FILE *out)
+static fracas_err print_point(const fracas_compared_point *point, int columns, FILE *out)
 {
     static const char *const name[NCOLUMNS] = {"", "A", "B", "B - A", "relative", "p", "p (Holm)"};
     fracas_result_table table;
@@ -81,9 +86,9 @@ static fracas_err print_point(const fracas_compared_point *point, FILE *out)
                          FRACAS_CELL);
     format_p(point->p, fracas_result_table_cell(&table, rows, P));
     format_p(point->p_holm, fracas_result_table_cell(&table, rows, P_HOLM));
-    print_head(point, out);
+    print_head(point, columns, out);
     table.rows = rows + 1;
-    fracas_table_print(&table, "  ", 1U << WHAT, false, out);
+    fracas_table_print(&table, "  ", 1U << WHAT, false, columns, out);
     fracas_result_table_clear(&table);
     return FRACAS_OK;
 }
@@ -99,12 +104,21 @@ static void print_alone(const char *which, const fracas_analysis *analysis, cons
 }
 
 fracas_err fracas_comparison_print(const fracas_comparison *comparison, const fracas_analysis *a,
-                                   const fracas_analysis *b, FILE *out)
+                                   const fracas_analysis *b, int columns, FILE *out)
 {
+    static const char *const legend[] = {
+        "After the means and the differences: half widths of their 95 % intervals (Student's t; "
+        "of the difference Welch's, or of the paired",
+        "differences). p: by permutation of whole realizations, of pairs by exchange within "
+        "them; Holm: corrected over the points, each number",
+        "by itself. distribution of sizes: largest difference of the distribution functions of "
+        "all fragments.",
+        NULL};
     fprintf(out, "A: %s, %zu points; B: %s, %zu points; %zu in both, matched by %s\n", a->name,
             a->table->npoints, b->name, b->table->npoints, comparison->npoints,
             *comparison->how ? comparison->how : "all their parameters");
-    for (size_t i = 0; i < comparison->npoints; i++) TRY(print_point(&comparison->point[i], out));
+    for (size_t i = 0; i < comparison->npoints; i++)
+        TRY(print_point(&comparison->point[i], columns, out));
     putc('\n', out);
     print_alone("A", a, comparison->only_a, comparison->nonly_a, out);
     print_alone("B", b, comparison->only_b, comparison->nonly_b, out);
@@ -112,14 +126,7 @@ fracas_err fracas_comparison_print(const fracas_comparison *comparison, const fr
         fputs("no point of A is one of B: name by --by the columns to match by, as --by "
               "derived.strain_rate\n",
               out);
-    else
-        fputs("After the means and the differences: half widths of their 95 % intervals (Student's "
-              "t; of the difference Welch's, or of the paired\n"
-              "differences). p: by permutation of whole realizations, of pairs by exchange within "
-              "them; Holm: corrected over the points, each number\n"
-              "by itself. distribution of sizes: largest difference of the distribution functions "
-              "of all fragments.\n",
-              out);
+    else fracas_sheet_legend(legend, columns, out);
     if (strcmp(a->header.version, b->header.version))
         fprintf(out, "A is by fracas %s, B by fracas %s\n", a->header.version, b->header.version);
     return FRACAS_OK;

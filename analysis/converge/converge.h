@@ -37,7 +37,7 @@ FRACAS_MUST_USE fracas_err fracas_convergence_add(fracas_convergence *convergenc
                                                   const char *study,
                                                   const fracas_refinement_map *map);
 
-/* Notes why a refinement was not made of so many points; the texts outlive the convergence. Three
+/* Notes why a refinement was not made of so many points; the texts outlive the convergence. Four
  * times at most. */
 void fracas_convergence_leave(fracas_convergence *convergence, const char *refinement,
                               size_t points, const char *why);
@@ -51,9 +51,10 @@ void fracas_convergence_leave(fracas_convergence *convergence, const char *refin
  * Called once, after the last fracas_convergence_add and before the functions below. */
 FRACAS_MUST_USE fracas_err fracas_convergence_judge(fracas_convergence *convergence);
 
-/* A line a number and the conclusions; the same as JSON; and as FOLDER/converge.csv. */
+/* A line a number and the conclusions, for a terminal of so many columns (0: any); the same as
+ * JSON; and as FOLDER/converge.csv. */
 FRACAS_MUST_USE fracas_err fracas_convergence_print(const fracas_convergence *convergence,
-                                                    FILE *out);
+                                                    int columns, FILE *out);
 void fracas_convergence_write_json(const fracas_convergence *convergence, FILE *out);
 FRACAS_MUST_USE fracas_err fracas_convergence_write_csv(const fracas_convergence *convergence,
                                                         const char *folder);

@@ -169,8 +169,9 @@ static void put_words(const subject *what, bool tolerance, fracas_chart *chart)
                      100 * convergence->tolerance);
     FRACAS_PRINT(
         chart->caption,
-        "Change of the mean (%s) with half the element size (mesh), half the time step (step) "
-        "and interfaces twice as stiff (beta), bars: 95 %% interval of the change; boxes: "
+        "Change of the mean (%s) with half the element size (mesh), half the time step (step), "
+        "interfaces twice as stiff (beta) and twice the time (end), bars: 95 %% interval of the "
+        "change; boxes: "
         "that of the number as it is. Filled: it differs, by p corrected for all numbers; "
         "open: it need not. Moved: %zu, shifted: %zu, hold: %zu, unclear: %zu.%s",
         what->number->doc, of[FRACAS_NUMBER_MOVED], of[FRACAS_NUMBER_SHIFTED],
@@ -237,7 +238,7 @@ static fracas_err put_numbers(fracas_page *page)
 {
     static const char *const legend[] = {
         "change: of the mean, with the half width of its 95 % interval: of pairs with the same "
-        "strengths for step and beta, by Welch for mesh; half widths: in those of the number as it "
+        "strengths but for mesh, there by Welch; half widths: in those of the number as it "
         "is.",
         "moved: Holm's p among all numbers is below 0.05, and the interval is not within the "
         "tolerance; shifted: it is; holds: it is, and p is not; unclear: neither.",
@@ -264,7 +265,7 @@ fracas_err fracas_convergence_write_page(const fracas_convergence *convergence, 
 {
     OWNED char *to = NULL;
     char lead[160];
-    TRY(fracas_output_folder_in(folder, "report", &to));
+    TRY(fracas_output_folder_in(NULL, folder, "report", &to));
     fracas_page page = {
         .analysis = convergence->study, .folder = to, .of = convergence, .source = title};
     const size_t npoints = convergence->study->table->npoints;

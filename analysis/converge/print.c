@@ -7,6 +7,8 @@
 #include "analysis/export/tables.h"
 #include "base/json.h"
 #include "base/own.h"
+#include "base/sheet.h"
+#include "base/text.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -15,7 +17,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { NCOLUMNS = 8 };
+enum { NCOLUMNS = 8, KEYS = 3 };
 
 /* "mesh, radial 12 m/s: 7 of 10 realizations ..." */
 static void note_line(const fracas_convergence *convergence, const fracas_convergence_note *note,
@@ -134,6 +136,8 @@ static void conclude_replicas(const fracas_convergence *convergence, fracas_conv
         else vague++; /* or in parts of 0 */
     }
     if (unclear == 0) return;
+    const double digits = pow(10, fmax(0, floor(log10(fmax(1, replicas))) - 1)); /* two */
+    replicas = ceil(replicas / digits) * digits;
     if (vague > 0)
         FRACAS_PRINT(
             others, "%zu of the %zu unclear changes %s known no better than to 50 %% of the number",
@@ -174,25 +178,41 @@ void fracas_convergence_conclude(const fracas_convergence *convergence,
     conclude_replicas(convergence, line, context);
 }
 
-static void print_line(void *out, const char *text)
+typedef struct {
+    FILE *out;
+    int columns;
+} printing;
+
+static void print_line(void *context, const char *text)
 {
-    fprintf(out, "%s\n", text);
+    const printing *to = context;
+    fracas_text_wrap(text, 0, to->columns, to->out);
 }
 
-fracas_err fracas_convergence_print(const fracas_convergence *convergence, FILE *out)
+fracas_err fracas_convergence_print(const fracas_convergence *convergence, int columns, FILE *out)
 {
     fracas_result_table table = {0};
+    printing to = {out, columns};
+    char second[192], third[128];
+    const char *const legend[] = {
+        "change: of the mean, with the half width of its 95 % interval: of pairs with the same "
+        "strengths but for mesh, there by",
+        second, third, NULL};
+    FRACAS_PRINT(second,
+                 "Welch; half widths: in those of the number as it is. moved: Holm's p among all "
+                 "%zu numbers is below 0.05, and the interval is",
+                 convergence->nrows);
+    FRACAS_PRINT(third,
+                 "not within %g %%; shifted: it is; holds: it is, and p is not; unclear: neither.",
+                 100 * convergence->tolerance);
     TRY(fracas_convergence_table_create(convergence, false, &table));
-    fracas_table_print(&table, "", 0x87, false, out); /* words to the left */
+    table.keys = KEYS;
+    fracas_table_print(&table, "", 0x87, false, columns, out); /* words to the left */
     fracas_result_table_clear(&table);
-    fprintf(out,
-            "\nchange: of the mean, with the half width of its 95 %% interval: of pairs with the "
-            "same strengths for step and beta, by Welch\n"
-            "for mesh; half widths: in those of the number as it is. moved: Holm's p among all %zu "
-            "numbers is below 0.05, and the interval is\n"
-            "not within %g %%; shifted: it is; holds: it is, and p is not; unclear: neither.\n\n",
-            convergence->nrows, 100 * convergence->tolerance);
-    fracas_convergence_conclude(convergence, print_line, out);
+    putc('\n', out);
+    fracas_sheet_legend(legend, columns, out);
+    putc('\n', out);
+    fracas_convergence_conclude(convergence, print_line, &to);
     if (!ferror(out)) return FRACAS_OK;
     return fracas_fail_system(errno, "cannot write the table");
 }

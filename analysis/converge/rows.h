@@ -29,7 +29,7 @@ typedef struct {
 
 #define FRACAS_CONVERGENCE_ROUND_OFF 1e-9 /* relative: smaller changes and scatter are rounding */
 
-enum { FRACAS_MOST_LEFT = 3 }; /* refinements */
+enum { FRACAS_MOST_LEFT = 4 }; /* refinements */
 
 /* A remark on the realizations of a study, or of one point, to know before trusting its verdicts.
  */

@@ -24,10 +24,16 @@ const fracas_fields fracas_energy_fields = FRACAS_FIELDS(energy_fields);
 
 static const double tail = 0.05;
 enum { ROOM = 1 << 26 }; /* bytes of the values */
+enum { CURVES = FRACAS_ENERGIES + 1 };
 
-static double *values_of(const fracas_bands_collector *of, size_t time, int energy)
+static double *values_of(const fracas_bands_collector *of, size_t time, int curve)
 {
-    return of->value + (time * FRACAS_ENERGIES + (size_t)energy) * of->selected;
+    return of->value + (time * CURVES + (size_t)curve) * of->selected;
+}
+
+static fracas_band *band_of(const fracas_bands *bands, size_t time, int curve)
+{
+    return curve < FRACAS_ENERGIES ? &bands->energy[time][curve] : &bands->fragments[time];
 }
 
 /* One realization: of each time the first row at or after it, which is its own, and the last row
@@ -40,9 +46,10 @@ static void take_in(const fracas_record *record, fracas_bands_collector *of)
         while (row + 1 < record->nhistory && record->history[row].time < bands->time[j]) row++;
         const fracas_history_row *now = &record->history[row];
         if (now->time >= bands->time[j]) bands->running[j]++;
-        for (int e = 0; e < FRACAS_ENERGIES; e++) {
-            bands->energy[j][e].mean += now->energy[e];
-            values_of(of, j, e)[of->count] = now->energy[e];
+        for (int c = 0; c < CURVES; c++) {
+            const double value = c < FRACAS_ENERGIES ? now->energy[c] : (double)now->fragments;
+            band_of(bands, j, c)->mean += value;
+            values_of(of, j, c)[of->count] = value;
         }
     }
     of->count++;
@@ -65,9 +72,9 @@ static void finish(fracas_bands_collector *of)
     bands->realizations = (int64_t)n;
     bands->extremes = n < FRACAS_BAND_LEAST;
     for (size_t j = 0; j < of->times && n > 0 && bands->running[j] > 0; j++) {
-        for (int e = 0; e < FRACAS_ENERGIES; e++) {
-            fracas_band *band = &bands->energy[j][e];
-            double *value = values_of(of, j, e);
+        for (int c = 0; c < CURVES; c++) {
+            fracas_band *band = band_of(bands, j, c);
+            double *value = values_of(of, j, c);
             gsl_sort(value, 1, n);
             band->mean /= (double)n;
             band->low = end_of(value, 1, n);
@@ -83,14 +90,15 @@ fracas_err fracas_bands_begin(int64_t intervals, double end, size_t realizations
     *bands = (fracas_bands){0};
     *of = (fracas_bands_collector){.bands = bands, .all = realizations};
     if (intervals <= 0 || !(end > 0) || realizations == 0) return FRACAS_OK;
-    const size_t times = (size_t)intervals + 1, values = times * FRACAS_ENERGIES;
+    const size_t times = (size_t)intervals + 1, values = times * CURVES;
     const size_t most = ROOM / (values * sizeof *of->value) + 1;
     of->selected = realizations < most ? realizations : most;
     bands->time = malloc(times * sizeof *bands->time);
     bands->running = calloc(times, sizeof *bands->running);
     bands->energy = calloc(times, sizeof *bands->energy);
+    bands->fragments = calloc(times, sizeof *bands->fragments);
     of->value = malloc(values * of->selected * sizeof *of->value);
-    if (!bands->time || !bands->running || !bands->energy || !of->value)
+    if (!bands->time || !bands->running || !bands->energy || !bands->fragments || !of->value)
         return fracas_no_memory("the energies over time of a point");
     of->times = times;
     for (size_t j = 0; j < times; j++)
@@ -118,5 +126,6 @@ void fracas_bands_clear(fracas_bands *bands)
     free(bands->time);
     free(bands->running);
     free(bands->energy);
+    free(bands->fragments);
     *bands = (fracas_bands){0};
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Energies over time of all realizations of a point: mean, and band of most of them. */
+/* Energies and fragments over time of all realizations of a point: mean, and band of most of them.
+ */
 #ifndef FRACAS_ANALYSIS_DATA_BANDS_H
 #define FRACAS_ANALYSIS_DATA_BANDS_H
 
@@ -16,7 +17,7 @@
 extern const fracas_fields fracas_energy_fields;
 
 typedef struct {
-    double mean, low, high; /* J */
+    double mean, low, high; /* J, or fragments */
 } fracas_band;
 
 /* At the times t_j = j time.end/intervals of the histories (estimators.23), (estimators.24), until
@@ -26,6 +27,7 @@ typedef struct {
     double *time;     /* s */
     int64_t *running; /* still running at this time; the others count with their last values */
     fracas_band (*energy)[FRACAS_ENERGIES];
+    fracas_band *fragments;
     int64_t realizations; /* taken: the usable ones, or, evenly spread, as many as fit in 64 MiB */
     bool extremes; /* fewer than FRACAS_BAND_LEAST: low and high are extremes, not quantiles */
 } fracas_bands;
@@ -39,7 +41,7 @@ typedef struct {
     size_t times;         /* 0: there are no histories */
     size_t all, selected; /* usable realizations; to take of them, evenly */
     size_t met, count;    /* met and taken so far */
-    double *value;        /* [time][energy][selected] */
+    double *value;        /* [time][energy, at last fragments][selected] */
 } fracas_bands_collector;
 
 /* Begins the bands of `realizations` usable ones, whose histories have `intervals` (>= 0) equal

@@ -2,6 +2,7 @@
 #include "analysis/data/columns.h"
 
 #include "analysis/data/format.h"
+#include "analysis/data/words.h"
 #include "base/own.h"
 
 #include <math.h>
@@ -108,6 +109,28 @@ fracas_err fracas_columns_create(const fracas_point_table *table, fracas_columns
     return FRACAS_OK;
 }
 
+bool fracas_columns_part(const fracas_point_table *table, size_t column,
+                         const fracas_columns *columns)
+{
+    for (size_t p = 0; p < table->npoints; p++)
+        for (size_t q = 0; q < p; q++)
+            if (!same_value(table, column, p, q) && fracas_columns_same(table, columns, p, q))
+                return true;
+    return false;
+}
+
+size_t fracas_columns_classes(const fracas_point_table *table, const fracas_columns *columns,
+                              size_t *class)
+{
+    size_t count = 0;
+    for (size_t p = 0; p < table->npoints; p++) {
+        size_t like = 0;
+        while (like < p && !fracas_columns_same(table, columns, p, like)) like++;
+        class[p] = like < p ? class[like] : count++;
+    }
+    return count;
+}
+
 fracas_err fracas_columns_without_rate(const fracas_point_table *table,
                                        const fracas_columns *columns, fracas_columns *others)
 {
@@ -116,6 +139,9 @@ fracas_err fracas_columns_without_rate(const fracas_point_table *table,
     for (size_t i = 0; i < columns->count; i++)
         if (!makes_rate(table->column[columns->column[i]].path))
             others->column[others->count++] = columns->column[i];
+    const size_t model = fracas_point_table_find(table, "model");
+    if (model != SIZE_MAX && fracas_columns_part(table, model, others))
+        others->column[others->count++] = model;
     return FRACAS_OK;
 }
 
@@ -182,6 +208,17 @@ static bool takes_prefix(const char *unit)
     return false;
 }
 
+/* The column in words, or its path where another of the columns has the same words. */
+static const char *words_of(const fracas_point_table *table, const fracas_columns *columns,
+                            size_t i)
+{
+    const char *words = fracas_column_words(table, columns->column[i]);
+    for (size_t j = 0; j < columns->count; j++)
+        if (j != i && !strcmp(words, fracas_column_words(table, columns->column[j])))
+            return table->column[columns->column[i]].path;
+    return words;
+}
+
 /* A point is named by the values it has, unless it has none: a load by its own keys, not by the
  * lack of others. */
 void fracas_columns_label(const fracas_point_table *table, const fracas_columns *columns,
@@ -201,7 +238,7 @@ void fracas_columns_label(const fracas_point_table *table, const fracas_columns 
             prefix = fracas_prefix_for(&table->point[point].value[columns->column[i]].real, 1);
         fracas_columns_value(table, columns->column[i], point, prefix.factor, value, sizeof value);
         bool unit = !column->text && !absent && strcmp(column->unit, "1");
-        const char *name = fracas_columns_name(table, columns, i);
+        const char *name = words_of(table, columns, i);
         fracas_append(text, size, ", ", "%s %s%s%s%s", name, value, unit ? " " : "", prefix.symbol,
                       unit ? column->unit : "");
     }

@@ -28,7 +28,8 @@ FRACAS_MUST_USE fracas_err fracas_columns_create(const fracas_point_table *table
 void fracas_columns_clear(fracas_columns *columns);
 
 /* The columns without those that make the strain rate (loading.rate, loading.radial,
- * loading.velocity), in the same order. They make the series of a figure against the rate. */
+ * loading.velocity), in the same order; then the model, if points alike in these differ in it. They
+ * make the series of a figure against the rate. */
 FRACAS_MUST_USE fracas_err fracas_columns_without_rate(const fracas_point_table *table,
                                                        const fracas_columns *columns,
                                                        fracas_columns *others);
@@ -44,8 +45,17 @@ FRACAS_MUST_USE fracas_err fracas_columns_with_rate(const fracas_point_table *ta
 const char *fracas_columns_name(const fracas_point_table *table, const fracas_columns *columns,
                                 size_t i);
 
-/* "rate 1e4 1/s, radius 8 mm": the values of the point in these columns; with dashes if it has
- * none. */
+/* True if points alike in all of the columns differ in this one. */
+bool fracas_columns_part(const fracas_point_table *table, size_t column,
+                         const fracas_columns *columns);
+
+/* class[p], for each point: the number of its values in these columns, in the order in which such
+ * values come first. Returns how many classes there are. */
+size_t fracas_columns_classes(const fracas_point_table *table, const fracas_columns *columns,
+                              size_t *class);
+
+/* "rate 1e4 1/s, Weibull modulus 5": the values of the point in these columns; with dashes if it
+ * has none. */
 void fracas_columns_label(const fracas_point_table *table, const fracas_columns *columns,
                           size_t point, char *text, size_t size);
 

@@ -29,7 +29,8 @@
 
 #define FRACAS_LARGEST_NUMBERS(X)                                                                 \
     X(largest_size, "m", "size of the fragment of most mass")                                     \
-    X(largest_share, "1", "mass of that / mass of all fragments")
+    X(largest_share, "1", "mass of that / mass of all fragments")                                 \
+    X(aspect, "1", "aspect ratio, largest by middle semi-axis, of the fragments without dust")
 /* clang-format on */
 
 #define FRACAS_REALIZATION_NUMBERS(X) FRACAS_COMPARED_NUMBERS(X) FRACAS_LARGEST_NUMBERS(X)

@@ -20,10 +20,11 @@ fracas_err fracas_output_folder(const char *folder)
     return fracas_fail_system(errno, "cannot make the folder %s", folder);
 }
 
-fracas_err fracas_output_folder_in(const char *study, const char *name, char **folder)
+fracas_err fracas_output_folder_in(const char *wanted, const char *study, const char *name,
+                                   char **folder)
 {
-    TRY(fracas_path(folder, "%s/%s", study, name));
-    if (!fracas_folder_is_own(*folder) && errno == ELOOP)
+    TRY(wanted ? fracas_path(folder, "%s", wanted) : fracas_path(folder, "%s/%s", study, name));
+    if (!wanted && !fracas_folder_is_own(*folder) && errno == ELOOP)
         return fracas_fail_system(errno, "cannot write into %s", *folder);
     return fracas_output_folder(*folder);
 }

@@ -17,10 +17,10 @@ typedef struct {
  * cannot be made. */
 FRACAS_MUST_USE fracas_err fracas_output_folder(const char *folder);
 
-/* The same for STUDY/NAME, freed by the caller. FRACAS_DAMAGED if it is a link, which nobody named.
- */
-FRACAS_MUST_USE fracas_err fracas_output_folder_in(const char *study, const char *name,
-                                                   char **folder);
+/* The same for `wanted`, or for STUDY/NAME where it is NULL; *folder is freed by the caller.
+ * FRACAS_DAMAGED if STUDY/NAME is a link, which nobody named. */
+FRACAS_MUST_USE fracas_err fracas_output_folder_in(const char *wanted, const char *study,
+                                                   const char *name, char **folder);
 
 /* Starts folder/name under a temporary name beside it. FRACAS_ENVIRONMENT if it cannot. */
 FRACAS_MUST_USE fracas_err fracas_output_open(const char *folder, const char *name,

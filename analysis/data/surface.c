@@ -147,30 +147,56 @@ fracas_err fracas_surface_through(const fracas_stored_mesh *mesh, const fracas_r
     return FRACAS_OK;
 }
 
-fracas_err fracas_surface_times_of(const fracas_stored_mesh *mesh, const fracas_record *record,
-                                   fracas_surface_times *times)
+void fracas_surface_first_times(const fracas_record *record, fracas_surface_times *times)
 {
-    static const int64_t pair[2][2] = {{1, 2}, {3, 4}};
     *times = (fracas_surface_times){NAN, NAN, {NAN, NAN}};
-    TRY(check(mesh, record));
     for (size_t i = 0; i < record->ninterface; i++) {
         times->onset = fmin(times->onset, record->interface[i].onset_time);
         times->broken = fmin(times->broken, record->interface[i].break_time);
     }
+}
+
+fracas_err fracas_surface_times_of(const fracas_stored_mesh *mesh, const fracas_record *record,
+                                   fracas_surface_times *times)
+{
+    static const int64_t pair[2][2] = {{1, 2}, {3, 4}};
+    fracas_surface_first_times(record, times);
+    TRY(check(mesh, record));
     for (int k = 0; k < 2; k++)
         TRY(fracas_surface_through(mesh, record, pair[k], &times->through[k]));
     return FRACAS_OK;
 }
 
-size_t fracas_surface_moments(const fracas_record *record, size_t count, double *time)
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* The different times at which interfaces broke, ascending, to `at`; how many. */
+static size_t list_breaks(const fracas_record *record, double *at)
+{
+    size_t count = 0, kept = 0;
+    for (size_t i = 0; i < record->ninterface; i++)
+        if (isfinite(record->interface[i].break_time))
+            at[count++] = record->interface[i].break_time;
+    qsort(at, count, sizeof *at, by_value);
+    for (size_t i = 0; i < count; i++)
+        if (kept == 0 || at[i] > at[kept - 1]) at[kept++] = at[i];
+    return kept;
+}
+
+fracas_err fracas_surface_moments(const fracas_record *record, double *time, size_t *count)
 {
     const double onset = record->onset_time, end = record->end_time;
-    if (!(onset < end)) {
-        time[0] = end;
-        return count > 0;
-    }
-    for (size_t k = 0; k < count; k++)
-        time[k] = onset + (end - onset) * ((double)(k + 1) / (double)count);
-    if (count > 0) time[count - 1] = end; /* whatever rounding made of it */
-    return count;
+    const size_t n = *count;
+    OWNED double *at = malloc((record->ninterface + 1) * sizeof *at);
+    if (!at) return fracas_no_memory("the times of pictures");
+    if (!(onset < end)) *count = n > 0;
+    const size_t breaks = list_breaks(record, at);
+    for (size_t k = 0; k + 1 < *count; k++)
+        time[k] = breaks >= n ? at[(k + 1) * breaks / n - 1]
+                              : onset + (end - onset) * ((double)(k + 1) / (double)n);
+    if (*count > 0) time[*count - 1] = end;
+    return FRACAS_OK;
 }

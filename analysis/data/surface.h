@@ -50,12 +50,16 @@ typedef struct {
                      * plate: left to right) and from tag 3 to tag 4 (plate: bottom to top) */
 } fracas_surface_times;
 
+/* Without cracks through the width. */
+void fracas_surface_first_times(const fracas_record *record, fracas_surface_times *times);
 FRACAS_MUST_USE fracas_err fracas_surface_times_of(const fracas_stored_mesh *mesh,
                                                    const fracas_record *record,
                                                    fracas_surface_times *times);
 
-/* `count` times [s] from the first onset, not itself among them, to the end, evenly; without any
- * onset the end alone. Returns how many. */
-size_t fracas_surface_moments(const fracas_record *record, size_t count, double *time);
+/* `*count` times [s], the last the end: until each before, an equal share of the times at which
+ * interfaces broke is over; where those are fewer, evenly from the first onset. *count becomes 1
+ * without any onset. */
+FRACAS_MUST_USE fracas_err fracas_surface_moments(const fracas_record *record, double *time,
+                                                  size_t *count);
 
 #endif

@@ -62,6 +62,51 @@ bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, 
     return !(panel->y_floor > 0) || y >= panel->y_floor;
 }
 
+static void widen(double value, const fracas_axis *axis, double end[2])
+{
+    if (!isfinite(value) || (axis->log && value <= 0)) return;
+    end[0] = fmin(end[0], value);
+    end[1] = fmax(end[1], value);
+}
+
+void fracas_panel_extent(const fracas_panel *panel, double x[2], double y[2])
+{
+    x[0] = y[0] = INFINITY;
+    x[1] = y[1] = -INFINITY;
+    for (int end = 0; end < 2; end++) {
+        if (panel->x.show[0] != panel->x.show[1]) widen(panel->x.show[end], &panel->x, x);
+        if (panel->y.show[0] != panel->y.show[1]) widen(panel->y.show[end], &panel->y, y);
+    }
+    for (size_t s = 0; s < panel->nseries; s++) {
+        const fracas_series *series = &panel->series[s];
+        for (size_t i = 0; i < series->n; i++) {
+            widen(series->x[i], &panel->x, x); /* all panels */
+            if (!fracas_panel_shows(panel, series, i)) continue;
+            widen(series->y[i], &panel->y, y);
+            if (!series->low) continue;
+            widen(series->low[i], &panel->y, y);
+            widen(series->high[i], &panel->y, y);
+        }
+    }
+}
+
+void fracas_charts_align(fracas_chart *chart, size_t count)
+{
+    double all[2][2] = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
+    for (size_t i = 0; i < count; i++) {
+        double end[2][2];
+        fracas_panel_extent(chart[i].panel, end[0], end[1]);
+        for (int axis = 0; axis < 2; axis++) {
+            all[axis][0] = fmin(all[axis][0], end[axis][0]);
+            all[axis][1] = fmax(all[axis][1], end[axis][1]);
+        }
+    }
+    for (size_t i = 0; i < count; i++) {
+        memcpy(chart[i].panel->x.show, all[0], sizeof all[0]);
+        memcpy(chart[i].panel->y.show, all[1], sizeof all[1]);
+    }
+}
+
 const char *fracas_axis_name(const fracas_axis *axis, double value)
 {
     if (axis->nnames == 0) return NULL;

@@ -33,6 +33,7 @@ typedef struct {
     bool log;
     size_t nnames; /* on x: values about 1, 2, ... nnames have names; 0: an ordinary axis */
     const char *const *name; /* these; they outlive the chart */
+    double show[2];          /* least and greatest value to show beside the data; equal: none */
 } fracas_axis;
 
 typedef struct {
@@ -99,6 +100,12 @@ void fracas_chart_csv(const fracas_chart *chart, FILE *out);
 /* True if value i of the series is drawn: finite, above 0 on a log axis, not below the panel's
  * floor. */
 bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, size_t i);
+
+/* Least and greatest shown value on both axes, bars included; {INFINITY, -INFINITY}: none. */
+void fracas_panel_extent(const fracas_panel *panel, double x[2], double y[2]);
+
+/* Gives the first panels of all charts the same axes. */
+void fracas_charts_align(fracas_chart *chart, size_t count);
 
 /* The name of a value on an axis with names; NULL on any other. */
 const char *fracas_axis_name(const fracas_axis *axis, double value);

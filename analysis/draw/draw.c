@@ -41,13 +41,6 @@ static bool shown(double value, const fracas_axis *axis)
     return isfinite(value) && (!axis->log || value > 0);
 }
 
-static void widen(double value, const fracas_axis *axis, double *least, double *greatest)
-{
-    if (!shown(value, axis)) return;
-    if (value < *least) *least = value;
-    if (value > *greatest) *greatest = value;
-}
-
 /* From 1/2 to n + 1/2, with a tick a name. */
 static void fit_names(frame *f)
 {
@@ -62,18 +55,8 @@ static void fit_names(frame *f)
 
 static void fit(frame *f)
 {
-    double x[2] = {INFINITY, -INFINITY}, y[2] = {INFINITY, -INFINITY};
-    for (size_t s = 0; s < f->panel.nseries; s++) {
-        const fracas_series *series = &f->panel.series[s];
-        for (size_t i = 0; i < series->n; i++) {
-            widen(series->x[i], &f->panel.x, &x[0], &x[1]); /* all panels */
-            if (!fracas_panel_shows(&f->panel, series, i)) continue;
-            widen(series->y[i], &f->panel.y, &y[0], &y[1]);
-            if (!series->low) continue;
-            widen(series->low[i], &f->panel.y, &y[0], &y[1]);
-            widen(series->high[i], &f->panel.y, &y[0], &y[1]);
-        }
-    }
+    double x[2], y[2];
+    fracas_panel_extent(&f->panel, x, y);
     if (x[0] > x[1]) x[0] = x[1] = 1; /* nothing to show: axes about one */
     if (y[0] > y[1]) y[0] = y[1] = 1;
     if (f->panel.x.nnames > 0) fit_names(f);
@@ -300,8 +283,10 @@ static void draw_entry(const frame *f, size_t s, double x, double y, double widt
     } else if (series->kind != FRACAS_BOXES) {
         fprintf(f->out, LINE_START "M%.1f %.1fh24\"/>", dash_of(series->look), x, y);
     }
-    fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\">", x + SWATCH, y + 5.2);
-    fracas_markup(f->out, "%s</text></g>\n", series->name);
+    const double room = f->width - x - SWATCH, wide = width - SWATCH - GAP; /* a long one shrinks */
+    fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\"", x + SWATCH, y + 5.2);
+    if (wide > room) fprintf(f->out, " style=\"font-size:%.1fpx\"", fmax(8, 15 * room / wide));
+    fracas_markup(f->out, ">%s</text></g>\n", series->name);
 }
 
 /* The series in the order of their entries: marks, then lines. Returns how many have a name. */

@@ -2,6 +2,7 @@
 #include "analysis/export/tables.h"
 
 #include "analysis/data/format.h"
+#include "base/sheet.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -101,7 +102,8 @@ void fracas_table_fill(const fracas_result_table *table, size_t at,
 fracas_err fracas_table_empty(size_t count, size_t columns, const char *const *name,
                               fracas_result_table *table)
 {
-    *table = (fracas_result_table){.rows = FRACAS_RESULT_TABLE_HEAD + count, .columns = columns};
+    *table = (fracas_result_table){
+        .rows = FRACAS_RESULT_TABLE_HEAD + count, .columns = columns, .keys = 1};
     table->cell = calloc(table->rows * table->columns, sizeof *table->cell);
     if (!table->cell) return fracas_no_memory("a table");
     for (size_t c = 0; c < columns && name; c++)
@@ -120,38 +122,37 @@ fracas_err fracas_table_make(const fracas_table_column *column, size_t columns,
     return FRACAS_OK;
 }
 
-static int width_of(const fracas_result_table *table, size_t column)
-{
-    size_t width = 0;
-    for (size_t r = 0; r < table->rows; r++) {
-        const size_t length = strlen(fracas_result_table_cell(table, r, column));
-        width = length > width ? length : width;
-    }
-    return (int)width;
-}
-
 /* Two spaces; one between scaling laws, to fit an everyday table into 120 columns. */
-static const char *gap_before(const fracas_result_table *table, size_t column)
+static const char *gap_before(const void *of, size_t column)
 {
+    const fracas_result_table *table = of;
     if (column == 0) return "";
     return table->laws && column > table->first_law && column < table->first_law + table->laws
                ? " "
                : "  ";
 }
 
-void fracas_table_print(const fracas_result_table *table, const char *indent, unsigned left,
-                        bool units, FILE *out)
+static const char *cell_of(const void *of, size_t row, size_t column)
 {
-    for (size_t r = 0; r < table->rows; r++) {
-        if (r == 1 && !units) continue;
-        fputs(indent, out);
-        for (size_t c = 0; c < table->columns; c++) {
-            const char *cell = fracas_result_table_cell(table, r, c);
-            const bool to_left = left >> c & 1, last = c + 1 == table->columns;
-            if (last && to_left && !*cell) break;
-            fprintf(out, to_left ? "%s%-*s" : "%s%*s", gap_before(table, c),
-                    last && to_left ? 0 : width_of(table, c), cell);
-        }
-        putc('\n', out);
-    }
+    return fracas_result_table_cell(of, row, column);
+}
+
+/* Without the line of units. */
+static const char *cell_without_unit(const void *of, size_t row, size_t column)
+{
+    return cell_of(of, row ? row + 1 : 0, column);
+}
+
+void fracas_table_print(const fracas_result_table *table, const char *indent, unsigned left,
+                        bool units, int columns, FILE *out)
+{
+    const fracas_sheet sheet = {.rows = table->rows - (units ? 0 : 1),
+                                .columns = table->columns,
+                                .keys = table->keys,
+                                .left = left,
+                                .indent = indent,
+                                .cell = units ? cell_of : cell_without_unit,
+                                .gap = gap_before,
+                                .of = table};
+    fracas_sheet_print(&sheet, columns, out);
 }

@@ -3,6 +3,7 @@
 #include "analysis/export/tables.h"
 #include "analysis/data/format.h"
 #include "base/json.h"
+#include "base/sheet.h"
 
 #include <math.h>
 
@@ -107,16 +108,17 @@ fracas_err fracas_fit_table_create(const fracas_analysis *analysis, const fracas
                                    fracas_result_table *table)
 {
     size_t line = FRACAS_RESULT_TABLE_HEAD;
-    TRY(empty_table(analysis->table->npoints, "\u0394AICc", table));
+    TRY(empty_table(fracas_analysis_ndrawn(analysis), "\u0394AICc", table));
     for (size_t p = 0; p < analysis->table->npoints; p++)
-        fill_ranked(fits, (int64_t)p, fracas_analysis_label(analysis, p).text, &line, table);
+        if (fracas_analysis_draws(analysis, p))
+            fill_ranked(fits, (int64_t)p, fracas_analysis_label(analysis, p).text, &line, table);
     table->rows = line;
     return FRACAS_OK;
 }
 
 /* ---- for a terminal ---- */
 
-static void print_table(const fracas_fits *fits, int64_t point, FILE *out)
+static void print_table(const fracas_fits *fits, int64_t point, int columns, FILE *out)
 {
     size_t line = FRACAS_RESULT_TABLE_HEAD;
     fracas_result_table table;
@@ -129,7 +131,8 @@ static void print_table(const fracas_fits *fits, int64_t point, FILE *out)
         if (fracas_fits_value(fits, point, fracas_families[f]->name, "fitted") == 0)
             fill_family(fits, point, "", fracas_families[f], 0, &table.cell[line++ * NCOLUMNS]);
     table.rows = line;
-    fracas_table_print(&table, "  ", 1U << FAMILY | 1U << PARAMETERS, false, out);
+    table.keys = FAMILY + 1;
+    fracas_table_print(&table, "  ", 1U << FAMILY | 1U << PARAMETERS, false, columns, out);
     fracas_result_table_clear(&table);
 }
 
@@ -140,7 +143,7 @@ static void print_whole(const fracas_fits *fits, int64_t point, FILE *out)
 }
 
 static void print_point(const fracas_fits *fits, const fracas_analysis *analysis, int64_t point,
-                        FILE *out)
+                        int columns, FILE *out)
 {
     char comparison[256], mean[96], cv[96];
     const fracas_label label = fracas_analysis_label(analysis, (size_t)point);
@@ -163,21 +166,24 @@ static void print_point(const fracas_fits *fits, const fracas_analysis *analysis
             fracas_digits(fracas_fits_value(fits, point, "data", "cut") * prefix.factor, 4).text,
             prefix.symbol, mean, prefix.symbol, cv);
     print_whole(fits, point, out);
-    print_table(fits, point, out);
+    print_table(fits, point, columns, out);
     if (fracas_fits_format_comparison(fits, point, comparison, sizeof comparison))
         fprintf(out, "  %s\n", comparison);
 }
 
-void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis, FILE *out)
+void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis, int columns,
+                       FILE *out)
 {
-    fputs("Fits by maximum likelihood to the sizes above the cut. Intervals and p-values resample "
-          "realizations, and hold from 50 of them on;\n"
-          "p: how often data of the fitted law are as far from their own fit; below 0.05 the "
-          "family does not describe the sizes.\n",
-          out);
+    static const char *const legend[] = {
+        "Fits by maximum likelihood to the sizes above the cut. Intervals and p-values resample "
+        "realizations, and hold from 50 of them on;",
+        "p: how often data of the fitted law are as far from their own fit; below 0.05 the "
+        "family does not describe the sizes.",
+        NULL};
+    fracas_sheet_legend(legend, columns, out);
     for (size_t p = 0; p < analysis->table->npoints; p++)
         if (fracas_fits_find(fits, (int64_t)p, "data", "mean"))
-            print_point(fits, analysis, (int64_t)p, out);
+            print_point(fits, analysis, (int64_t)p, columns, out);
 }
 
 #define FIELD(key, type) FRACAS_FIELD(fracas_fits_row, type, #key, "", "", key)

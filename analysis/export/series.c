@@ -93,15 +93,16 @@ static const fracas_field slope_field[] = {
     FRACAS_FIELD(slope_row, TEXT, "series", "",
                  "points alike in all that does not make the strain rate", series),
     FRACAS_FIELD(slope_row, TEXT, "kind", "",
-                 "line: through all points of the series; window: between two neighbouring rates",
+                 "line: through all points of the series; count, count_large: such "
+                 "lines of these means; window: between two neighbouring rates",
                  kind),
     FRACAS_FIELD(slope_row, INTEGER, "points", "1", "points of the study that it is of", slope.n),
     FRACAS_FIELD(slope_row, NUMBER, "from_rate", "1/s", "the lower strain rate of a window",
                  rate[0]),
     FRACAS_FIELD(slope_row, NUMBER, "to_rate", "1/s", "the higher strain rate of a window",
                  rate[1]),
-    FRACAS_FIELD(slope_row, NUMBER, "slope", "1", "d log(mean size)/d log(strain rate)",
-                 slope.slope),
+    FRACAS_FIELD(slope_row, NUMBER, "slope", "1",
+                 "d log(mean size)/d log(strain rate), of a count d log(mean count)", slope.slope),
     FRACAS_FIELD(slope_row, NUMBER, "standard_error", "1", "of the slope", slope.standard_error),
     FRACAS_FIELD(slope_row, NUMBER, "half_width", "1", "half width of its 95 % interval",
                  slope.half_width),
@@ -123,17 +124,24 @@ static void put_slope(const slope_row *row, FILE *out)
     putc('\n', out);
 }
 
+static void put_lines(const char *kind, const fracas_size_slope *line, size_t count, FILE *out)
+{
+    for (size_t i = 0; i < count; i++)
+        put_slope(&(slope_row){line[i].name, kind, {NAN, NAN}, line[i].slope}, out);
+}
+
 static fracas_err slope_rows(const fracas_csv_table *table, const fracas_analysis *analysis,
                              FILE *out)
 {
-    OWNED fracas_size_slope *line = NULL;
+    OWNED fracas_size_slope *line = NULL, *of_all = NULL, *of_large = NULL;
     OWNED fracas_size_window *window = NULL;
-    size_t lines, windows = 0;
+    size_t lines, all, large, windows = 0;
     (void)table;
     TRY(fracas_size_slopes(analysis, &line, &lines));
+    TRY(fracas_count_slopes(analysis, true, &of_all, &all));
+    TRY(fracas_count_slopes(analysis, false, &of_large, &large));
     TRY(fracas_size_windows(analysis, &window, &windows));
-    for (size_t i = 0; i < lines; i++)
-        put_slope(&(slope_row){line[i].name, "line", {NAN, NAN}, line[i].slope}, out);
+    put_lines("line", line, lines, out);
     for (size_t i = 0; i < windows; i++) {
         const fracas_size_window *w = &window[i];
         const fracas_slope between = {.n = 2,
@@ -145,12 +153,14 @@ static fracas_err slope_rows(const fracas_csv_table *table, const fracas_analysi
                                       .pooled = NAN};
         put_slope(&(slope_row){w->name, "window", {w->rate[0], w->rate[1]}, between}, out);
     }
+    put_lines("count", of_all, all, out);
+    put_lines("count_large", of_large, large, out);
     return FRACAS_OK;
 }
 
 const fracas_csv_table fracas_csv_table_slopes = {
     .name = "slopes",
-    .doc = "A line a slope of mean size against strain rate",
+    .doc = "A line a slope of mean size, or mean count, against strain rate",
     .key = {"series", "kind", "from_rate"},
     .columns = {&slope},
     .rows = slope_rows,

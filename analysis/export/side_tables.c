@@ -14,8 +14,14 @@ static const char *const slope_legend[] = {
     "that have less than eight; points where no body came apart are left out; after it the half "
     "width of its 95 % interval (Student's t with points - 2 degrees of freedom).",
     "chi2/dof: scatter of the points about the line over what their errors explain; where it is "
-    "above 1 the interval is wider by its square root. Mott, Grady: exponents of the theories.",
+    "above 1 the interval is wider by its square root. Mott, Grady: exponents of the theories, of "
+    "bars and rings.",
     "series mixed: the line is through points that differ in more than the strain rate.",
+    NULL,
+};
+static const char *const count_slope_legend[] = {
+    "slope: as above, of the mean number of fragments. Mott, Grady: minus the exponents of the "
+    "size.",
     NULL,
 };
 static const char *const window_legend[] = {
@@ -123,6 +129,8 @@ static const fracas_table_column motion_column[] = {
         return err;                                                                            \
     }
 LIST(slopes, fracas_size_slope, fracas_size_slopes(analysis, &list, count))
+LIST(count_slopes, fracas_size_slope, fracas_count_slopes(analysis, true, &list, count))
+LIST(count_large_slopes, fracas_size_slope, fracas_count_slopes(analysis, false, &list, count))
 LIST(windows, fracas_size_window, fracas_size_windows(analysis, &list, count))
 LIST(crossovers, fracas_size_crossover, fracas_size_crossovers(analysis, true, &list, count))
 
@@ -130,6 +138,13 @@ LIST(crossovers, fracas_size_crossover, fracas_size_crossovers(analysis, true, &
 const fracas_side_table fracas_side_tables[FRACAS_SIDE_TABLES] = {
     {"slopes", "Slope of log(mean size) against log(strain rate)", COLUMNS(slope),
      sizeof(fracas_size_slope), NULL, list_slopes},
+    {"count-slopes", "Slope of log(mean number of fragments) against log(strain rate)",
+     count_slope_legend, slope_column, FRACAS_COUNT(slope_column), sizeof(fracas_size_slope), NULL,
+     list_count_slopes},
+    {"count-large-slopes",
+     "Slope of log(mean number of fragments without dust) against log(strain rate)",
+     count_slope_legend, slope_column, FRACAS_COUNT(slope_column), sizeof(fracas_size_slope), NULL,
+     list_count_large_slopes},
     {"windows", "Slope from each strain rate to the next", COLUMNS(window),
      sizeof(fracas_size_window), NULL, list_windows},
     {"crossovers", "Crossover from the quasi-static to the dynamic regime", COLUMNS(crossover),

@@ -3,6 +3,7 @@
 #include "analysis/export/csv.h"
 #include "analysis/export/tables.h"
 #include "analysis/scaling/scaling.h"
+#include "base/own.h"
 #include "base/param.h"
 
 #include <inttypes.h>
@@ -165,11 +166,25 @@ static void put_energies(fracas_json *json, const fracas_analysis *analysis, siz
     fracas_json_close(json);
 }
 
-static void write_parameters(fracas_json *json, const fracas_point_table *table, size_t p)
+/* Whether a parameter, derived or not, differs at some points: one a column, freed by the caller;
+ * NULL without memory. */
+static bool *find_varying(const fracas_point_table *table)
+{
+    bool *varies = calloc(table->ncolumns + 1, sizeof *varies);
+    for (size_t c = 0; varies && c < table->ncolumns; c++)
+        for (size_t p = 1; p < table->npoints && !varies[c]; p++)
+            varies[c] = !fracas_value_same(&table->point[0].value[c], &table->point[p].value[c]);
+    return varies;
+}
+
+/* Parameters of the point whose entry of `varies` is `varying`; all without it. */
+static void write_parameters(fracas_json *json, const fracas_point_table *table, size_t p,
+                             const bool *varies, bool varying)
 {
     fracas_json_object(json, "parameters");
     for (size_t c = 0; c < table->ncolumns; c++) {
         const fracas_value *value = &table->point[p].value[c];
+        if (varies && varies[c] != varying) continue;
         if (table->column[c].text)
             fracas_json_text(json, table->column[c].path, *value->text ? value->text : NULL);
         else fracas_json_real(json, table->column[c].path, value->real);
@@ -240,6 +255,48 @@ static void write_decision(fracas_json *json, const fracas_decision *last)
     fracas_fields_json_object(json, "decision", &decision_fields, &row);
 }
 
+/* The headline statistics: of estimates by the beginnings of their keys. */
+static bool is_headline(const char *key)
+{
+    static const char *const keys[] = {"realizations", "usable",    "count.",   "count_large.",
+                                       "size.",        "created",   "elements", "dissipated.",
+                                       "residual",     "dust_share"};
+    for (size_t i = 0; i < FRACAS_COUNT(keys); i++) {
+        const size_t length = strlen(keys[i]);
+        if (keys[i][length - 1] == '.' ? !strncmp(key, keys[i], length) : !strcmp(key, keys[i]))
+            return true;
+    }
+    return false;
+}
+
+typedef struct {
+    fracas_json *json;
+    const fracas_point_statistics *statistics;
+} headlines;
+
+static void write_headline(void *context, const fracas_field *leaf)
+{
+    const headlines *to = context;
+    const fracas_fields one = {leaf, 1};
+    if (is_headline(leaf->key)) fracas_fields_json(to->json, &one, to->statistics);
+}
+
+static void write_brief_point(fracas_json *json, const fracas_analysis *analysis, size_t p,
+                              const bool *varies)
+{
+    const fracas_label label = fracas_analysis_label(analysis, p);
+    headlines to = {json, &analysis->point[p]};
+    fracas_json_object(json, NULL);
+    fracas_json_text(json, "label", label.text);
+    fracas_json_text(json, "hash", fracas_hash_hex(&analysis->table->point[p].hash).text);
+    fracas_json_integer(json, "replicas", analysis->table->point[p].replicas);
+    write_parameters(json, analysis->table, p, varies, true);
+    fracas_json_object(json, "statistics");
+    fracas_fields_walk(&fracas_statistics, ".", write_headline, &to);
+    fracas_json_close(json);
+    fracas_json_close(json);
+}
+
 static void write_point(fracas_json *json, const fracas_analysis *analysis, size_t p,
                         const fracas_fits *fits)
 {
@@ -251,7 +308,7 @@ static void write_point(fracas_json *json, const fracas_analysis *analysis, size
     fracas_json_integer(json, "replicas", analysis->table->point[p].replicas);
     fracas_fields_json_object(json, "progress", &fracas_progress_fields, &progress);
     write_decision(json, fracas_analysis_decision(analysis, p));
-    write_parameters(json, analysis->table, p);
+    write_parameters(json, analysis->table, p, NULL, false);
     write_statistics(json, &analysis->point[p]);
     fracas_json_object(json, "reasons");
     if (analysis->point[p].without_mott)
@@ -284,6 +341,10 @@ static void write_lists(fracas_json *json, const fracas_analysis *analysis)
     size_t count = 0;
     fracas_err made = fracas_size_slopes(analysis, &slope, &count);
     write_list(json, "slopes", &fracas_slope_fields, made, slope, count, sizeof *slope);
+    made = fracas_count_slopes(analysis, true, &slope, &count);
+    write_list(json, "count_slopes", &fracas_slope_fields, made, slope, count, sizeof *slope);
+    made = fracas_count_slopes(analysis, false, &slope, &count);
+    write_list(json, "count_large_slopes", &fracas_slope_fields, made, slope, count, sizeof *slope);
     made = fracas_size_windows(analysis, &window, &count);
     write_list(json, "windows", &fracas_window_fields, made, window, count, sizeof *window);
     made = fracas_size_crossovers(analysis, true, &crossover, &count);
@@ -303,7 +364,7 @@ void fracas_analysis_reference(FILE *out)
         {"`decision` of a point", &decision_fields},
         {"A row of `convergence`", &fracas_running_fields},
         {"Energies in `energies.end`", &fracas_energy_fields},
-        {"A row of `slopes`", &fracas_slope_fields},
+        {"A row of `slopes`, `count_slopes` and `count_large_slopes`", &fracas_slope_fields},
         {"A row of `windows`", &fracas_window_fields},
         {"A row of `crossovers`", &fracas_crossover_fields},
         {"A row of `warnings`", &fracas_warning_fields},
@@ -315,8 +376,38 @@ void fracas_analysis_reference(FILE *out)
     }
 }
 
+static void write_points(fracas_json *json, const fracas_analysis *analysis,
+                         const fracas_fits *fits, bool brief, const bool *varies)
+{
+    fracas_json_array(json, "points");
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        if (brief) write_brief_point(json, analysis, p, varies);
+        else write_point(json, analysis, p, fits);
+    }
+    fracas_json_close(json);
+}
+
+static void write_columns(fracas_json *json, const char *key, const fracas_point_table *table,
+                          const fracas_columns *columns)
+{
+    fracas_json_array(json, key);
+    for (size_t i = 0; i < columns->count; i++)
+        fracas_json_text(json, NULL, table->column[columns->column[i]].path);
+    fracas_json_close(json);
+}
+
+static void write_axes(fracas_json *json, const fracas_analysis *analysis)
+{
+    const fracas_means_axes *axes = &analysis->axes;
+    fracas_json_object(json, "axes");
+    fracas_json_text(json, "x", *axes->key ? axes->key : NULL);
+    write_columns(json, "series", analysis->table, &axes->series);
+    write_columns(json, "drawings", analysis->table, &axes->drawings);
+    fracas_json_close(json);
+}
+
 void fracas_summary_write(const fracas_analysis *analysis, const fracas_shown_fits *shown,
-                          FILE *out)
+                          bool brief, FILE *out)
 {
     char seed[24];
     FRACAS_PRINT(seed, "%" PRIu64, analysis->header.seed);
@@ -327,20 +418,18 @@ void fracas_summary_write(const fracas_analysis *analysis, const fracas_shown_fi
     fracas_json_text(&json, "campaign", fracas_hash_hex(&analysis->header.campaign).text);
     fracas_json_text(&json, "seed", seed); /* text: of 64 bits */
     fracas_json_text(&json, "version", analysis->header.version);
+    fracas_json_text(&json, "form", brief ? "brief" : "whole");
     fracas_json_boolean(&json, "complete", analysis->header.complete);
     fracas_json_boolean(&json, "partial", fracas_results_partial(analysis->results));
     fracas_fields_json_object(&json, "progress", &fracas_progress_fields, &progress);
     fracas_json_integer(&json, "stale_fits", (int64_t)shown->stale);
     fracas_json_text(&json, "fits_left_out", shown->left_out);
-    fracas_json_array(&json, "varying");
-    for (size_t i = 0; i < analysis->shown.count; i++)
-        fracas_json_text(&json, NULL, analysis->table->column[analysis->shown.column[i]].path);
-    fracas_json_close(&json);
+    write_columns(&json, "varying", analysis->table, &analysis->shown);
+    write_axes(&json, analysis);
     write_units(&json, analysis->table);
-    fracas_json_array(&json, "points");
-    for (size_t p = 0; p < analysis->table->npoints; p++)
-        write_point(&json, analysis, p, shown->fits);
-    fracas_json_close(&json);
+    OWNED bool *varies = brief ? find_varying(analysis->table) : NULL;
+    if (brief) write_parameters(&json, analysis->table, 0, varies, false);
+    write_points(&json, analysis, shown->fits, brief, varies);
     write_lists(&json, analysis);
     fracas_json_end(&json);
 }
@@ -349,6 +438,6 @@ fracas_err fracas_analysis_write_json(const fracas_analysis *analysis, const cha
 {
     FRACAS_CLEARED(fracas_shown_fits) shown = {0};
     TRY(fracas_shown_fits_read(study, analysis, &shown));
-    fracas_summary_write(analysis, &shown, out);
+    fracas_summary_write(analysis, &shown, false, out);
     return FRACAS_OK;
 }

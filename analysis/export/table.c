@@ -3,36 +3,59 @@
 
 #include "analysis/data/format.h"
 #include "base/own.h"
+#include "base/sheet.h"
+#include "base/text.h"
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { OF_SURFACES = 3 }; /* lines of the legend for studies of surfaces only */
+/* clang-format off */
+#define OF_SURFACES \
+    "Of a surface: no dust: count without pieces of one or two elements; size: of the square root of a " \
+    "fragment's area. bending: its part", \
+    "of dissipated. rotation: mean kinetic energy of the spins of fragments, as part of that of their " \
+    "centres of mass. Of an octant", \
+    "(geometry.part) all this is the octant's own, an eighth of the sphere."
+#define OF_ALL \
+    "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half " \
+    "width of its 95 %"
+#define OF_LEDGER \
+    "resid., created: largest over replicas of |ledger residual| and of created energy, as parts of " \
+    "the dissipated.", \
+    "resid./total, on the page: the residual by the largest total energy: kinetic, stored and lost."
+/* clang-format on */
+
+enum { LINES_OF_SURFACES = 3 };
 
 static const char *const legend[] = {
-    "Of a surface: no dust: count without pieces of one or two elements; size: of the square root "
-    "of a fragment's area. bending: its part",
-    "of dissipated. rotation: mean kinetic energy of the spins of fragments, as part of that of "
-    "their centres of mass. Of an octant",
-    "(geometry.part) all this is the octant's own, an eighth of the sphere.",
-    "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half "
-    "width of its 95 %",
+    OF_SURFACES,
+    OF_ALL,
     "interval over replicas (Student's t), - where one replica has none. count: fragments, dust "
     "included. size: mean over",
     "replicas of length/count. ZMR, Grady, GC (Glenn-Chudnovsky), Mott (of strengths with a "
     "Weibull modulus): scaling laws with the",
     "point's material and mean strength; size/ZMR: ratio to ZMR, to the digits that the interval "
     "of the size supports.",
-    "resid., created: largest over replicas of |ledger residual| and of created energy, as parts "
-    "of the dissipated.",
+    OF_LEDGER,
+    NULL,
+};
+/* For studies of surfaces only. */
+static const char *const surface_legend[] = {
+    OF_SURFACES,
+    OF_ALL,
+    "interval over replicas (Student's t), - where one replica has none. count: fragments, dust "
+    "included.",
+    OF_LEDGER,
     NULL,
 };
 
 const char *const *fracas_result_table_legend(const fracas_analysis *analysis)
 {
-    return fracas_analysis_any_surface(analysis) ? legend : legend + OF_SURFACES;
+    if (fracas_analysis_all_surfaces(analysis)) return surface_legend;
+    return fracas_analysis_any_surface(analysis) ? legend : legend + LINES_OF_SURFACES;
 }
 
 bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, size_t size)
@@ -82,11 +105,12 @@ static void outcomes_text(const fracas_analysis *analysis, size_t p, const void 
 #define PLACE(member) offsetof(fracas_point_statistics, member)
 enum { LENGTH = 1, ENERGY }; /* groups of columns with one prefix */
 
-/* Columns after the parameters; `shown`: NULL, always. */
+/* Columns after the parameters; `shown`: NULL, always; `page`: not on a terminal, for want of room.
+ */
 static const struct {
     fracas_table_column column;
     bool (*shown)(const fracas_analysis *analysis);
-    bool law;
+    bool law, page;
 } columns[] = {
     {{"n", "", FRACAS_CELL_INTEGER, PLACE(usable)}},
     {{"fail", "", FRACAS_CELL_INTEGER, PLACE(unusable)}},
@@ -113,12 +137,13 @@ static const struct {
      any_chain,
      true},
     {{"resid.", "/diss.", FRACAS_CELL_NUMBER, PLACE(residual), 2}},
+    {{"resid.", "/total", FRACAS_CELL_NUMBER, PLACE(residual_total), 2}, .page = true},
     {{"created", "/diss.", FRACAS_CELL_NUMBER, PLACE(created), 2}},
     {{"rotation", "/transl.", FRACAS_CELL_NUMBER, PLACE(rotation.mean), 2, PLACE(translation.mean)},
      fracas_analysis_any_surface},
     {{"outcomes", "", FRACAS_CELL_FORMAT, .format = outcomes_text}},
 };
-enum { NCOLUMNS = sizeof columns / sizeof *columns };
+enum { NCOLUMNS = sizeof columns / sizeof *columns, MOST_KEYS = 3 };
 
 /* Lengths among the parameters have a prefix of their own, which avoids radii in exponents. */
 static fracas_prefix parameter_prefix(const fracas_point_table *points, size_t column)
@@ -161,6 +186,7 @@ fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unic
     TRY(fracas_columns_with_rate(analysis->table, &analysis->shown, &first));
     for (size_t c = 0; c < NCOLUMNS; c++) {
         if (columns[c].shown && !columns[c].shown(analysis)) continue;
+        if (columns[c].page && !unicode) continue;
         if (columns[c].law && laws++ == 0) first_law = first.count + count;
         shown[count++] = columns[c].column;
     }
@@ -169,20 +195,31 @@ fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unic
     TRY(fracas_table_empty(rows.count, first.count + count, NULL, table));
     fill_parameters(analysis->table, &first, unicode, table);
     fracas_table_fill(table, first.count, shown, count, &rows, unicode);
+    table->keys = first.count <= MOST_KEYS ? first.count : 1;
     table->laws = laws;
     table->first_law = first_law;
     return FRACAS_OK;
 }
 
-static void print_decisions(const fracas_analysis *analysis, FILE *out)
+static FRACAS_PRINTF(3, 4) void print_line(int width, FILE *out, const char *format, ...)
+{
+    char text[1024];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    fracas_text_wrap(text, 0, width, out);
+}
+
+static void print_decisions(const fracas_analysis *analysis, int width, FILE *out)
 {
     char text[512];
     for (size_t p = 0; p < analysis->table->npoints; p++)
         if (fracas_analysis_decided(analysis, p, text, sizeof text))
-            fprintf(out, "decided: %s\n", text);
+            print_line(width, out, "decided: %s", text);
 }
 
-static void print_warnings(const fracas_analysis *analysis, FILE *out)
+static void print_warnings(const fracas_analysis *analysis, int width, FILE *out)
 {
     OWNED fracas_warning_line *line = NULL;
     size_t count;
@@ -190,23 +227,23 @@ static void print_warnings(const fracas_analysis *analysis, FILE *out)
         fprintf(out, "%s\n", fracas_message());
         return;
     }
-    for (size_t i = 0; i < count; i++) fprintf(out, "warning: %s\n", line[i].text);
+    for (size_t i = 0; i < count; i++) fracas_sheet_warning(line[i].text, width, out);
 }
 
-void fracas_analysis_print_table(const fracas_analysis *analysis, FILE *out)
+void fracas_analysis_print_table(const fracas_analysis *analysis, int width, FILE *out)
 {
     fracas_result_table table;
     if (fracas_result_table_create(analysis, false, &table)) {
         fprintf(out, "%s\n", fracas_message());
         return;
     }
-    fracas_table_print(&table, "", 1U << (table.columns - 1), true, out);
+    fracas_table_print(&table, "", 1U << (table.columns - 1), true, width, out);
     fracas_result_table_clear(&table);
     putc('\n', out);
-    for (const char *const *line = fracas_result_table_legend(analysis); *line; line++)
-        fprintf(out, "%s\n", *line);
+    fracas_sheet_legend(fracas_result_table_legend(analysis), width, out);
     char beside[768];
-    if (fracas_result_table_beside(analysis, beside, sizeof beside)) fprintf(out, "%s\n", beside);
-    print_decisions(analysis, out);
-    print_warnings(analysis, out);
+    if (fracas_result_table_beside(analysis, beside, sizeof beside))
+        print_line(width, out, "%s", beside);
+    print_decisions(analysis, width, out);
+    print_warnings(analysis, width, out);
 }

@@ -10,6 +10,7 @@ enum { FRACAS_CELL = 128, FRACAS_RESULT_TABLE_HEAD = 2 };
 
 typedef struct {
     size_t rows, columns;      /* rows 0 and 1 are names and units */
+    size_t keys;               /* first columns, which name a row */
     size_t laws;               /* columns of scaling laws, which stand close together */
     size_t first_law;          /* the first of them */
     char (*cell)[FRACAS_CELL]; /* rows x columns */
@@ -66,14 +67,15 @@ void fracas_table_fill(const fracas_result_table *table, size_t at,
 FRACAS_MUST_USE fracas_err fracas_table_empty(size_t count, size_t columns, const char *const *name,
                                               fracas_result_table *table);
 
-/* For a terminal, `indent` before each line; bit c of `left`: column c is aligned left. Without
- * `units` the second line is left out. */
+/* For a terminal of so many columns (fracas_sheet_print), `indent` before each line; bit c of
+ * `left`: column c is aligned left. Without `units` the second line is left out. */
 void fracas_table_print(const fracas_result_table *table, const char *indent, unsigned left,
-                        bool units, FILE *out);
+                        bool units, int columns, FILE *out);
 
-/* The JSON summary of a study (docs/formats/summary.md). */
+/* The JSON summary of a study (docs/formats/summary.md); `brief`: of many points, the headline
+ * statistics and varying parameters alone. */
 void fracas_summary_write(const fracas_analysis *analysis, const fracas_shown_fits *shown,
-                          FILE *out);
+                          bool brief, FILE *out);
 
 /* Label of a point, as a format. */
 void fracas_cell_label(const fracas_analysis *analysis, size_t point, const void *row, char *text);
@@ -90,11 +92,14 @@ const char *const *fracas_result_table_legend(const fracas_analysis *analysis);
  * false if there are none. */
 bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, size_t size);
 
-/* Tables beside the headline one. A row for each series with a slope and for all points; a row for
- * every two neighbouring rates of a series; a row a series: its crossover, or why there is none; a
- * row a ring: velocities of its fragments. A table without rows has only its head. */
+/* Tables beside the headline one. A row for each series with a slope and for all points, of the
+ * size and of the count; a row for every two neighbouring rates of a series; a row a series: its
+ * crossover, or why there is none; a row a ring: velocities of its fragments. A table without rows
+ * has only its head. */
 typedef enum {
     FRACAS_SLOPES,
+    FRACAS_COUNT_SLOPES,
+    FRACAS_COUNT_LARGE_SLOPES,
     FRACAS_WINDOWS,
     FRACAS_CROSSOVERS,
     FRACAS_MOTION,
@@ -131,7 +136,8 @@ extern const char *const fracas_fit_table_legend[];
 bool fracas_fits_format_comparison(const fracas_fits *fits, int64_t point, char *text, size_t size);
 
 /* For a terminal: of each point its families by rank, then the failed ones, and why. */
-void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis, FILE *out);
+void fracas_fits_print(const fracas_fits *fits, const fracas_analysis *analysis, int columns,
+                       FILE *out);
 void fracas_fits_write_json(const fracas_fits *fits, FILE *out);
 
 #endif

@@ -29,22 +29,26 @@ static void put_real(double value, FILE *out)
     if (isfinite(value)) fprintf(out, "%.17g", value);
 }
 
+void fracas_fits_put_row(const fracas_fits_row *row, FILE *out)
+{
+    fprintf(out, "%" PRId64 ",%s,%s,%s,%s", row->point, row->hash, row->family, row->quantity,
+            row->unit);
+    put_real(row->value, out);
+    put_real(row->low, out);
+    put_real(row->high, out);
+    putc(',', out);
+    if (row->resamples) fprintf(out, "%" PRId64, row->resamples);
+    fprintf(out, ",%s\n", row->note);
+}
+
 static void write_all(const fracas_fits *fits, FILE *out)
 {
     fputs(HEAD, out);
     fputs(SEALED, out);
     fprintf(out, ",,study,campaign,,,,,,%s\n", fits->campaign);
     fprintf(out, ",,study,realizations,1,%" PRId64 ",,,,it had then\n", fits->realizations);
-    for (const fracas_fits_row *row = fits->row; row < fits->row + fits->n; row++) {
-        fprintf(out, "%" PRId64 ",%s,%s,%s,%s", row->point, row->hash, row->family, row->quantity,
-                row->unit);
-        put_real(row->value, out);
-        put_real(row->low, out);
-        put_real(row->high, out);
-        putc(',', out);
-        if (row->resamples) fprintf(out, "%" PRId64, row->resamples);
-        fprintf(out, ",%s\n", row->note);
-    }
+    for (const fracas_fits_row *row = fits->row; row < fits->row + fits->n; row++)
+        fracas_fits_put_row(row, out);
 }
 
 fracas_err fracas_fits_write(const fracas_fits *fits, const char *study)
@@ -118,6 +122,13 @@ static bool read_row(char *const field[FIELDS], fracas_fits_row *row)
            copy(field[4], row->unit, sizeof row->unit) && read_real(field[5], &row->value) &&
            read_real(field[6], &row->low) && read_real(field[7], &row->high) &&
            read_integer(field[8], &row->resamples) && copy(field[9], row->note, sizeof row->note);
+}
+
+bool fracas_fits_take_row(char *line, fracas_fits_row *row)
+{
+    char *field[FIELDS];
+    *row = (fracas_fits_row){0};
+    return split(line, field) && read_row(field, row);
 }
 
 static fracas_err read_lines(FILE *in, const char *path, fracas_fits *fits)

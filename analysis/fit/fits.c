@@ -172,8 +172,13 @@ static void put_comparison(rows *to, const fracas_point_fits *fits)
     put_number(to, "p", "1", comparison->p, comparison->resamples, note);
 }
 
-static fracas_err fit_point(const fracas_analysis *analysis, size_t p, int64_t resamples,
-                            fracas_fits *fits)
+fracas_hash fracas_fits_fingerprint(const fracas_analysis *analysis, size_t point)
+{
+    return fingerprint_of(&analysis->point[point].ensemble);
+}
+
+fracas_err fracas_fits_add_point(const fracas_analysis *analysis, size_t p, int64_t resamples,
+                                 fracas_fits *fits)
 {
     FRACAS_CLEARED(fracas_point_fits) found;
     uint64_t word[2];
@@ -191,6 +196,15 @@ static fracas_err fit_point(const fracas_analysis *analysis, size_t p, int64_t r
     return to.err;
 }
 
+fracas_err fracas_fits_begin(const fracas_analysis *analysis, fracas_fits **fits)
+{
+    *fits = calloc(1, sizeof **fits);
+    if (!*fits) return fracas_no_memory("the fits of a study");
+    memcpy((*fits)->campaign, fracas_hash_hex(&analysis->header.campaign).text, FRACAS_HASH_HEX);
+    (*fits)->realizations = (int64_t)fracas_results_realizations(analysis->results);
+    return FRACAS_OK;
+}
+
 fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point, int64_t resamples,
                               fracas_fits **fits)
 {
@@ -198,12 +212,11 @@ fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point, int
     if (point != SIZE_MAX && point >= npoints)
         return fracas_fail(FRACAS_USAGE, "point %zu: the study has points 0 to %zu", point,
                            npoints - 1);
-    OWN(fracas_fits) made = calloc(1, sizeof *made);
-    if (!made) return fracas_no_memory("the fits of a study");
-    memcpy(made->campaign, fracas_hash_hex(&analysis->header.campaign).text, FRACAS_HASH_HEX);
-    made->realizations = (int64_t)fracas_results_realizations(analysis->results);
+    OWN(fracas_fits) made = NULL;
+    TRY(fracas_fits_begin(analysis, &made));
     for (size_t p = 0; p < npoints; p++)
-        if (point == SIZE_MAX || p == point) TRY(fit_point(analysis, p, resamples, made));
+        if (point == SIZE_MAX || p == point)
+            TRY(fracas_fits_add_point(analysis, p, resamples, made));
     *fits = made;
     made = NULL;
     return FRACAS_OK;

@@ -40,6 +40,38 @@ enum { FRACAS_FITS_RESAMPLES = 999 };
  * Deterministic: seeds are of the points' hashes. FRACAS_USAGE for an unknown point. */
 FRACAS_MUST_USE fracas_err fracas_fits_create(const fracas_analysis *analysis, size_t point,
                                               int64_t resamples, fracas_fits **fits);
+/* Fits of the analysis, without a row. */
+FRACAS_MUST_USE fracas_err fracas_fits_begin(const fracas_analysis *analysis, fracas_fits **fits);
+/* Appends the rows of one point. */
+FRACAS_MUST_USE fracas_err fracas_fits_add_point(const fracas_analysis *analysis, size_t point,
+                                                 int64_t resamples, fracas_fits *fits);
+
+/* How the points of a study are fitted. */
+typedef struct {
+    int jobs;          /* processes at a time, 1 or more: the fits are the same */
+    const char *study; /* its folder, for what is saved on the way */
+    /* Told at the beginning, and after each point: so many of all are done, `saved` of them by an
+     * earlier call. NULL: nobody. */
+    void (*progress)(void *context, size_t done, size_t saved, size_t all);
+    void *context;
+} fracas_fits_work;
+
+/* Fits every point, each in a process of its own. Each point is saved in STUDY/fits.csv.part when
+ * it is done, and taken from there by a later call of the same version with the same realizations
+ * and resamples: an interrupted call loses only what it was computing. FRACAS_ENVIRONMENT while
+ * another process does the same. fracas_fits_forget_part, once the fits are written. */
+FRACAS_MUST_USE fracas_err fracas_fits_create_by(const fracas_analysis *analysis, int64_t resamples,
+                                                 const fracas_fits_work *work, fracas_fits **fits);
+#define FRACAS_FITS_PART FRACAS_FITS_FILE ".part"
+void fracas_fits_forget_part(const char *study);
+
+/* A hash of the realizations of a point that fits are of. */
+fracas_hash fracas_fits_fingerprint(const fracas_analysis *analysis, size_t point);
+
+/* A row as a line of the file, and back: *row is changed, false for a line that is none. */
+void fracas_fits_put_row(const fracas_fits_row *row, FILE *out);
+bool fracas_fits_take_row(char *line, fracas_fits_row *row);
+
 void fracas_fits_destroy(fracas_fits *fits); /* NULL is allowed */
 FRACAS_OWNER(fracas_fits, fracas_fits_destroy)
 

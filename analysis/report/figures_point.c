@@ -33,13 +33,14 @@ static void add_value(energy_curves *curves, size_t energy, double time, double 
     *largest = fmax(*largest, fabs(far - *start));
 }
 
-/* A part, or a sink after the first, has a curve if it is ever above 0; created energy and its
- * parts have none. */
+/* A part, damping, or a sink after the first, has a curve if it is ever above 0; created energy and
+ * its parts have none. */
 static bool has_curve(const energy_curves *curves, size_t energy)
 {
     const fracas_energy_role role = fracas_energies[energy].role;
-    const bool later = role == FRACAS_ROLE_SINK && energy > 0 &&
-                       fracas_energies[whole_of(energy - 1)].role == FRACAS_ROLE_SINK;
+    const bool later = role == FRACAS_ROLE_DAMPING ||
+                       (role == FRACAS_ROLE_SINK && energy > 0 &&
+                        fracas_energies[whole_of(energy - 1)].role == FRACAS_ROLE_SINK);
     if (fracas_energies[whole_of(energy)].role == FRACAS_ROLE_SOURCE) return false;
     return !(role == FRACAS_ROLE_PART || later) || curves->largest[energy] > 0;
 }
@@ -137,9 +138,10 @@ fracas_err fracas_figure_energies(const fracas_analysis *analysis, size_t point,
         chart->caption,
         "Replica %lld of %lld, the one whose dissipated energy is the nearest to the mean. "
         "%s%sBelow: |residual| of the energy balance; its largest value over all replicas is "
-        "%s of the dissipated energy.",
+        "%s of the dissipated energy, %s of the largest total energy.",
         (long long)statistics->typical_replica, (long long)statistics->usable, motion,
-        *motion ? " " : "", fracas_digits(statistics->residual, 2).text);
+        *motion ? " " : "", fracas_digits(statistics->residual, 2).text,
+        fracas_digits(statistics->residual_total, 2).text);
     return FRACAS_OK;
 }
 
@@ -182,6 +184,54 @@ fracas_err fracas_figure_bands(const fracas_analysis *analysis, size_t point, fr
                  bands->running[bands->count - 1] < bands->realizations
                      ? "; at the last times some are still running"
                      : "");
+    return FRACAS_OK;
+}
+
+/* ---- fragments ---- */
+
+/* The estimate of the final count at the time where it is expected, held fragments added. */
+static fracas_err add_final(const fracas_final *final, double factor, fracas_panel *panel)
+{
+    fracas_series *series;
+    if (isnan(final->count.value)) return FRACAS_OK;
+    TRY(fracas_panel_add(panel, FRACAS_MARKS, 1, 1, &series));
+    FRACAS_PRINT(series->name, "final count, estimated");
+    series->x[0] = fmax(final->reach, final->end) * factor;
+    series->y[0] = final->count.value + final->held;
+    series->low[0] = final->count.low + final->held;
+    series->high[0] = final->count.high + final->held;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_figure_fragments(const fracas_analysis *analysis, size_t point,
+                                   fracas_chart *chart)
+{
+    const fracas_bands *bands = &analysis->point[point].bands;
+    const fracas_final *final = &analysis->point[point].final;
+    fracas_figure_name(analysis, point, "fragments", "Fragments over time", chart);
+    if (bands->count < 2 || final->verdict == FRACAS_FINAL_NONE) return FRACAS_OK;
+    const fracas_prefix time = fracas_prefix_for(&bands->time[bands->count - 1], 1);
+    fracas_panel *panel = fracas_chart_add(chart, FRACAS_FIGURE_LOW);
+    fracas_series *series;
+    panel->bars = bands->extremes ? "least to greatest" : "5 to 95 %";
+    TRY(fracas_panel_add(panel, FRACAS_BAND, 0, bands->count, &series));
+    FRACAS_PRINT(series->name, "fragments");
+    for (size_t j = 0; j < bands->count; j++) {
+        series->x[j] = bands->time[j] * time.factor;
+        series->y[j] = bands->fragments[j].mean;
+        series->low[j] = bands->fragments[j].low;
+        series->high[j] = bands->fragments[j].high;
+    }
+    TRY(add_final(final, time.factor, panel));
+    FRACAS_PRINT(panel->x.label, "time [%ss]", time.sign);
+    FRACAS_PRINT(panel->y.label, "fragments");
+    FRACAS_PRINT(chart->caption,
+                 "Mean of n = %lld realizations; at the end %s transits of a mean fragment since "
+                 "the first crack, of whose time the last half added %s %%. Mark: where %s more "
+                 "breaks would bring the count.",
+                 (long long)bands->realizations, fracas_digits(final->transits, 2).text,
+                 fracas_digits(100 * final->growth, 2).text,
+                 fracas_digits(final->count.value - final->seen, 2).text);
     return FRACAS_OK;
 }
 

@@ -12,11 +12,14 @@
 
 #include <inttypes.h>
 #include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
 
 typedef struct {
     char *text[FRACAS_PAGE_SECTIONS];
     size_t size[FRACAS_PAGE_SECTIONS];
     char script[FRACAS_SHA256_BASE64]; /* digest of the page's */
+    int refresh;                       /* s, 0: never */
 } contents;
 
 static fracas_err write_section(fracas_page *page, const fracas_page_entry *section, char **text,
@@ -41,11 +44,12 @@ static void put_policy(const char *script, FILE *out)
                   script);
 }
 
-static void put_page(const char *title, const char *lead, const fracas_page_entry *section,
-                     size_t count, const contents *of, FILE *out)
+static void put_head(const char *title, const char *lead, const char *script, int refresh,
+                     FILE *out)
 {
     fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n", out);
-    put_policy(of->script, out);
+    put_policy(script, out);
+    if (refresh) fprintf(out, "<meta http-equiv=\"refresh\" content=\"%d\"/>\n", refresh);
     fracas_markup(out,
                   "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n"
                   "<link rel=\"icon\" href=\"data:,\"/>\n<title>"
@@ -57,6 +61,17 @@ static void put_page(const char *title, const char *lead, const fracas_page_entr
         out,
         "</style>\n</head>\n<body>\n<header>\n<h1>%s</h1>\n<p class=\"lead\">%s</p>\n</header>\n",
         title, lead);
+}
+
+static void put_end(FILE *out)
+{
+    fprintf(out, "</main>\n<script>%s</script>\n</body>\n</html>\n", fracas_page_script);
+}
+
+static void put_page(const char *title, const char *lead, const fracas_page_entry *section,
+                     size_t count, const contents *of, FILE *out)
+{
+    put_head(title, lead, of->script, of->refresh, out);
     fputs("<nav aria-label=\"Contents\"><ul>\n", out);
     for (size_t i = 0; i < count; i++)
         if (of->size[i] > 0)
@@ -68,17 +83,59 @@ static void put_page(const char *title, const char *lead, const fracas_page_entr
         fwrite(of->text[i], 1, of->size[i], out);
         fputs("</section>\n", out);
     }
-    fprintf(out, "</main>\n<script>%s</script>\n</body>\n</html>\n", fracas_page_script);
+    put_end(out);
+}
+
+fracas_err fracas_page_film(const char *folder, const char *file, const char *title,
+                            const char *lead, const char *film)
+{
+    char script[FRACAS_SHA256_BASE64];
+    fracas_output_file output;
+    TRY(fracas_sha256_of_text(fracas_page_script, script));
+    TRY(fracas_output_open(folder, file, &output));
+    put_head(title, lead, script, 0, output.file);
+    fprintf(output.file, "<main>\n<div class=\"film alone\">\n%s</div>\n", film);
+    put_end(output.file);
+    return fracas_output_close(&output, FRACAS_OK);
+}
+
+/* True for a drawing of the page, or the data of its pictures. */
+static bool is_drawn(const fracas_page *page, const char *stem)
+{
+    char first[FRACAS_DRAWING + 2];
+    FRACAS_PRINT(first, "%s-1", stem);
+    for (size_t i = 0; i < page->ndrawings; i++)
+        if (!strcmp(page->drawing[i], stem) || !strcmp(page->drawing[i], first)) return true;
+    return false;
+}
+
+/* Removes a figure of an older report that this one has not. */
+static fracas_err forget(void *context, const char *path, const char *name)
+{
+    static const char *const kinds[] = {".svg", ".pdf", ".csv"}, *const marks[] = {"-point-",
+                                                                                   "-against-"};
+    char stem[FRACAS_DRAWING];
+    bool of_figure = false, of_kind = false;
+    const char *dot = strrchr(name, '.');
+    if (!dot || (size_t)(dot - name) >= sizeof stem) return FRACAS_OK;
+    snprintf(stem, sizeof stem, "%.*s", (int)(dot - name), name);
+    for (size_t k = 0; k < FRACAS_COUNT(kinds); k++) of_kind = of_kind || !strcmp(dot, kinds[k]);
+    for (size_t k = 0; k < FRACAS_COUNT(marks); k++)
+        of_figure = of_figure || strstr(stem, marks[k]);
+    if (of_kind && of_figure && !is_drawn(context, stem)) unlink(path);
+    return FRACAS_OK;
 }
 
 fracas_err fracas_page_write(fracas_page *page, const char *title, const char *lead,
                              const fracas_page_entry *section, size_t count)
 {
-    contents of = {0};
+    contents of = {.refresh = page->refresh};
     fracas_err err = fracas_sha256_of_text(fracas_page_script, of.script);
     for (size_t i = 0; i < count && !err; i++)
         err = write_section(page, &section[i], &of.text[i], &of.size[i]);
-    if (!err) err = fracas_pdf_write(page->folder, page->drawing, page->ndrawings);
+    if (!err) err = fracas_disk_each(page->folder, forget, page);
+    if (!err)
+        err = fracas_convert(page->folder, page->drawing, page->ndrawings, FRACAS_DRAWING_PDF);
     fracas_output_file output;
     if (!err) err = fracas_output_open(page->folder, "index.html", &output);
     if (!err) {
@@ -96,11 +153,12 @@ fracas_err fracas_page_write(fracas_page *page, const char *title, const char *l
 
 static const fracas_page_entry sections[] = {
     {"summary", "Summary", fracas_section_summary},
-    {"mean-size", "Mean fragment size", fracas_section_rate},
+    {"mean-size", "Mean fragment size and count", fracas_section_means},
     {"fragment-sizes", "Fragment sizes", NULL},
     {"fits", "Fits to fragment sizes", fracas_section_fits},
     {"crack-patterns", "Crack patterns", fracas_section_patterns},
-    {"broken-surfaces", "Broken surfaces", fracas_section_surfaces},
+    {"broken-surfaces", "Break-up over time", fracas_section_surfaces},
+    {"fragments-over-time", "Fragments over time", NULL},
     {"energies-over-time", "Energies over time", NULL},
     {"convergence", "Convergence with replicas", NULL},
     {"table-of-results", "Results", fracas_section_results},
@@ -130,6 +188,8 @@ static void say_what(const fracas_analysis *analysis, char *text, size_t size)
 
 /* ---- files ---- */
 
+enum { MOST_WHOLE = 100 }; /* points whose summary is whole: a whole one has some 10 kB a point */
+
 static fracas_err write_tables(const fracas_analysis *analysis, const char *folder,
                                const fracas_shown_fits *shown)
 {
@@ -140,20 +200,26 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
     for (size_t i = 0; i < FRACAS_COUNT(table); i++)
         TRY(fracas_csv_file(table[i], analysis, folder));
     TRY(fracas_output_open(folder, "summary.json", &output));
-    fracas_summary_write(analysis, shown, output.file);
+    fracas_summary_write(analysis, shown, analysis->table->npoints > MOST_WHOLE, output.file);
     return fracas_output_close(&output, FRACAS_OK);
 }
 
-fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study)
+fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study,
+                               const char *wanted, int refresh)
 {
     OWNED char *folder = NULL;
     FRACAS_CLEARED(fracas_shown_fits) shown = {0};
     char lead[512];
-    TRY(fracas_output_folder_in(study, "report", &folder));
+    TRY(fracas_output_folder_in(wanted, study, "report", &folder));
     TRY(fracas_shown_fits_read(study, analysis, &shown));
     TRY(write_tables(analysis, folder, &shown));
     say_what(analysis, lead, sizeof lead);
-    fracas_page page = {
-        .analysis = analysis, .folder = folder, .fits = shown.fits, .shown = &shown};
+    if (refresh)
+        fracas_append(lead, sizeof lead, "; ", "this page loads itself again every %d s", refresh);
+    fracas_page page = {.analysis = analysis,
+                        .folder = folder,
+                        .fits = shown.fits,
+                        .shown = &shown,
+                        .refresh = refresh};
     return fracas_page_write(&page, analysis->name, lead, sections, FRACAS_COUNT(sections));
 }

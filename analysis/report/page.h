@@ -25,6 +25,7 @@ typedef struct {
     const fracas_shown_fits *shown; /* these; NULL on a page other than a study's */
     const void *of;                 /* subject of the sections of a page other than a study's */
     const char *source;             /* source of its figures; NULL: the study */
+    int refresh;                    /* the page loads itself again after so many s; 0: never */
     FILE *out;                      /* for the section */
     int figures, tables;            /* numbered so far */
     size_t ndrawings, room;
@@ -79,34 +80,53 @@ FRACAS_MUST_USE fracas_err fracas_page_table(fracas_page *page, const char *id, 
 /* ---- the sections ---- */
 
 fracas_page_section fracas_section_summary; /* summary.c */
-fracas_page_section fracas_section_rate, fracas_section_patterns, fracas_section_fits,
+fracas_page_section fracas_section_means, fracas_section_patterns, fracas_section_fits,
     fracas_section_results, fracas_section_slopes, fracas_section_motion,
     fracas_section_files; /* sections.c */
 /* The figures of a section: of the study, then point by point. */
 FRACAS_MUST_USE fracas_err fracas_section_figures(fracas_page *page, const char *section);
 
+typedef enum { FRACAS_DRAWING_PDF, FRACAS_DRAWING_PNG } fracas_drawing_format;
+
 /* False in a program built without librsvg: then there are no PDFs, and the page says nothing of
  * them. */
-extern const bool fracas_pdf_made;
+extern const bool fracas_convert_possible;
+/* FRACAS_ENVIRONMENT if the library cannot be loaded. */
+FRACAS_MUST_USE fracas_err fracas_convert_check(void);
 
 /* Every name[i].svg of the folder as name[i].pdf, vectors, one page of its size (96 pixels an
- * inch), without a date. Drawn by a child process, because the library ends its process when memory
- * is short, and keeps its allocations. FRACAS_ENVIRONMENT, naming the file, if it cannot. */
-FRACAS_MUST_USE fracas_err fracas_pdf_write(const char *folder, char (*name)[FRACAS_DRAWING],
-                                            size_t count);
+ * inch), without a date; or as name[i].png, on white, with 2 by 2 dots a pixel. Drawn by a child
+ * process, because the library ends its process when memory is short, and keeps its allocations.
+ * FRACAS_ENVIRONMENT, naming the file, if it cannot. */
+FRACAS_MUST_USE fracas_err fracas_convert(const char *folder, char (*name)[FRACAS_DRAWING],
+                                          size_t count, fracas_drawing_format as);
 
-/* The surface of a point, and its interfaces in a realization. */
+/* A page of one figure with its own style and script: FILE of the folder. */
+FRACAS_MUST_USE fracas_err fracas_page_film(const char *folder, const char *file, const char *title,
+                                            const char *lead, const char *film);
+
+/* The surface of a point, and its interfaces in a realization; of a bar or ring, its strip. */
 typedef struct {
     fracas_stored_mesh mesh;
-    fracas_record record; /* with its interfaces */
+    fracas_record record; /* with its interfaces and fragments */
     double thickness;     /* m; 0 if the point has none */
+    bool strip;
+    size_t ninterfaces; /* the realization's; those within a strip's elements follow */
 } fracas_broken_surface;
+
+/* True if the study kept what draws the point's realizations. */
+FRACAS_MUST_USE fracas_err fracas_broken_surface_kept(fracas_results *results, size_t point,
+                                                      bool *kept);
 
 /* The realization in row `row` of the study. Cleared by the caller, after an error too. */
 FRACAS_MUST_USE fracas_err fracas_broken_surface_read(fracas_results *results, size_t point,
                                                       size_t row, fracas_broken_surface *surface);
 void fracas_broken_surface_clear(fracas_broken_surface *surface);
 
+FRACAS_MUST_USE fracas_err fracas_broken_surface_draw(const fracas_broken_surface *surface,
+                                                      double time,
+                                                      const fracas_surface_picture *picture,
+                                                      FILE *out);
 /* Writes a picture at a time into a file of its own. */
 FRACAS_MUST_USE fracas_err fracas_broken_surface_save(const fracas_broken_surface *surface,
                                                       double time,

@@ -46,7 +46,7 @@ void fracas_page_links(fracas_page *page, const char *file, bool drawn, bool csv
 {
     fputs(" <span class=\"files\">", page->out);
     if (drawn) fprintf(page->out, "<a href=\"%s.svg\">SVG</a> ", file);
-    if (drawn && fracas_pdf_made) fprintf(page->out, "<a href=\"%s.pdf\">PDF</a> ", file);
+    if (drawn && fracas_convert_possible) fprintf(page->out, "<a href=\"%s.pdf\">PDF</a> ", file);
     if (csv) fprintf(page->out, "<a href=\"%s.csv\">CSV</a>", file);
     fputs("</span>", page->out);
 }

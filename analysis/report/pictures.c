@@ -3,6 +3,7 @@
  * a point. */
 #include "analysis/data/field.h"
 #include "analysis/data/output.h"
+#include "analysis/report/grids.h"
 #include "analysis/report/page.h"
 #include "base/own.h"
 
@@ -36,21 +37,10 @@ static fracas_err check_campaign(const making *m)
                        m->study, m->study, m->study, m->study);
 }
 
-static fracas_err no_surface(size_t point)
-{
-    return fracas_fail(FRACAS_USAGE,
-                       "point %zu is no surface: only membranes and shells have pictures; `fracas "
-                       "report` draws the fragments of rings",
-                       point);
-}
-
 static fracas_err check_point(making *m)
 {
     const size_t point = m->request->point, npoints = m->table->npoints;
-    const bool kept = fracas_results_header(m->results)->interfaces;
-    if (!kept && point < npoints && !fracas_columns_surface(m->table, point))
-        return no_surface(point);
-    if (!kept)
+    if (!fracas_results_header(m->results)->interfaces)
         return fracas_fail(FRACAS_USAGE,
                            "%s keeps no interfaces, so it does not say where the cracks are: run "
                            "the campaign with `output: {interfaces: true}` into another study",
@@ -58,10 +48,15 @@ static fracas_err check_point(making *m)
     if (point >= npoints)
         return fracas_fail(FRACAS_USAGE, "there is no point %zu: %s has %zu of them, from 0", point,
                            m->study, npoints);
-    for (size_t p = 0; p < point; p++) m->first_row += (size_t)m->table->point[p].replicas;
     size_t interfaces;
     TRY(fracas_results_mesh_interfaces(m->results, point, &interfaces));
-    return interfaces ? FRACAS_OK : no_surface(point);
+    if (m->request->grids && interfaces == 0)
+        return fracas_fail(FRACAS_USAGE,
+                           "point %zu is no surface: of bars and rings `fracas replay --fields` "
+                           "writes grids",
+                           point);
+    for (size_t p = 0; p < point; p++) m->first_row += (size_t)m->table->point[p].replicas;
+    return FRACAS_OK;
 }
 
 static fracas_err check_replica(const making *m)
@@ -94,27 +89,101 @@ static fracas_err check_record(const making *m, const fracas_record *record)
 
 /* ---- the files ---- */
 
-static fracas_err save_pictures(const making *m, const fracas_broken_surface *surface)
+enum { STEM = 48 };
+
+/* "surface-point-0-replica-3" */
+static void name_realization(const making *m, char stem[STEM])
+{
+    snprintf(stem, STEM, "surface-point-%zu-replica-%" PRId64, m->request->point,
+             m->request->replica);
+}
+
+/* Fills the title, which the picture points to. */
+static fracas_surface_picture picture_at(const making *m, const fracas_broken_surface *surface,
+                                         double time, char title[128])
+{
+    snprintf(title, 128, "Point %zu, replica %" PRId64 " at %s", m->request->point,
+             m->request->replica, fracas_surface_time(time, true).text);
+    return (fracas_surface_picture){.title = title,
+                                    .show = m->request->show,
+                                    .width = FRACAS_SURFACE_WIDTH,
+                                    .standalone = true,
+                                    .view = m->request->view,
+                                    .explode = m->request->explode,
+                                    .thickness = surface->thickness};
+}
+
+static fracas_err save_pictures(const making *m, const fracas_broken_surface *surface,
+                                const double *time, size_t count)
+{
+    OWNED char(*name)[FRACAS_DRAWING] = calloc(count + 1, sizeof *name);
+    char stem[STEM], title[128], file[FRACAS_DRAWING + 4];
+    if (!name) return fracas_no_memory("the names of pictures");
+    name_realization(m, stem);
+    for (size_t k = 0; k < count; k++) {
+        const fracas_surface_picture picture = picture_at(m, surface, time[k], title);
+        FRACAS_PRINT(name[k], "%s-%zu", stem, k + 1);
+        FRACAS_PRINT(file, "%s.svg", name[k]);
+        TRY(fracas_broken_surface_save(surface, time[k], &picture, m->folder, file));
+        fprintf(m->out, "%s/%s: %s\n", m->folder, file, fracas_surface_time(time[k], false).text);
+    }
+    if (!m->request->dots) return FRACAS_OK;
+    if (!fracas_convert_possible)
+        return fracas_fail(FRACAS_ENVIRONMENT, "this fracas was built without librsvg, which "
+                                               "draws PNGs: install librsvg2-dev and build it "
+                                               "again; the SVG files are written");
+    return fracas_convert(m->folder, name, count, FRACAS_DRAWING_PNG);
+}
+
+static fracas_err put_frames(const making *m, const fracas_broken_surface *surface,
+                             const double *time, size_t count, FILE *out)
+{
+    char title[128];
+    for (size_t k = 0; k < count; k++) {
+        fracas_surface_picture picture = picture_at(m, surface, time[k], title);
+        picture.standalone = false;
+        fprintf(out, "<figure class=\"frame\" data-time=\"%s\">\n",
+                fracas_surface_time(time[k], true).text);
+        TRY(fracas_broken_surface_draw(surface, time[k], &picture, out));
+        fputs("</figure>\n", out);
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err save_film(const making *m, const fracas_broken_surface *surface,
+                            const double *time, size_t count)
+{
+    OWNED char *frames = NULL;
+    size_t size;
+    char stem[STEM], file[STEM + 5], lead[128];
+    FILE *out = open_memstream(&frames, &size);
+    if (!out) return fracas_no_memory("a film");
+    fracas_err err = put_frames(m, surface, time, count, out);
+    const bool bad = ferror(out);
+    if ((fclose(out) || bad) && !err) err = fracas_no_memory("a film");
+    if (err) return err;
+    name_realization(m, stem);
+    FRACAS_PRINT(file, "%s.html", stem);
+    FRACAS_PRINT(lead, "Point %zu, replica %" PRId64 ", as it was before any motion",
+                 m->request->point, m->request->replica);
+    TRY(fracas_page_film(m->folder, file, m->study, lead, frames));
+    fprintf(m->out, "%s/%s: %zu times\n", m->folder, file, count);
+    return FRACAS_OK;
+}
+
+static fracas_err save(const making *m, const fracas_broken_surface *surface)
 {
     const fracas_picture_request *request = m->request;
     OWNED double *time = calloc(request->count + 1, sizeof *time);
+    char stem[STEM];
     if (!time) return fracas_no_memory("the times of pictures");
     size_t count = request->count;
     if (request->time) memcpy(time, request->time, count * sizeof *time);
-    else count = fracas_surface_moments(&surface->record, count, time);
-    for (size_t k = 0; k < count; k++) {
-        char title[256], name[128];
-        FRACAS_PRINT(title, "Point %zu, replica %" PRId64 " at %s", request->point,
-                     request->replica, fracas_surface_time(time[k], true).text);
-        FRACAS_PRINT(name, "surface-point-%zu-replica-%" PRId64 "-%zu.svg", request->point,
-                     request->replica, k + 1);
-        const fracas_surface_picture picture = {
-            title,         request->show,    FRACAS_SURFACE_WIDTH, true,
-            request->view, request->explode, surface->thickness};
-        TRY(fracas_broken_surface_save(surface, time[k], &picture, m->folder, name));
-        fprintf(m->out, "%s/%s: %s\n", m->folder, name, fracas_surface_time(time[k], false).text);
-    }
-    return FRACAS_OK;
+    else TRY(fracas_surface_moments(&surface->record, time, &count));
+    name_realization(m, stem);
+    if (request->grids) return fracas_grids_write(surface, time, count, m->folder, stem, m->out);
+    if (request->film) TRY(save_film(m, surface, time, count));
+    return request->film && !request->dots ? FRACAS_OK : save_pictures(m, surface, time, count);
 }
 
 static fracas_err say_times(const making *m, const fracas_broken_surface *surface)
@@ -123,12 +192,14 @@ static fracas_err say_times(const making *m, const fracas_broken_surface *surfac
     fracas_surface_times times;
     TRY(fracas_surface_times_of(&surface->mesh, &surface->record, &times));
     const double at[] = {times.onset, times.broken, fmin(times.through[0], times.through[1])};
-    for (int k = 0; k < (fracas_surface_is_flat(&surface->mesh) ? 3 : 2); k++) {
+    const bool through = !surface->strip && fracas_surface_is_flat(&surface->mesh);
+    for (int k = 0; k < (through ? 3 : 2); k++) {
         fprintf(m->out, "%s: %s\n", what[k], fracas_surface_time(at[k], false).text);
     }
     return FRACAS_OK;
 }
 
+/* mesh: of a surface; a bar or ring has none, and cracks through its width as it breaks. */
 static fracas_err put_line(const making *m, const fracas_stored_mesh *mesh, int64_t replica,
                            fracas_record *record, FILE *out)
 {
@@ -137,7 +208,8 @@ static fracas_err put_line(const making *m, const fracas_stored_mesh *mesh, int6
     TRY(fracas_results_record(m->results, m->first_row + (size_t)replica, FRACAS_READ_INTERFACES,
                               &point, &found, record));
     fracas_surface_times times = {NAN, NAN, {NAN, NAN}};
-    if (record->ninterface > 0) TRY(fracas_surface_times_of(mesh, record, &times));
+    if (record->ninterface > 0 && mesh) TRY(fracas_surface_times_of(mesh, record, &times));
+    else fracas_surface_first_times(record, &times);
     fprintf(out, "%" PRId64 ",%s", replica, fracas_outcome_name(record->outcome));
     fracas_csv_real(times.onset, out);
     fracas_csv_real(times.broken, out);
@@ -176,12 +248,9 @@ static fracas_err make(making *m)
     TRY(fracas_broken_surface_read(m->results, m->request->point,
                                    m->first_row + (size_t)m->request->replica, &surface));
     TRY(check_record(m, &surface.record));
-    const char *wanted = m->request->folder;
-    if (wanted) TRY(fracas_path(&m->folder, "%s", wanted));
-    TRY(wanted ? fracas_output_folder(m->folder)
-               : fracas_output_folder_in(m->study, "pictures", &m->folder));
-    TRY(save_pictures(m, &surface));
-    if (m->request->table) TRY(save_table(m, &surface.mesh));
+    TRY(fracas_output_folder_in(m->request->folder, m->study, "pictures", &m->folder));
+    TRY(save(m, &surface));
+    if (m->request->table) TRY(save_table(m, surface.strip ? NULL : &surface.mesh));
     return say_times(m, &surface);
 }
 

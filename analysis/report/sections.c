@@ -6,39 +6,100 @@
 #include "analysis/report/figures.h"
 #include "analysis/report/page.h"
 
+#include <stdlib.h>
 #include <string.h>
 
-/* Instead of the figures against the rate, where there is none. */
-static void say_no_rate(const fracas_page *page)
+/* The drawings of a figure of the study, with the same axes. */
+static fracas_err put_drawings(fracas_page *page, const fracas_figure *of)
 {
-    for (size_t p = 0; p < page->analysis->table->npoints; p++)
-        if (page->analysis->point[p].rate > 0) return;
-    fputs("<p>No point begins with a strain rate above 0: nothing to draw against it.</p>\n",
-          page->out);
+    FRACAS_CLEARED(fracas_charts)
+    charts = {.chart = calloc(FRACAS_MOST_DRAWINGS, sizeof(fracas_chart))};
+    if (!charts.chart) return fracas_no_memory("a figure");
+    while (charts.count < FRACAS_MOST_DRAWINGS) {
+        fracas_chart *chart = &charts.chart[charts.count++];
+        fracas_chart_init(chart);
+        TRY(of->draw(page->analysis, charts.count - 1, chart));
+        if (chart->npanels > 0) continue;
+        charts.count--;
+        break;
+    }
+    if (charts.count > 1) fracas_charts_align(charts.chart, charts.count);
+    for (size_t i = 0; i < charts.count; i++)
+        TRY(fracas_page_chart(page, &charts.chart[i], FRACAS_OK));
+    return FRACAS_OK;
+}
+
+static fracas_err put_figures(fracas_page *page, const char *section, bool each, size_t number,
+                              const fracas_figure **first)
+{
+    fracas_chart chart;
+    fracas_chart_init(&chart);
+    for (const fracas_figure *of = fracas_figures; of->section; of++) {
+        if (strcmp(of->section, section) != 0 || of->each != each) continue;
+        if (!*first) fracas_page_grid(page, (*first = of)->grid);
+        if (each) TRY(fracas_page_chart(page, &chart, of->draw(page->analysis, number, &chart)));
+        else TRY(put_drawings(page, of));
+    }
+    return FRACAS_OK;
+}
+
+/* Below the figures of points where not all have some. */
+static void say_drawn(fracas_page *page, int before)
+{
+    const size_t n = fracas_analysis_ndrawn(page->analysis),
+                 npoints = page->analysis->table->npoints;
+    if (n == npoints || page->figures == before) return;
+    fprintf(page->out,
+            "<p>Drawn are %zu of %zu points. Others: <code>fracas report STUDY --points "
+            "3,17,20-25</code>.</p>\n",
+            n, npoints);
 }
 
 fracas_err fracas_section_figures(fracas_page *page, const char *section)
 {
     const size_t npoints = page->analysis->table->npoints;
-    fracas_chart chart;
-    fracas_chart_init(&chart);
-    for (int each = 0; each < 2; each++) {
-        const fracas_figure *first = NULL;
-        for (size_t p = 0; p < (each ? npoints : 1); p++)
-            for (const fracas_figure *of = fracas_figures; of->section; of++) {
-                if (strcmp(of->section, section) != 0 || of->each != (each == 1)) continue;
-                if (!first) fracas_page_grid(page, (first = of)->grid);
-                TRY(fracas_page_chart(page, &chart, of->draw(page->analysis, p, &chart)));
-            }
-        if (first) fracas_page_grid_end(page);
-    }
+    const fracas_figure *first = NULL;
+    const int before = page->figures;
+    TRY(put_figures(page, section, false, 0, &first));
+    if (first) fracas_page_grid_end(page);
+    first = NULL;
+    for (size_t p = 0; p < npoints; p++)
+        if (fracas_analysis_draws(page->analysis, p))
+            TRY(put_figures(page, section, true, p, &first));
+    if (first) fracas_page_grid_end(page);
+    say_drawn(page, before);
     return FRACAS_OK;
 }
 
-fracas_err fracas_section_rate(fracas_page *page)
+static fracas_err put_means(fracas_page *page, fracas_means of, size_t *left_out)
 {
-    say_no_rate(page);
-    return fracas_section_figures(page, "mean-size");
+    FRACAS_CLEARED(fracas_charts) charts = {0};
+    TRY(fracas_figure_means(page->analysis, of, &charts));
+    for (size_t i = 0; i < charts.count; i++)
+        TRY(fracas_page_chart(page, &charts.chart[i], FRACAS_OK));
+    *left_out = charts.left_out > *left_out ? charts.left_out : *left_out;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_section_means(fracas_page *page)
+{
+    size_t left_out = 0;
+    if (!*page->analysis->axes.key)
+        fputs("<p>The points differ in nothing, and have no strain rate above 0: nothing to draw "
+              "means against.</p>\n",
+              page->out);
+    fracas_page_grid(page, "wide");
+    TRY(put_means(page, FRACAS_MEANS_SIZE, &left_out));
+    TRY(put_means(page, FRACAS_MEANS_NORMALISED, &left_out));
+    TRY(put_means(page, FRACAS_MEANS_COUNT, &left_out));
+    fracas_page_grid_end(page);
+    if (left_out > 0)
+        fprintf(page->out,
+                "<p>%zu more drawing%s of each mean %s left out: choose axes by <code>fracas "
+                "report STUDY --x KEY --series KEY</code>; <a href=\"points.csv\">points.csv</a> "
+                "has all points.</p>\n",
+                left_out, left_out > 1 ? "s" : "", left_out > 1 ? "are" : "is");
+    return FRACAS_OK;
 }
 
 static fracas_err write_pattern(fracas_page *page, const fracas_picture *picture)
@@ -89,6 +150,7 @@ static void put_whole_bodies(const fracas_page *page)
 {
     for (size_t p = 0; p < page->analysis->table->npoints; p++) {
         char text[256];
+        if (!fracas_analysis_draws(page->analysis, p)) continue;
         const fracas_fits_row *whole = fracas_fits_find(page->fits, (int64_t)p, "data", "whole");
         if (!whole || !(whole->value > 0)) continue;
         FRACAS_PRINT(text, "%.0f %s", whole->value, whole->note);
@@ -100,7 +162,8 @@ static void put_comparisons(const fracas_page *page)
 {
     char text[256];
     for (size_t p = 0; p < page->analysis->table->npoints; p++)
-        if (fracas_fits_format_comparison(page->fits, (int64_t)p, text, sizeof text))
+        if (fracas_analysis_draws(page->analysis, p) &&
+            fracas_fits_format_comparison(page->fits, (int64_t)p, text, sizeof text))
             put_of_point(page, p, text);
 }
 
@@ -116,16 +179,19 @@ fracas_err fracas_section_fits(fracas_page *page)
                 shown->stale, shown->stale == 1 ? "" : "s");
     if (shown->left_out) fracas_markup(page->out, "<p>%s.</p>\n", shown->left_out);
     const bool any = page->fits && page->fits->n > 0;
+    const int before = page->figures;
     if (any) {
         put_whole_bodies(page);
         fracas_page_grid(page, "wide");
     }
     fracas_chart_init(&chart);
     for (size_t p = 0; p < page->analysis->table->npoints; p++)
-        TRY(fracas_page_chart(page, &chart,
-                              fracas_figure_fits(page->analysis, page->fits, p, &chart)));
+        if (fracas_analysis_draws(page->analysis, p))
+            TRY(fracas_page_chart(page, &chart,
+                                  fracas_figure_fits(page->analysis, page->fits, p, &chart)));
     if (!any) return FRACAS_OK;
     fracas_page_grid_end(page);
+    say_drawn(page, before);
     const fracas_err built = fracas_fit_table_create(page->analysis, page->fits, &table);
     TRY(fracas_page_table(page, "fits-table", "Families of distributions, by AICc", true, &table,
                           fracas_fit_table_legend, built));
@@ -173,6 +239,8 @@ static fracas_err put_side_table(fracas_page *page, fracas_side_table_name name)
 fracas_err fracas_section_slopes(fracas_page *page)
 {
     TRY(put_side_table(page, FRACAS_SLOPES));
+    TRY(put_side_table(page, FRACAS_COUNT_SLOPES));
+    TRY(put_side_table(page, FRACAS_COUNT_LARGE_SLOPES));
     TRY(put_side_table(page, FRACAS_WINDOWS));
     return put_side_table(page, FRACAS_CROSSOVERS);
 }

@@ -6,6 +6,7 @@
 #include "analysis/data/format.h"
 #include "base/own.h"
 
+#include <ctype.h>
 #include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
@@ -178,38 +179,58 @@ static fracas_err put_headlines(fracas_page *page)
                              (const char *const[]){legend, NULL}, built);
 }
 
-typedef struct {
-    char text[64];
-} slope_text;
-
-static slope_text write_slope(const fracas_slope *slope)
+/* Exponents of the theories, where they speak of the body. */
+static const char *theories_of(const fracas_size_slope *slope)
 {
-    const fracas_estimate k = {
-        .n = slope->n, .mean = slope->slope, .half_width = slope->half_width};
-    slope_text made;
-    fracas_format_estimate(&k, 1, "\u00b1", made.text, sizeof made.text);
-    return made;
+    if (!isfinite(slope->mott)) return "";
+    return slope->mott < 0 ? " (Mott: -1, Grady: -2/3)" : " (Mott: 1, Grady: 2/3)";
+}
+
+enum { NAMED = 6 };
+
+/* "The mean size goes with the strain rate to the power -0.6 +- 0.1 (m 10), ...": the slopes of
+ * `count` series. */
+static void put_powers(const fracas_page *page, const char *what, const fracas_size_slope *list,
+                       size_t count)
+{
+    for (size_t i = 0; i < count && i < NAMED; i++) {
+        if (i) fputs(", ", page->out);
+        else fprintf(page->out, "%s goes with the strain rate to the power ", what);
+        fprintf(page->out, "%s (", fracas_slope_text(&list[i].slope).text);
+        fracas_markup(page->out, "%s)", list[i].name);
+    }
+    if (count > NAMED) fprintf(page->out, " and so on in %zu series more", count - NAMED);
 }
 
 /* Slopes of series, and of the line through all their points, named as such. */
 static void put_mixed_slopes(const fracas_page *page, const fracas_size_slope *list, size_t count)
 {
-    enum { NAMED = 6 };
     const fracas_size_slope *all = &list[count - 1];
     fputs("<p>", page->out);
-    for (size_t i = 0; i + 1 < count && i < NAMED; i++) {
-        fprintf(page->out, "%s%s (",
-                i ? ", " : "The mean size goes with the strain rate to the power ",
-                write_slope(&list[i].slope).text);
-        fracas_markup(page->out, "%s)", list[i].name);
-    }
-    if (count > NAMED + 1) fprintf(page->out, " and so on in %zu series more", count - 1 - NAMED);
+    put_powers(page, "The mean size", list, count - 1);
+    if (count > 1) fprintf(page->out, "%s.", theories_of(all));
+    else fputs("No series has the points for a slope.", page->out);
     fprintf(page->out,
-            "%s A line through all %" PRId64 " points, of the power %s, mixes %" PRId64
+            " A line through all %" PRId64 " points, of the power %s, mixes %" PRId64
             " series, which differ in more than the strain rate (<a href=\"#slopes\">slopes</a>)"
             ".</p>\n",
-            count > 1 ? " (Mott: -1, Grady: -2/3)." : "No series has the points for a slope.",
-            all->slope.n, write_slope(&all->slope).text, all->mixes);
+            all->slope.n, fracas_slope_text(&all->slope).text, all->mixes);
+}
+
+/* The slope of the only series: "Over 3 points the mean size goes ...". */
+static void put_power(const fracas_page *page, const char *what, const fracas_size_slope *of,
+                      const char *table)
+{
+    const fracas_slope *slope = &of->slope;
+    fprintf(page->out,
+            "<p>Over %" PRId64 " points %c%s goes with the strain rate to the power %s%s", slope->n,
+            tolower(*what), what + 1, fracas_slope_text(slope).text, theories_of(of));
+    if (slope->misfit < FRACAS_MISFIT_LIMIT)
+        fprintf(page->out,
+                ", but they are not on one line: their scatter about it is %s times what their "
+                "errors explain (<a href=\"#%s\">slopes</a>)",
+                fracas_digits(sqrt(slope->chi2 / slope->freedom), 2).text, table);
+    fputs(".</p>\n", page->out);
 }
 
 static fracas_err put_slope(const fracas_page *page)
@@ -218,18 +239,23 @@ static fracas_err put_slope(const fracas_page *page)
     size_t count;
     TRY(fracas_size_slopes(page->analysis, &list, &count));
     if (count > 0 && list[count - 1].mixes > 1) put_mixed_slopes(page, list, count);
-    else if (count > 0) {
-        const fracas_slope *slope = &list[count - 1].slope;
-        fprintf(page->out,
-                "<p>Over %" PRId64 " points the mean size goes with the strain rate to the power "
-                "%s (Mott: -1, Grady: -2/3)",
-                slope->n, write_slope(slope).text);
-        if (slope->misfit < FRACAS_MISFIT_LIMIT)
-            fprintf(page->out,
-                    ", but they are not on one line: their scatter about it is %s times what their "
-                    "errors explain (<a href=\"#slopes\">slopes</a>)",
-                    fracas_digits(sqrt(slope->chi2 / slope->freedom), 2).text);
-        fputs(".</p>\n", page->out);
+    else if (count > 0) put_power(page, "The mean size", &list[count - 1], "slopes");
+    return FRACAS_OK;
+}
+
+/* Without dust the summary has the slope of an only series; the tables have all. */
+static fracas_err put_count_slope(const fracas_page *page, bool dust, const char *what,
+                                  const char *table)
+{
+    OWNED fracas_size_slope *list = NULL;
+    size_t count;
+    TRY(fracas_count_slopes(page->analysis, dust, &list, &count));
+    if (count > 1 && list[count - 1].mixes > 1 && dust) {
+        fputs("<p>", page->out);
+        put_powers(page, what, list, count - 1);
+        fprintf(page->out, " (<a href=\"#%s\">slopes</a>).</p>\n", table);
+    } else if (count > 0 && list[count - 1].mixes == 1) {
+        put_power(page, what, &list[count - 1], table);
     }
     return FRACAS_OK;
 }
@@ -238,7 +264,11 @@ static fracas_err put_slope(const fracas_page *page)
 static fracas_err put_crossover(const fracas_page *page)
 {
     OWNED fracas_size_crossover *list = NULL;
+    fracas_size_series *series;
     size_t count;
+    TRY(fracas_size_series_create(page->analysis, &series, &count));
+    fracas_size_series_free(series, count);
+    if (count != 1) return FRACAS_OK; /* fits to many series take a while */
     TRY(fracas_size_crossovers(page->analysis, true, &list, &count));
     if (count == 1 && !*list->reason && list->rate.low > 0) {
         char rate[96], exponent[96];
@@ -307,6 +337,8 @@ fracas_err fracas_section_summary(fracas_page *page)
     fputs("<div class=\"summary\">\n<div>\n", page->out);
     TRY(put_headlines(page));
     TRY(put_slope(page));
+    TRY(put_count_slope(page, true, "The mean number of fragments", "count-slopes"));
+    TRY(put_count_slope(page, false, "Their number without dust", "count-large-slopes"));
     TRY(put_crossover(page));
     put_precision(page);
     TRY(put_warnings(page));

@@ -3,6 +3,7 @@
 
 #include "analysis/data/field.h"
 #include "analysis/data/output.h"
+#include "analysis/data/strip.h"
 #include "analysis/draw/chart.h"
 #include "base/own.h"
 
@@ -10,7 +11,9 @@
 
 static const size_t most_elements = 1500000; /* drawn on a page, some 20 MB of it */
 static const double apart = 0.1;             /* fragments of surfaces in space on a page */
-static const size_t most_apart = 50000; /* elements; of larger meshes gaps take too much room */
+static const size_t most_apart = 50000;   /* elements; of larger meshes gaps take too much room */
+static const size_t most_filmed = 250000; /* elements in frames of films on a page, some 4 MB */
+enum { FRAMES = 4 };                      /* a film has so many times the pictures of a row */
 
 fracas_err fracas_broken_surface_read(fracas_results *results, size_t point, size_t row,
                                       fracas_broken_surface *surface)
@@ -23,8 +26,22 @@ fracas_err fracas_broken_surface_read(fracas_results *results, size_t point, siz
                                                  "geometry.thickness");
     if (thickness > 0) surface->thickness = thickness;
     TRY(fracas_results_mesh(results, point, &surface->mesh));
-    return fracas_results_record(results, row, FRACAS_READ_INTERFACES, &of, &replica,
-                                 &surface->record);
+    TRY(fracas_results_record(results, row, FRACAS_READ_INTERFACES | FRACAS_READ_FRAGMENTS, &of,
+                              &replica, &surface->record));
+    surface->strip = surface->mesh.nelements == 0;
+    surface->ninterfaces = surface->record.ninterface;
+    if (!surface->strip || surface->record.ninterface == 0) return FRACAS_OK;
+    return fracas_strip_create(&surface->record, &surface->mesh);
+}
+
+fracas_err fracas_broken_surface_kept(fracas_results *results, size_t point, bool *kept)
+{
+    size_t interfaces;
+    TRY(fracas_results_mesh_interfaces(results, point, &interfaces));
+    const fracas_point_table *table = fracas_results_points(results);
+    const bool chain = fracas_columns_real(table, point, "derived.surface") == 0;
+    *kept = interfaces > 0 || (chain && fracas_results_header(results)->interfaces);
+    return FRACAS_OK;
 }
 
 void fracas_broken_surface_clear(fracas_broken_surface *surface)
@@ -33,8 +50,8 @@ void fracas_broken_surface_clear(fracas_broken_surface *surface)
     fracas_record_clear(&surface->record);
 }
 
-static fracas_err write_picture(const fracas_broken_surface *surface, double time,
-                                const fracas_surface_picture *picture, FILE *out)
+fracas_err fracas_broken_surface_draw(const fracas_broken_surface *surface, double time,
+                                      const fracas_surface_picture *picture, FILE *out)
 {
     FRACAS_CLEARED(fracas_surface_state) state = {.time = time};
     TRY(fracas_surface_state_create(&surface->mesh, &surface->record, time, &state));
@@ -48,22 +65,15 @@ fracas_err fracas_broken_surface_save(const fracas_broken_surface *surface, doub
     fracas_output_file output;
     TRY(fracas_output_open(folder, name, &output));
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", output.file);
-    return fracas_output_close(&output, write_picture(surface, time, picture, output.file));
+    return fracas_output_close(&output,
+                               fracas_broken_surface_draw(surface, time, picture, output.file));
 }
 
 /* ---- the page ---- */
 
-static fracas_err has_mesh(const fracas_analysis *analysis, size_t point, bool *has)
-{
-    size_t interfaces;
-    TRY(fracas_results_mesh_interfaces(analysis->results, point, &interfaces));
-    *has = interfaces > 0;
-    return FRACAS_OK;
-}
-
 typedef struct {
     fracas_page *page;
-    size_t drawn; /* elements so far; a gap takes twice the room of an element */
+    size_t drawn, filmed; /* elements so far; a gap takes twice the room of an element */
 } gallery;
 
 static double explode_of(const fracas_stored_mesh *mesh)
@@ -71,23 +81,42 @@ static double explode_of(const fracas_stored_mesh *mesh)
     return fracas_surface_is_flat(mesh) || mesh->nelements > most_apart ? 0 : apart;
 }
 
+/* Elements that a picture has room for. */
+static size_t weight_of(const fracas_stored_mesh *mesh)
+{
+    return (explode_of(mesh) > 0 ? 3 : 1) * mesh->nelements;
+}
+
+static const char *body_of(const fracas_broken_surface *surface)
+{
+    return surface->strip ? "body" : "surface";
+}
+
+/* A picture of the row, with files of its own, or a frame between two of them. */
 static fracas_err put_moment(const gallery *to, const fracas_broken_surface *surface, size_t p,
-                             size_t k, double time)
+                             size_t picture_number, double time)
 {
     char title[256], name[64], file[80];
     const fracas_label label = fracas_analysis_label(to->page->analysis, p);
-    FRACAS_PRINT(title, "Broken surface at %s%s%.159s", fracas_surface_time(time, true).text,
+    const fracas_number_text at = fracas_surface_time(time, true);
+    FRACAS_PRINT(title, "Broken %s at %s%s%.159s", body_of(surface), at.text,
                  *label.text ? ": " : "", label.text);
-    FRACAS_PRINT(name, "surface-point-%zu-%zu", p, k + 1);
-    FRACAS_PRINT(file, "%s.svg", name);
-    TRY(fracas_page_drew(to->page, name));
     fracas_surface_picture picture = {.title = title,
                                       .show = FRACAS_SHOW_FRAGMENTS,
                                       .width = FRACAS_CHART_NARROW,
                                       .explode = explode_of(&surface->mesh),
                                       .thickness = surface->thickness};
-    fprintf(to->page->out, "<figure id=\"%s\">\n", name); /* in that of the point */
-    TRY(write_picture(surface, time, &picture, to->page->out));
+    if (picture_number == 0) {
+        fprintf(to->page->out, "<figure class=\"between\" data-time=\"%s\">\n", at.text);
+        TRY(fracas_broken_surface_draw(surface, time, &picture, to->page->out));
+        fputs("</figure>\n", to->page->out);
+        return FRACAS_OK;
+    }
+    FRACAS_PRINT(name, "surface-point-%zu-%zu", p, picture_number);
+    FRACAS_PRINT(file, "%s.svg", name);
+    TRY(fracas_page_drew(to->page, name));
+    fprintf(to->page->out, "<figure id=\"%s\" data-time=\"%s\">\n", name, at.text);
+    TRY(fracas_broken_surface_draw(surface, time, &picture, to->page->out));
     fputs("<figcaption>", to->page->out);
     fracas_page_links(to->page, name, true, false);
     fputs("</figcaption>\n</figure>\n", to->page->out);
@@ -107,11 +136,11 @@ static fracas_err write_caption(const fracas_broken_surface *surface, int64_t re
     TRY(fracas_surface_times_of(&surface->mesh, &surface->record, &times));
     const double at[] = {times.onset, times.broken, fmin(times.through[0], times.through[1])};
     const bool flat = fracas_surface_is_flat(&surface->mesh);
-    snprintf(text, size, "Replica %lld, %s, at even times from the first onset to the end",
+    snprintf(text, size, "Replica %lld, %s, each time after as many breaks, the last at the end",
              (long long)replica,
              broken ? "the first that ended FRAGMENTED"
                     : "of typical dissipated energy, for none ended FRAGMENTED");
-    for (int k = 0; k < (flat ? 3 : 2); k++)
+    for (int k = 0; k < (flat && !surface->strip ? 3 : 2); k++)
         fracas_append(text, size, "; ", "%s: %s", what[k], fracas_surface_time(at[k], true).text);
     fracas_append(text, size, ".", "%s", flat ? "" : " Seen from the direction (1, 1, 1)");
     if (explode_of(&surface->mesh) > 0)
@@ -127,7 +156,7 @@ static fracas_err write_caption(const fracas_broken_surface *surface, int64_t re
 static void write_interfaces(const fracas_broken_surface *surface, FILE *out)
 {
     fputs("interface,x1,y1,z1,x2,y2,z2,onset_time,break_time\n", out);
-    for (size_t i = 0; i < surface->mesh.ninterfaces; i++) {
+    for (size_t i = 0; i < surface->ninterfaces; i++) {
         fprintf(out, "%zu", i);
         for (int end = 0; end < 2; end++)
             for (int axis = 0; axis < 3; axis++)
@@ -143,19 +172,27 @@ static fracas_err put_row(gallery *to, const fracas_broken_surface *surface, siz
                           int64_t replica, bool broken)
 {
     char name[64], title[256], caption[640], file[80];
-    double time[FRACAS_MOMENTS];
-    const size_t count = fracas_surface_moments(&surface->record, FRACAS_MOMENTS, time);
+    double time[FRAMES * FRACAS_MOMENTS];
+    const size_t film = FRAMES * FRACAS_MOMENTS * weight_of(&surface->mesh);
+    const bool filmed = to->filmed + film <= most_filmed;
+    const size_t between = filmed ? FRAMES : 1; /* a picture of the row is every so many frames */
+    size_t count = between * FRACAS_MOMENTS;
+    TRY(fracas_surface_moments(&surface->record, time, &count));
     const fracas_label label = fracas_analysis_label(to->page->analysis, p);
     FRACAS_PRINT(name, "surface-point-%zu", p);
     FRACAS_PRINT(file, "%s.csv", name);
-    FRACAS_PRINT(title, "Broken surface%s%.159s", *label.text ? ", " : "", label.text);
+    FRACAS_PRINT(title, "Broken %s%s%.159s", body_of(surface), *label.text ? ", " : "", label.text);
     TRY(write_caption(surface, replica, broken, caption, sizeof caption));
     fracas_page_figure(to->page, name, "row");
-    fputs("<div class=\"small\">\n", to->page->out);
-    for (size_t k = 0; k < count; k++) TRY(put_moment(to, surface, p, k, time[k]));
+    fputs("<div class=\"small film\">\n", to->page->out);
+    for (size_t k = 0; k < count; k++) {
+        const size_t left = count - 1 - k; /* the last one is a picture of the row */
+        TRY(put_moment(to, surface, p, left % between ? 0 : k / between + 1, time[k]));
+    }
     fputs("</div>\n", to->page->out);
     fracas_page_figure_end(to->page, title, caption, name, false, true);
-    to->drawn += (explode_of(&surface->mesh) > 0 ? 3 : 1) * count * surface->mesh.nelements;
+    to->drawn += count * weight_of(&surface->mesh);
+    if (filmed) to->filmed += film;
     fracas_output_file output;
     TRY(fracas_output_open(to->page->folder, file, &output));
     write_interfaces(surface, output.file);
@@ -167,9 +204,9 @@ static fracas_err put_point(gallery *to, size_t p)
     const fracas_point_statistics *statistics = &to->page->analysis->point[p];
     const bool broken = statistics->broken_replica >= 0;
     const int64_t replica = broken ? statistics->broken_replica : statistics->typical_replica;
-    bool has;
-    TRY(has_mesh(to->page->analysis, p, &has));
-    if (!has || replica < 0) return FRACAS_OK;
+    bool kept;
+    TRY(fracas_broken_surface_kept(to->page->analysis->results, p, &kept));
+    if (!kept || replica < 0) return FRACAS_OK;
     if (to->drawn > most_elements) {
         fprintf(to->page->out, "<p>Point %zu: <code>fracas picture STUDY --point %zu</code></p>\n",
                 p, p);
@@ -198,17 +235,18 @@ fracas_err fracas_section_surfaces(fracas_page *page)
 {
     const size_t npoints = page->analysis->table->npoints;
     bool any = false;
-    gallery to = {page, 0};
-    for (size_t p = 0; p < npoints && !any; p++) TRY(has_mesh(page->analysis, p, &any));
-    if (!any) {
-        say_later(page);
-        return FRACAS_OK;
-    }
+    gallery to = {page, 0, 0};
+    for (size_t p = 0; p < npoints && !any; p++)
+        TRY(fracas_broken_surface_kept(page->analysis->results, p, &any));
+    say_later(page);
+    if (!any) return FRACAS_OK;
     fputs("<p>One realization of each point, the first that ended FRAGMENTED, as it was before any "
-          "motion. Strong lines: broken interfaces; faint ones: cracked, not yet broken. Fragments "
-          "have tints by which neighbours differ; orange: dust, of one or two elements. Others: "
-          "<code>fracas picture STUDY</code>.</p>\n",
+          "motion; a bar with periodic ends is a circle. Strong lines: broken interfaces; faint "
+          "ones: cracked, not yet broken. Fragments have tints by which neighbours differ; orange: "
+          "dust, of one element (surfaces: or two). Others: <code>fracas picture "
+          "STUDY</code>.</p>\n",
           page->out);
-    for (size_t p = 0; p < npoints; p++) TRY(put_point(&to, p));
+    for (size_t p = 0; p < npoints; p++)
+        if (fracas_analysis_draws(page->analysis, p)) TRY(put_point(&to, p));
     return FRACAS_OK;
 }

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Mean size against strain rate: series, slopes, windows, crossovers
+/* Mean size and count against strain rate: series, slopes, windows, crossovers
  * (docs/theory/scaling-laws.md, docs/theory/estimators.md). */
 #ifndef FRACAS_ANALYSIS_SCALING_SCALING_H
 #define FRACAS_ANALYSIS_SCALING_SCALING_H
 
 #include "analysis/data/field.h"
+#include "analysis/data/format.h"
 #include "analysis/estimate/bootstrap.h"
 #include "analysis/estimate/scales.h"
 #include "analysis/estimate/weights.h"
@@ -32,7 +33,7 @@ typedef struct {
     fracas_size_point *point; /* ascending in rate */
 } fracas_size_series;
 
-/* Whether a point has a rate and a mean size within the theories: surfaces have none. */
+/* Whether a point has a strain rate and a mean size. */
 bool fracas_size_counts(const struct fracas_analysis *analysis, size_t point);
 /* Whether no body of the point came apart: each is of one fragment. */
 bool fracas_size_whole(const struct fracas_analysis *analysis, size_t point);
@@ -65,12 +66,13 @@ typedef struct {
 fracas_slope fracas_slope_of(const double *x, const double *y, const fracas_mean_error *error,
                              size_t n);
 
-/* log(mean size) against log(strain rate) over some points of a study. */
+/* log(mean size), or log(mean count), against log(strain rate) over some points of a study. */
 typedef struct {
     char name[128]; /* for the series, or "all points", "all points, 3 series mixed" */
     int64_t mixes;  /* series that the points are of: above 1 they differ in more than the rate */
     fracas_slope slope;
-    double mott, grady; /* exponents of the theories: FRACAS_SLOPE_MOTT, FRACAS_SLOPE_GRADY */
+    double mott, grady; /* exponents of the theories: for sizes FRACAS_SLOPE_MOTT and
+                         * FRACAS_SLOPE_GRADY, for counts minus these; NaN with surfaces */
 } fracas_size_slope;
 
 /* series, points, slope, ... */
@@ -81,6 +83,14 @@ extern const fracas_fields fracas_slope_fields;
  * without enough points altogether, none. *list freed by the caller with free(). */
 FRACAS_MUST_USE fracas_err fracas_size_slopes(const struct fracas_analysis *analysis,
                                               fracas_size_slope **list, size_t *count);
+/* The same for the mean count; not `dust`: without dust, and none without much of it
+ * (fracas_analysis_much_dust). */
+FRACAS_MUST_USE fracas_err fracas_count_slopes(const struct fracas_analysis *analysis, bool dust,
+                                               fracas_size_slope **list, size_t *count);
+/* The value on the line at a rate: a size [m], or a count. */
+double fracas_slope_at(const fracas_slope *slope, double rate);
+/* "-0.546 \u00b1 0.012" */
+fracas_number_text fracas_slope_text(const fracas_slope *slope);
 
 /* Exponents of theories with a power of the rate. */
 #define FRACAS_SLOPE_MOTT (-1.0)

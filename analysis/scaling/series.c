@@ -11,8 +11,7 @@
 bool fracas_size_counts(const fracas_analysis *analysis, size_t point)
 {
     const fracas_point_statistics *statistics = &analysis->point[point];
-    return statistics->rate > 0 && isfinite(statistics->rate) && statistics->size.mean > 0 &&
-           !statistics->surface;
+    return statistics->rate > 0 && isfinite(statistics->rate) && statistics->size.mean > 0;
 }
 
 bool fracas_size_whole(const fracas_analysis *analysis, size_t point)

@@ -14,7 +14,8 @@ static const fracas_field fields[] = {
     FRACAS_FIELD(fracas_size_slope, INTEGER, "mixes", "1",
                  "series that the points are of; above 1 they differ in more than the rate", mixes),
     FRACAS_FIELD(fracas_size_slope, INTEGER, "points", "1", "points on the line", slope.n),
-    NUMBER("slope", "d log(mean size)/d log(strain rate)", slope.slope),
+    NUMBER("slope", "d log(mean size)/d log(strain rate), in the others of the mean count",
+           slope.slope),
     NUMBER("standard_error", "standard error of the slope", slope.standard_error),
     NUMBER("half_width", "half width of the 95 % interval of the slope", slope.half_width),
     NUMBER("chi2", "squared residuals of the line, each over its variance", slope.chi2),
@@ -24,8 +25,8 @@ static const fracas_field fields[] = {
            "degrees of freedom of the relative variance that points of fewer than eight replicas "
            "share; null where each has its own",
            slope.pooled),
-    NUMBER("mott", "exponent of Mott's theory, to compare with", mott),
-    NUMBER("grady", "exponent of Grady's theory, to compare with", grady),
+    NUMBER("mott", "exponent of Mott's theory, to compare with; null of surfaces", mott),
+    NUMBER("grady", "exponent of Grady's theory, to compare with; null of surfaces", grady),
 };
 const fracas_fields fracas_slope_fields = FRACAS_FIELDS(fields);
 
@@ -108,11 +109,19 @@ fracas_slope fracas_slope_of(const double *x, const double *y, const fracas_mean
 
 typedef struct {
     const fracas_analysis *analysis;
-    size_t *series; /* for each point that came apart: its series; SIZE_MAX: it did not */
-    double *x, *y;  /* a value a point */
+    size_t quantity; /* place of the mean in a point's statistics */
+    double power;    /* exponent of it by that of the size, in the theories */
+    size_t *series;  /* for each point that came apart: its series; SIZE_MAX: it did not */
+    double *x, *y;   /* a value a point */
     fracas_mean *mean;
     fracas_mean_error *error;
 } fitter;
+
+/* Whether the point is on the line of a series, of all of them if it is SIZE_MAX. */
+static bool takes(const fitter *of, size_t series, size_t p)
+{
+    return of->series[p] != SIZE_MAX && (series == SIZE_MAX || of->series[p] == series);
+}
 
 /* The line through the points of a series, of all of them if it is SIZE_MAX. */
 static fracas_slope fit_series(const fitter *of, size_t series)
@@ -120,22 +129,31 @@ static fracas_slope fit_series(const fitter *of, size_t series)
     size_t n = 0;
     for (size_t p = 0; p < of->analysis->table->npoints; p++) {
         const fracas_point_statistics *statistics = &of->analysis->point[p];
-        if (of->series[p] == SIZE_MAX || (series != SIZE_MAX && of->series[p] != series)) continue;
+        const fracas_estimate *mean = (const void *)((const char *)statistics + of->quantity);
+        if (!takes(of, series, p) || !(mean->mean > 0)) continue; /* none but dust */
         of->x[n] = log(statistics->rate);
-        of->y[n] = log(statistics->size.mean);
-        of->mean[n++] = (fracas_mean){statistics->size.n,
-                                      statistics->size.deviation / statistics->size.mean};
+        of->y[n] = log(mean->mean);
+        of->mean[n++] = (fracas_mean){mean->n, mean->deviation / mean->mean};
     }
     fracas_mean_errors(of->mean, n, of->error);
     return fracas_slope_of(of->x, of->y, of->error, n);
+}
+
+/* The theories are of bodies with a length alone. */
+static bool has_theories(const fitter *of, size_t series)
+{
+    for (size_t p = 0; p < of->analysis->table->npoints; p++)
+        if (takes(of, series, p) && !isfinite(of->analysis->point[p].length)) return false;
+    return true;
 }
 
 static void add_slope(const fitter *of, size_t series, const char *name, int64_t mixes,
                       fracas_size_slope *list, size_t *count)
 {
     fracas_size_slope *next = &list[*count];
-    *next = (fracas_size_slope){"", mixes, fit_series(of, series), FRACAS_SLOPE_MOTT,
-                                FRACAS_SLOPE_GRADY};
+    const double power = has_theories(of, series) ? of->power : NAN;
+    *next = (fracas_size_slope){"", mixes, fit_series(of, series), power * FRACAS_SLOPE_MOTT,
+                                power * FRACAS_SLOPE_GRADY};
     FRACAS_PRINT(next->name, "%s", name);
     *count += isfinite(next->slope.slope);
 }
@@ -157,12 +175,11 @@ static void add_slopes(const fitter *of, const fracas_size_series *series, size_
     if (*count == before) *count = 0;
 }
 
-fracas_err fracas_size_slopes(const fracas_analysis *analysis, fracas_size_slope **list,
+static fracas_err list_slopes(const fracas_analysis *analysis, fitter of, fracas_size_slope **list,
                               size_t *count)
 {
     const size_t npoints = analysis->table->npoints;
     FRACAS_CLEARED(fracas_room) room = {0};
-    fitter of = {.analysis = analysis};
     fracas_size_series *series;
     size_t nseries;
     *count = 0;
@@ -183,6 +200,41 @@ fracas_err fracas_size_slopes(const fracas_analysis *analysis, fracas_size_slope
     if (*list) add_slopes(&of, series, nseries, *list, count);
     fracas_size_series_free(series, nseries);
     return *list ? FRACAS_OK : fracas_no_memory("the slopes of the study");
+}
+
+fracas_err fracas_size_slopes(const fracas_analysis *analysis, fracas_size_slope **list,
+                              size_t *count)
+{
+    const fitter size = {
+        .analysis = analysis, .quantity = offsetof(fracas_point_statistics, size), .power = 1};
+    return list_slopes(analysis, size, list, count);
+}
+
+fracas_err fracas_count_slopes(const fracas_analysis *analysis, bool dust, fracas_size_slope **list,
+                               size_t *count)
+{
+    const fitter counts = {.analysis = analysis,
+                           .quantity = dust ? offsetof(fracas_point_statistics, count)
+                                            : offsetof(fracas_point_statistics, count_large),
+                           .power = -1};
+    *list = NULL;
+    *count = 0;
+    return dust || fracas_analysis_much_dust(analysis) ? list_slopes(analysis, counts, list, count)
+                                                       : FRACAS_OK;
+}
+
+fracas_number_text fracas_slope_text(const fracas_slope *slope)
+{
+    const fracas_estimate k = {
+        .n = slope->n, .mean = slope->slope, .half_width = slope->half_width};
+    fracas_number_text made;
+    fracas_format_estimate(&k, 1, "\u00b1", made.text, sizeof made.text);
+    return made;
+}
+
+double fracas_slope_at(const fracas_slope *slope, double rate)
+{
+    return exp(slope->intercept + slope->slope * log(rate));
 }
 
 /* ---- windows ---- */

@@ -67,6 +67,7 @@ static fracas_err add_history(void *context, fracas_result *result)
     if (!fracas_outcome_usable(result->record.outcome)) return FRACAS_OK;
     if (reading->point != result->point) TRY(begin_bands(reading, result->point));
     fracas_bands_add(&reading->collector, &result->record);
+    fracas_point_statistics_add_history(statistics, &result->record);
     if (result->row != statistics->typical_row || statistics->history) return FRACAS_OK;
     statistics->history = result->record.history;
     statistics->nhistory = result->record.nhistory;
@@ -114,7 +115,9 @@ static fracas_err analyse(const char *study, const fracas_hash *campaign,
     TRY(read_decisions(analysis));
     TRY(fracas_results_walk(analysis->results, FRACAS_READ_FRAGMENTS, add, analysis));
     for (size_t p = 0; p < npoints; p++) TRY(fracas_point_statistics_finish(&analysis->point[p]));
-    return read_histories(analysis);
+    TRY(read_histories(analysis));
+    TRY(fracas_analysis_choose_points(analysis));
+    return fracas_means_axes_create(analysis, NULL, NULL, &analysis->axes);
 }
 
 fracas_err fracas_analysis_create(const char *study, const fracas_hash *campaign,
@@ -138,9 +141,17 @@ void fracas_analysis_destroy(fracas_analysis *analysis)
     free(analysis->point);
     free(analysis->decision);
     fracas_columns_clear(&analysis->shown);
+    fracas_means_axes_clear(&analysis->axes);
+    free(analysis->drawn);
     fracas_results_close(analysis->results);
     free(analysis->name);
     free(analysis);
+}
+
+fracas_err fracas_analysis_axes(fracas_analysis *analysis, const char *x, const char *series)
+{
+    fracas_means_axes_clear(&analysis->axes);
+    return fracas_means_axes_create(analysis, x, series, &analysis->axes);
 }
 
 /* ---- how far it is ---- */
@@ -236,4 +247,11 @@ bool fracas_analysis_all_surfaces(const fracas_analysis *analysis)
     for (size_t p = 0; p < analysis->table->npoints; p++)
         if (!analysis->point[p].surface) return false;
     return analysis->table->npoints > 0;
+}
+
+bool fracas_analysis_much_dust(const fracas_analysis *analysis)
+{
+    for (size_t p = 0; p < analysis->table->npoints; p++)
+        if (analysis->point[p].dust_share > FRACAS_DUST_LIMIT) return true;
+    return false;
 }

@@ -50,9 +50,16 @@ static const fracas_field statistics_fields[] = {
     FRACAS_COMPARED_NUMBERS(ESTIMATE)
         NUMBER("residual", "1",
                "largest |residual| of the energy balance / dissipated, over replicas", residual),
+    NUMBER("residual_total", "1",
+           "largest |residual| of the energy balance / largest total energy (estimators.28), over "
+           "replicas",
+           residual_total),
     NUMBER("created", "1", "largest created / dissipated, over replicas", created),
     NUMBER("drift", "1", "largest |residual| / largest energy at the end, over replicas", drift),
+    NUMBER("heated", "1", "largest |residual at the end| / vibrating energy, over replicas",
+           heated),
     COUNTED("drifted", "usable realizations of which that is above 0.01", drifted),
+    {"final", FRACAS_FIELD_OBJECT, NULL, NULL, PLACE(final), &fracas_final_fields},
     NUMBER("elements", "1", "elements of a mean fragment", elements),
     NUMBER("dust_share", "1", "dust fragments / all fragments", dust_share),
     FRACAS_LARGEST_NUMBERS(ESTIMATE)
@@ -138,8 +145,10 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
                                    fracas_columns_real(table, point, "derived.strength_mean"),
                                    fracas_columns_real(table, point, "derived.fracture_energy")),
         .residual = NAN,
+        .residual_total = NAN,
         .created = NAN,
         .drift = NAN,
+        .heated = NAN,
         .elements = NAN,
         .dust_share = NAN,
         .typical_replica = -1,
@@ -160,12 +169,10 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
                                    : NAN;
 }
 
-static double mean_size(const fracas_point_statistics *statistics, const fracas_record *record)
+double fracas_point_statistics_size(const fracas_point_statistics *statistics, int64_t fragments,
+                                    double mean)
 {
-    if (!statistics->surface) return statistics->length / (double)record->fragments;
-    double sum = 0;
-    for (size_t i = 0; i < record->nfragment; i++) sum += record->fragment[i].size;
-    return sum / (double)record->nfragment;
+    return statistics->surface ? mean : statistics->length / (double)fragments;
 }
 
 /* Kinetic energy of the centres of mass [J]  (estimators.12) */
@@ -184,6 +191,20 @@ static double rotation_of(const fracas_record *record)
     for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment; f++)
         for (int i = 0; i < 3; i++) sum += 0.5 * f->angular_momentum[i] * f->spin[i];
     return sum;
+}
+
+/* Mean of s_1/s_2 of the fragments without dust; NaN without any  (fragments.7) */
+static double aspect_of(const fracas_record *record)
+{
+    double sum = 0;
+    size_t count = 0;
+    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment;
+         f++) {
+        if (f->dust) continue;
+        sum += f->semi_axis[0] / f->semi_axis[1];
+        count++;
+    }
+    return count ? sum / (double)count : NAN;
 }
 
 /* The fragment of most mass, the first of several; NULL without any. */
@@ -206,6 +227,9 @@ static void add_balance(fracas_point_statistics *statistics, const fracas_record
     double drift = record->residual / fmax(record->kinetic, fmax(stored, fabs(record->work)));
     if (drift > FRACAS_DRIFT_LIMIT) statistics->drifted++;
     if (isfinite(drift)) statistics->drift = fmax(statistics->drift, drift); /* not NaN */
+    if (record->broken > 0)
+        statistics->heated = fmax(statistics->heated,
+                                  fabs(record->residual_end) / record->vibrating);
     if (!(record->dissipated > 0)) return;
     statistics->residual = fmax(statistics->residual, record->residual / record->dissipated);
     statistics->created = fmax(statistics->created, record->created / record->dissipated);
@@ -241,7 +265,8 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
     const fracas_replica_values value = {
         .count = (double)record->fragments,
         .count_large = (double)(record->fragments - record->fragments_dust),
-        .size = mean_size(statistics, record),
+        .size = fracas_point_statistics_size(statistics, record->fragments,
+                                             fracas_record_mean_size(record)),
         .dissipated = record->dissipated,
         .dissipated_bending = record->dissipated_bending,
         .onset_time = record->onset_time,
@@ -253,14 +278,27 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
         .rotation = flies ? rotation_of(record) : NAN,
         .largest_size = largest ? largest->size : NAN,
         .largest_share = largest ? largest->mass / mass : NAN,
+        .aspect = aspect_of(record),
     };
     TRY(fracas_ensemble_add(&statistics->ensemble, row, replica, &value, record));
     add_balance(statistics, record);
+    fracas_final_add(&statistics->final, record);
     if (record->outcome == FRACAS_FRAGMENTED && statistics->broken_replica < 0) {
         statistics->broken_replica = replica;
         statistics->broken_row = row;
     }
     return FRACAS_OK;
+}
+
+/* (estimators.28) */
+void fracas_point_statistics_add_history(fracas_point_statistics *statistics,
+                                         const fracas_record *record)
+{
+    double total = fracas_energy_held(record->energy, 0);
+    for (size_t i = 0; i < record->nhistory; i++)
+        total = fmax(total, fracas_energy_held(record->history[i].energy, 0));
+    if (total > 0)
+        statistics->residual_total = fmax(statistics->residual_total, record->residual / total);
 }
 
 static fracas_err pool(fracas_point_statistics *statistics)
@@ -323,6 +361,7 @@ fracas_err fracas_point_statistics_finish(fracas_point_statistics *statistics)
         statistics->typical_replica = ensemble->replica[i];
         statistics->typical_row = ensemble->row[i];
     }
+    fracas_final_count(&statistics->final);
     TRY(pool(statistics));
     TRY(fracas_pooled_of(ensemble, statistics->seed, &statistics->pooled));
     TRY(fracas_replica_convergence_of(ensemble, statistics->seed, &statistics->convergence));

@@ -4,6 +4,7 @@
 #define FRACAS_ANALYSIS_SUMMARY_STATISTICS_H
 
 #include "analysis/estimate/convergence.h"
+#include "analysis/estimate/final.h"
 #include "analysis/data/estimate.h"
 #include "analysis/estimate/pooled.h"
 #include "analysis/data/bands.h"
@@ -43,9 +44,13 @@ typedef struct {
     int64_t kept;      /* TIME_LIMIT before time.end: they lost their energy balance later ... */
     double kept_at[2]; /* s, ... than these times, the first and the last */
     double residual;   /* largest over replicas of (largest |residual| over the run)/dissipated */
-    double created;    /* largest over replicas of created/dissipated */
-    double drift;      /* largest over replicas of |residual|/(largest energy at the end) */
-    int64_t drifted;   /* usable realizations with a drift above FRACAS_DRIFT_LIMIT */
+    double residual_total; /* the same by the largest total energy, made by add_history */
+    double created;        /* largest over replicas of created/dissipated */
+    double drift;          /* largest over replicas of |residual|/(largest energy at the end) */
+    double heated;         /* largest over replicas of |residual at the end|/vibrating */
+    int64_t drifted;       /* usable realizations with a drift above FRACAS_DRIFT_LIMIT */
+
+    fracas_final final; /* the count when nothing more breaks */
 
     fracas_ensemble ensemble; /* the usable realizations */
 
@@ -72,6 +77,8 @@ typedef struct {
 /* A realization whose residual is a larger part of its largest energy is warned of; ENERGY_DRIFT
  * begins at 0.05. */
 #define FRACAS_DRIFT_LIMIT 0.01
+/* A point with a larger share of dust is warned of. */
+#define FRACAS_DUST_LIMIT 0.05
 
 /* Begins point `point` of the table, without realizations. */
 void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
@@ -80,9 +87,18 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
 FRACAS_MUST_USE fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics,
                                                        size_t row, int64_t replica,
                                                        const fracas_record *record);
+/* Takes in the history of a realization that is usable; `record` with its history, if the study has
+ * any. */
+void fracas_point_statistics_add_history(fracas_point_statistics *statistics,
+                                         const fracas_record *record);
 /* Computes the estimates from all added realizations. */
 FRACAS_MUST_USE fracas_err fracas_point_statistics_finish(fracas_point_statistics *statistics);
 void fracas_point_statistics_clear(fracas_point_statistics *statistics);
+
+/* Mean fragment size of a realization [m]: length/fragments of a chain, of a surface `mean`, that
+ * of its fragments' sizes. */
+double fracas_point_statistics_size(const fracas_point_statistics *statistics, int64_t fragments,
+                                    double mean);
 
 bool fracas_outcome_usable(int64_t outcome);
 /* "FRAGMENTED"; "?" for an unknown number. */

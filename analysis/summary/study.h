@@ -6,6 +6,7 @@
 #include "analysis/analysis.h"
 #include "analysis/data/columns.h"
 #include "analysis/data/text.h"
+#include "analysis/summary/axes.h"
 #include "analysis/summary/statistics.h"
 #include "campaigns/store/results.h"
 
@@ -14,10 +15,22 @@ struct fracas_analysis {
     fracas_file_header header;
     const fracas_point_table *table;
     fracas_columns shown;           /* columns by which the points differ */
+    fracas_means_axes axes;         /* for the figures of means */
+    bool *drawn;                    /* points with figures of their own; NULL: all */
     fracas_point_statistics *point; /* table->npoints of them */
     fracas_decision *decision; /* last of each point; replicas 0: they were given, NULL: all were */
     fracas_results *results;   /* open as long as the analysis: it owns the table */
 };
+
+/* More points than this do not all have figures of their own: so many have. */
+enum { FRACAS_ALL_DRAWN = 16, FRACAS_FEW_DRAWN = 6 };
+
+/* Chooses FRACAS_FEW_DRAWN points, whose mean counts are evenly ranked from the least to the
+ * greatest, of more than FRACAS_ALL_DRAWN. */
+FRACAS_MUST_USE fracas_err fracas_analysis_choose_points(fracas_analysis *analysis);
+/* Whether the point has figures of its own, and how many have. */
+bool fracas_analysis_draws(const fracas_analysis *analysis, size_t point);
+size_t fracas_analysis_ndrawn(const fracas_analysis *analysis);
 
 /* How far the study, or a point of it, is. */
 typedef struct {
@@ -76,6 +89,8 @@ FRACAS_MUST_USE fracas_err fracas_analysis_warning_lines(const fracas_analysis *
 /* True if some point, or every one, is a surface. */
 bool fracas_analysis_any_surface(const fracas_analysis *analysis);
 bool fracas_analysis_all_surfaces(const fracas_analysis *analysis);
+/* True if some point is warned of its dust. */
+bool fracas_analysis_much_dust(const fracas_analysis *analysis);
 
 /* "rate 1e4 1/s": the point by its varying parameters; "" of the study as a whole, SIZE_MAX. */
 fracas_label fracas_analysis_label(const fracas_analysis *analysis, size_t point);

@@ -23,11 +23,12 @@ const fracas_fields fracas_warning_fields = FRACAS_FIELDS(fields);
 static const double residual_limit = 1e-3; /* for the dissipated energy */
 static const double created_limit = 1e-2;  /* for the dissipated energy */
 static const double elements_limit = 10;   /* elements of a mean fragment */
-static const double dust_limit = 0.05;     /* share of all fragments */
 static const double rise_limit = 0.01;     /* part of the dissipated energy */
 static const double zone_limit = 0.25;     /* part of a mean fragment (docs/results/ring.md) */
 
-enum { WARNINGS_PER_POINT = 19, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
+static const double vibration_limit = 0.05; /* |residual| at the end, by the vibrating energy */
+
+enum { WARNINGS_PER_POINT = 22, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
 
 typedef struct {
     size_t count;
@@ -73,17 +74,27 @@ static void warn_of_outcomes(const fracas_point_statistics *statistics, size_t p
             fracas_with_unit(statistics->kept_at[1], 3, "s", false).text);
     const long long stopped = (long long)(statistics->outcome[FRACAS_TIME_LIMIT] -
                                           statistics->kept);
-    if (stopped > 0)
+    if (stopped > 0 && statistics->final.verdict != FRACAS_FINAL_YES)
         warn(list, p, "TIME_LIMIT", (double)stopped / (double)all,
              "%lld of %lld realizations were stopped by time.end with cracks still running "
              "(TIME_LIMIT): raise time.end",
              stopped, all);
 }
 
-static void warn_of_point(const fracas_point_statistics *statistics, size_t p, warning_list *list)
+/* A shorter step does not close the ledger of a law that leaves it open. */
+static void warn_of_balance(const fracas_point_statistics *statistics, bool open, size_t p,
+                            warning_list *list)
 {
-    if (statistics->usable == 0) warn(list, p, "unusable", 1, "no usable realization");
-    warn_of_outcomes(statistics, p, list);
+    if (open) {
+        if (!(statistics->residual > 0)) return;
+        warn(
+            list, p, "open", statistics->residual,
+            "its law gains or loses energy on mixed paths, and no ENERGY_DRIFT ends it: |residual| "
+            "up to %s of the dissipated, %s of the largest energy: for results give cohesive.law: "
+            "nitsche",
+            fracas_digits(statistics->residual, 2).text, fracas_digits(statistics->drift, 2).text);
+        return;
+    }
     if (statistics->residual > residual_limit)
         warn(
             list, p, "residual", statistics->residual,
@@ -95,6 +106,20 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
              "%% of their largest energy: lower time.safety",
              (long long)statistics->drifted, (long long)statistics->usable,
              fracas_digits(100 * statistics->drift, 2).text);
+    if (statistics->heated > vibration_limit)
+        warn(
+            list, p, "vibration", statistics->heated,
+            "ledger residual up to %s of the vibrating energy (more than 0.05): late breaks may be "
+            "the step's: lower time.safety",
+            fracas_digits(statistics->heated, 2).text);
+}
+
+static void warn_of_point(const fracas_point_table *table,
+                          const fracas_point_statistics *statistics, size_t p, warning_list *list)
+{
+    if (statistics->usable == 0) warn(list, p, "unusable", 1, "no usable realization");
+    warn_of_outcomes(statistics, p, list);
+    warn_of_balance(statistics, fracas_columns_real(table, p, "derived.open_ledger") == 1, p, list);
     if (statistics->created > created_limit)
         warn(list, p, "created", statistics->created,
              "energy created at breaks up to %s of the dissipated energy (more than 1e-2): refine "
@@ -104,7 +129,7 @@ static void warn_of_point(const fracas_point_statistics *statistics, size_t p, w
         warn(list, p, "elements", -statistics->elements,
              "a mean fragment has %.1f elements (fewer than 10): refine the mesh",
              statistics->elements);
-    if (statistics->dust_share > dust_limit)
+    if (statistics->dust_share > FRACAS_DUST_LIMIT)
         warn(list, p, "dust", statistics->dust_share,
              "%.1f %% of the fragments are dust, of so few elements that the mesh decides (more "
              "than 5 %%): refine the mesh",
@@ -155,6 +180,36 @@ static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning
          "bodies were still breaking at time.end: %s %% of the energy was dissipated in the last "
          "tenth of the time (more than 1 %%): raise time.end",
          fracas_digits(100 * rise / dissipated, 2).text);
+}
+
+/* (settled.8) */
+static void warn_of_final(const fracas_final *final, size_t p, warning_list *list)
+{
+    const double least = 100 * (final->count.low / final->seen - 1),
+                 most = 100 * (final->count.high / final->seen - 1);
+    char range[128], text[512];
+    if (final->held > 0)
+        warn(list, p, "held", final->held,
+             "%.4g fragments a body are pieces of an edge that moves with the load: these come off "
+             "one by one for ever, and their number is the mesh's: take them off the count",
+             final->held);
+    if (least > 0)
+        FRACAS_PRINT(range, "%s to %s", fracas_digits(least, 2).text, fracas_digits(most, 2).text);
+    else FRACAS_PRINT(range, "up to %s", fracas_digits(most, 2).text);
+    FRACAS_PRINT(text,
+                 "%s transits of a mean fragment since the first crack, the last half of that time "
+                 "added %s %%, %s %% more may come",
+                 fracas_digits(final->transits, 2).text, fracas_digits(100 * final->growth, 2).text,
+                 range);
+    if (final->verdict == FRACAS_FINAL_CREEP)
+        warn(list, p, "creep", final->vibrating,
+             "no final count: fragments keep %s of the dissipated energy as vibration and break on "
+             "for hundreds of transits: %s: give the count with its transits",
+             fracas_digits(final->vibrating, 2).text, text);
+    if (final->verdict == FRACAS_FINAL_NO)
+        warn(list, p, "final", final->count.value / final->seen,
+             "count not final: %s: let time.end be about %s", text,
+             fracas_with_unit(final->reach, 2, "s", false).text);
 }
 
 static void warn_of_decision(const fracas_decision *last, size_t p, warning_list *list)
@@ -249,7 +304,8 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
     warn_of_study(analysis, &list);
     for (size_t p = 0; p < npoints; p++) {
         warn_of_progress(analysis, p, &list);
-        warn_of_point(&analysis->point[p], p, &list);
+        warn_of_point(analysis->table, &analysis->point[p], p, &list);
+        warn_of_final(&analysis->point[p].final, p, &list);
         warn_of_convergence(&analysis->point[p], p, &list);
         warn_of_decision(fracas_analysis_decision(analysis, p), p, &list);
         if (analysis->point[p].outcome[FRACAS_TIME_LIMIT] == 0) /* those are warned of already */

@@ -73,7 +73,7 @@ static fracas_err load(const fracas_file *file, const char *path, fracas_attachm
 }
 
 fracas_err fracas_attachment_read(const fracas_file *file, const char *key, const fracas_node *node,
-                                  const fracas_attachment **attachment)
+                                  const void **attachment)
 {
     for (const fracas_attached *a = file->campaign->attached; a; a = a->next)
         if (strcmp(a->attachment.path, node->text) == 0) {

@@ -10,7 +10,6 @@
  * when it is absent, no file, empty, above 256 MiB, or a damaged copy in a study
  * (fracas_campaign_write). FRACAS_ENVIRONMENT when it cannot be read. */
 FRACAS_MUST_USE fracas_err fracas_attachment_read(const fracas_file *file, const char *key,
-                                                  const fracas_node *node,
-                                                  const fracas_attachment **attachment);
+                                                  const fracas_node *node, const void **attachment);
 
 #endif

@@ -19,6 +19,15 @@ void fracas_campaign_destroy(fracas_campaign *campaign)
     free(campaign);
 }
 
+fracas_err fracas_campaign_has(const fracas_campaign *campaign, size_t point)
+{
+    if (point < campaign->npoints) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "there is no point %zu in campaign %s; it has %zu, from 0 on (fracas plan "
+                       "FILE lists them)",
+                       point, campaign->name, campaign->npoints);
+}
+
 /* ---- extending ---- */
 
 static fracas_value value_at(const fracas_point_table *table, size_t point, const char *path)

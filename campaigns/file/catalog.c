@@ -2,6 +2,7 @@
 #include "campaigns/file/catalog.h"
 
 #include "base/units.h"
+#include "campaigns/file/chosen.h"
 #include "engine/record.h"
 
 #include <stdio.h>
@@ -43,16 +44,18 @@ static const fracas_section parallel_section = {
 
 static fracas_err make_sections(fracas_campaign_memory *memory, fracas_catalog *catalog)
 {
-    size_t count = fracas_engine_nsections + 3;
+    size_t count = fracas_engine_nsections + 4;
     fracas_file_section *section = fracas_memory_take(memory, count, sizeof *section);
     if (!section) return fracas_no_memory("the list of sections");
     for (size_t i = 0; i < fracas_engine_nsections; i++)
         section[i] = (fracas_file_section){
             fracas_engine_sections[i],
             offsetof(fracas_point, spec) + fracas_engine_sections[i]->offset};
-    section[count - 3] = (fracas_file_section){&fracas_strength_section,
+    section[count - 4] = (fracas_file_section){&fracas_strength_section,
                                                offsetof(fracas_point, strength)};
-    section[count - 2] = (fracas_file_section){&output_section, offsetof(fracas_campaign, output)};
+    section[count - 3] = (fracas_file_section){&output_section, offsetof(fracas_campaign, output)};
+    section[count - 2] = (fracas_file_section){&fracas_fields_section,
+                                               offsetof(fracas_campaign, fields)};
     section[count - 1] = (fracas_file_section){&parallel_section,
                                                offsetof(fracas_campaign, parallel)};
     catalog->section = section;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/identity.h"
 
+#include "engine/cohesive/law.h"
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
 
@@ -23,6 +24,7 @@ typedef struct {
 typedef struct {
     fracas_column column;
     double (*value)(const derivation *of); /* NaN where the point has none */
+    bool rare; /* a column where some point has it alone, from the spec */
 } derived_column;
 
 static double surface(const derivation *of)
@@ -68,6 +70,11 @@ static double fracture_energy(const derivation *of)
     return fracas_spec_fracture_energy(&of->point->spec, of->strength);
 }
 
+static double open_ledger(const derivation *of)
+{
+    return fracas_law_of(&of->point->spec)->open_ledger ? 1 : NAN;
+}
+
 static const derived_column derived_columns[] = {
     {{"derived.fracture_energy", "J/m2",
       "fracture energy G_c of the interfaces, at their mean strength", false},
@@ -77,6 +84,11 @@ static const derived_column derived_columns[] = {
      lattice},
     {{"derived.length", "m", "length of a bar, circumference of a ring; NaN for a surface", false},
      length},
+    {{"derived.open_ledger", "1",
+      "1 if the law gains or loses energy on mixed paths; no column where no point has such a law",
+      false},
+     open_ledger,
+     true},
     {{"derived.radius", "m", "radius of a ring; NaN for other bodies", false}, radius},
     {{"derived.strain_rate", "1/s", "strain rate that the loading begins with", false},
      strain_rate},
@@ -114,6 +126,14 @@ static bool any_point_has(const fracas_campaign *campaign, const fracas_leaf *le
     return false;
 }
 
+static bool is_listed(const fracas_campaign *campaign, const derived_column *derived)
+{
+    if (!derived->rare) return true;
+    for (size_t p = 0; p < campaign->npoints; p++)
+        if (!isnan(derived->value(&(derivation){.point = &campaign->point[p]}))) return true;
+    return false;
+}
+
 static int by_path(const void *a, const void *b)
 {
     return strcmp(((const source *)a)->column.path, ((const source *)b)->column.path);
@@ -133,7 +153,8 @@ static size_t list_sources(const fracas_catalog *catalog, const fracas_campaign 
         sources[count++] = (source){column, leaf, NULL};
     }
     for (size_t d = 0; d < FRACAS_COUNT(derived_columns); d++)
-        sources[count++] = (source){derived_columns[d].column, NULL, &derived_columns[d]};
+        if (is_listed(campaign, &derived_columns[d]))
+            sources[count++] = (source){derived_columns[d].column, NULL, &derived_columns[d]};
     if (named) sources[count++] = (source){{"case", "", "name of the case", true}, NULL, NULL};
     qsort(sources, count, sizeof *sources, by_path);
     return count;

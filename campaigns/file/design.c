@@ -19,16 +19,15 @@ typedef struct {
     fracas_design design;
 } reading;
 
-/* The entry `key` of the map, which must be there. */
-static fracas_err need(const fracas_file *file, const fracas_node *map, const char *key,
-                       const char *remedy, const fracas_node **found)
+static fracas_err need(const fracas_file *file, const fracas_node *map, bool unknown,
+                       const char *key, const char *remedy, const fracas_node **found)
 {
-    *found = fracas_node_find(map, key);
-    return *found ? FRACAS_OK : fracas_file_error(file, map, "no `%s` is given; %s", key, remedy);
+    return fracas_file_need(file, map, key, unknown, found, "no `%s` is given; %s", key, remedy);
 }
 
-static fracas_err read_kind(const fracas_file *file, const fracas_node *map, const char *key,
-                            const fracas_kind *const *kinds, size_t count, const fracas_kind **kind)
+static fracas_err read_kind(const fracas_file *file, const fracas_node *map, bool unknown,
+                            const char *key, const fracas_kind *const *kinds, size_t count,
+                            const fracas_kind **kind)
 {
     const fracas_node *node;
     fracas_words words;
@@ -36,7 +35,7 @@ static fracas_err read_kind(const fracas_file *file, const fracas_node *map, con
     fracas_words_init(&words, key);
     for (size_t k = 0; k < count; k++) fracas_words_add(&words, kinds[k]->name);
     snprintf(remedy, sizeof remedy, "%s can be: %s", key, words.list);
-    TRY(need(file, map, key, remedy, &node));
+    TRY(need(file, map, unknown, key, remedy, &node));
     return fracas_setting_kind(file, key, node, kinds, count, kind);
 }
 
@@ -66,7 +65,7 @@ static fracas_err read_value(const fracas_file *file, const fracas_file_section 
 {
     const fracas_leaf leaf = {.section = section, .path = path, .key = param->name, .param = param};
     fracas_setting setting;
-    TRY(fracas_setting_read(file, &leaf, node, &setting));
+    TRY(fracas_setting_read_known(file, &leaf, node, &setting));
     *value = setting.value;
     return fracas_setting_check(file, &setting, param);
 }
@@ -87,46 +86,69 @@ static fracas_err read_number(const fracas_file *file, const fracas_leaf *leaf,
 }
 
 static fracas_err check_keys(const fracas_file *file, const fracas_node *node,
-                             const fracas_kind *kind)
+                             const fracas_kind *kind, bool *unknown)
 {
     const char *keys[8] = {"distribution"};
     char subject[80];
     for (size_t i = 0; i < kind->nparams; i++) keys[i + 1] = kind->params[i].name;
     snprintf(subject, sizeof subject, "the distribution %s", kind->name);
-    return fracas_file_check_keys(file, node, keys, subject);
+    return fracas_file_check_keys(file, node, keys, subject, unknown);
 }
 
 static fracas_err read_distribution(const fracas_file *file, const fracas_leaf *leaf,
                                     const fracas_node *node, fracas_uncertain *uncertain)
 {
     const fracas_section *table = &fracas_uncertain_section;
+    const size_t before = fracas_file_noted(file);
+    bool unknown;
     if (node->type != FRACAS_MAP)
         return fracas_file_expected(
             file, node, leaf->path,
             "a distribution, as {distribution: uniform, minimum: ..., maximum: ...}");
-    TRY(read_kind(file, node, table->selector, table->kinds, table->nkinds, &uncertain->kind));
-    TRY(check_keys(file, node, uncertain->kind));
+    TRY(read_kind(file, node, false, table->selector, table->kinds, table->nkinds,
+                  &uncertain->kind));
+    TRY(check_keys(file, node, uncertain->kind, &unknown));
     for (size_t i = 0; i < uncertain->kind->nparams; i++) {
         const fracas_param *param = &uncertain->kind->params[i];
         const fracas_node *number = fracas_node_find(node, param->name);
-        if (number) TRY(read_number(file, leaf, number, param, uncertain));
+        if (number) TRY(fracas_file_note(file, read_number(file, leaf, number, param, uncertain)));
         else if (param->optional) fracas_param_clear(param, uncertain);
         else if (!isnan(param->fallback)) fracas_param_set(param, uncertain, param->fallback);
-        else
-            return fracas_file_error(file, node, "`%s` with distribution %s needs `%s` (%s)",
-                                     leaf->path, uncertain->kind->name, param->name, param->doc);
+        else if (!unknown)
+            TRY(fracas_file_note(
+                file,
+                fracas_file_error(file, node, "`%s` with distribution %s needs `%s` (%s)",
+                                  leaf->path, uncertain->kind->name, param->name, param->doc)));
     }
+    if (fracas_file_noted(file) > before) return FRACAS_OK;
     return fracas_uncertain_check(uncertain) ? fracas_file_error_within(file, node, leaf->path)
                                              : FRACAS_OK;
 }
 
-static fracas_err read_parameters(const fracas_file *file, const fracas_node *map, reading *read)
+static fracas_err read_parameter(const fracas_file *file, const fracas_node *node, reading *read)
 {
     static const char *const none[] = {NULL};
+    const size_t j = read->design.parameters;
+    uint64_t word[2];
+    fracas_target target;
+    TRY(fracas_target_find(file, node, none, &target));
+    TRY(check_number(file, node->key, &target));
+    read->leaf[j] = target.leaf;
+    read->node[j] = node;
+    read->design.parameters++;
+    const fracas_hash hash = fracas_hash_of(target.leaf->path, strlen(target.leaf->path));
+    fracas_hash_words(&hash, word);
+    read->name[j] = word[0];
+    return read_distribution(file, target.leaf, node, &read->uncertain[j]);
+}
+
+static fracas_err read_parameters(const fracas_file *file, const fracas_node *map, reading *read)
+{
     if (map->type != FRACAS_MAP || map->count == 0)
         return fracas_file_expected(file, map, "parameters",
                                     "paths with their distributions, below it and indented");
-    const size_t d = map->count, most = fracas_design_most_parameters(read->design.type);
+    const size_t d = map->count;
+    const size_t most = read->design.type ? fracas_design_most_parameters(read->design.type) : d;
     if (d > most)
         return fracas_file_error(
             file, map->key, "%zu parameters; %s has at most %zu: use another type, or two designs",
@@ -137,19 +159,8 @@ static fracas_err read_parameters(const fracas_file *file, const fracas_node *ma
     read->name = fracas_memory_take(file->memory, d, sizeof *read->name);
     if (!read->leaf || !read->node || !read->uncertain || !read->name)
         return fracas_no_memory("a design");
-    for (const fracas_node *node = map->first; node; node = node->next) {
-        const size_t j = read->design.parameters++;
-        uint64_t word[2];
-        fracas_target target;
-        TRY(fracas_target_find(file, node->key, none, &target));
-        TRY(check_number(file, node->key, &target));
-        TRY(read_distribution(file, target.leaf, node, &read->uncertain[j]));
-        const fracas_hash hash = fracas_hash_of(target.leaf->path, strlen(target.leaf->path));
-        fracas_hash_words(&hash, word);
-        read->leaf[j] = target.leaf;
-        read->node[j] = node;
-        read->name[j] = word[0];
-    }
+    for (const fracas_node *node = map->first; node; node = node->next)
+        TRY(fracas_file_note(file, read_parameter(file, node, read)));
     read->design.name = read->name;
     return FRACAS_OK;
 }
@@ -176,6 +187,7 @@ static fracas_err read_pair(const fracas_file *file, const fracas_node *node, re
     static const char *const keys[] = {"between", "coefficient", NULL};
     static const fracas_param coefficient = {"coefficient", FRACAS_REAL, "1", .minimum = -1,
                                              .maximum = 1};
+    bool unknown;
     const fracas_node *between = fracas_node_find(node, "between"),
                       *number = fracas_node_find(node, "coefficient");
     double value;
@@ -183,7 +195,7 @@ static fracas_err read_pair(const fracas_file *file, const fracas_node *node, re
     if (!between || !number || between->type != FRACAS_LIST || between->count != 2)
         return fracas_file_error(
             file, node, "a correlation is {between: [PARAMETER, PARAMETER], coefficient: NUMBER}");
-    TRY(fracas_file_check_keys(file, node, keys, "a correlation"));
+    TRY(fracas_file_check_keys(file, node, keys, "a correlation", &unknown));
     TRY(find_parameter(file, read, between->first, &j));
     TRY(find_parameter(file, read, between->first->next, &k));
     TRY(read_value(file, read->leaf[0]->section, coefficient.name, &coefficient, number, &value));
@@ -238,12 +250,13 @@ static fracas_err read_correlation(const fracas_file *file, const fracas_node *l
     read->correlation = fracas_memory_take(file->memory, d * d, sizeof *read->correlation);
     if (!read->correlation) return fracas_no_memory("a design");
     for (size_t i = 0; i < d * d; i++) read->correlation[i] = i % (d + 1) == 0 ? 1.0 : NAN;
+    const size_t before = fracas_file_noted(file);
     for (const fracas_node *node = list->first; node; node = node->next)
-        TRY(read_pair(file, node, read));
+        TRY(fracas_file_note(file, read_pair(file, node, read)));
     for (size_t i = 0; i < d * d; i++)
         if (isnan(read->correlation[i])) read->correlation[i] = 0.0;
     read->design.correlation = read->correlation;
-    return check_correlation(file, list, read);
+    return fracas_file_noted(file) > before ? FRACAS_OK : check_correlation(file, list, read);
 }
 
 /* ---- values ---- */
@@ -275,24 +288,37 @@ static fracas_err draw(const fracas_file *file, const fracas_node *node, const r
     return FRACAS_OK;
 }
 
+static fracas_err read_count(const fracas_file *file, const fracas_node *node, bool unknown,
+                             size_t *points)
+{
+    const fracas_node *count;
+    int64_t value;
+    TRY(need(file, node, unknown, "points", "give a design its number of points, as `points: 64`",
+             &count));
+    TRY(fracas_setting_integer(file, "points", count, 1, FRACAS_MAX_POINTS, &value));
+    *points = (size_t)value;
+    return FRACAS_OK;
+}
+
 fracas_err fracas_design_read(const fracas_file *file, const fracas_node *node, fracas_axis *axis)
 {
     static const char *const keys[] = {"type", "points", "parameters", "correlation", NULL};
     reading read = {.design = {.seed = file->campaign->seed}};
-    int64_t points;
+    const size_t before = fracas_file_noted(file);
+    bool unknown;
     if (node->type != FRACAS_MAP)
         return fracas_file_expected(file, node, "design",
                                     "`type:`, `points:` and `parameters:`, below it and indented");
-    TRY(fracas_file_check_keys(file, node, keys, "a design"));
-    TRY(read_kind(file, node, "type", fracas_design_types, FRACAS_COUNT(fracas_design_types),
-                  &read.design.type));
-    const fracas_node *count, *parameters;
-    TRY(need(file, node, "points", "give a design its number of points, as `points: 64`", &count));
-    TRY(fracas_setting_integer(file, "points", count, 1, FRACAS_MAX_POINTS, &points));
-    read.design.points = (size_t)points;
-    TRY(need(file, node, "parameters", "give each uncertain path with its distribution",
+    TRY(fracas_file_check_keys(file, node, keys, "a design", &unknown));
+    TRY(fracas_file_note(file, read_kind(file, node, unknown, "type", fracas_design_types,
+                                         FRACAS_COUNT(fracas_design_types), &read.design.type)));
+    const fracas_node *parameters;
+    TRY(fracas_file_note(file, read_count(file, node, unknown, &read.design.points)));
+    TRY(need(file, node, unknown, "parameters", "give each uncertain path with its distribution",
              &parameters));
-    TRY(read_parameters(file, parameters, &read));
-    TRY(read_correlation(file, fracas_node_find(node, "correlation"), &read));
-    return draw(file, node, &read, axis);
+    const size_t parameters_before = fracas_file_noted(file);
+    TRY(fracas_file_note(file, read_parameters(file, parameters, &read)));
+    if (fracas_file_noted(file) == parameters_before)
+        TRY(read_correlation(file, fracas_node_find(node, "correlation"), &read));
+    return fracas_file_noted(file) > before ? FRACAS_OK : draw(file, node, &read, axis);
 }

@@ -2,7 +2,9 @@
 /* From a file to a campaign. */
 #include "campaigns/campaign.h"
 
+#include "campaigns/file/chosen.h"
 #include "campaigns/file/identity.h"
+#include "campaigns/file/report_keys.h"
 #include "campaigns/file/resolve.h"
 #include "campaigns/file/sweep.h"
 #include "campaigns/file/words.h"
@@ -12,21 +14,51 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const own_keys[] = {"name", "seed", "random_numbers", "sweep", "replicas"};
+static const char *const own_keys[] = {"name",  "seed",     "random_numbers",
+                                       "sweep", "replicas", "report"};
 
 /* The contents of a file. */
 typedef struct {
     fracas_file file;
+    const char *text; /* its bytes, `size` of them; NULL: to be read */
+    size_t size;
     fracas_settings base;
     fracas_sweep sweep;
-    fracas_replicas replicas; /* count 0: not given */
+    fracas_replicas replicas;              /* count 0: not given */
+    bool doubtful[FRACAS_COUNT(own_keys)]; /* an unknown key may mean this one */
 } reading;
 
 /* ---- the top of the file ---- */
 
-static fracas_err check_section(const fracas_file *file, const fracas_node *key)
+/* Doubts all that an unknown key may mean: the nearest, the leaf of its name; if it has a section
+ * or nothing that can be read, any section that is not there; or the model. */
+static void doubt_key(reading *read, const fracas_node *entry, const char *nearest)
 {
+    const fracas_file *file = &read->file;
     const fracas_catalog *catalog = file->catalog;
+    const char *text = entry->key->text;
+    for (size_t k = 0; nearest && k < FRACAS_COUNT(own_keys); k++)
+        read->doubtful[k] = read->doubtful[k] || strcmp(own_keys[k], nearest) == 0;
+    const bool any = !nearest && entry->type != FRACAS_SCALAR;
+    for (size_t s = 0; s < catalog->nsections; s++) {
+        const fracas_section *table = catalog->section[s].table;
+        bool meant = (nearest && strcmp(table->name, nearest) == 0) ||
+                     (any && !fracas_node_find(file->root, table->name));
+        for (size_t k = 0; s == 0 && k < table->nkinds; k++)
+            meant = meant || strcmp(table->kinds[k]->name, fracas_node_text(entry)) == 0;
+        if (meant) fracas_file_doubt_section(file, &catalog->section[s], true);
+    }
+    for (size_t i = 0; i < catalog->nleaves; i++)
+        if (strcmp(catalog->leaf[i].key, text) == 0 || strcmp(catalog->leaf[i].path, text) == 0)
+            fracas_file_doubt(file, &catalog->leaf[i]);
+    if (nearest && strcmp(nearest, "sweep") == 0) fracas_file_doubt_section(file, NULL, true);
+}
+
+static fracas_err check_section(reading *read, const fracas_node *entry)
+{
+    const fracas_file *file = &read->file;
+    const fracas_catalog *catalog = file->catalog;
+    const fracas_node *key = entry->key;
     fracas_words words;
     fracas_words_init(&words, key->text);
     for (size_t k = 0; k < FRACAS_COUNT(own_keys); k++) {
@@ -36,6 +68,8 @@ static fracas_err check_section(const fracas_file *file, const fracas_node *key)
     if (fracas_catalog_section(catalog, key->text)) return FRACAS_OK;
     for (size_t s = 0; s < catalog->nsections; s++)
         fracas_words_add(&words, catalog->section[s].table->name);
+    doubt_key(read, entry, words.nearest);
+    if (entry->type == FRACAS_UNREADABLE) return fracas_file_untold(file);
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];
         if (strcmp(leaf->key, key->text) == 0 || strcmp(leaf->path, key->text) == 0)
@@ -72,29 +106,39 @@ static fracas_err read_random_numbers(const fracas_file *file, const fracas_node
 }
 
 /* The entry `key`, which must exist. */
-static fracas_err need(const fracas_file *file, const char *key, const char *remedy,
+static fracas_err need(const reading *read, const char *key, const char *remedy,
                        const fracas_node **node)
 {
-    *node = fracas_node_find(file->root, key);
-    if (*node) return FRACAS_OK;
-    return fracas_file_error(file, file->root, "the file has no `%s`; %s", key, remedy);
+    bool unknown = false;
+    for (size_t k = 0; k < FRACAS_COUNT(own_keys); k++)
+        unknown = unknown || (read->doubtful[k] && strcmp(own_keys[k], key) == 0);
+    return fracas_file_need(&read->file, read->file.root, key, unknown, node,
+                            "the file has no `%s`; %s", key, remedy);
 }
 
 static fracas_err read_heading(reading *read, fracas_campaign *campaign)
 {
     const fracas_file *file = &read->file;
     const fracas_node *node;
-    for (node = file->root->first; node; node = node->next) TRY(check_section(file, node->key));
-    TRY(need(file, "name",
-             "give the campaign a name, which becomes its folder, as `name: bar-rates`", &node));
-    TRY(fracas_setting_name(file, node, &campaign->name));
-    TRY(need(file, "seed", "give the seed of its random numbers, a whole number, as `seed: 1`",
-             &node));
-    TRY(read_seed(file, node, &campaign->seed));
+    for (node = file->root->first; node; node = node->next)
+        TRY(fracas_file_note(file, check_section(read, node)));
+    TRY(fracas_file_note(
+        file,
+        need(read, "name",
+             "give the campaign a name, which becomes its folder, as `name: bar-rates`", &node)));
+    if (node) TRY(fracas_file_note(file, fracas_setting_name(file, node, &campaign->name)));
+    TRY(fracas_file_note(
+        file, need(read, "seed",
+                   "give the seed of its random numbers, a whole number, as `seed: 1`", &node)));
+    if (node) TRY(fracas_file_note(file, read_seed(file, node, &campaign->seed)));
     node = fracas_node_find(file->root, "random_numbers");
-    if (node) TRY(read_random_numbers(file, node, &campaign->common_random_numbers));
+    if (node)
+        TRY(fracas_file_note(file,
+                             read_random_numbers(file, node, &campaign->common_random_numbers)));
     node = fracas_node_find(file->root, "replicas");
-    if (node) TRY(fracas_replicas_read(file, node, &read->replicas));
+    if (node) TRY(fracas_file_note(file, fracas_replicas_read(file, node, &read->replicas)));
+    node = fracas_node_find(file->root, "report");
+    if (node) TRY(fracas_file_note(file, fracas_report_keys_read(file, node, &campaign->report)));
     return FRACAS_OK;
 }
 
@@ -105,13 +149,8 @@ static fracas_err read_sections(reading *read)
         const fracas_file_section *section = fracas_catalog_section(file->catalog, node->key->text);
         if (!section) continue;
         const fracas_leaf *leaf = fracas_catalog_leaf(file->catalog, node->key->text);
-        if (!leaf) {
-            TRY(fracas_settings_add_section(file, section, node, &read->base));
-            continue;
-        }
-        fracas_setting setting;
-        TRY(fracas_setting_read(file, leaf, node, &setting));
-        TRY(fracas_settings_add(file, &setting, &read->base));
+        TRY(leaf ? fracas_settings_read(file, leaf, node, &read->base)
+                 : fracas_settings_add_section(file, section, node, &read->base));
     }
     return FRACAS_OK;
 }
@@ -140,10 +179,10 @@ static fracas_err count_replicas(const reading *read, size_t index, fracas_point
     }
     point->replicas = replicas.count;
     point->rule = replicas.rule;
+    const fracas_node *none;
     if (point->replicas > 0) return FRACAS_OK;
-    return fracas_file_error(
-        &read->file, read->file.root,
-        "the file has no `replicas`; say how many realizations each point gets, as `replicas: 32`");
+    return need(read, "replicas", "say how many realizations each point gets, as `replicas: 32`",
+                &none);
 }
 
 static fracas_err make_point(const reading *read, fracas_draft *draft, size_t index,
@@ -156,8 +195,9 @@ static fracas_err make_point(const reading *read, fracas_draft *draft, size_t in
                    draft->swept);
     for (size_t s = 0; s < catalog->nsections; s++)
         if (catalog->section[s].table->hashed)
-            TRY(fracas_draft_resolve(&read->file, draft, &catalog->section[s], point));
-    return count_replicas(read, index, point);
+            TRY(fracas_file_note(&read->file, fracas_draft_resolve(&read->file, draft,
+                                                                   &catalog->section[s], point)));
+    return fracas_file_note(&read->file, count_replicas(read, index, point));
 }
 
 static fracas_err make_points(reading *read, fracas_campaign *campaign)
@@ -174,9 +214,12 @@ static fracas_err make_points(reading *read, fracas_campaign *campaign)
     TRY(fracas_draft_check_base(file, &draft));
     for (size_t s = 0; s < catalog->nsections; s++)
         if (!catalog->section[s].table->hashed)
-            TRY(fracas_draft_resolve(file, &draft, &catalog->section[s], campaign));
-    for (size_t p = 0; p < campaign->npoints; p++)
+            TRY(fracas_file_note(
+                file, fracas_draft_resolve(file, &draft, &catalog->section[s], campaign)));
+    for (size_t p = 0; p < campaign->npoints; p++) {
+        fracas_faults_point(file->faults, p);
         TRY(make_point(read, &draft, p, &campaign->point[p]));
+    }
     return fracas_draft_check_models(file, &draft, campaign);
 }
 
@@ -259,6 +302,8 @@ static fracas_err identify(reading *read, fracas_campaign *campaign)
     if (err)
         return err == FRACAS_USAGE ? fracas_file_error_within(&read->file, read->file.root, "mesh")
                                    : err;
+    TRY(fracas_report_keys_check(&read->file, &campaign->report, &campaign->table));
+    TRY(fracas_file_note(&read->file, fracas_fields_check(&read->file, campaign)));
     return fracas_campaign_identify(read->file.catalog, campaign);
 }
 
@@ -269,32 +314,56 @@ static fracas_err read_file(reading *read, fracas_campaign *campaign)
     fracas_file *file = &read->file;
     fracas_node *root;
     TRY(fracas_catalog_make(file->memory, &file->catalog));
-    TRY(fracas_node_read(file->name, file->memory, &root));
+    file->doubtful = fracas_memory_take(file->memory, file->catalog->nleaves,
+                                        sizeof *file->doubtful);
+    if (!file->doubtful) return fracas_no_memory("the campaign");
+    TRY(read->text ? fracas_node_parse(file->name, read->text, read->size, file->memory,
+                                       file->faults, &root)
+                   : fracas_node_read(file->name, file->memory, file->faults, &root));
     file->root = root;
     TRY(read_heading(read, campaign));
     TRY(read_sections(read));
     TRY(fracas_sweep_read(file, fracas_node_find(root, "sweep"), &read->sweep));
     TRY(make_points(read, campaign));
-    return identify(read, campaign);
+    return fracas_file_noted(file) ? FRACAS_OK : identify(read, campaign);
 }
 
-fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path,
-                                     fracas_campaign **campaign)
+static fracas_err make(const fracas_units *units, const char *path, const char *text, size_t size,
+                       fracas_campaign **campaign)
 {
     OWN(fracas_campaign) made = calloc(1, sizeof *made);
     if (!made || !(made->memory = fracas_memory_create())) return fracas_no_memory("the campaign");
     TRY(fracas_frequencies_create(&made->frequencies));
     reading read = {
-        .file = {.name = path, .memory = made->memory, .units = units, .campaign = made}};
-    TRY(read_file(&read, made));
+        .file = {.name = path, .memory = made->memory, .units = units, .campaign = made},
+        .text = text,
+        .size = size};
+    read.file.faults = fracas_faults_create(made->memory);
+    if (!read.file.faults) return fracas_no_memory("the campaign");
+    TRY(fracas_faults_note(read.file.faults, read_file(&read, made)));
+    TRY(fracas_faults_report(read.file.faults, path));
     *campaign = made;
     made = NULL;
     return FRACAS_OK;
+}
+
+fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path,
+                                     fracas_campaign **campaign)
+{
+    return make(units, path, NULL, 0, campaign);
 }
 
 fracas_err fracas_campaign_read(const char *path, fracas_campaign **campaign)
 {
     OWN(fracas_units) units = NULL;
     TRY(fracas_units_create(&units));
-    return fracas_campaign_read_with(units, path, campaign);
+    return make(units, path, NULL, 0, campaign);
+}
+
+fracas_err fracas_campaign_read_text(const char *text, size_t size, const char *name,
+                                     fracas_campaign **campaign)
+{
+    OWN(fracas_units) units = NULL;
+    TRY(fracas_units_create(&units));
+    return make(units, name, text, size, campaign);
 }

@@ -29,8 +29,8 @@ static void write_limits(const fracas_param *param, FILE *out)
 
 static void write_param(const fracas_param *param, FILE *out)
 {
-    static const char *const types[] = {"number", "whole number", "true or false", "name",
-                                        "path of a file"};
+    static const char *const types[] = {"number", "whole number",   "true or false",
+                                        "name",   "path of a file", "list of whole numbers"};
     char fallback[FRACAS_NUMBER_TEXT];
     fracas_number_write(param->fallback, fallback);
     const char *given = param->optional          ? "none"

@@ -14,12 +14,11 @@ enum { MOST = 1000000000 };
 
 /* ---- reading ---- */
 
-static fracas_err need(const fracas_file *file, const fracas_node *node, const char *name,
+static fracas_err need(const fracas_file *file, const fracas_node *node, bool unknown,
                        const char *key, const fracas_node **found)
 {
-    *found = fracas_node_find(node, key);
-    if (*found) return FRACAS_OK;
-    return fracas_file_error(file, node, "`%s` has no `%s`; expected %s", name, key, FORM);
+    return fracas_file_need(file, node, key, unknown, found, "`%s` has no `%s`; expected %s",
+                            node->key->text, key, FORM);
 }
 
 static fracas_err read_quantity(const fracas_file *file, const fracas_node *node,
@@ -49,20 +48,36 @@ static fracas_err read_fraction(const fracas_file *file, const fracas_node *node
                              node->text, open ? "more than" : "from", minimum, maximum);
 }
 
+static fracas_err read_width(const fracas_file *file, const fracas_node *until, bool unknown,
+                             double *width)
+{
+    const fracas_node *found;
+    TRY(need(file, until, unknown, "relative-half-width", &found));
+    return read_fraction(file, found, 0, true, 1, width);
+}
+
 static fracas_err read_until(const fracas_file *file, const fracas_node *node,
                              fracas_sequential_rule *rule)
 {
     static const char *const keys[] = {"quantity", "relative-half-width", "confidence", NULL};
     const fracas_node *found;
+    bool unknown;
     if (node->type != FRACAS_MAP) return fracas_file_expected(file, node, "until", FORM);
-    TRY(fracas_file_check_keys(file, node, keys, "`until`"));
-    TRY(need(file, node, "until", "quantity", &found));
-    TRY(read_quantity(file, found, &rule->quantity));
-    TRY(need(file, node, "until", "relative-half-width", &found));
-    TRY(read_fraction(file, found, 0, true, 1, &rule->relative_half_width));
+    TRY(fracas_file_check_keys(file, node, keys, "`until`", &unknown));
+    TRY(fracas_file_note(file, need(file, node, unknown, "quantity", &found)));
+    if (found) TRY(fracas_file_note(file, read_quantity(file, found, &rule->quantity)));
+    TRY(fracas_file_note(file, read_width(file, node, unknown, &rule->relative_half_width)));
     rule->confidence = 0.95;
     found = fracas_node_find(node, "confidence");
     return found ? read_fraction(file, found, 0.5, false, 0.999, &rule->confidence) : FRACAS_OK;
+}
+
+static fracas_err read_bound(const fracas_file *file, const fracas_node *node, bool unknown,
+                             const char *key, int64_t *bound)
+{
+    const fracas_node *found;
+    TRY(need(file, node, unknown, key, &found));
+    return fracas_setting_integer(file, key, found, FRACAS_ROUND_FIRST, MOST, bound);
 }
 
 static fracas_err read_rule(const fracas_file *file, const fracas_node *node,
@@ -70,29 +85,40 @@ static fracas_err read_rule(const fracas_file *file, const fracas_node *node,
 {
     static const char *const keys[] = {"minimum", "maximum", "until", NULL};
     const fracas_node *found;
-    TRY(fracas_file_check_keys(file, node, keys, "`replicas`"));
-    TRY(need(file, node, "replicas", "minimum", &found));
-    TRY(fracas_setting_integer(file, "minimum", found, FRACAS_ROUND_FIRST, MOST, &rule->minimum));
-    TRY(need(file, node, "replicas", "maximum", &found));
-    TRY(fracas_setting_integer(file, "maximum", found, FRACAS_ROUND_FIRST, MOST, &rule->maximum));
-    if (rule->maximum < rule->minimum)
-        return fracas_file_error(
-            file, found, "`maximum`: %" PRId64 " is less than `minimum`, %" PRId64 "; raise it",
-            rule->maximum, rule->minimum);
-    TRY(need(file, node, "replicas", "until", &found));
+    const size_t before = fracas_file_noted(file);
+    bool unknown;
+    TRY(fracas_file_check_keys(file, node, keys, "`replicas`", &unknown));
+    TRY(fracas_file_note(file, read_bound(file, node, unknown, "minimum", &rule->minimum)));
+    TRY(fracas_file_note(file, read_bound(file, node, unknown, "maximum", &rule->maximum)));
+    if (rule->maximum < rule->minimum && fracas_file_noted(file) == before)
+        TRY(fracas_file_note(file,
+                             fracas_file_error(file, fracas_node_find(node, "maximum"),
+                                               "`maximum`: %" PRId64
+                                               " is less than `minimum`, %" PRId64 "; raise it",
+                                               rule->maximum, rule->minimum)));
+    TRY(need(file, node, unknown, "until", &found));
     return read_until(file, found, rule);
+}
+
+static fracas_err read_any(const fracas_file *file, const fracas_node *node,
+                           fracas_replicas *replicas)
+{
+    if (node->type == FRACAS_LIST)
+        return fracas_file_expected(file, node, "replicas", "a whole number or " FORM);
+    if (node->type != FRACAS_MAP)
+        return fracas_setting_integer(file, "replicas", node, 1, MOST, &replicas->count);
+    TRY(read_rule(file, node, &replicas->rule));
+    replicas->count = replicas->rule.minimum;
+    return FRACAS_OK;
 }
 
 fracas_err fracas_replicas_read(const fracas_file *file, const fracas_node *node,
                                 fracas_replicas *replicas)
 {
+    const size_t before = fracas_file_noted(file);
     *replicas = (fracas_replicas){0};
-    if (node->type == FRACAS_LIST)
-        return fracas_file_expected(file, node, "replicas", "a whole number or " FORM);
-    if (node->type == FRACAS_SCALAR)
-        return fracas_setting_integer(file, "replicas", node, 1, MOST, &replicas->count);
-    TRY(read_rule(file, node, &replicas->rule));
-    replicas->count = replicas->rule.minimum;
+    TRY(fracas_file_note(file, read_any(file, node, replicas)));
+    if (fracas_file_noted(file) > before) replicas->count = 1; /* they are given, if wrong */
     return FRACAS_OK;
 }
 

@@ -15,9 +15,10 @@ typedef struct {
     fracas_sequential_rule rule; /* maximum 0: none */
 } fracas_replicas;
 
-/* FRACAS_USAGE, naming the place, for anything but a whole number from 1 to 1e9 or
+/* Notes an error, naming the place, of anything but a whole number from 1 to 1e9 or
  *   {minimum: N, maximum: M, until: {quantity: Q, relative-half-width: W, confidence: C}}
- * with 8 <= N <= M <= 1e9, 0 < W < 1, 0.5 <= C <= 0.999 (0.95 if it is not given). */
+ * with 8 <= N <= M <= 1e9, 0 < W < 1, 0.5 <= C <= 0.999 (0.95 if it is not given); the count is
+ * then 1. */
 FRACAS_MUST_USE fracas_err fracas_replicas_read(const fracas_file *file, const fracas_node *node,
                                                 fracas_replicas *replicas);
 

@@ -12,7 +12,9 @@ typedef struct {
 } fracas_draft;
 
 /* Checks the sections of the file, also values replaced at every point: each key belongs to its
- * section's kind, each value is in its range. The models of the points are not known yet. */
+ * section's kind, each value is in its range. The models of the points are not known yet. Here and
+ * below errors are noted; what they leave unknown, as a section of an unknown kind, is not judged.
+ */
 FRACAS_MUST_USE fracas_err fracas_draft_check_base(const fracas_file *file,
                                                    const fracas_draft *draft);
 
@@ -21,7 +23,7 @@ FRACAS_MUST_USE fracas_err fracas_draft_check_base(const fracas_file *file,
 FRACAS_MUST_USE fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *draft,
                                                 const fracas_file_section *section, void *owner);
 
-/* Refuses base settings for models without a point in the campaign. `draft`: of the last point. */
+/* Notes base settings for models without a point in the campaign. `draft`: of the last point. */
 FRACAS_MUST_USE fracas_err fracas_draft_check_models(const fracas_file *file,
                                                      const fracas_draft *draft,
                                                      const fracas_campaign *campaign);

@@ -2,6 +2,7 @@
 #include "campaigns/file/setting.h"
 
 #include "campaigns/file/attach.h"
+#include "campaigns/file/expression.h"
 #include "campaigns/file/words.h"
 
 #include <inttypes.h>
@@ -62,6 +63,25 @@ static fracas_err read_integer(const fracas_file *file, const char *key, const f
                              fabs(*value) > 1e15 ? " of at most 15 digits" : "");
 }
 
+/* A list, each number in the range of the leaf. */
+static fracas_err read_numbers(const fracas_file *file, const fracas_leaf *leaf,
+                               const fracas_node *node, const void **object)
+{
+    size_t n = 0;
+    if (node->type != FRACAS_LIST || !node->first)
+        return fracas_file_expected(file, node, leaf->key, "a list of whole numbers, as [0, 7]");
+    for (const fracas_node *entry = node->first; entry; entry = entry->next) n++;
+    fracas_numbers *numbers = fracas_memory_take(file->memory, 1, sizeof *numbers);
+    int64_t *value = fracas_memory_take(file->memory, n, sizeof *value);
+    if (!numbers || !value) return fracas_no_memory("the campaign's values");
+    *numbers = (fracas_numbers){n, value};
+    for (const fracas_node *entry = node->first; entry; entry = entry->next)
+        TRY(fracas_setting_integer(file, leaf->key, entry, (int64_t)leaf->param->minimum,
+                                   (int64_t)fmin(leaf->param->maximum, 1e15), value++));
+    *object = numbers;
+    return FRACAS_OK;
+}
+
 static fracas_err read_real(const fracas_file *file, const fracas_leaf *leaf,
                             const fracas_node *node, double *value)
 {
@@ -72,6 +92,29 @@ static fracas_err read_real(const fracas_file *file, const fracas_leaf *leaf,
     TRY(want_scalar(file, leaf->key, node, expected));
     fracas_err err = fracas_units_read(file->units, node->text, leaf->param->unit, value);
     return err == FRACAS_USAGE ? fracas_file_error_within(file, node, leaf->key) : err;
+}
+
+/* True if `text` names a key of a section: an expression, no number with a unit. */
+static bool names_a_key(const fracas_file *file, const char *text)
+{
+    for (const char *at = text; *at; at++) {
+        const size_t length = fracas_expression_path(at);
+        if (length == 0) continue;
+        char name[200 + 1];
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at, "."), at);
+        if (fracas_catalog_section(file->catalog, name)) return true;
+        at += length - 1;
+    }
+    return false;
+}
+
+fracas_err fracas_setting_read_known(const fracas_file *file, const fracas_leaf *leaf,
+                                     const fracas_node *node, fracas_setting *setting)
+{
+    TRY(fracas_setting_read(file, leaf, node, setting));
+    if (!setting->expression) return FRACAS_OK;
+    return fracas_file_error(file, node, "`%s`: an expression cannot stand here; give a number",
+                             leaf->key);
 }
 
 fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
@@ -88,6 +131,11 @@ fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
     if (!param)
         return fracas_setting_kind(file, leaf->key, node, table->kinds, table->nkinds,
                                    &setting->kind);
+    const bool number = param->type == FRACAS_REAL || param->type == FRACAS_INTEGER;
+    if (number && names_a_key(file, fracas_node_text(node))) {
+        setting->expression = node->text;
+        return FRACAS_OK;
+    }
     switch (param->type) {
     case FRACAS_BOOLEAN: return read_boolean(file, leaf->key, node, &setting->value);
     case FRACAS_INTEGER: return read_integer(file, leaf->key, node, &setting->value);
@@ -95,7 +143,8 @@ fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
         return read_name(file, leaf->key, node, param->choices, param->nchoices, &setting->value);
     case FRACAS_ATTACHMENT:
         TRY(want_scalar(file, leaf->key, node, "the path of a file"));
-        return fracas_attachment_read(file, leaf->key, node, &setting->attachment);
+        return fracas_attachment_read(file, leaf->key, node, &setting->object);
+    case FRACAS_NUMBERS: return read_numbers(file, leaf, node, &setting->object);
     case FRACAS_REAL: break;
     }
     return read_real(file, leaf, node, &setting->value);
@@ -130,15 +179,22 @@ fracas_err fracas_setting_name(const fracas_file *file, const fracas_node *node,
 
 /* ---- many ---- */
 
+static fracas_setting *find_setting(const fracas_settings *settings, const fracas_leaf *leaf)
+{
+    for (fracas_setting *one = *settings; one; one = one->next)
+        if (one->leaf == leaf) return one;
+    return NULL;
+}
+
 fracas_err fracas_settings_add(const fracas_file *file, const fracas_setting *setting,
                                fracas_settings *settings)
 {
-    for (const fracas_setting *earlier = *settings; earlier; earlier = earlier->next)
-        if (earlier->leaf == setting->leaf)
-            return fracas_file_error(
-                file, setting->node,
-                "`%s` is given twice; it is already at line %d, keep one of the two",
-                setting->leaf->path, earlier->node->line);
+    const fracas_setting *earlier = find_setting(settings, setting->leaf);
+    if (earlier)
+        return fracas_file_error(
+            file, setting->node,
+            "`%s` is given twice; it is already at line %d, keep one of the two",
+            setting->leaf->path, earlier->node->line);
     fracas_setting *copy = fracas_memory_take(file->memory, 1, sizeof *copy);
     if (!copy) return fracas_no_memory("the campaign's values");
     *copy = *setting;
@@ -147,10 +203,52 @@ fracas_err fracas_settings_add(const fracas_file *file, const fracas_setting *se
     return FRACAS_OK;
 }
 
-static fracas_err unknown_key(const fracas_file *file, const fracas_file_section *section,
-                              const fracas_node *key)
+fracas_err fracas_settings_read(const fracas_file *file, const fracas_leaf *leaf,
+                                const fracas_node *node, fracas_settings *settings)
+{
+    fracas_setting setting;
+    const size_t before = fracas_file_noted(file);
+    TRY(fracas_file_note(file, fracas_setting_read(file, leaf, node, &setting)));
+    setting.wrong = fracas_file_noted(file) > before;
+    return fracas_file_note(file, fracas_settings_add(file, &setting, settings));
+}
+
+fracas_err fracas_settings_doubt(const fracas_file *file, const fracas_file_section *section,
+                                 const fracas_leaf *leaf, const fracas_node *node,
+                                 fracas_settings *settings)
+{
+    for (size_t i = 0; i < file->catalog->nleaves; i++) {
+        const fracas_leaf *one = &file->catalog->leaf[i];
+        if ((leaf ? one != leaf : one->section != section) || find_setting(settings, one)) continue;
+        const fracas_setting wrong = {.leaf = one, .node = node, .wrong = true};
+        TRY(fracas_settings_add(file, &wrong, settings));
+    }
+    return FRACAS_OK;
+}
+
+/* Doubts all that the unknown key of a section may mean: the nearest key, or that of another
+ * section; if its value is the name of a kind, the kind; else any. */
+static void doubt_key(const fracas_file *file, const fracas_file_section *section,
+                      const fracas_node *entry, const char *nearest, bool elsewhere)
 {
     const fracas_catalog *catalog = file->catalog;
+    bool kind = entry->type == FRACAS_UNREADABLE;
+    for (size_t k = 0; k < section->table->nkinds; k++)
+        kind = kind || strcmp(section->table->kinds[k]->name, fracas_node_text(entry)) == 0;
+    for (size_t i = 0; i < catalog->nleaves; i++) {
+        const fracas_leaf *leaf = &catalog->leaf[i];
+        const char *meant = elsewhere ? entry->key->text : nearest;
+        if (meant && strcmp(leaf->key, meant) == 0 && (elsewhere || leaf->section == section))
+            fracas_file_doubt(file, leaf);
+    }
+    if (kind || (!nearest && !elsewhere)) fracas_file_doubt_section(file, section, kind);
+}
+
+static fracas_err unknown_key(const fracas_file *file, const fracas_file_section *section,
+                              const fracas_node *entry)
+{
+    const fracas_catalog *catalog = file->catalog;
+    const fracas_node *key = entry->key;
     fracas_words words;
     fracas_words_init(&words, key->text);
     const char *home = NULL; /* another section with this key */
@@ -160,32 +258,39 @@ static fracas_err unknown_key(const fracas_file *file, const fracas_file_section
             home = catalog->leaf[i].section->table->name;
     }
     if (home) words.nearest = NULL;
+    doubt_key(file, section, entry, words.nearest, home != NULL);
+    if (entry->type == FRACAS_UNREADABLE) return fracas_file_untold(file);
     return fracas_file_error(file, key, "unknown key `%s` in %s%s%s%s", key->text,
                              section->table->name, home ? "; it belongs to the section " : "",
                              home ? home : "",
                              fracas_words_hint(&words, "keys of %s", section->table->name));
 }
 
+static fracas_err no_section(const fracas_file *file, const fracas_file_section *section,
+                             const fracas_node *node)
+{
+    char found[256];
+    fracas_words words;
+    fracas_words_init(&words, "");
+    for (size_t i = 0; i < file->catalog->nleaves; i++)
+        if (file->catalog->leaf[i].section == section)
+            fracas_words_add(&words, file->catalog->leaf[i].key);
+    return fracas_file_error(file, node, "`%s` is a section, but found %s%s", section->table->name,
+                             fracas_node_found(node, found),
+                             fracas_words_hint(&words, "write its keys below it, indented"));
+}
+
 fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_file_section *section,
                                        const fracas_node *node, fracas_settings *settings)
 {
     if (node->type != FRACAS_MAP) {
-        char found[256];
-        fracas_words words;
-        fracas_words_init(&words, "");
-        for (size_t i = 0; i < file->catalog->nleaves; i++)
-            if (file->catalog->leaf[i].section == section)
-                fracas_words_add(&words, file->catalog->leaf[i].key);
-        return fracas_file_error(file, node, "`%s` is a section, but found %s%s",
-                                 section->table->name, fracas_node_found(node, found),
-                                 fracas_words_hint(&words, "write its keys below it, indented"));
+        TRY(fracas_file_note(file, no_section(file, section, node)));
+        return fracas_settings_doubt(file, section, NULL, node, settings);
     }
     for (const fracas_node *entry = node->first; entry; entry = entry->next) {
-        fracas_setting setting;
         const fracas_leaf *leaf = fracas_catalog_key(file->catalog, section, entry->key->text);
-        if (!leaf) return unknown_key(file, section, entry->key);
-        TRY(fracas_setting_read(file, leaf, entry, &setting));
-        TRY(fracas_settings_add(file, &setting, settings));
+        TRY(leaf ? fracas_settings_read(file, leaf, entry, settings)
+                 : fracas_file_note(file, unknown_key(file, section, entry)));
     }
     return FRACAS_OK;
 }
@@ -219,7 +324,7 @@ fracas_err fracas_setting_check(const fracas_file *file, const fracas_setting *s
                                 const fracas_param *param)
 {
     double value = setting->value;
-    if (fracas_param_is_text(param)) return FRACAS_OK;
+    if (fracas_param_is_text(param) || fracas_param_is_object(param)) return FRACAS_OK;
     if (!fracas_setting_computable(value))
         return fracas_file_error(file, setting->node,
                                  "`%s`: %g%s%s is beyond what can be computed with: 0, or 1e-100 "

@@ -7,20 +7,29 @@
 
 typedef struct fracas_setting {
     const fracas_leaf *leaf;
-    const fracas_node *node;             /* its place */
-    const fracas_kind *kind;             /* for the name of a kind */
-    double value;                        /* for any other leaf, SI; for a choice, its index */
-    const fracas_attachment *attachment; /* for a file */
-    size_t drawn;                        /* number of the design's point, from 1; 0: not drawn */
+    const fracas_node *node; /* its place */
+    const fracas_kind *kind; /* for the name of a kind */
+    double value;            /* for any other leaf, SI; for a choice, its index */
+    const char *expression;  /* gives the value from other keys; NULL: it is known */
+    const void *object;      /* for a file or a list, which the campaign owns */
+    bool wrong;              /* an error tells of it: its value is not known */
+    size_t drawn;            /* number of the design's point, from 1; 0: not drawn */
     struct fracas_setting *next;
 } fracas_setting;
 
 /* Settings of the same point, no leaf twice; NULL: none. */
 typedef fracas_setting *fracas_settings;
 
-/* Converts the scalar `node` for `leaf`. Does not check ranges, which may depend on the kind. */
+/* Converts the scalar `node` for `leaf`, or keeps its expression. Does not check ranges, which may
+ * depend on the kind. */
 FRACAS_MUST_USE fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
                                                const fracas_node *node, fracas_setting *setting);
+
+/* The same for a place where no expression can stand. */
+FRACAS_MUST_USE fracas_err fracas_setting_read_known(const fracas_file *file,
+                                                     const fracas_leaf *leaf,
+                                                     const fracas_node *node,
+                                                     fracas_setting *setting);
 
 /* The scalar `node` as a whole number from `minimum` to `maximum`; `key` is its name in messages.
  */
@@ -43,7 +52,17 @@ FRACAS_MUST_USE fracas_err fracas_settings_add(const fracas_file *file,
                                                const fracas_setting *setting,
                                                fracas_settings *settings);
 
-/* Adds every key of the map `node`, a section or a part of one. */
+/* Adds what `node` says of the leaf. An error is noted, and the setting wrong. */
+FRACAS_MUST_USE fracas_err fracas_settings_read(const fracas_file *file, const fracas_leaf *leaf,
+                                                const fracas_node *node, fracas_settings *settings);
+
+/* Adds wrong settings at `node` for the leaf, or for all of `section`, which have none there. */
+FRACAS_MUST_USE fracas_err fracas_settings_doubt(const fracas_file *file,
+                                                 const fracas_file_section *section,
+                                                 const fracas_leaf *leaf, const fracas_node *node,
+                                                 fracas_settings *settings);
+
+/* Adds every key of the map `node`, a section or a part of one. Errors are noted. */
 FRACAS_MUST_USE fracas_err fracas_settings_add_section(const fracas_file *file,
                                                        const fracas_file_section *section,
                                                        const fracas_node *node,

@@ -12,10 +12,8 @@
 static fracas_err add_target(const fracas_file *file, const fracas_target *set,
                              const fracas_node *value, fracas_settings *settings)
 {
-    if (set->section) return fracas_settings_add_section(file, set->section, value, settings);
-    fracas_setting setting;
-    TRY(fracas_setting_read(file, set->leaf, value, &setting));
-    return fracas_settings_add(file, &setting, settings);
+    return set->section ? fracas_settings_add_section(file, set->section, value, settings)
+                        : fracas_settings_read(file, set->leaf, value, settings);
 }
 
 /* ---- ranges ---- */
@@ -27,27 +25,39 @@ typedef struct {
     bool logarithmic, whole;
 } range;
 
-static fracas_err need(const fracas_file *file, const fracas_node *node, const char *key,
-                       const fracas_node **found)
+static fracas_err need(const fracas_file *file, const fracas_node *node, bool unknown,
+                       const char *key, const fracas_node **found)
 {
-    *found = fracas_node_find(node, key);
-    if (*found) return FRACAS_OK;
-    return fracas_file_error(
-        file, node, "a range without `%s`; expected {from: ..., to: ..., points: ...}", key);
+    return fracas_file_need(file, node, key, unknown, found,
+                            "a range without `%s`; expected {from: ..., to: ..., points: ...}",
+                            key);
 }
 
 static fracas_err read_end(const fracas_file *file, const fracas_leaf *leaf,
-                           const fracas_node *node, const char *key, double *value)
+                           const fracas_node *node, bool unknown, const char *key, double *value)
 {
     const fracas_node *end;
     fracas_setting setting;
-    TRY(need(file, node, key, &end));
-    TRY(fracas_setting_read(file, leaf, end, &setting));
+    TRY(need(file, node, unknown, key, &end));
+    TRY(fracas_setting_read_known(file, leaf, end, &setting));
     *value = setting.value;
     return FRACAS_OK;
 }
 
-static fracas_err read_spacing(const fracas_file *file, const fracas_node *node, range *made)
+static fracas_err read_points(const fracas_file *file, const fracas_node *node, bool unknown,
+                              range *made)
+{
+    const fracas_node *points;
+    int64_t count;
+    TRY(need(file, node, unknown, "points", &points));
+    TRY(fracas_setting_integer(file, "points", points, 2, FRACAS_MAX_POINTS, &count));
+    made->points = (size_t)count;
+    return FRACAS_OK;
+}
+
+/* `ends`: both are known. */
+static fracas_err read_spacing(const fracas_file *file, const fracas_node *node, bool ends,
+                               range *made)
 {
     const fracas_node *spacing = fracas_node_find(node, "spacing");
     if (!spacing) return FRACAS_OK;
@@ -55,13 +65,13 @@ static fracas_err read_spacing(const fracas_file *file, const fracas_node *node,
     if (!made->logarithmic && strcmp(fracas_node_text(spacing), "lin") != 0)
         return fracas_file_expected(file, spacing, "spacing",
                                     "lin (equal differences) or log (equal ratios)");
-    if (made->logarithmic && (made->from <= 0.0 || made->to <= 0.0))
+    if (made->logarithmic && ends && (made->from <= 0.0 || made->to <= 0.0))
         return fracas_file_error(
             file, spacing, "spacing log needs `from` and `to` greater than 0; use spacing lin");
     return FRACAS_OK;
 }
 
-/* Reads the map `node` as a range of the leaf, a number. */
+/* Reads the map `node` as a range of the leaf, a number. Errors in it are noted. */
 static fracas_err read_range(const fracas_file *file, const fracas_leaf *leaf,
                              const fracas_node *node, range *made)
 {
@@ -72,18 +82,17 @@ static fracas_err read_range(const fracas_file *file, const fracas_leaf *leaf,
                                  "`%s` is not a number, so it has no range; expected a list, [...]",
                                  leaf->path);
     made->whole = leaf->param->type == FRACAS_INTEGER;
-    TRY(fracas_file_check_keys(file, node, keys, "a range"));
-    TRY(read_end(file, leaf, node, "from", &made->from));
-    TRY(read_end(file, leaf, node, "to", &made->to));
-    if (made->from == made->to)
+    bool unknown;
+    TRY(fracas_file_check_keys(file, node, keys, "a range", &unknown));
+    const size_t before = fracas_file_noted(file);
+    TRY(fracas_file_note(file, read_end(file, leaf, node, unknown, "from", &made->from)));
+    TRY(fracas_file_note(file, read_end(file, leaf, node, unknown, "to", &made->to)));
+    const bool ends = fracas_file_noted(file) == before;
+    if (ends && made->from == made->to)
         return fracas_file_error(
             file, node, "a range whose `from` and `to` are equal; write the one value in a list");
-    const fracas_node *points;
-    int64_t count;
-    TRY(need(file, node, "points", &points));
-    TRY(fracas_setting_integer(file, "points", points, 2, FRACAS_MAX_POINTS, &count));
-    made->points = (size_t)count;
-    return read_spacing(file, node, made);
+    TRY(fracas_file_note(file, read_points(file, node, unknown, made)));
+    return read_spacing(file, node, ends, made);
 }
 
 /* Value i of 0 .. n-1 with p = i/(n-1): from (1-p) + to p, or from^(1-p) to^p, rounded to 15
@@ -136,7 +145,9 @@ static fracas_err add_range(const fracas_file *file, const fracas_target *set,
                                  "`%s` is a section; expected a list of sections, [{...}, {...}]",
                                  values->key->text);
     range made;
+    const size_t before = fracas_file_noted(file);
     TRY(read_range(file, set->leaf, values, &made));
+    if (fracas_file_noted(file) > before) return FRACAS_OK; /* no value is known */
     TRY(match_choices(file, values, made.points, axis));
     for (size_t i = 0; i < made.points; i++) {
         fracas_choice *choice = &axis->choice[i];
@@ -163,7 +174,7 @@ static fracas_err add_path(const fracas_file *file, const fracas_node *values, f
 {
     fracas_target set;
     static const char *const axes[] = {"zip", "cases", "design", NULL};
-    TRY(fracas_target_find(file, values->key, axes, &set));
+    TRY(fracas_target_find(file, values, axes, &set));
     if (values->type == FRACAS_LIST) return add_list(file, &set, values, axis);
     if (values->type == FRACAS_MAP) return add_range(file, &set, values, axis);
     return fracas_file_expected(
@@ -177,30 +188,33 @@ static fracas_err read_zip(const fracas_file *file, const fracas_node *zip, frac
         return fracas_file_expected(file, zip, "zip",
                                     "paths with their values, below it and indented");
     for (const fracas_node *values = zip->first; values; values = values->next)
-        TRY(add_path(file, values, axis));
+        TRY(fracas_file_note(file, add_path(file, values, axis)));
     return FRACAS_OK;
+}
+
+static fracas_err read_case_entry(const fracas_file *file, const fracas_node *entry,
+                                  fracas_choice *choice)
+{
+    static const char *const own[] = {"name", "replicas", NULL};
+    fracas_target set;
+    if (strcmp(entry->key->text, "name") == 0)
+        return fracas_setting_name(file, entry, &choice->name);
+    if (strcmp(entry->key->text, "replicas") == 0)
+        return fracas_replicas_read(file, entry, &choice->replicas);
+    TRY(fracas_target_find(file, entry, own, &set));
+    return add_target(file, &set, entry, &choice->settings);
 }
 
 static fracas_err read_case(const fracas_file *file, const fracas_node *node, fracas_choice *choice)
 {
-    static const char *const own[] = {"name", "replicas", NULL};
     char found[256];
     *choice = (fracas_choice){.node = node};
     if (node->type != FRACAS_MAP || node->count == 0)
         return fracas_file_error(file, node,
                                  "a case: found %s; expected `name:`, `replicas:` or sections",
                                  fracas_node_found(node, found));
-    for (const fracas_node *entry = node->first; entry; entry = entry->next) {
-        fracas_target set;
-        if (strcmp(entry->key->text, "name") == 0) {
-            TRY(fracas_setting_name(file, entry, &choice->name));
-        } else if (strcmp(entry->key->text, "replicas") == 0) {
-            TRY(fracas_replicas_read(file, entry, &choice->replicas));
-        } else {
-            TRY(fracas_target_find(file, entry->key, own, &set));
-            TRY(add_target(file, &set, entry, &choice->settings));
-        }
-    }
+    for (const fracas_node *entry = node->first; entry; entry = entry->next)
+        TRY(fracas_file_note(file, read_case_entry(file, entry, choice)));
     return FRACAS_OK;
 }
 
@@ -211,7 +225,7 @@ static fracas_err read_cases(const fracas_file *file, const fracas_node *cases, 
     TRY(make_choices(file, cases, cases->count, axis));
     fracas_choice *choice = axis->choice;
     for (const fracas_node *node = cases->first; node; node = node->next)
-        TRY(read_case(file, node, choice++));
+        TRY(fracas_file_note(file, read_case(file, node, choice++)));
     return FRACAS_OK;
 }
 
@@ -237,6 +251,38 @@ static fracas_err read_axis(const fracas_file *file, const fracas_node *node, fr
     return add_path(file, node->first, axis);
 }
 
+/* ---- axes with errors ---- */
+
+/* Wrong settings for what `entry` names, in all choices of the axis without it. */
+static fracas_err doubt_entry(const fracas_file *file, const fracas_node *entry, fracas_axis *axis)
+{
+    const fracas_leaf *leaf = fracas_catalog_leaf(file->catalog, entry->key->text);
+    const fracas_file_section *section = fracas_catalog_section(file->catalog, entry->key->text);
+    for (size_t c = 0; (leaf || section) && c < axis->nchoices; c++)
+        TRY(fracas_settings_doubt(file, section, leaf, entry, &axis->choice[c].settings));
+    return FRACAS_OK;
+}
+
+/* Makes the axis `node`, read with errors, one whose values are unknown where they are not read. */
+static fracas_err doubt_axis(const fracas_file *file, const fracas_node *node, fracas_axis *axis)
+{
+    if (axis->nchoices == 0) TRY(make_choices(file, node, 1, axis));
+    if (!axis->choice[0].node) axis->choice[0].node = node;
+    if (node->type != FRACAS_MAP) fracas_file_doubt_section(file, NULL, true);
+    for (const fracas_node *entry = node->type == FRACAS_MAP ? node->first : NULL; entry;
+         entry = entry->next) {
+        const fracas_node *parameters = fracas_node_find(entry, "parameters");
+        const fracas_node *inside = strcmp(entry->key->text, "design") == 0 ? parameters : entry;
+        TRY(doubt_entry(file, entry, axis));
+        if (strcmp(entry->key->text, "cases") == 0 && entry->type != FRACAS_LIST)
+            fracas_file_doubt_section(file, NULL, true);
+        for (inside = inside && inside->type == FRACAS_MAP ? inside->first : NULL; inside;
+             inside = inside->next)
+            TRY(doubt_entry(file, inside, axis));
+    }
+    return FRACAS_OK;
+}
+
 /* ---- the sweep ---- */
 
 /* Each leaf has one axis: the order of the axes does not matter. */
@@ -248,31 +294,45 @@ static fracas_err check_axes_apart(const fracas_file *file, const fracas_sweep *
             for (const fracas_setting *s = sweep->axis[a].choice[c].settings; s; s = s->next) {
                 size_t leaf = (size_t)(s->leaf - file->catalog->leaf);
                 if (owner[leaf] && owner_axis[leaf] != a)
-                    return fracas_file_error(
-                        file, s->node, "`%s` is swept by two axes, here and at line %d; keep one",
-                        s->leaf->path, owner[leaf]->node->line);
+                    TRY(fracas_file_note(
+                        file, fracas_file_error(
+                                  file, s->node,
+                                  "`%s` is swept by two axes, here and at line %d; keep one",
+                                  s->leaf->path, owner[leaf]->node->line)));
                 owner[leaf] = s;
                 owner_axis[leaf] = a;
             }
     return FRACAS_OK;
 }
 
-fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node, fracas_sweep *sweep)
+static fracas_err check_list(const fracas_file *file, const fracas_node *node)
 {
-    *sweep = (fracas_sweep){.npoints = 1};
-    if (!node) return FRACAS_OK;
     if (node->type != FRACAS_LIST)
         return fracas_file_expected(
             file, node, "sweep",
             "a list of axes, each after `- `, as `- loading.rate: [1e3 1/s, 1e4 1/s]`");
-    if (node->count == 0)
-        return fracas_file_error(file, node,
-                                 "`sweep`: found no axis; give at least one, or remove `sweep`");
+    if (node->count > 0) return FRACAS_OK;
+    return fracas_file_error(file, node,
+                             "`sweep`: found no axis; give at least one, or remove `sweep`");
+}
+
+fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node, fracas_sweep *sweep)
+{
+    *sweep = (fracas_sweep){.npoints = 1};
+    if (!node) return FRACAS_OK;
+    const size_t noted = fracas_file_noted(file);
+    TRY(fracas_file_note(file, check_list(file, node)));
+    if (fracas_file_noted(file) > noted) {
+        fracas_file_doubt_section(file, NULL, true);
+        return FRACAS_OK;
+    }
     sweep->axis = fracas_memory_take(file->memory, node->count, sizeof *sweep->axis);
     if (!sweep->axis) return fracas_no_memory("the sweep");
     for (const fracas_node *axis = node->first; axis; axis = axis->next) {
         fracas_axis *read = &sweep->axis[sweep->naxes++];
-        TRY(read_axis(file, axis, read));
+        const size_t before = fracas_file_noted(file);
+        TRY(fracas_file_note(file, read_axis(file, axis, read)));
+        if (fracas_file_noted(file) > before) TRY(doubt_axis(file, axis, read));
         sweep->npoints *= read->nchoices;
         if (sweep->npoints > FRACAS_MAX_POINTS)
             return fracas_file_error(
@@ -311,10 +371,20 @@ static const fracas_file_section *section_before_dot(const fracas_catalog *catal
     return NULL;
 }
 
-static fracas_err unknown_path(const fracas_file *file, const fracas_node *key,
+/* Doubts all that an unknown path may mean: the nearest, or any of its section, or any at all. */
+static void doubt_path(const fracas_file *file, const fracas_file_section *inside,
+                       const char *nearest)
+{
+    const fracas_leaf *leaf = nearest ? fracas_catalog_leaf(file->catalog, nearest) : NULL;
+    if (leaf) fracas_file_doubt(file, leaf);
+    else fracas_file_doubt_section(file, inside, false);
+}
+
+static fracas_err unknown_path(const fracas_file *file, const fracas_node *entry,
                                const char *const *also)
 {
     const fracas_catalog *catalog = file->catalog;
+    const fracas_node *key = entry->key;
     const fracas_file_section *inside = section_before_dot(catalog, key->text);
     fracas_words words;
     fracas_words_init(&words, key->text);
@@ -322,6 +392,7 @@ static fracas_err unknown_path(const fracas_file *file, const fracas_node *key,
         if (catalog->leaf[i].section->table->hashed &&
             (!inside || catalog->leaf[i].section == inside))
             fracas_words_add(&words, catalog->leaf[i].path);
+    doubt_path(file, inside, words.nearest);
     if (!inside) { /* all paths were compared; list the sections */
         words.used = 0;
         for (; *also; also++) fracas_words_add(&words, *also);
@@ -334,9 +405,10 @@ static fracas_err unknown_path(const fracas_file *file, const fracas_node *key,
                                     : fracas_words_hint(&words, "known are section.key, and"));
 }
 
-fracas_err fracas_target_find(const fracas_file *file, const fracas_node *key,
+fracas_err fracas_target_find(const fracas_file *file, const fracas_node *entry,
                               const char *const *also, fracas_target *found)
 {
+    const fracas_node *key = entry->key;
     *found = (fracas_target){.leaf = fracas_catalog_leaf(file->catalog, key->text)};
     if (!found->leaf) found->section = fracas_catalog_section(file->catalog, key->text);
     if (strcmp(key->text, "replicas") == 0)
@@ -347,7 +419,7 @@ fracas_err fracas_target_find(const fracas_file *file, const fracas_node *key,
         return fracas_file_error(file, key,
                                  "`%s` cannot be swept; a campaign has one, at the top of the file",
                                  key->text);
-    if (!found->leaf && !found->section) return unknown_path(file, key, also);
+    if (!found->leaf && !found->section) return unknown_path(file, entry, also);
     const fracas_section *table = (found->leaf ? found->leaf->section : found->section)->table;
     if (table->hashed) return FRACAS_OK;
     return fracas_file_error(file, key, "`%s` cannot be swept; it is one for the whole campaign",

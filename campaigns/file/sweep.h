@@ -28,7 +28,8 @@ typedef struct {
     size_t npoints;    /* product of the numbers of choices, 1 without axes */
 } fracas_sweep;
 
-/* Reads the list `node` (NULL: no sweep) and converts every value. No leaf may be in two axes. */
+/* Reads the list `node` (NULL: no sweep) and converts every value. No leaf may be in two axes.
+ * Errors are noted; a wrong axis has wrong settings for all that it names. */
 FRACAS_MUST_USE fracas_err fracas_sweep_read(const fracas_file *file, const fracas_node *node,
                                              fracas_sweep *sweep);
 
@@ -41,9 +42,9 @@ typedef struct {
     const fracas_leaf *leaf;            /* ... or one leaf */
 } fracas_target;
 
-/* Finds the target of the path in `key`, a part of a point. `also`: other words allowed in its
- * place, a list up to NULL. */
-FRACAS_MUST_USE fracas_err fracas_target_find(const fracas_file *file, const fracas_node *key,
+/* Finds the target of the path that is the key of `entry`, a part of a point. `also`: other words
+ * allowed in its place, a list up to NULL. */
+FRACAS_MUST_USE fracas_err fracas_target_find(const fracas_file *file, const fracas_node *entry,
                                               const char *const *also, fracas_target *found);
 
 #endif

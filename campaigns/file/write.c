@@ -4,6 +4,7 @@
 
 #include "campaigns/file/catalog.h"
 #include "campaigns/file/replicas.h"
+#include "campaigns/file/report_keys.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -179,6 +180,7 @@ static void write_file(const fracas_catalog *catalog, const bool *base,
     for (size_t s = 0; s < catalog->nsections; s++)
         if (!catalog->section[s].table->hashed && !catalog->section[s].table->run)
             write_section(catalog, base, &catalog->section[s], campaign, out);
+    fracas_report_keys_write(&campaign->report, out);
 }
 
 fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out)

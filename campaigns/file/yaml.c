@@ -20,6 +20,7 @@ typedef struct {
     const unsigned char *bytes;
     size_t size;
     fracas_campaign_memory *memory;
+    fracas_faults *faults;
     size_t nodes;
     yaml_parser_t parser;
 } reading;
@@ -32,6 +33,7 @@ static FRACAS_PRINTF(3, 4) fracas_err
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    fracas_faults_place(reader->faults, (int)mark.line + 1, (int)mark.column + 1, false);
     return fracas_fail(FRACAS_USAGE, "%s:%zu:%zu: %s", reader->name, mark.line + 1, mark.column + 1,
                        text);
 }
@@ -52,11 +54,7 @@ static fracas_err load_open(const char *name, FILE *in, unsigned char **bytes, s
                                strerror(errno));
         if (*size < room) break;
     }
-    if (*size <= MAX_BYTES) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE,
-                       "%s:1:1: the file is larger than %d MiB; write long lists of values as "
-                       "ranges, {from: ..., to: ..., points: ...}",
-                       name, MAX_BYTES >> 20);
+    return FRACAS_OK;
 }
 
 static fracas_err load(const char *name, unsigned char **bytes, size_t *size)
@@ -148,10 +146,11 @@ static fracas_err make_node(reading *reader, yaml_mark_t mark, fracas_node_type 
     return FRACAS_OK;
 }
 
-static fracas_err read_scalar(reading *reader, const yaml_event_t *event, fracas_node **node)
+/* Refuses a scalar that is too long, or not on one line. */
+static fracas_err check_text(const reading *reader, const yaml_event_t *event)
 {
     const unsigned char *text = event->data.scalar.value;
-    size_t length = event->data.scalar.length;
+    const size_t length = event->data.scalar.length;
     if (length > MAX_TEXT)
         return fail_at(reader, event->start_mark, "a text of %zu bytes; at most %d are allowed",
                        length, MAX_TEXT);
@@ -159,10 +158,16 @@ static fracas_err read_scalar(reading *reader, const yaml_event_t *event, fracas
         if (text[i] < 0x20 || text[i] == 0x7f)
             return fail_at(reader, event->start_mark,
                            "a text with a line break or control character; write it on one line");
+    return FRACAS_OK;
+}
+
+static fracas_err read_scalar(reading *reader, const yaml_event_t *event, fracas_node **node)
+{
+    const size_t length = event->data.scalar.length;
     TRY(make_node(reader, event->start_mark, FRACAS_SCALAR, node));
     char *copy = fracas_memory_take(reader->memory, length + 1, 1);
     if (!copy) return fracas_no_memory("the campaign file");
-    memcpy(copy, text, length);
+    memcpy(copy, event->data.scalar.value, length);
     (*node)->text = copy;
     return FRACAS_OK;
 }
@@ -197,41 +202,46 @@ static fracas_err check_plain(const reading *reader, const yaml_event_t *event)
 }
 
 static fracas_err read_value(reading *reader, const yaml_event_t *event, int depth,
-                             fracas_node **node);
+                             fracas_node *earlier, fracas_node **node);
 
+/* `earlier`: the entry of the map that has the key already; NULL: none. */
 static fracas_err read_key(reading *reader, const yaml_event_t *event, const fracas_node *map,
-                           fracas_node **key)
+                           fracas_node **key, fracas_node **earlier)
 {
-    TRY(check_plain(reader, event));
+    TRY(fracas_faults_note(reader->faults, check_plain(reader, event)));
     if (event->type != YAML_SCALAR_EVENT)
         return fail_at(reader, event->start_mark,
                        "a list or map where a key is expected; write `key: value`");
+    TRY(check_text(reader, event));
     TRY(read_scalar(reader, event, key));
     if (map->count == MAX_KEYS)
         return fail_at(reader, event->start_mark, "more than %d keys in one place", MAX_KEYS);
-    const fracas_node *earlier = fracas_node_find(map, (*key)->text);
-    if (earlier)
-        return fail_at(reader, event->start_mark,
-                       "key `%s` is given twice; it is already at line %d, keep one of the two",
-                       (*key)->text, earlier->key->line);
-    return FRACAS_OK;
+    *earlier = fracas_node_find(map, (*key)->text);
+    if (!*earlier) return FRACAS_OK;
+    return fracas_faults_note(
+        reader->faults,
+        fail_at(reader, event->start_mark,
+                "key `%s` is given twice; it is already at line %d, keep one of the two",
+                (*key)->text, (*earlier)->key->line));
 }
 
-/* Takes the entries of a list or map up to its end. */
+/* Takes the entries of a list or map up to its end, behind those that it has. */
 static fracas_err read_entries(reading *reader, int depth, fracas_node *parent)
 {
     fracas_node **end = &parent->first;
+    while (*end) end = &(*end)->next;
     for (;;) {
         OWN_EVENT event = {0};
         OWN_EVENT after = {0};
         TRY(next_event(reader, &event));
         if (event.type == YAML_SEQUENCE_END_EVENT || event.type == YAML_MAPPING_END_EVENT)
             return FRACAS_OK;
-        fracas_node *key = NULL, *value = NULL;
+        fracas_node *key = NULL, *value = NULL, *earlier = NULL;
         const bool map = parent->type == FRACAS_MAP;
-        if (map) TRY(read_key(reader, &event, parent, &key));
+        if (map) TRY(read_key(reader, &event, parent, &key, &earlier));
         if (map) TRY(next_event(reader, &after));
-        TRY(read_value(reader, map ? &after : &event, depth, &value));
+        TRY(read_value(reader, map ? &after : &event, depth, earlier, &value));
+        if (earlier) continue;
         value->key = key;
         *end = value;
         end = &value->next;
@@ -239,17 +249,33 @@ static fracas_err read_entries(reading *reader, int depth, fracas_node *parent)
     }
 }
 
+/* The value of a key or an entry of a list. A map goes into `earlier`, if that is one. */
 static fracas_err read_value(reading *reader, const yaml_event_t *event, int depth,
-                             fracas_node **node)
+                             fracas_node *earlier, fracas_node **node)
 {
-    TRY(check_plain(reader, event));
-    if (event->type == YAML_SCALAR_EVENT) return read_scalar(reader, event, node);
-    if (depth == MAX_DEPTH)
+    const size_t before = fracas_faults_noted(reader->faults);
+    const bool scalar = event->type == YAML_SCALAR_EVENT,
+               map = event->type == YAML_MAPPING_START_EVENT;
+    TRY(fracas_faults_note(reader->faults, check_plain(reader, event)));
+    const bool told = fracas_faults_noted(reader->faults) > before;
+    if (scalar) TRY(fracas_faults_note(reader->faults, check_text(reader, event)));
+    if (event->type == YAML_ALIAS_EVENT ||
+        (scalar && fracas_faults_noted(reader->faults) > before + told)) {
+        TRY(make_node(reader, event->start_mark, FRACAS_UNREADABLE, node));
+    } else if (scalar) {
+        TRY(read_scalar(reader, event, node));
+    } else if (depth == MAX_DEPTH) {
         return fail_at(reader, event->start_mark,
                        "nested deeper than %d levels; a campaign file needs four", MAX_DEPTH);
-    TRY(make_node(reader, event->start_mark,
-                  event->type == YAML_MAPPING_START_EVENT ? FRACAS_MAP : FRACAS_LIST, node));
-    return read_entries(reader, depth + 1, *node);
+    } else if (map && earlier && earlier->type == FRACAS_MAP) {
+        *node = earlier;
+        return read_entries(reader, depth + 1, earlier);
+    } else {
+        TRY(make_node(reader, event->start_mark, map ? FRACAS_MAP : FRACAS_LIST, node));
+        TRY(read_entries(reader, depth + 1, *node));
+    }
+    (*node)->told = told || (*node)->type == FRACAS_UNREADABLE;
+    return FRACAS_OK;
 }
 
 /* ---- the document ---- */
@@ -270,26 +296,42 @@ static fracas_err read_document(reading *reader, fracas_node **root)
     TRY(skip_event(reader, YAML_DOCUMENT_START_EVENT, empty));
     OWN_EVENT event = {0};
     TRY(next_event(reader, &event));
-    TRY(read_value(reader, &event, 0, root));
+    TRY(read_value(reader, &event, 0, NULL, root));
     TRY(skip_event(reader, YAML_DOCUMENT_END_EVENT, "more after the end"));
     TRY(skip_event(reader, YAML_STREAM_END_EVENT,
                    "a second document; a campaign file is one document, remove `---`"));
-    if ((*root)->type != FRACAS_MAP)
-        return fracas_fail(
-            FRACAS_USAGE,
-            "%s:%d:%d: found %s; a campaign file is made of lines `key: value` and of sections",
-            reader->name, (*root)->line, (*root)->column,
-            (*root)->type == FRACAS_LIST ? "a list" : "a single value");
-    return FRACAS_OK;
+    if ((*root)->type == FRACAS_MAP) return FRACAS_OK;
+    fracas_faults_place(reader->faults, (*root)->line, (*root)->column, (*root)->told);
+    return fracas_fail(
+        FRACAS_USAGE,
+        "%s:%d:%d: found %s; a campaign file is made of lines `key: value` and of sections",
+        reader->name, (*root)->line, (*root)->column,
+        (*root)->type == FRACAS_LIST ? "a list" : "a single value");
 }
 
-fracas_err fracas_node_read(const char *name, fracas_campaign_memory *memory, fracas_node **root)
+fracas_err fracas_node_read(const char *name, fracas_campaign_memory *memory, fracas_faults *faults,
+                            fracas_node **root)
 {
-    static const unsigned char mark[] = {0xEF, 0xBB, 0xBF};
     OWNED unsigned char *bytes = NULL;
     size_t size = 0;
     TRY(load(name, &bytes, &size));
-    reading reader = {.name = name, .bytes = bytes, .size = size, .memory = memory};
+    return fracas_node_parse(name, bytes, size, memory, faults, root);
+}
+
+fracas_err fracas_node_parse(const char *name, const void *text, size_t size,
+                             fracas_campaign_memory *memory, fracas_faults *faults,
+                             fracas_node **root)
+{
+    static const unsigned char mark[] = {0xEF, 0xBB, 0xBF};
+    const unsigned char *bytes = text;
+    fracas_faults_place(faults, 1, 1, false);
+    if (size > MAX_BYTES)
+        return fracas_fail(FRACAS_USAGE,
+                           "%s:1:1: the file is larger than %d MiB; write long lists of values as "
+                           "ranges, {from: ..., to: ..., points: ...}",
+                           name, MAX_BYTES >> 20);
+    reading reader = {
+        .name = name, .bytes = bytes, .size = size, .memory = memory, .faults = faults};
     if (!yaml_parser_initialize(&reader.parser)) return fracas_no_memory("the campaign file");
     yaml_parser_set_encoding(&reader.parser, YAML_UTF8_ENCODING);
     /* Editors on Windows write a byte-order mark. libyaml does not skip it in a given encoding. */

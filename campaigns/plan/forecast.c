@@ -3,6 +3,7 @@
 
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
+#include "campaigns/plan/size.h"
 #include "engine/cohesive/law.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
@@ -194,16 +195,33 @@ static double available_opening(const fracas_spec *spec, const fracas_forecast *
     return strain * fmin(sqrt(E / spec->material.density) * t, size);
 }
 
+/* Size of fragments at a strength [m], (24 G_c/(rho rate^2))^(1/3): D. E. Grady, J. Appl. Phys. 53,
+ * 322 (1982). */
+static double grady_size(const fracas_spec *spec, double strength)
+{
+    const double rate = fracas_spec_strain_rate(spec);
+    return cbrt(24 * fracas_spec_fracture_energy(spec, strength) /
+                (spec->material.density * rate * rate));
+}
+
+/* k = (t - t_onset) c/L at time.end  (settled.1), t_onset = strength/(E rate). */
+static double transits_of(const fracas_spec *spec, double strength)
+{
+    const fracas_material *material = &spec->material;
+    const double onset = strength / (material->young * fabs(fracas_spec_strain_rate(spec)));
+    return (spec->time.end - onset) * sqrt(material->young / material->density) /
+           grady_size(spec, strength);
+}
+
 /* Opening and fragments where the factor of the strengths is least; `mean`: strength without it
  * [Pa]. */
 static void describe_weakest(const fracas_spec *spec, double mean, double least,
                              fracas_forecast *forecast)
 {
-    const double weak = least * mean, energy = fracas_spec_fracture_energy(spec, weak),
-                 rate = fracas_spec_strain_rate(spec);
-    forecast->opening = 2 * energy / weak;
+    const double weak = least * mean;
+    forecast->opening = 2 * fracas_spec_fracture_energy(spec, weak) / weak;
     forecast->available = available_opening(spec, forecast);
-    forecast->pieces = cbrt(24 * energy / (spec->material.density * rate * rate));
+    forecast->pieces = grady_size(spec, weak);
 }
 
 /* The part of the count that depends on the elements by the strengths. On surfaces it depends on
@@ -217,6 +235,16 @@ static double mesh_effect_of(const fracas_point *point, const fracas_model *mode
         return 0;
     return FRACAS_MESH_EFFECT * fracas_strength_deviation(strength, extent) /
            fracas_strength_mean(strength, extent);
+}
+
+static void describe_file(const fracas_surface *surface, fracas_forecast *forecast)
+{
+    fracas_surface_box(surface, forecast->box);
+    for (size_t b = 0; b < surface->nborders; b++) {
+        const int32_t tag = surface->border[b].tag;
+        if (tag >= FRACAS_EDGES && (!forecast->loose || tag < forecast->loose))
+            forecast->loose = tag;
+    }
 }
 
 static fracas_err describe(const fracas_point *point, const fracas_model *model, bool estimated,
@@ -240,6 +268,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->coarseness = forecast->element / softening;
     if (point->strength.covariance || point->strength.factor)
         TRY(extent_of_body(model, &forecast->extent));
+    if (fracas_shape_of(spec)->from_file) describe_file(fracas_model_surface(model), forecast);
     forecast->flat = point->strength.factor && factor.least == factor.most;
     forecast->uniform = factor.least == factor.most && strength_at(point, extent.mean, 0.25) ==
                                                            strength_at(point, extent.mean, 0.75);
@@ -256,6 +285,12 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
                            : NAN;
     forecast->step_stress = spec->material.young * fabs(fracas_spec_strain_rate(spec)) *
                             forecast->time_step;
+    forecast->scatter = fracas_strength_deviation(&point->strength, extent.mean) /
+                        fracas_strength_mean(&point->strength, extent.mean);
+    if (!isfinite(forecast->scatter)) forecast->scatter = 0;
+    forecast->transits = transits_of(spec, mean);
+    forecast->parts_most = fracas_model_parts_most(model);
+    forecast->long_safety = fracas_model_long_safety(model);
     if (fracas_shape_of(spec)->round) describe_ring(spec, forecast);
     forecast->volume = extent.mean.volume;
     forecast->mesh_effect = mesh_effect_of(point, model, extent.mean);
@@ -283,6 +318,7 @@ static fracas_err forecast_with(const fracas_campaign *campaign, size_t index, b
     }
     TRY(fracas_point_model_like(campaign, index, &point.spec, model));
     TRY(describe(&point, *model, coarser > 1, forecast));
+    forecast->parts = campaign->parallel.parts;
     if (coarser == 1) return FRACAS_OK;
     forecast->elements = llround((double)forecast->elements * coarser * coarser);
     forecast->interfaces = llround((double)forecast->interfaces * coarser * coarser);
@@ -302,20 +338,7 @@ fracas_err fracas_forecast_make(const fracas_campaign *campaign, size_t point,
     return err ? fracas_fail_within(err, "point %zu", point) : FRACAS_OK;
 }
 
-/* ---- size ---- */
-
-/* Bytes of a realization in study.h5, by widths of a record; a history adds start and 3 events. */
-static double realization_bytes(const fracas_output *output, const fracas_forecast *forecast)
-{
-    const double fragments = fmax(1.0,
-                                  (double)forecast->elements / FRACAS_PLAN_ELEMENTS_PER_FRAGMENT);
-    const double scalars = offsetof(fracas_record, nfragment);
-    const double history = ((double)output->history + 4.0) * sizeof(fracas_history_row);
-    const double interfaces = output->interfaces
-                                  ? (double)forecast->interfaces * sizeof(fracas_interface_row)
-                                  : 0.0;
-    return scalars + fragments * sizeof(fracas_fragment) + history + interfaces;
-}
+/* ---- cost ---- */
 
 fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, double *cost,
                             double *bytes)
@@ -333,21 +356,22 @@ fracas_err fracas_plan_cost_with(const fracas_campaign *campaign, size_t point,
     const fracas_err err = describe(&campaign->point[point], model, false, &forecast);
     if (err) return fracas_fail_within(err, "point %zu", point);
     *cost = (double)forecast.elements * (double)forecast.steps;
-    if (bytes) *bytes = realization_bytes(&campaign->output, &forecast);
+    fracas_rows_expect(campaign, &campaign->point[point].spec, &forecast);
+    if (bytes) *bytes = fracas_realization_bytes(campaign, &forecast);
     return FRACAS_OK;
 }
 
 /* ---- speed ---- */
 
-/* Processor time [s], as on a free core. */
-static double seconds(void)
+/* Processor time of this process [s], as on a free core. */
+static double processor_time(void)
 {
     struct timespec now;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static size_t lanes_of(const fracas_point *point)
+size_t fracas_forecast_lanes(const fracas_point *point)
 {
     return point->replicas < FRACAS_LANES_MAX ? (size_t)point->replicas : FRACAS_LANES_MAX;
 }
@@ -358,7 +382,7 @@ static double memory_of(const fracas_campaign *campaign, const fracas_point *poi
 {
     const double kept = campaign->output.interfaces ? 2 * sizeof(double) : 0;
     return fracas_model_bytes(model) +
-           fracas_batch_width(lanes_of(point)) *
+           fracas_batch_width(fracas_forecast_lanes(point)) *
                (fracas_model_lane_bytes(model) + kept * (double)fracas_model_interfaces(model)) +
            2 * sizeof(size_t) * (double)fracas_model_elements(model);
 }
@@ -390,13 +414,13 @@ static fracas_err time_batch(const fracas_model *model, double strength, size_t 
     fracas_err err = fracas_batch_begin(batch);
     int64_t block = 1;
     for (int i = 0; !err && running > 0 && (i <= FIRST || sum->seconds < 0.05); i++) {
-        const double start = seconds();
+        const double start = processor_time();
         if (i == FIRST) *sum = before;
         for (int64_t step = 0; step < block && !err && running > 0; step++) {
             err = fracas_batch_step(batch, record, &running);
             sum->element_steps += (double)fracas_model_elements(model) * (double)lanes;
         }
-        const double spent = seconds() - start;
+        const double spent = processor_time() - start;
         sum->seconds += spent;
         if (spent < 1e-4) block *= 2;
     }
@@ -426,7 +450,7 @@ static fracas_err time_point(const fracas_campaign *campaign, size_t index,
                                 : fracas_strength_mean(&point->strength, extents_of(model).mean);
     effort sum = {0};
     for (int i = 0; i < 50 && sum.seconds < 0.01; i++)
-        TRY(time_batch(model, strength, lanes_of(point), &sum));
+        TRY(time_batch(model, strength, fracas_forecast_lanes(point), &sum));
     forecast->speed = sum.element_steps / fmax(sum.seconds, 1e-9);
     return FRACAS_OK;
 }
@@ -449,7 +473,8 @@ static double speed_of_similar(const fracas_campaign *campaign, const fracas_for
 {
     for (size_t p = point; p-- > 0;)
         if (is_similar(&campaign->point[p].spec, &campaign->point[point].spec) &&
-            lanes_of(&campaign->point[p]) == lanes_of(&campaign->point[point]) &&
+            fracas_forecast_lanes(&campaign->point[p]) ==
+                fracas_forecast_lanes(&campaign->point[point]) &&
             forecast[p].elements <= 2 * forecast[point].elements &&
             forecast[point].elements <= 2 * forecast[p].elements)
             return forecast[p].speed;
@@ -460,7 +485,7 @@ static double speed_of_similar(const fracas_campaign *campaign, const fracas_for
 
 /* Forecast p with its speed, given the forecasts before it. */
 static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p, bool quick,
-                                 fracas_forecast *forecast)
+                                 double *budget, fracas_forecast *forecast)
 {
     OWN(fracas_model) model = NULL;
     TRY(forecast_with(campaign, p, quick, &forecast[p], &model));
@@ -468,7 +493,9 @@ static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p, bool
     if (forecast[p].estimated)
         forecast[p].memory *= (double)forecast[p].elements / (double)fracas_model_elements(model);
     forecast[p].speed = speed_of_similar(campaign, forecast, p);
-    return forecast[p].speed > 0 ? FRACAS_OK : time_point(campaign, p, model, &forecast[p]);
+    if (!(forecast[p].speed > 0)) TRY(time_point(campaign, p, model, &forecast[p]));
+    fracas_rows_expect(campaign, &campaign->point[p].spec, &forecast[p]);
+    return fracas_rows_try(campaign, p, model, budget, forecast);
 }
 
 /* Says which point comes next, where that may take long, or after each second of patience. */
@@ -477,26 +504,26 @@ static void say_next(const fracas_campaign *campaign, size_t p, bool quick, doub
     enum { LARGE = 150 /* divisions: a second or two */ };
     static const double patience = 2; /* s of this process */
     const bool large = !quick && campaign->point[p].spec.mesh.divisions > LARGE;
-    if (!large && seconds() - *said < patience) return;
+    if (!large && processor_time() - *said < patience) return;
     fprintf(stderr, "fracas: point %zu of %zu is looked at%s\n", p, campaign->npoints,
             large ? "; the critical step of its mesh takes long (`fracas plan --quick` estimates)"
                   : "");
-    *said = seconds();
+    *said = processor_time();
 }
 
 fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, bool quick,
                                fracas_forecast *forecast)
 {
-    double said = seconds();
+    double said = processor_time(), budget = FRACAS_ROWS_BUDGET;
     for (size_t p = 0; p < campaign->npoints; p++) {
         const fracas_point *point = &campaign->point[p];
         say_next(campaign, p, quick, &said);
-        fracas_err err = forecast_timed(campaign, p, quick, forecast);
+        fracas_err err = forecast_timed(campaign, p, quick, &budget, forecast);
         if (err) return fracas_fail_within(err, "point %zu", p);
         const double work = (double)forecast[p].elements * (double)forecast[p].steps *
                             (double)fracas_point_most(point);
         forecast[p].time = work / (forecast[p].speed * jobs);
-        forecast[p].bytes = realization_bytes(&campaign->output, &forecast[p]) *
+        forecast[p].bytes = fracas_realization_bytes(campaign, &forecast[p]) *
                             (double)fracas_point_most(point);
     }
     return FRACAS_OK;

@@ -10,7 +10,7 @@ typedef struct {
     double time_step;   /* s */
     double speed;       /* element-steps per second of one core; 0 until it is timed */
     double time;        /* for all replicas (with a rule, the maximum) on all jobs [s] */
-    double bytes;       /* in study.h5 */
+    double bytes;       /* all replicas have in study.h5 */
     double memory;      /* a process takes for it, without libraries [bytes] */
     double coarseness;  /* element size over E G_c/sigma_c^2, a crack's softening length */
     bool uniform;       /* at least half of the interfaces have the same strength */
@@ -18,6 +18,10 @@ typedef struct {
     bool lines;         /* uniform, on a regular mesh: cracks will follow its lines */
     double spread;      /* 1 % to 99 % range of strengths [Pa], for laws without flux; else NaN */
     double step_stress; /* E |rate| dt [Pa]; NaN without a strain rate */
+    int64_t parts;      /* parallel.parts */
+    size_t parts_most;  /* into which the body can be divided */
+    double transits;    /* k at time.end, of fragments of Grady's size; NaN as step_stress */
+    double long_safety; /* largest time.safety for long runs */
     double turn;        /* pi/2 R/c, from a ring's greatest speed to its turning point [s] */
     bool folds;         /* a whole ring moves inward before time.end */
     double turned;      /* turn of a ring with initial opening directions until time.end [rad] */
@@ -25,6 +29,8 @@ typedef struct {
     bool repeated;      /* several replicas with strengths from a file: all are equal */
     double mean;        /* strength of an interface [Pa] */
     double element;     /* mean element size [m] */
+    double box[3];      /* sides of a body from a mesh file [m]; 0: of another */
+    int32_t loose;      /* the least physical group of edges without a key; 0: none */
     double extent; /* diagonal of the box around all interfaces [m], for correlated strengths */
     bool flat;     /* a factor of the strengths is the same at all interfaces */
     double volume; /* a mean interface has [m3] */
@@ -33,8 +39,12 @@ typedef struct {
     double opening;     /* critical opening there, at the mean strength [m]; 0 without a factor */
     double available;   /* opening that the load can give an interface until time.end [m] */
     double pieces;      /* size of fragments there, by Grady's law [m]; as `opening`, or NaN */
-    bool estimated;     /* from a coarser mesh, without a check of strengths */
-    double bound;       /* on the stress in the uncracked body until time.end [Pa], or INFINITY */
+    double scatter;     /* standard deviation of the strengths by their mean */
+    double fragments, history; /* rows of a realization */
+    bool tried;                /* by realizations that were computed */
+    double ratio;   /* fragments by those of the scaling law, where some were tried; 0: none */
+    bool estimated; /* from a coarser mesh, without a check of strengths */
+    double bound;   /* on the stress in the uncracked body until time.end [Pa], or INFINITY */
 } fracas_forecast;
 
 /* The forecast of one point, without speed, time and bytes. FRACAS_USAGE if strengths from a file
@@ -51,6 +61,13 @@ enum { FRACAS_FORECAST_QUICK = 64 };
 FRACAS_MUST_USE fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs,
                                                bool quick, fracas_forecast *forecast);
 
+/* Realizations computed side by side. */
+size_t fracas_forecast_lanes(const fracas_point *point);
+
+/* Realizations are computed for the numbers of their rows until chains' steps have passed through
+ * so many bytes of state, about a second. It is no time: equal plans count equal realizations. */
+static const double FRACAS_ROWS_BUDGET = 6e9;
+
 /* Writes a warning; how bad it is (> 0), to be compared among points, or 0, with any text, if it
  * does not apply. */
 typedef double fracas_plan_warning(const fracas_point *point, const fracas_forecast *forecast,
@@ -61,7 +78,7 @@ typedef double fracas_plan_warning(const fracas_point *point, const fracas_forec
  * bend. */
 double fracas_bending_steps(const fracas_spec *spec, double element);
 
-enum { FRACAS_PLAN_WARNINGS = 20 };
+enum { FRACAS_PLAN_WARNINGS = 25 };
 extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];
 
 #endif

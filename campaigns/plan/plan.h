@@ -18,21 +18,36 @@ FRACAS_MUST_USE fracas_err fracas_plan_cost_with(const fracas_campaign *campaign
                                                  const fracas_model *model, double *cost,
                                                  double *bytes);
 
+/* Fields that the run writes at its end. */
+typedef struct {
+    size_t realizations;
+    double bytes; /* until time.end */
+} fracas_planned_fields;
+
+typedef struct {
+    int jobs;    /* processes of the run; 0: one a core */
+    int columns; /* the terminal's; 0: as wide as the table is */
+    bool quick, json;
+    bool points; /* print every point, however many there are */
+    fracas_planned_fields fields;
+} fracas_plan_options;
+
 /* Prints, for each point, its varied parameters, replicas, elements, time step, steps, predicted
- * time and size, and the totals; as JSON with `json`. `jobs`: processes of the run, 0: one a core.
+ * time and size, and the totals; of more than FRACAS_PLAN_LISTED points the least and most of each;
+ * as JSON with `json`.
  *   replicas  with a rule, minimum and maximum; so for time and size (as JSON: of the maximum)
  *   time      elements x steps x replicas / (speed x jobs), an upper bound, since a stop rule may
  *             end a realization before time.end
  *   speed     element-steps per second of one free core, timed on a short batch of the point's size
- *   size      bytes of the rows of study.h5, with one fragment for every
- *             FRACAS_PLAN_ELEMENTS_PER_FRAGMENT elements
+ *   size      bytes of the point's rows in study.h5; in total of the files (campaigns/plan/size.h).
+ *             Fragments are counted in realizations computed now, where that takes little
  *   memory    model + lanes x a lane's state, of the largest point, from 100 MB on
  * With `quick` large surfaces are estimated (fracas_forecast_all), without warnings, and it says
  * so. Errors as fracas_plan_cost, and FRACAS_ENVIRONMENT when `out` cannot be written. */
-FRACAS_MUST_USE fracas_err fracas_plan_print(const fracas_campaign *campaign, int jobs, bool quick,
-                                             FILE *out, bool json);
+FRACAS_MUST_USE fracas_err fracas_plan_print(const fracas_campaign *campaign,
+                                             const fracas_plan_options *options, FILE *out);
 
-#define FRACAS_PLAN_ELEMENTS_PER_FRAGMENT 20
+enum { FRACAS_PLAN_LISTED = 100 };
 
 enum { FRACAS_SIZE_TEXT = 28 };
 /* "12.3 MB" */

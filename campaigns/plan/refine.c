@@ -9,12 +9,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *const fracas_refinement_name[FRACAS_NREFINEMENTS] = {"base", "mesh", "step", "beta"};
+const char *const fracas_refinement_name[FRACAS_NREFINEMENTS] = {"base", "mesh", "step", "beta",
+                                                                 "end"};
 const char *const fracas_refinement_doc[FRACAS_NREFINEMENTS] = {
-    "as it is",
-    "half the element size",
-    "half the time step",
-    "interfaces twice as stiff",
+    "as it is",       "half the element size", "half the time step", "interfaces twice as stiff",
+    "twice the time",
 };
 
 /* Every value of a point except 0, which means "not given" for mesh.size and mesh.divisions. */
@@ -26,6 +25,8 @@ static const struct {
     {FRACAS_REFINE_MESH, "mesh.elements", 2},  {FRACAS_REFINE_MESH, "mesh.size", 0.5},
     {FRACAS_REFINE_MESH, "mesh.divisions", 2}, {FRACAS_REFINE_STEP, "time.safety", 0.5},
     {FRACAS_REFINE_BETA, "cohesive.beta", 2},  {FRACAS_REFINE_BETA, "cohesive.beta_shear", 2},
+    {FRACAS_REFINE_END, "time.end", 2},        {FRACAS_REFINE_END, "time.transits", 2},
+    {FRACAS_REFINE_END, "time.quiet", 2},      {FRACAS_REFINE_END, "time.multiple", 2},
 };
 
 /* A finer mesh has other interfaces: with the same seed some would share numbers without meaning.

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Campaigns for the convergence of another one: every point with a finer mesh, a shorter step or
- * stiffer interfaces. */
+/* Campaigns for the convergence of another one: every point with a finer mesh, a shorter step,
+ * stiffer interfaces or a later end. */
 #ifndef FRACAS_CAMPAIGNS_PLAN_REFINE_H
 #define FRACAS_CAMPAIGNS_PLAN_REFINE_H
 
@@ -12,6 +12,7 @@ typedef enum {
     FRACAS_REFINE_MESH,
     FRACAS_REFINE_STEP,
     FRACAS_REFINE_BETA,
+    FRACAS_REFINE_END,
     FRACAS_NREFINEMENTS
 } fracas_refinement;
 
@@ -30,7 +31,8 @@ typedef struct {
  *   mesh  mesh.elements x 2, mesh.size / 2 or mesh.divisions x 2: half the element size; own seed
  *   step  time.safety / 2
  *   beta  cohesive.beta x 2, for shells cohesive.beta_shear x 2 as well
- * All have common random numbers: with step and beta, replica r of a point keeps its strengths, and
+ *   end   time.end x 2, and the time.transits, time.quiet or time.multiple of its stop rule
+ * All have common random numbers: but for mesh, replica r of a point keeps its strengths, and
  * differences are those of pairs (docs/decisions/converge.md). Left out are points without such a
  * value (a mesh from a file, a law without beta), and those whose refined value is out of range or
  * refused by the engine. Errors as fracas_campaign_read and fracas_campaign_replicas. Cleared by

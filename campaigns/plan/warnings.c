@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/plan/forecast.h"
 
+#include "engine/cohesive/law.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/make.h"
 
@@ -84,6 +85,19 @@ WARNING(warn_wave,
         "waves go at sqrt(young/density) = %.3g m/s, in solids at %.3g to %.3g: are material.young "
         "[Pa] and material.density [kg/m3] in the units meant? A bare number is SI",
         wave_speed(&point->spec.material), SLOWEST, FASTEST)
+
+/* Outward speed of a ring or sphere [m/s]; NaN of others. */
+static double expansion(const fracas_spec *spec)
+{
+    return fabs(fracas_spec_strain_rate(spec)) *
+           (spec->geometry.radius > 0 ? spec->geometry.radius : NAN);
+}
+
+WARNING(warn_fast, expansion(&point->spec) > wave_speed(&point->spec.material),
+        expansion(&point->spec) / wave_speed(&point->spec.material),
+        "the body grows at %.3g m/s, faster than waves go in it, %.3g m/s: are geometry.radius, "
+        "loading and material in the units meant? A bare number is SI",
+        expansion(&point->spec), wave_speed(&point->spec.material))
 
 WARNING(
     warn_weak_load, forecast->bound < forecast->mean, forecast->mean - forecast->bound,
@@ -201,8 +215,41 @@ WARNING(warn_weakest,
         "strengths are correlated, and their size effect is that of independent flaws: the body "
         "gets stronger as its mesh is refined: leave one of the two out, or compare on one mesh")
 
+WARNING(warn_open, fracas_law_of(&point->spec)->open_ledger, 1,
+        "law %s gains or loses energy on mixed paths: its ledger does not close, and no "
+        "ENERGY_DRIFT ends its runs: it is for comparison; for results give law: nitsche",
+        point->spec.cohesive.law->name)
+
+/* Transits of a fragment from which counts are looked at as final  (settled.7). */
+#define LONG_RUN 20
+
+WARNING(warn_heats,
+        fracas_law_of(&point->spec)->flux && forecast->transits > LONG_RUN &&
+            point->spec.time.safety > forecast->long_safety,
+        point->spec.time.safety / forecast->long_safety,
+        "until time.end a wave crosses a fragment some %.2g times; in so long a run steps of %g of "
+        "the critical one heat the fragments: time.safety: %g keeps the energy balance, at %.2g "
+        "times the steps",
+        forecast->transits, point->spec.time.safety, forecast->long_safety,
+        point->spec.time.safety / forecast->long_safety)
+
+WARNING(warn_undivided, !forecast->estimated && forecast->parts > (int64_t)forecast->parts_most,
+        (double)forecast->parts / (double)forecast->parts_most,
+        "a body of %" PRId64 " elements is computed in %zu part%s at most, and parallel.parts is "
+        "%" PRId64 ": cores stay idle: leave parallel.parts out",
+        forecast->elements, forecast->parts_most, forecast->parts_most == 1 ? "" : "s",
+        forecast->parts)
+
+WARNING(
+    warn_loose, forecast->loose, 1,
+    "edges of the mesh file's physical group %" PRId32
+    " are held as geometry.edges says: the keys edge_1 to edge_4 are those of the groups 1 to 4: "
+    "give the group one of these numbers",
+    forecast->loose)
+
 fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
-    warn_coarse,  warn_uniform,   warn_lines, warn_weak_load, warn_repeated,
-    warn_folds,   warn_lonely,    warn_step,  warn_turned,    warn_passed,
-    warn_short,   warn_long,      warn_flat,  warn_weakest,   warn_wave,
-    warn_bending, warn_few_steps, warn_never, warn_shatters,  warn_mesh_effect};
+    warn_coarse,  warn_uniform,   warn_lines,     warn_weak_load, warn_repeated,
+    warn_folds,   warn_lonely,    warn_step,      warn_turned,    warn_passed,
+    warn_short,   warn_long,      warn_flat,      warn_weakest,   warn_wave,
+    warn_bending, warn_few_steps, warn_never,     warn_shatters,  warn_mesh_effect,
+    warn_open,    warn_heats,     warn_undivided, warn_loose,     warn_fast};

@@ -8,41 +8,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-static fracas_err draw(fracas_sample *sample)
+static fracas_err draw(const fracas_campaign *campaign, size_t point, fracas_sample *sample)
 {
-    OWN(fracas_field) field = NULL;
-    TRY(fracas_point_model_create(sample->campaign, sample->point, &sample->model));
-    TRY(fracas_model_field(sample->model, &sample->campaign->point[sample->point].strength,
-                           &field));
-    const size_t interfaces = fracas_model_interfaces(sample->model);
-    sample->n = fracas_field_size(field);
+    TRY(fracas_realizer_init(campaign, point, &sample->realizer));
+    const fracas_model *model = sample->realizer.model;
+    const size_t interfaces = fracas_model_interfaces(model);
+    sample->n = fracas_field_size(sample->realizer.field);
     sample->points = interfaces > 0 ? sample->n / interfaces : 1;
     sample->strength = malloc((sample->n + 1) * sizeof *sample->strength);
     sample->position = malloc((sample->n + 1) * sizeof *sample->position);
     if (!sample->strength || !sample->position)
         return fracas_no_memory("the strengths of a realization");
     for (size_t i = 0; i < interfaces; i++) {
-        const fracas_extent one = fracas_model_extent(sample->model, i);
+        const fracas_extent one = fracas_model_extent(model, i);
         sample->extent.volume += one.volume / (double)interfaces;
         sample->extent.area += one.area / (double)interfaces;
     }
-    fracas_model_interface_positions(sample->model, sample->position);
-    sample->error = fracas_field_error(field);
-    const fracas_stream stream = fracas_point_stream(
-        sample->campaign, sample->point, FRACAS_PURPOSE_STRENGTH, (uint64_t)sample->replica);
-    return fracas_field_sample(field, &stream, 1, sample->strength);
+    fracas_model_interface_positions(model, sample->position);
+    sample->error = fracas_field_error(sample->realizer.field);
+    return fracas_realizer_sample(&sample->realizer, sample->replica, 1, sample->strength);
 }
 
 fracas_err fracas_sample_draw(const fracas_campaign *campaign, size_t point, int64_t replica,
                               fracas_sample *sample)
 {
-    *sample = (fracas_sample){.campaign = campaign, .point = point, .replica = replica};
-    if (point >= campaign->npoints)
-        return fracas_fail(FRACAS_USAGE,
-                           "there is no point %zu in campaign %s; it has %zu, from 0 on (fracas "
-                           "plan FILE lists them)",
-                           point, campaign->name, campaign->npoints);
-    fracas_err err = draw(sample);
+    *sample = (fracas_sample){.replica = replica};
+    TRY(fracas_campaign_has(campaign, point));
+    fracas_err err = draw(campaign, point, sample);
     if (!err) return FRACAS_OK;
     fracas_sample_clear(sample);
     return fracas_fail_within(err, "point %zu", point);
@@ -50,7 +42,7 @@ fracas_err fracas_sample_draw(const fracas_campaign *campaign, size_t point, int
 
 void fracas_sample_clear(fracas_sample *sample)
 {
-    fracas_model_destroy(sample->model);
+    fracas_realizer_clear(&sample->realizer);
     free(sample->strength);
     free(sample->position);
     *sample = (fracas_sample){0};
@@ -107,11 +99,11 @@ static void write_vertices(const fracas_sample *sample, FILE *out)
 
 void fracas_sample_write_vtk(const fracas_sample *sample, FILE *out)
 {
-    const fracas_surface *surface = fracas_model_surface(sample->model);
+    const fracas_surface *surface = fracas_model_surface(sample->realizer.model);
     fprintf(out,
             "# vtk DataFile Version 3.0\nfracas: strengths of %s, point %zu, replica %" PRId64
             "\nASCII\nDATASET UNSTRUCTURED_GRID\n",
-            sample->campaign->name, sample->point, sample->replica);
+            sample->realizer.campaign->name, sample->realizer.point, sample->replica);
     if (surface && sample->points == 1) write_edges(surface, out);
     else write_vertices(sample, out);
     fprintf(out, "CELL_DATA %zu\nSCALARS strength double 1\nLOOKUP_TABLE default\n", sample->n);

@@ -3,16 +3,13 @@
 #ifndef FRACAS_CAMPAIGNS_SAMPLE_SAMPLE_H
 #define FRACAS_CAMPAIGNS_SAMPLE_SAMPLE_H
 
-#include "campaigns/campaign.h"
-#include "engine/engine.h"
+#include "campaigns/plan/realize.h"
 
 #include <stdio.h>
 
 typedef struct {
-    const fracas_campaign *campaign;
-    size_t point;
+    fracas_realizer realizer; /* at its point */
     int64_t replica;
-    fracas_model *model;
     size_t n, points;      /* strengths in all, and per interface */
     double *strength;      /* [n] Pa: k = interface*points + Gauss point */
     double (*position)[3]; /* [n] m, at the start */

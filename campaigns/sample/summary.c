@@ -63,9 +63,10 @@ static void print_extreme(const fracas_sample *sample, const char *name, size_t 
 
 static void print_text(const fracas_sample *sample, const summary *of, double law, FILE *out)
 {
-    const fracas_strength *strength = &sample->campaign->point[sample->point].strength;
-    fprintf(out, "Strengths of %s, point %zu, replica %" PRId64 "\n", sample->campaign->name,
-            sample->point, sample->replica);
+    const fracas_strength *strength =
+        &sample->realizer.campaign->point[sample->realizer.point].strength;
+    fprintf(out, "Strengths of %s, point %zu, replica %" PRId64 "\n",
+            sample->realizer.campaign->name, sample->realizer.point, sample->replica);
     fprintf(out, "  %-20s %s, mean %.6g MPa\n", "distribution", strength->distribution->name,
             1e-6 * law);
     fprintf(out, "  %-20s %zu%s\n", "strengths", sample->n,
@@ -102,11 +103,11 @@ static void print_extreme_json(fracas_json *json, const fracas_sample *sample, c
 
 static void print_json(const fracas_sample *sample, const summary *of, double law, FILE *out)
 {
-    const fracas_point *point = &sample->campaign->point[sample->point];
+    const fracas_point *point = &sample->realizer.campaign->point[sample->realizer.point];
     fracas_json json;
     fracas_json_begin(&json, out);
-    fracas_json_text(&json, "campaign", sample->campaign->name);
-    fracas_json_integer(&json, "point", (int64_t)sample->point);
+    fracas_json_text(&json, "campaign", sample->realizer.campaign->name);
+    fracas_json_integer(&json, "point", (int64_t)sample->realizer.point);
     fracas_json_text(&json, "hash", fracas_hash_hex(&point->hash).text);
     fracas_json_integer(&json, "replica", sample->replica);
     fracas_json_text(&json, "distribution", point->strength.distribution->name);
@@ -132,8 +133,8 @@ fracas_err fracas_sample_summarize(const fracas_sample *sample, bool json, FILE 
             FRACAS_USAGE,
             "the body is one element: it has no interface, and so no strength; refine the mesh");
     TRY(summarize(sample, &of));
-    const double law = fracas_strength_mean(&sample->campaign->point[sample->point].strength,
-                                            sample->extent);
+    const double law = fracas_strength_mean(
+        &sample->realizer.campaign->point[sample->realizer.point].strength, sample->extent);
     if (json) print_json(sample, &of, law, out);
     else print_text(sample, &of, law, out);
     return FRACAS_OK;

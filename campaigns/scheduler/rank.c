@@ -199,6 +199,7 @@ static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
 {
     fracas_channel channel;
     fracas_channel_init(&channel);
+    channel.progress.quiet = rank->options->quiet;
     fracas_err err = set_up;
     if (!err) err = lead(rank, &channel, ran);
     fracas_channel_end(&channel, err, *ran);

@@ -45,6 +45,10 @@ FRACAS_MUST_USE fracas_err fracas_results_record(fracas_results *results, size_t
                                                  unsigned parts, size_t *point, int64_t *replica,
                                                  fracas_record *record);
 
+/* The row of a realization; the number of rows where it is not among them. */
+FRACAS_MUST_USE fracas_err fracas_results_find(fracas_results *results, size_t point,
+                                               int64_t replica, size_t *row);
+
 /* Calls `visit` with every realization in the order of its row, whatever the segments. Partial ones
  * are read by segment, as many ahead as fit some 128 MiB; one whose segment is missing or damaged
  * is left out, counted by fracas_results_missing, and the segment is named in a note. */

@@ -24,7 +24,7 @@
 
 /* ---- one HDF5 file: a segment or a study, same schema (docs/formats/study.md) ---- */
 
-#define FRACAS_FORMAT_VERSION 3 /* 2 had no friction, 1 no /fragment/spin */
+#define FRACAS_FORMAT_VERSION 5 /* 4 had no shapes of fragments, 3 no damped, 2 no friction */
 
 typedef struct {
     fracas_hash campaign; /* campaign hash */
@@ -164,9 +164,11 @@ FRACAS_MUST_USE fracas_err fracas_reader_mesh(fracas_reader *reader, size_t poin
 /* Prints the tables of docs/formats/study.md: the datasets of a file, the columns of the index. */
 void fracas_study_reference(FILE *out);
 
-/* Versions of the libraries, for provenance. */
+/* Versions of the libraries, for provenance, and of the headers that this program was built with.
+ */
 void fracas_hdf5_version(char text[32]);
 const char *fracas_sqlite_version(void);
+extern const char fracas_hdf5_built[], fracas_sqlite_built[];
 
 /* ---- a record as bytes, for a pipe between processes of one program ---- */
 
@@ -266,6 +268,12 @@ FRACAS_MUST_USE fracas_err fracas_index_check_points(fracas_index *index,
 FRACAS_MUST_USE fracas_err fracas_index_last_event(fracas_index *index, const char *kind,
                                                    char **text);
 
+/* Calls `say` with the time of day (UTC), kind and text of every event, oldest first. */
+FRACAS_MUST_USE fracas_err fracas_index_events(fracas_index *index,
+                                               void (*say)(void *context, const char *time,
+                                                           const char *kind, const char *text),
+                                               void *context);
+
 /* ---- decisions in the index ---- */
 
 /* Status of a realization, place of its bytes, and its summary (0 and NaN before it is done). */
@@ -307,6 +315,9 @@ typedef struct {
     int64_t segments, bytes; /* segments, and their bytes */
 } fracas_index_counts;
 
+/* Counts a realization with this outcome, -1: none yet. */
+void fracas_index_counts_add(fracas_index_counts *counts, fracas_row_status status,
+                             int64_t outcome);
 /* Realizations to be computed. */
 static inline int64_t fracas_index_missing(const fracas_index_counts *counts)
 {
@@ -314,12 +325,29 @@ static inline int64_t fracas_index_missing(const fracas_index_counts *counts)
 }
 
 FRACAS_MUST_USE fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts);
+FRACAS_MUST_USE fracas_err fracas_index_count_segments(fracas_index *index, int64_t *segments,
+                                                       int64_t *bytes);
 /* The same, and of each point of the table (table->npoints of them; segments and bytes 0), by one
  * look at every realization. */
 FRACAS_MUST_USE fracas_err fracas_index_count_points(fracas_index *index,
                                                      const fracas_point_table *table,
                                                      fracas_index_counts *counts,
                                                      fracas_index_counts *point);
+
+/* Visits every realization of the table's points in the index, all at one moment: replicas of a
+ * point one after the other, from 0. */
+typedef fracas_err fracas_index_visit(void *context, size_t point, int64_t replica,
+                                      const fracas_place *place);
+FRACAS_MUST_USE fracas_err fracas_index_each(fracas_index *index, const fracas_point_table *table,
+                                             fracas_index_visit *visit, void *context);
+
+/* The latest run on the study, by the clocks of its hosts. */
+typedef struct {
+    double began;    /* s since 1970, when it began to compute; NaN: no run did */
+    double latest;   /* end of its latest segment; NaN: it has none yet */
+    int64_t segment; /* its first; the ids of the others are above */
+} fracas_latest_run;
+FRACAS_MUST_USE fracas_err fracas_index_latest_run(fracas_index *index, fracas_latest_run *run);
 
 /* ---- the study as a whole ---- */
 

@@ -63,6 +63,14 @@ FRACAS_MUST_USE fracas_err fracas_study_collect(const char *study, fracas_index 
                                                 const fracas_collect_options *options,
                                                 uint64_t *freed);
 
+/* Makes study.h5 the segment of every realization, by a second name in segments/, so that
+ * fracas_study_collect removes all others. Before that every byte is compared with the seal, and
+ * every record, read with its checksums, with the index. A death at any instant leaves every
+ * realization in a segment of the index. FRACAS_INTERRUPTED without a sealed study.h5 of results
+ * alone; FRACAS_DAMAGED; FRACAS_ENVIRONMENT on a filesystem without second names. */
+FRACAS_MUST_USE fracas_err fracas_study_fold(const char *study, fracas_index *index,
+                                             const fracas_file_header *header);
+
 /* ---- two studies of one campaign ---- */
 
 /* Reads every record of `from` in `table` with the checksums of their segments, and compares the

@@ -221,6 +221,11 @@ def convergence(row, replicas, part, n):
     return unsure
 
 
+def aspect_of(piece):
+    large = piece["dust"] == 0
+    return (piece["semi_axis_1"] / piece["semi_axis_2"])[large].mean() if large.any() else np.nan
+
+
 def largest_of(piece):
     largest = piece["mass"].argmax()
     return piece["size"][largest], piece["mass"][largest] / piece["mass"].sum()
@@ -233,6 +238,7 @@ def estimates(row, pieces, lattice, surface, replicas, estimate):
     largest = np.array([largest_of(piece) for piece in pieces], float).reshape(-1, 2)
     estimate(row, "largest_size", largest[:, 0])
     estimate(row, "largest_share", largest[:, 1])
+    estimate(row, "aspect", np.array([aspect_of(piece) for piece in pieces], float))
     replicas = dict(replicas, largest_share=largest[:, 1])
     fragments = Fragments(pieces, lattice, surface)
     row["cut"] = fragments.cut

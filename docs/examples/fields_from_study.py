@@ -2,7 +2,7 @@
 """Draws the strengths of the first realization of each point of a study, by the edges of its surface mesh.
 
     fracas run docs/examples/fields.yaml --study fields
-    docs/examples/fields_from_study.py fields/study.h5 fields.png
+    python3 docs/examples/fields_from_study.py fields/study.h5 fields.png
 
 The campaign must keep interfaces (output.interfaces)."""
 import sys

@@ -110,6 +110,43 @@ def drift(row, of):
     row["drifted"] = (drifts > 0.01).sum()
 
 
+HELD = ("kinetic", "elastic", "cohesive", "dissipated", "friction")
+
+
+def residual_total(of, rows):
+    """Largest |residual| of a run / largest sum of the energies that a body has and has lost, over realizations (estimators.28)."""
+    end = sum(of[name] for name in HELD)
+    total = np.array([max([last, *sum(piece[name] for name in HELD)]) for last, piece in zip(end, rows)])
+    return (of["residual"][total > 0] / total[total > 0]).max() if (total > 0).any() else math.nan
+
+
+def final(row, of):
+    """The final count (docs/theory/settled.md), from means over the realizations that cracked."""
+    names = ("transits", "growth", "rest", "bound", "held", "vibrating", "count.value", "count.low", "count.high")
+    row.update({"final." + name: math.nan for name in names})
+    broke = of["broken"] > 0
+    row["heated"] = (np.abs(of["residual_end"]) / of["vibrating"])[broke].max() if broke.any() else math.nan
+    of = {name: column[np.isfinite(of["transits"])] for name, column in of.items()}
+    counts = of["fragments"] - of["fragments_held"]
+    if not len(counts):
+        return
+    free = counts > 0
+    k, seen = of["transits"].mean(), counts.mean()
+    growth = (of["growth"][free] * counts[free]).sum() / counts.sum() if free.any() else math.nan
+    rest, bound, variance = (of[name].mean() for name in ("rest", "rest_bound", "rest_variance"))
+    stored = np.divide(of["vibrating"], of["dissipated"], out=np.zeros(len(k * counts)), where=of["dissipated"] > 0)
+    values = [k, growth, rest, bound, of["fragments_held"].mean(), stored.mean()]
+    if seen > 1:
+        if math.isfinite(rest):
+            values += [seen + rest, seen, seen + min(bound, 1.5 * rest + 2 * math.sqrt(variance / len(counts)))]
+        elif k >= 20:
+            values += [seen * (1 + growth), seen, seen * (1.02 + growth)]
+        else:
+            low, high = (np.interp(k, (0, 5, 10, 20), share) for share in ((0, 0.37, 0.64, 0.865), (0.5, 0.71, 0.84, 0.95)))
+            values += [2 * seen / (low + high), seen / high, seen / low]
+    row.update(zip(("final." + name for name in names), values))
+
+
 MOTION = ("radial_velocity", "radial_scatter", "circumferential_velocity", "angular_velocity")
 
 
@@ -141,12 +178,17 @@ def by_realization(row, keys, pieces, values_of):
         estimate(row, key, column)
 
 
-def row_of(point, p, realization, fragment, offset):
-    """Every number of point p, and what `estimates` returns; `realization` and `fragment` are the columns of those groups."""
+def rows_of(group, offset, used):
+    """The rows of each of these realizations, by column."""
+    return [{name: column[offset[i]:offset[i + 1]] for name, column in group.items()} for i in np.flatnonzero(used)]
+
+
+def row_of(point, p, realization, fragment, history):
+    """Every number of point p, and what `estimates` returns; the others are the columns of those groups, the latter two with offsets."""
     mine = realization["point"] == p
     used = mine & np.isin(realization["outcome"], list(USABLE))
     of = {name: column[used] for name, column in realization.items()}
-    pieces = [{name: column[offset[i]:offset[i + 1]] for name, column in fragment.items()} for i in np.flatnonzero(used)]
+    pieces = rows_of(*fragment, used)
     rate = point.get("derived.strain_rate", point.get("loading.rate"))[p]  # the latter in studies before the former
     surface, ring = is_surface(point, p), "model" in point and point["model"][p] == b"ring"
     row = {"rate": rate, "realizations": mine.sum(), "usable": used.sum(), "unusable": mine.sum() - used.sum()}
@@ -163,8 +205,10 @@ def row_of(point, p, realization, fragment, offset):
     by_realization(row, MOTION, pieces if ring else [], lambda piece: motion(piece, point["geometry.radius"][p]))
     by_realization(row, ("translation", "rotation"), pieces if surface else [], flight)
     row["residual"] = largest_ratio(of["residual"], of["dissipated"])
+    row["residual_total"] = residual_total(of, rows_of(*history, used))
     row["created"] = largest_ratio(of["created"], of["dissipated"])
     drift(row, of)
+    final(row, of)
     elements, dust = (np.concatenate([piece[name] for piece in pieces] or [[]]) for name in ("elements", "dust"))
     row["elements"] = elements.mean() if len(elements) else math.nan
     row["dust_share"] = dust.mean() if len(dust) else math.nan
@@ -178,10 +222,10 @@ def row_of(point, p, realization, fragment, offset):
 
 def table(path):
     with h5py.File(path, "r") as study:
-        point, realization, fragment = ({name: column[()] for name, column in study[group].items()}
-                                        for group in ("point", "realization", "fragment"))
-    offset = fragment.pop("offset")
-    return [row_of(point, p, realization, fragment, offset) for p in range(len(point["hash"]))]
+        point, realization, fragment, history = ({name: column[()] for name, column in study[group].items()}
+                                                 for group in ("point", "realization", "fragment", "history"))
+    parts = [(group, group.pop("offset")) for group in (fragment, history)]
+    return [row_of(point, p, realization, *parts) for p in range(len(point["hash"]))]
 
 
 if __name__ == "__main__":

@@ -122,6 +122,16 @@ const fracas_surface *fracas_model_surface(const fracas_model *model)
     return model->surface;
 }
 
+size_t fracas_model_parts_most(const fracas_model *model)
+{
+    return model->formulation->parts_most ? model->formulation->parts_most(model) : 1;
+}
+
+double fracas_model_long_safety(const fracas_model *model)
+{
+    return model->formulation->safety;
+}
+
 int64_t fracas_model_steps(const fracas_model *model)
 {
     return (int64_t)most_steps(model);

@@ -6,6 +6,7 @@
 #include "base/lanes.h"
 #include "engine/cohesive/law.h"
 #include "engine/cohesive/plane.h"
+#include "engine/cohesive/resultants.h"
 
 /* An interface of a chain, in series with the flux. */
 typedef struct {
@@ -31,9 +32,15 @@ typedef struct {
 
 #include "engine/cohesive/laws.list.h"
 
-/* Both at a point of a surface, whose values `point` has. */
-#define FRACAS_LAW(name, bar, ring, membrane, shell) \
-    FRACAS_IF_##membrane(IS_LAW(name)) FRACAS_IF_##shell(IS_LAW(name))
+/* Laws at a point of a surface, whose values `point` has, and laws on the resultants of a shell's
+ * Gauss point, whose values of all layers it has. */
+#define POINT_YES(name) IS_LAW(name)
+#define POINT_RESULTANTS(name)
+#define POINT_NO(name)
+#define RESULTANTS_YES(name)
+#define RESULTANTS_RESULTANTS(name) IS_LAW(name)
+#define RESULTANTS_NO(name)
+#define FRACAS_LAW(name, bar, ring, membrane, shell) POINT_##membrane(name) POINT_##shell(name)
 
 /* Law number `law`; the values are brought up to date. */
 LANES_FUNCTION plane_result plane_law(int law, const plane_interface *at, const plane_input *in,
@@ -52,6 +59,37 @@ LANES_FUNCTION vd plane_opening(int law, const plane_interface *at, const plane_
 {
 #define IS_LAW(name) \
     if (law == FRACAS_LAW_##name) return plane_opening_##name(at, in, point);
+#include "engine/cohesive/laws.list.h"
+#undef IS_LAW
+    __builtin_unreachable();
+}
+#undef FRACAS_LAW
+#define FRACAS_LAW(name, bar, ring, membrane, shell) RESULTANTS_##shell(name)
+
+LANES_FUNCTION int law_takes_resultants(int law)
+{
+#define IS_LAW(name) \
+    if (law == FRACAS_LAW_##name) return 1;
+#include "engine/cohesive/laws.list.h"
+#undef IS_LAW
+    return 0;
+}
+
+LANES_FUNCTION resultant_result resultant_law(int law, const plane_interface *at,
+                                              const resultant_input *in, double *point)
+{
+#define IS_LAW(name) \
+    if (law == FRACAS_LAW_##name) return resultant_at_##name(at, in, point);
+#include "engine/cohesive/laws.list.h"
+#undef IS_LAW
+    __builtin_unreachable();
+}
+
+LANES_FUNCTION vd resultant_opening(int law, const plane_interface *at, const resultant_input *in,
+                                    const double *point)
+{
+#define IS_LAW(name) \
+    if (law == FRACAS_LAW_##name) return resultant_opening_##name(at, in, point);
 #include "engine/cohesive/laws.list.h"
 #undef IS_LAW
     __builtin_unreachable();

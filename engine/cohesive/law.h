@@ -5,13 +5,15 @@
  * A law is one file, engine/cohesive/LAW.h, and its line in laws.list.h. The list is included in
  * three modes, and a law's file has one part for each:
  *   FRACAS_LAW(name, bar, ring, membrane, shell) is defined: the law's line. For each body it says
- *       how the kernels use the law: FLUX or RIGID for chains, YES for surfaces, or NO.
+ *       how the kernels use the law: FLUX or RIGID for chains, YES for surfaces, RESULTANTS for
+ *       shells, or NO.
  *   FRACAS_LAW_TABLES is defined: parameters and traits, compiled once (law.c).
  *   Neither is defined: the functions over lanes (engine/cohesive/kernels.h). A law that says FLUX
  *       defines line_NAME (kernels.h). One that says YES defines plane_at_NAME, which brings the
  *       point's fields up to date but in a calm step (plane.h), and plane_opening_NAME, from which
  *       break times are interpolated. Where the flux stays in series, it is an envelope: series.h
- *       has the rest.
+ *       has the rest. One that says RESULTANTS acts on those of a shell's Gauss point, not at its
+ *       layers: it defines resultant_at_NAME and resultant_opening_NAME (resultants.h).
  * D is 0 before the onset and exactly 1 once broken; fragments and events compare with 1. The
  * traction is 0 at the break. A law that ends at T_b > 0 there counts the stored energy as
  * dissipated, on chains T_b^2/(2K) of the flux, too: a break's `created` is that of its mean alone.
@@ -25,6 +27,7 @@
 #define FRACAS_IF_YES(...) __VA_ARGS__
 #define FRACAS_IF_FLUX(...) __VA_ARGS__
 #define FRACAS_IF_RIGID(...) __VA_ARGS__
+#define FRACAS_IF_RESULTANTS(...) __VA_ARGS__
 #define FRACAS_IF_NO(...)
 
 /* Numbers of the laws, 0 to FRACAS_LAWS - 1, in the order of the list. */
@@ -48,6 +51,8 @@ typedef struct {
     /* Slope of its steepest softening by sigma_c/delta_c; laws with `flux`, whose stiffness must
      * exceed it. */
     double steepest;
+    /* True: it gains or loses energy on mixed paths. The energy guard then ends no run. */
+    bool open_ledger;
     int fields[2]; /* surfaces: values without, with friction, at most SURFACE_POINT_FIELDS_MOST */
     /* Chains. */
     double (*contact)(const fracas_cohesive *); /* stiffness of contact by E/h; NULL: at most 1 */

@@ -5,3 +5,4 @@
 #include "engine/cohesive/stershic.h"
 #include "engine/cohesive/camacho_ortiz_standard.h"
 #include "engine/cohesive/camacho_ortiz.h"
+#include "engine/cohesive/becker_noels.h"

@@ -17,19 +17,21 @@
                   .offset = offsetof(fracas_cohesive, key), .only = models)
 
 /* Parameters of laws for surfaces, whose interfaces slide, too ... */
-#define FRACAS_SURFACE_LAW                                                                         \
+#define FRACAS_SURFACE_LAW                                                     \
+    FRACAS_SURFACE_FRICTIONLESS,                                               \
+        FRACAS_LAW_REAL(friction, "1", 0, 0, 10, false, fracas_surface_models, \
+                        "Coulomb's coefficient of friction between closed faces, mu_c")
+
+/* ... without friction. */
+#define FRACAS_SURFACE_FRICTIONLESS                                                                \
     FRACAS_LAW_REAL(fracture_energy, "J/m2", 0, 0, INFINITY, false, fracas_surface_models,         \
                     "fracture energy G_c, the same at every interface; or give critical_opening"), \
         FRACAS_LAW_REAL(critical_opening, "m", 0, 0, INFINITY, false, fracas_surface_models,       \
                         "opening delta_c at which an interface is broken, the same at every one: " \
                         "its G_c is strength delta_c/2; or give fracture_energy"),                 \
-        FRACAS_SURFACE_INTERFACE
-
-/* ... without the opening or energy of a break. */
-#define FRACAS_SURFACE_INTERFACE                                                                   \
-    FRACAS_LAW_REAL(beta, "1", 5, 1.3, 1e4, false, fracas_membrane_models,                         \
-                    "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element "     \
-                    "by its edge; 1.3 or more, 2.3 with quadratic triangles"),                     \
+        FRACAS_LAW_REAL(beta, "1", 5, 1.3, 1e4, false, fracas_membrane_models,                     \
+                        "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element " \
+                        "by its edge; 1.3 or more, 2.3 with quadratic triangles"),                 \
         FRACAS_LAW_REAL(beta, "1", 5, 2.3, 1e4, false, fracas_shell_models,                        \
                         "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element " \
                         "by its edge"),                                                            \
@@ -40,8 +42,6 @@
                        "what is held against the strength"),                                       \
          .only = fracas_surface_models},                                                           \
         FRACAS_LAW_REAL(coupling, "1", 1, 0.01, 100, false, fracas_surface_models,                 \
-                        "shear strength by normal strength, beta_c"),                              \
-        FRACAS_LAW_REAL(friction, "1", 0, 0, 10, false, fracas_surface_models,                     \
-                        "Coulomb's coefficient of friction between closed faces, mu_c")
+                        "shear strength by normal strength, beta_c")
 
 #endif

@@ -7,7 +7,10 @@
 
 #include "base/team.h"
 #include "engine/engine.h"
+#include "engine/fields.h"
+#include "engine/fragments/ellipsoid.h"
 #include "engine/fragments/fragments.h"
+#include "engine/fragments/rest.h"
 
 typedef struct fracas_formulation fracas_formulation;
 
@@ -19,6 +22,7 @@ struct fracas_model {
     size_t strengths;                 /* per interface: 1 unless model_init says more */
     double mass;                      /* kg */
     double element_size, longest;     /* m: mean and largest length h of an element */
+    double wave_speed;                /* m/s, of longitudinal waves */
     double *table;                    /* the formulation's own; freed with the model */
     const struct fracas_chain *chain; /* fields of a chain's state; NULL of a surface */
     double *sizes; /* m, a chain's elements; NULL: all element_size; freed with the model */
@@ -32,6 +36,12 @@ struct fracas_model {
 };
 
 #define FRACAS_ENERGY_LANES(key, role, unit, meaning) double key[FRACAS_LANES_MAX];
+
+/* Fragments of a lane. */
+typedef struct {
+    int64_t all, held; /* held: on an edge moved by the load, which never stops */
+    double size;       /* m, of a mean one of the others: length, or square root of the area */
+} fracas_census;
 
 /* How the parts of a body are computed at once: the formulation's own plan. */
 typedef struct {
@@ -60,7 +70,8 @@ typedef struct {
     double next[FRACAS_LANES_MAX];
     /* in: 1 where crossings are balanced (balance.5), else 0 */
     double balance[FRACAS_LANES_MAX];
-    /* out: energies [J] at this time (engine/energies.h). `created` and `friction` accumulate;
+    /* out: energies [J] at this time (engine/energies.h). `created`, `friction` and `damped`
+     * accumulate;
      * `work` is the load's since the step before, beside its `power` [W] now. */
     union {
         struct {
@@ -80,6 +91,7 @@ typedef struct {
 
 struct fracas_formulation {
     fracas_kind kind; /* first: a registry entry */
+    double safety;    /* largest with which the ledger stays closed for long (balance.md) */
     /* Fills the model's sizes, mass, table and critical steps from its spec. */
     fracas_err (*model_init)(fracas_model *model);
     /* Checks strengths, positive and finite already [Pa]. */
@@ -92,6 +104,8 @@ struct fracas_formulation {
     void (*plan_destroy)(void *plan);
     /* Doubles that a lane's state takes. */
     size_t (*state_size)(const fracas_model *model);
+    /* The most parts into which the body can be divided; NULL: 1. */
+    size_t (*parts_most)(const fracas_model *model);
     /* Divides the body, or the share of this one of its peers, into `parts`, or fewer. NULL: it is
      * not divided. */
     fracas_err (*divide)(const fracas_model *model, size_t parts, const fracas_peers *peers,
@@ -110,17 +124,40 @@ struct fracas_formulation {
     /* Brings to the leading peer which interfaces of `lane` are broken, or, at -1, the whole state
      * of all lanes. The other peers have no use for their functions below. */
     fracas_err (*gather)(const fracas_model *model, fracas_step *step, int lane);
-    /* Number of fragments of a lane after a step. */
-    int64_t (*fragment_count)(const fracas_model *model, fracas_step *step, int lane);
+    /* Counts the fragments of a lane after a step. */
+    fracas_err (*count)(const fracas_model *model, fracas_step *step, int lane,
+                        fracas_census *census);
     /* Labels the fragment of each element in the step's partition; returns their number. */
     size_t (*partition)(const fracas_model *model, fracas_step *step, int lane);
     /* Adds nodes and strain energies of all elements to the sums of their fragments, by the
      * partition's labels; velocities less the fragments' motions, unless those are NULL. */
     void (*add_up)(const fracas_model *model, const fracas_step *step, int lane,
                    const fracas_fragment_motion *motion, fracas_fragment_sums *sums);
-    /* Fragments, momentum and (if kept) interface rows of one lane, into the record. */
+    /* Gradient of the motion left out by velocities of add_up [1/s]; NULL: 0. */
+    double (*background)(const fracas_model *model, double time);
+    /* Breaks still to come, by the energy of each fragment of the partition [J] and the sums of
+     * each element; NULL: unknown. */
+    fracas_err (*rest)(const fracas_model *model, const fracas_step *step, int lane,
+                       const double *energy, const fracas_fragment_sums *element,
+                       fracas_rest *rest);
+    /* Fragments, momentum and (if kept) interface rows of one lane, into the record; leaves the
+     * labels of its partition. */
     fracas_err (*harvest)(const fracas_model *model, fracas_step *step, int lane,
                           fracas_record *record);
+    size_t (*element_nodes)(const fracas_model *model);
+    /* Adds the matter of a fragment's `count` elements, their numbers rising, where it is; fills
+     * `node` with their nodes [m]. */
+    void (*add_matter)(const fracas_model *model, const fracas_step *step, int lane,
+                       const uint32_t *element, size_t count, fracas_fragment_matter *matter,
+                       double (*node)[3]);
+    /* Adds the area of each broken interface, before any motion [m2], to both sides' fragments. */
+    void (*add_cracks)(const fracas_model *model, const fracas_step *step, int lane,
+                       fracas_fragment *fragment);
+    fracas_stress_array stress[FRACAS_STRESSES]; /* an element's; fewer: the last has no name */
+    size_t (*interface_nodes)(const fracas_model *model);
+    /* Fills all of a lane's fields after a step but fragments. */
+    void (*fields)(const fracas_model *model, const fracas_step *step, int lane,
+                   fracas_fields *fields);
 };
 
 extern const fracas_formulation fracas_formulation_bar, fracas_formulation_ring,

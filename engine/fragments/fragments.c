@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/fragments/fragments.h"
 
+#include "engine/fragments/axes.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -78,35 +80,6 @@ void fracas_fragment_sums_add_coupled(fracas_fragment_sums *sums, double mass, c
 
 /* ---- the rigid body ---- */
 
-enum { SWEEPS = 10 }; /* each squares the rest beside the diagonal: six are enough for 3 x 3 */
-
-/* Jacobi's rotations: leaves the eigenvalues of the symmetric matrix a on its diagonal, their
- * directions in the columns of axis. */
-static void find_axes(double a[3][3], double axis[3][3])
-{
-    for (int i = 0; i < 9; i++) axis[i / 3][i % 3] = i % 4 == 0;
-    for (int turn = 0; turn < 3 * SWEEPS; turn++) {
-        const int p = turn % 3, q = (p + 1) % 3;
-        if (a[p][q] == 0) continue;
-        const double slope = (a[q][q] - a[p][p]) / (2 * a[p][q]);
-        const double tangent = (slope < 0 ? -1 : 1) / (fabs(slope) + sqrt(slope * slope + 1));
-        const double cosine = 1 / sqrt(tangent * tangent + 1), sine = tangent * cosine;
-        for (int k = 0; k < 3; k++) {
-            const double left = a[k][p], right = a[k][q], first = axis[k][p], second = axis[k][q];
-            a[k][p] = cosine * left - sine * right;
-            a[k][q] = sine * left + cosine * right;
-            axis[k][p] = cosine * first - sine * second;
-            axis[k][q] = sine * first + cosine * second;
-        }
-        for (int k = 0; k < 3; k++) {
-            const double left = a[p][k], right = a[q][k];
-            a[p][k] = cosine * left - sine * right;
-            a[q][k] = sine * left + cosine * right;
-        }
-        a[p][q] = a[q][p] = 0;
-    }
-}
-
 /* Second moments about the centre of mass [kg m2]. */
 static void second_moments_of(const fracas_fragment_sums *sums, const double centre[3],
                               double second[6])
@@ -150,7 +123,7 @@ static void find_spin(const fracas_fragment_sums *sums, fracas_fragment *f)
 {
     double inertia[3][3], axis[3][3];
     inertia_of(sums, f->position, inertia);
-    find_axes(inertia, axis);
+    fracas_axes_find(inertia, axis);
     const double least = least_moment(inertia, f->mass, f->position);
     for (int a = 0; a < 3; a++) {
         if (inertia[a][a] <= least) continue;
@@ -186,7 +159,7 @@ static void find_gradient(const fracas_fragment_sums *sums, fracas_fragment_moti
     second_moments_of(sums, motion->centre, second);
     for (int s = 0; s < 6; s++)
         moment[row_of[s]][column_of[s]] = moment[column_of[s]][row_of[s]] = second[s];
-    find_axes(moment, axis);
+    fracas_axes_find(moment, axis);
     const double least = least_moment(moment, sums->mass, motion->centre);
     for (int i = 0; i < 9; i++) {
         const double arm = motion->centre[i % 3] - sums->origin[i % 3];

@@ -15,13 +15,15 @@ const fracas_kind fracas_integrator_central_difference = {
     "central-difference", "leapfrog: second order, damps nothing",
     .traits = &(const fracas_integrator){.limit = central_difference_limit}};
 
-/* (membrane.14), (membrane.15) */
+/* (membrane.14), (membrane.15), (membrane.20), (membrane.21) */
 fracas_hulbert_chung fracas_hulbert_chung_of(double r)
 {
-    const double alpha_m = (2 * r - 1) / (1 + r);
+    const double alpha_m = (2 * r - 1) / (1 + r), cube = (1 - r) * (1 - r) * (1 - r);
     return (fracas_hulbert_chung){.alpha_m = alpha_m,
                                   .beta = (5 - 3 * r) / ((1 + r) * (1 + r) * (2 - r)),
                                   .gamma = 1.5 - alpha_m,
+                                  .excess = cube / ((1 + r) * (1 + r) * (2 - r)),
+                                  .damping = cube / ((1 + r) * (1 + r) * (1 + r)),
                                   .limit = sqrt(12 * (1 + r) * (2 - r) / (10 - 5 * r + r * r))};
 }
 

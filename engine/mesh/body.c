@@ -8,7 +8,11 @@
 const fracas_kind fracas_ends_periodic = {
     "periodic", "the bar closes on itself, as the hoop direction of a ring does"};
 const fracas_kind fracas_ends_held = {"held", "both ends move with the imposed rate"};
-static const fracas_kind *const ends[] = {&fracas_ends_periodic, &fracas_ends_held};
+const fracas_kind fracas_ends_free = {
+    "free", "nothing holds them: the imposed rate is that of the velocities at the start, and the "
+            "bar's middle rests"};
+static const fracas_kind *const ends[] = {&fracas_ends_periodic, &fracas_ends_held,
+                                          &fracas_ends_free};
 
 const fracas_kind fracas_direction_initial = {
     "initial", "interfaces open along the circumference as it was at the start"};
@@ -53,6 +57,16 @@ const fracas_kind fracas_part_octant = {"octant",
                                         "x, y, z >= 0; the other seven are mirror images"};
 static const fracas_kind *const parts[] = {&fracas_part_whole, &fracas_part_octant};
 
+typedef struct {
+    double metres;
+} length_unit;
+static const fracas_kind unit_m = {"m", "metres", .traits = &(const length_unit){1}},
+                         unit_cm = {"cm", "centimetres", .traits = &(const length_unit){1e-2}},
+                         unit_mm = {"mm", "millimetres", .traits = &(const length_unit){1e-3}},
+                         unit_um = {"um", "micrometres", .traits = &(const length_unit){1e-6}},
+                         unit_in = {"in", "inches", .traits = &(const length_unit){0.0254}};
+static const fracas_kind *const units[] = {&unit_m, &unit_cm, &unit_mm, &unit_um, &unit_in};
+
 #define EDGE(key, tag, what) \
     FRACAS_BRACES(           \
         FRACAS_ONE_OF(key, edges, offsetof(fracas_geometry, edge[tag]), "what holds " what))
@@ -70,6 +84,15 @@ static const fracas_param bar[] = {
            "length of the bar; with periodic ends that of the circumference it stands for"),
     {FRACAS_ONE_OF("ends", ends, offsetof(fracas_geometry, ends),
                    "what happens at the bar's two ends")},
+    {.name = "gap",
+     .type = FRACAS_REAL,
+     .unit = "m",
+     .doc = "with free ends: at the start, a rigid wall at rest is so far beyond each; none for no "
+            "walls",
+     .fallback = FRACAS_REQUIRED,
+     .maximum = INFINITY,
+     .offset = offsetof(fracas_geometry, gap),
+     .optional = true},
 };
 
 static double bar_length(const fracas_geometry *geometry)
@@ -82,9 +105,20 @@ static double bar_period(const fracas_geometry *geometry)
     return geometry->ends == &fracas_ends_periodic ? geometry->length : 0;
 }
 
+static bool bar_free(const fracas_geometry *geometry)
+{
+    return geometry->ends == &fracas_ends_free;
+}
+
+static double bar_gap(const fracas_geometry *geometry)
+{
+    return bar_free(geometry) ? geometry->gap : NAN;
+}
+
 const fracas_kind fracas_shape_bar = {
     "bar", "a straight bar", FRACAS_PARAMS(bar),
-    .traits = &(const fracas_shape){.length = bar_length, .period = bar_period}};
+    .traits = &(const fracas_shape){
+        .length = bar_length, .period = bar_period, .free = bar_free, .gap = bar_gap}};
 
 static const fracas_param ring[] = {
     AREA,
@@ -165,9 +199,12 @@ static const fracas_param file[] = {
     {.name = "file",
      .type = FRACAS_ATTACHMENT,
      .unit = "1",
-     .doc = "Gmsh file (MSH 2.2 or 4.1) of triangles with 3 or 6 nodes, in m",
+     .doc = "Gmsh file (MSH 2.2 or 4.1) of triangles with 3 or 6 nodes",
      .fallback = FRACAS_REQUIRED,
      .offset = offsetof(fracas_geometry, file)},
+    {FRACAS_ONE_OF("unit", units, offsetof(fracas_geometry, unit),
+                   "of the coordinates in the file; none is m"),
+     .optional = true},
     THICKNESS,
     EDGE("edges", 0, "all edges but those of the physical groups below"),
     EDGE("edge_1", 1, "the edges of the physical group 1"),
@@ -181,7 +218,9 @@ static fracas_err make_from_file(const fracas_geometry *geometry,
                                  const fracas_surface **surface)
 {
     (void)fineness;
-    fracas_err err = fracas_surface_read_gmsh(geometry->file->text, geometry->file->size, surface);
+    const length_unit *unit = geometry->unit ? geometry->unit->traits : unit_m.traits;
+    fracas_err err = fracas_surface_read_gmsh(geometry->file->text, geometry->file->size,
+                                              unit->metres, surface);
     return err ? fracas_fail_within(err, "mesh file %s", geometry->file->path) : FRACAS_OK;
 }
 
@@ -192,6 +231,18 @@ const fracas_kind fracas_shape_file = {
 static const fracas_kind *const shapes[] = {&fracas_shape_bar,    &fracas_shape_ring,
                                             &fracas_shape_plate,  &fracas_shape_annulus,
                                             &fracas_shape_sphere, &fracas_shape_file};
+
+static fracas_err check_geometry(const void *section)
+{
+    const fracas_geometry *geometry = section;
+    if (geometry->shape != &fracas_shape_bar || bar_free(geometry) || isnan(geometry->gap))
+        return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "gap is given, but ends are %s: walls stand beyond ends that move by "
+                       "themselves: give ends: free, or leave gap out",
+                       geometry->ends->name);
+}
+
 const fracas_section fracas_geometry_section = {
     .name = "geometry",
     .doc = "The body",
@@ -200,6 +251,7 @@ const fracas_section fracas_geometry_section = {
     .kind_offset = offsetof(fracas_geometry, shape),
     .offset = offsetof(fracas_spec, geometry),
     .hashed = true,
+    .check = check_geometry,
 };
 
 #define ELEMENTS                                                                                  \

@@ -11,7 +11,9 @@
 /* Traits of a shape. */
 typedef struct {
     double (*length)(const fracas_geometry *); /* whole chain [m]; NULL: a surface */
-    double (*period)(const fracas_geometry *); /* bar, 0 where its ends are held; NULL: 0 */
+    double (*period)(const fracas_geometry *); /* bar, 0 unless it closes on itself; NULL: 0 */
+    bool (*free)(const fracas_geometry *);     /* its ends move by themselves; NULL: it has none */
+    double (*gap)(const fracas_geometry *); /* walls beyond free ends [m]; NaN: none; NULL: NaN */
     /* Makes the mesh of a surface; NULL of chains. */
     fracas_err (*make)(const fracas_geometry *, const fracas_surface_fineness *,
                        const fracas_surface **);
@@ -46,7 +48,7 @@ extern const fracas_section fracas_geometry_section;
 extern const fracas_kind fracas_shape_bar, fracas_shape_ring, fracas_shape_plate,
     fracas_shape_annulus, fracas_shape_sphere, fracas_shape_file;
 extern const fracas_kind fracas_part_whole, fracas_part_octant;
-extern const fracas_kind fracas_ends_periodic, fracas_ends_held;
+extern const fracas_kind fracas_ends_periodic, fracas_ends_held, fracas_ends_free;
 extern const fracas_kind fracas_direction_initial, fracas_direction_current;
 extern const fracas_kind fracas_edge_free, fracas_edge_held, fracas_edge_sliding, fracas_edge_fixed,
     fracas_edge_clamped, fracas_edge_symmetry, fracas_edge_diaphragm;

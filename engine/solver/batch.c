@@ -2,6 +2,7 @@
 #include "engine/solver/batch.h"
 
 #include "engine/solver/peers.h"
+#include "engine/solver/shapes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -127,29 +128,6 @@ fracas_err fracas_batch_begin(fracas_batch *batch)
     return FRACAS_OK;
 }
 
-/* The record of a lane that is over. */
-static fracas_err finish_lane(fracas_batch *batch, size_t l, fracas_outcome outcome,
-                              fracas_record *record)
-{
-    const fracas_lane *lane = &batch->lane[l];
-    const fracas_ledger *ledger = &lane->ledger;
-    *record = (fracas_record){.outcome = outcome,
-                              .broken = batch->step.broken[l],
-                              .cracked = batch->step.cracked[l],
-                              .steps = lane->steps,
-                              .onset_time = batch->step.first_onset[l],
-                              .end_time = batch->step.time[l],
-                              .time_step = batch->model->time_step,
-                              .mass = batch->model->mass,
-                              .residual = ledger->largest_residual,
-                              .residual_end = ledger->residual};
-    TRY(fracas_peers_gather(batch->model, &batch->step, -1));
-    if (!fracas_peers_leads(&batch->step)) return FRACAS_OK;
-    memcpy(record->energy, ledger->energy, sizeof record->energy);
-    TRY(fracas_history_harvest(&lane->history, record));
-    return batch->model->formulation->harvest(batch->model, &batch->step, (int)l, record);
-}
-
 /* Counts the fragments of a lane, again only when something has broken since. */
 static fracas_err count_fragments(fracas_batch *batch, size_t l)
 {
@@ -158,7 +136,73 @@ static fracas_err count_fragments(fracas_batch *batch, size_t l)
     if (lane->counted == batch->step.broken[l]) return FRACAS_OK;
     lane->counted = batch->step.broken[l];
     TRY(fracas_peers_gather(model, &batch->step, (int)l));
-    lane->fragments = model->formulation->fragment_count(model, &batch->step, (int)l);
+    TRY(model->formulation->count(model, &batch->step, (int)l, &lane->census));
+    return fracas_peers_tell(batch->step.division.peers, &lane->census, sizeof lane->census);
+}
+
+/* The numbers of docs/theory/settled.md, of a finished lane with its fragments counted. */
+static fracas_err record_settling(fracas_batch *batch, size_t l, fracas_record *record)
+{
+    fracas_lane *lane = &batch->lane[l];
+    fracas_rest rest;
+    TRY(fracas_settling_energies(batch->model, &batch->step, (int)l, &lane->ledger,
+                                 &record->vibrating, &rest));
+    record->fragments_held = lane->census.held;
+    if (!(batch->step.cracked[l] > 0)) return FRACAS_OK;
+    fracas_settling_look(&lane->settling, batch->model,
+                         batch->step.time[l] - batch->step.first_onset[l], &lane->census);
+    record->transits = lane->settling.transits;
+    record->growth = lane->settling.growth;
+    record->rest = rest.mean;
+    record->rest_variance = rest.variance;
+    record->rest_bound = rest.bound;
+    return FRACAS_OK;
+}
+
+/* The record of a lane that is over. */
+static fracas_err finish_lane(fracas_batch *batch, size_t l, fracas_outcome outcome,
+                              fracas_record *record)
+{
+    const fracas_lane *lane = &batch->lane[l];
+    const fracas_ledger *ledger = &lane->ledger;
+    fracas_record_init(record);
+    record->outcome = outcome;
+    record->broken = batch->step.broken[l];
+    record->cracked = batch->step.cracked[l];
+    record->steps = lane->steps;
+    record->onset_time = batch->step.first_onset[l];
+    record->end_time = batch->step.time[l];
+    record->time_step = batch->model->time_step;
+    record->mass = batch->model->mass;
+    record->residual = ledger->largest_residual;
+    record->residual_end = ledger->residual;
+    TRY(fracas_peers_gather(batch->model, &batch->step, -1));
+    if (!fracas_peers_leads(&batch->step)) return FRACAS_OK;
+    memcpy(record->energy, ledger->energy, sizeof record->energy);
+    TRY(record_settling(batch, l, record));
+    TRY(fracas_history_harvest(&lane->history, record));
+    TRY(batch->model->formulation->harvest(batch->model, &batch->step, (int)l, record));
+    return fracas_shapes_take(batch->model, &batch->step, (int)l, record);
+}
+
+/* A look at how final the count is, where one is due. */
+static fracas_err look_at_count(fracas_batch *batch, size_t l, fracas_progress *progress)
+{
+    fracas_lane *lane = &batch->lane[l];
+    fracas_step *step = &batch->step;
+    const fracas_model *model = batch->model;
+    const double since = step->time[l] - step->first_onset[l];
+    progress->look = fracas_settling_due(&lane->settling, since, model->time_step);
+    if (!progress->look) return FRACAS_OK;
+    TRY(count_fragments(batch, l));
+    fracas_settling_look(&lane->settling, model, since, &lane->census);
+    progress->transits = lane->settling.transits;
+    progress->growth = lane->settling.growth;
+    if (!model->formulation->rest || !fracas_stop_looks(&model->spec.time)) return FRACAS_OK;
+    double vibrating;
+    fracas_rest rest;
+    TRY(fracas_settling_energies(model, step, (int)l, &lane->ledger, &vibrating, &rest));
+    progress->rest = rest.mean / (double)lane->census.all;
     return FRACAS_OK;
 }
 
@@ -168,11 +212,12 @@ static fracas_err check_end(fracas_batch *batch, size_t l, fracas_outcome *outco
     fracas_lane *lane = &batch->lane[l];
     fracas_step *step = &batch->step;
     const fracas_ledger *ledger = &lane->ledger;
-    const fracas_progress progress = {.time = step->time[l],
-                                      .elastic = ledger->elastic,
-                                      .dissipated = fracas_energy_lost(ledger->energy),
-                                      .cracked = step->cracked[l],
-                                      .broken = step->broken[l]};
+    fracas_progress progress = {.time = step->time[l],
+                                .elastic = ledger->elastic,
+                                .dissipated = fracas_energy_lost(ledger->energy),
+                                .cracked = step->cracked[l],
+                                .broken = step->broken[l]};
+    TRY(look_at_count(batch, l, &progress));
     bool drifts,
         over = fracas_stop_check(&lane->stop, &batch->model->spec.time, &progress, outcome);
     *running = false;
@@ -203,7 +248,7 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
     TRY(check_end(batch, l, &outcome, &lane->running));
     if (!lane->running || fracas_history_keeps(&lane->history, &row, cracked)) {
         TRY(count_fragments(batch, l));
-        row.fragments = lane->fragments;
+        row.fragments = lane->census.all;
     }
     fracas_history_observe(&lane->history, lane->steps, &row, cracked);
     return lane->running ? FRACAS_OK : finish_lane(batch, l, outcome, record);
@@ -278,13 +323,15 @@ static fracas_err look(fracas_batch *batch, const fracas_record *record)
 static fracas_err run_lanes(fracas_batch *batch, fracas_record *record)
 {
     enum { BETWEEN = 64 }; /* steps */
+    const fracas_batch_watch *watch = batch->watch;
+    const int between = watch && watch->every > 0 ? watch->every : BETWEEN;
     size_t running = 0;
     for (size_t l = 0; l < batch->count; l++) running += batch->lane[l].running;
     for (int n = 1; running > 0; n++) {
         TRY(fracas_batch_step(batch, record, &running));
-        if (running > 0 && n % BETWEEN == 0) TRY(look(batch, record));
+        if (running > 0 && n % between == 0) TRY(look(batch, record));
     }
-    return FRACAS_OK;
+    return watch && watch->end ? watch->end(watch->context, batch, record) : FRACAS_OK;
 }
 
 /* Computes lanes with final fragments before their drift once more, until their balance was last
@@ -309,7 +356,8 @@ static fracas_err run_again(fracas_batch *batch, fracas_record *record)
 fracas_err fracas_batch_run(fracas_batch *batch, fracas_record *record)
 {
     TRY(fracas_batch_begin(batch));
-    if (batch->watch) TRY(batch->watch->begin(batch->watch->context, batch, record));
+    if (batch->watch && batch->watch->begin)
+        TRY(batch->watch->begin(batch->watch->context, batch, record));
     TRY(fracas_peers_begin(batch, record));
     TRY(run_lanes(batch, record));
     return run_again(batch, record);

@@ -8,12 +8,14 @@
 #include "engine/solver/guard.h"
 #include "engine/solver/history.h"
 #include "engine/solver/ledger.h"
+#include "engine/solver/settling.h"
 #include "engine/solver/stop.h"
 
 typedef struct {
     fracas_ledger ledger;
     fracas_history history;
     fracas_stop stop;
+    fracas_settling settling;
     fracas_guard guard;
     int64_t
         last; /* step at which it ends without its rule: its numbers were final; 0: by its rule */
@@ -21,8 +23,9 @@ typedef struct {
     double pace;   /* s, time step of the last steps ... */
     double since;  /* s, ... since this time ... */
     int64_t paces; /* ... and how many: time = since + paces pace, without the round-off of a sum */
-    double first_break;         /* s, seen at this time; 0: none yet */
-    int64_t counted, fragments; /* fragments when `counted` interfaces were broken; -1: unknown */
+    double first_break;   /* s, seen at this time; 0: none yet */
+    int64_t counted;      /* breaks when the census was taken; -1: never */
+    fracas_census census; /* the same for all peers */
     bool running;
 } fracas_lane;
 

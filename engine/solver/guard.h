@@ -30,8 +30,9 @@ FRACAS_MUST_USE fracas_err fracas_guard_beside(const fracas_model *model, fracas
 /* Shows step number `now` of a lane to its guard. *drifts, from the first break or step
  * FRACAS_GUARD_START on (energies of a body at rest are near 0 at first):
  *   |residual| > tolerance (stored + sinks + beside)                        (bar.15)
- * Such a run no longer computes its model. `beside` is computed only where other energies do not
- * explain the residual; it then counts for FRACAS_GUARD_EVERY steps, unless the realization `ends`.
+ * Such a run no longer computes its model; a law with an open ledger has none to lose. `beside` is
+ * computed only where other energies do not explain the residual; it then counts for
+ * FRACAS_GUARD_EVERY steps, unless the realization `ends`.
  */
 FRACAS_MUST_USE fracas_err fracas_guard_check(fracas_guard *guard, const fracas_ledger *ledger,
                                               const fracas_model *model, fracas_step *step,

@@ -8,19 +8,46 @@
 typedef struct {
     bool (*is_over)(fracas_stop *, const fracas_time *, const fracas_progress *);
     bool waits; /* time.quiet goes by until then */
+    bool looks; /* at how final the count is */
 } stop_rule;
 
 const fracas_kind fracas_stop_time = {"time", "at the set time `end`"};
 
 static const fracas_param settled[] = {
-    {"quiet", FRACAS_REAL, "s",
-     "how long nothing may crack or break, and little dissipate, for the body to be settled",
+    {"transits", FRACAS_REAL, "1",
+     "fewest transits of a mean fragment by a longitudinal wave since the first onset", 20, 0,
+     INFINITY, false, offsetof(fracas_time, transits), .only = fracas_chain_models},
+    {"transits", FRACAS_REAL, "1",
+     "fewest transits of a mean fragment by a longitudinal wave since the first onset", 60, 0,
+     INFINITY, false, offsetof(fracas_time, transits), .only = fracas_surface_models},
+    {"growth", FRACAS_REAL, "1",
+     "largest share of the fragments that the last half of that time may have added", 0.03, 0, 1,
+     false, offsetof(fracas_time, growth)},
+    {"rest", FRACAS_REAL, "1",
+     "largest share of the fragments that may still come, by the energies of all", 0.02, 0, 1,
+     false, offsetof(fracas_time, rest), .only = fracas_chain_models},
+};
+/* (settled.7) */
+static bool is_settled(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)
+{
+    (void)stop;
+    return now->look && now->broken > 0 && now->transits >= rule->transits &&
+           now->growth <= rule->growth && now->rest <= rule->rest;
+}
+
+const fracas_kind fracas_stop_settled = {
+    "settled",
+    "once the count of fragments is final (armed by the first break), at `end` at the latest",
+    FRACAS_PARAMS(settled), .traits = &(const stop_rule){.is_over = is_settled, .looks = true}};
+
+static const fracas_param quiet[] = {
+    {"quiet", FRACAS_REAL, "s", "how long nothing may crack or break, and little dissipate",
      FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_time, quiet)},
     {"quiet_fraction", FRACAS_REAL, "1",
      "largest share of the dissipated energy that may be added in that time", 1e-3, 0, 1, true,
      offsetof(fracas_time, quiet_fraction)},
 };
-static bool is_settled(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)
+static bool is_quiet(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)
 {
     const int64_t events = now->cracked + now->broken;
     if (events > stop->events ||
@@ -32,9 +59,11 @@ static bool is_settled(fracas_stop *stop, const fracas_time *rule, const fracas_
     return now->cracked > 0 && now->time - stop->time >= rule->quiet;
 }
 
-const fracas_kind fracas_stop_settled = {
-    "settled", "once the cracks have settled (armed by the first onset), at `end` at the latest",
-    FRACAS_PARAMS(settled), .traits = &(const stop_rule){.is_over = is_settled, .waits = true}};
+const fracas_kind fracas_stop_quiet = {
+    "quiet",
+    "after a set time without events (armed by the first onset), at `end` at the latest; the count "
+    "may be far from final",
+    FRACAS_PARAMS(quiet), .traits = &(const stop_rule){.is_over = is_quiet, .waits = true}};
 
 static const fracas_param peak_multiple[] = {
     {"multiple", FRACAS_REAL, "1", "end by the time of the first peak of the elastic energy", 2, 1,
@@ -59,7 +88,7 @@ const fracas_kind fracas_stop_peak_multiple = {
     FRACAS_PARAMS(peak_multiple), .traits = &(const stop_rule){.is_over = is_past_peak}};
 
 static const fracas_kind *const stops[] = {&fracas_stop_time, &fracas_stop_settled,
-                                           &fracas_stop_peak_multiple};
+                                           &fracas_stop_quiet, &fracas_stop_peak_multiple};
 
 static const fracas_kind *const integrators[] = {&fracas_integrator_central_difference,
                                                  &fracas_integrator_hulbert_chung};
@@ -92,7 +121,7 @@ static fracas_err check_time(const void *section)
     const stop_rule *rule = time->stop->traits;
     if (rule && rule->waits && time->quiet > time->end)
         return fracas_fail(FRACAS_USAGE,
-                           "quiet is %g s, but end is %g s already: nothing could settle; let "
+                           "quiet is %g s, but end is %g s already: no such time could pass; let "
                            "quiet be a fraction of end",
                            time->quiet, time->end);
     return FRACAS_OK;
@@ -109,6 +138,12 @@ const fracas_section fracas_time_section = {
     .hashed = true,
     .check = check_time,
 };
+
+bool fracas_stop_looks(const fracas_time *rule)
+{
+    const stop_rule *of = rule->stop->traits;
+    return of && of->looks;
+}
 
 bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now,
                        fracas_outcome *outcome)

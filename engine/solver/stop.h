@@ -9,7 +9,8 @@
 #include <stdbool.h>
 
 extern const fracas_section fracas_time_section;
-extern const fracas_kind fracas_stop_time, fracas_stop_settled, fracas_stop_peak_multiple;
+extern const fracas_kind fracas_stop_time, fracas_stop_settled, fracas_stop_quiet,
+    fracas_stop_peak_multiple;
 
 /* Memory of a lane's rule: the last step at which it was not quiet. */
 typedef struct {
@@ -23,11 +24,18 @@ typedef struct {
 typedef struct {
     double time, elastic, dissipated; /* s, J */
     int64_t cracked, broken;
+    bool look;               /* the following are known at this step, else 0 */
+    double transits, growth; /* k, Delta */
+    double rest;             /* R by the count; 0 where it is unknown */
 } fracas_progress;
+
+/* True if the rule looks at how final the count is. */
+bool fracas_stop_looks(const fracas_time *rule);
 
 /* Shows one step to the rule. True when the realization is over, with its *outcome.
  * `time`: at the first step at or after `end`.
- * `settled`: after an onset, when for `quiet` seconds no interface cracked or broke and the
+ * `settled`: at a look after a break with k >= transits, Delta <= growth, R <= rest N (settled.7).
+ * `quiet`: after an onset, when for `quiet` seconds no interface cracked or broke and the
  * dissipated energy D grew by at most quiet_fraction D.
  * `peak-multiple`: at `multiple` times the time of the first peak of the elastic energy, a maximum
  * followed by a fall by more than `drop` of it.

@@ -54,21 +54,27 @@ static const fracas_param params[] = {
      INFINITY, true, offsetof(fracas_strength, scale), .optional = true},
     {"shape", FRACAS_REAL, "1", "Weibull modulus m; the larger, the narrower", FRACAS_REQUIRED, 0.1,
      1000, false, offsetof(fracas_strength, shape), .optional = true},
-    FRACAS_STRENGTH_MOMENTS("scale and shape"),
+    FRACAS_STRENGTH_MOMENTS("scale and shape; mean and shape will do as well"),
 };
 
 /* (distributions.4) */
 FRACAS_MUST_USE static fracas_err weibull_init(fracas_strength *strength)
 {
-    bool by_moments;
-    TRY(fracas_pairs_choose(strength, params + 1, &by_moments));
-    if (!by_moments) return FRACAS_OK;
+    const bool by_shape = strength->mean > 0 && strength->shape > 0 && !(strength->scale > 0) &&
+                          !(strength->deviation > 0);
+    bool by_moments = false;
+    if (!by_shape) TRY(fracas_pairs_choose(strength, params + 1, &by_moments));
+    if (!by_shape && !by_moments) return FRACAS_OK;
     const double above = strength->mean - strength->minimum;
     if (!(above > 0.0))
         return fracas_fail(FRACAS_USAGE,
                            "strength.mean is %.15g Pa and strength.minimum %.15g Pa; the mean is "
                            "above the minimum: raise it, or lower the minimum",
                            strength->mean, strength->minimum);
+    if (by_shape) {
+        strength->scale = above / fracas_gamma(1.0 + 1.0 / strength->shape);
+        return FRACAS_OK;
+    }
     const double least = 1.0 / largest_shape, most = 1.0 / smallest_shape,
                  ratio = strength->deviation / above;
     TRY(fracas_pairs_check(strength, "deviation/(mean - minimum)", ratio,

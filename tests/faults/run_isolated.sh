@@ -1,3 +1,4 @@
+# ctest-labels: ci
 # A realization that crashes, aborts, ends its process, hangs or takes all memory is FAILED, with the reason, and nothing else is: with
 # a process for each lease and without. A fault that does not come back costs nothing at all.
 . tests/support/campaigns.sh

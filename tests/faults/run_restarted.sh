@@ -1,4 +1,4 @@
-# ctest-mpirun
+# ctest-mpirun: ci
 # A rank that dies takes its starter down; the parent says why, starts it again, and the run goes on to the bytes of an undisturbed one. A start
 # that never makes anything durable is given up.
 . tests/support/campaigns.sh

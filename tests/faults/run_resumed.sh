@@ -1,3 +1,4 @@
+# ctest-labels: ci slow-sanitize
 # A realization that computes for long goes on from its checkpoint after kill -9, in another batch, to the same bytes; one that is
 # damaged or cannot be written costs time alone. The states themselves: tests/support/lanes.h; the files: unit/checkpoint.
 . tests/support/campaigns.sh
@@ -45,6 +46,12 @@ kill_session
 after=$(steps study 2>/dev/null || echo 1000000000)
 [ "$after" -gt "$before" ] || fail "it began anew: at step $after after $before"
 expect 0 "$fracas" run long.yaml --study study --jobs 2 --lanes 4
+ended study
+
+# What a power cut behind the merge left of a complete study goes with the next run.
+mkdir study/checkpoints
+cp "$(find damaged/checkpoints -name '*-0')" study/checkpoints
+expect 0 "$fracas" run long.yaml --study study --jobs 1
 ended study
 
 # One is damaged, one half written, one of nobody.

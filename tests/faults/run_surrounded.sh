@@ -1,4 +1,4 @@
-# ctest-mpirun
+# ctest-mpirun: ci
 # What the caller brings along: children of the shell that became fracas, closed streams, a study whose own campaign file is gone.
 . tests/support/campaigns.sh
 

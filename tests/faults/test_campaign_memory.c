@@ -126,7 +126,7 @@ static fracas_err print_plan(const void *context)
     TRY(forget(context, &campaign, &frequencies));
     FILE *out = fopen("/dev/null", "w");
     if (!out) return fracas_no_memory("a stream");
-    fracas_err err = fracas_plan_print(&campaign, 1, false, out, false);
+    fracas_err err = fracas_plan_print(&campaign, &(fracas_plan_options){.jobs = 1}, out);
     fclose(out);
     return err;
 }

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
 /* The ledger of the bar: constant before onset, closed after it, momentum zero, forces the gradient
  * of the energy. */
 #include "tests/support/bar_state.h"
@@ -13,19 +14,19 @@ static const int meshes[] = {UNIFORM, 0, 2};
  * larger of kinetic and elastic energy, the figure promised. */
 static void linear_ledger_is_constant_to_round_off(void **unused)
 {
-    for (int i = 0; i < 4 * 3; i++) {
+    for (int i = 0; i < 6 * 3; i++) {
         fracas_spec spec = bar_reference(200, 100, 1);
         spec.cohesive.law = laws[i % 2];
-        spec.geometry.ends = ends[i / 2 % 2];
-        if (i / 4 > 0) spec.geometry.length = 0.02; /* the longest elements bear 450 MPa */
-        OWN(fracas_model) model = model_on(&spec, meshes[i / 4]);
+        const char *name = set_ends(&spec, i / 2 % 3, NAN);
+        if (i / 6 > 0) spec.geometry.length = 0.02; /* the longest elements bear 450 MPa */
+        OWN(fracas_model) model = model_on(&spec, meshes[i / 6]);
         OWN(fracas_batch) batch = begun_with(model, 450e6);
         uint64_t seed = 7;
         for (size_t e = 0; e < 200;
              e++) { /* equal on both sides of an interface: rigid links move as one */
             double v = 2 * random_noise(&seed);
             size_t left = e > 0 ? e - 1 : 199;
-            if (e == 0 && ends[i / 2 % 2] == &fracas_ends_held) continue;
+            if (e == 0 && spec.geometry.ends == &fracas_ends_held) continue;
             *field(batch, e, BAR_V_LEFT) = v;
             *field(batch, left, BAR_V_RIGHT) =
                 v + (laws[i % 2] == &fracas_law_nitsche.kind ? 0.5 * random_noise(&seed) : 0);
@@ -39,12 +40,12 @@ static void linear_ledger_is_constant_to_round_off(void **unused)
             if (s == 0) kinetic_first = l->kinetic;
             kinetic_last = l->kinetic;
         }
-        print_message("[  figures ] %s %s %s: largest residual %.2e\n", laws[i % 2]->name,
-                      ends[i / 2 % 2]->name, mesh_name[meshes[i / 4]], worst);
+        print_message("[  figures ] %s %s %s: largest residual %.2e\n", laws[i % 2]->name, name,
+                      mesh_name[meshes[i / 6]], worst);
         assert_int_equal(batch->step.cracked[0], 0);
         assert_true(kinetic_first > 0 &&
                     fabs(kinetic_last / kinetic_first - 1) > 1e-3); /* energy did move */
-        assert_true(batch->lane[0].ledger.work > 0);
+        if (i / 2 % 3 < ENDS_FREE) assert_true(batch->lane[0].ledger.work > 0);
         assert_true(worst < 1e-12);
     }
 }

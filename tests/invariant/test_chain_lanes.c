@@ -6,9 +6,9 @@
 #include "tests/support/lanes.h"
 #include "tests/support/ring.h"
 
-static void until_settled(fracas_spec *spec, double quiet, double fraction)
+static void until_quiet(fracas_spec *spec, double quiet, double fraction)
 {
-    spec->time.stop = &fracas_stop_settled;
+    spec->time.stop = &fracas_stop_quiet;
     spec->time.quiet = quiet;
     spec->time.quiet_fraction = fraction;
 }
@@ -17,15 +17,18 @@ static const lane_kind bar_kind = {.scatter = 0.05, .back = BAR_STRENGTH - BAR_V
                        ring_kind = {.scatter = 0.05, .back = RING_STRENGTH - RING_V_LEFT},
                        stershic_kind = {.scatter = 0.1, .back = RING_STRENGTH - RING_V_LEFT};
 
-/* The last two on elements of different lengths; the first and the last reach (balance.5). */
+/* The last two on elements of different lengths; the first, and those from the fifth on, which are
+ * free, between walls, reach (balance.5). */
 static fracas_spec bar_case(int k, double *noise)
 {
-    const bool is_long = k % 4 == 0;
+    const bool is_long = k % 4 == 0 || k > 4;
     fracas_spec spec = bar_reference(is_long ? 200 : 600, 1e5, is_long ? 4.5e-7 : 1.5e-7);
     spec.geometry.length = 1e-5 * (double)spec.mesh.elements;
+    spec.geometry.gap = k > 5 ? 1e-6 : NAN;
+    if (k > 4) spec.geometry.ends = &fracas_ends_free;
     if (k % 3 == 1) spec.cohesive.law = &fracas_law_rigid_link.kind;
-    if (k == 2) until_settled(&spec, 1e-8, 0.05);
-    if (k > 2) bar_perturb(&spec, 0.2, 1, noise);
+    if (k == 2) until_quiet(&spec, 1e-8, 0.05);
+    if (k > 2 && k < 7) bar_perturb(&spec, 0.2, 1, noise);
     return spec;
 }
 
@@ -42,7 +45,7 @@ static fracas_spec ring_case(int k, double *unused)
     if (k / 2 == 2) {
         spec.loading = (fracas_loading){
             .type = &fracas_loading_force, .direction = &fracas_axis_radial, .force = 1e7};
-        until_settled(&spec, 1e-8, 0.05);
+        until_quiet(&spec, 1e-8, 0.05);
     }
     return spec;
 }
@@ -60,15 +63,21 @@ static fracas_spec stershic_case(int k, double *unused)
     spec.cohesive.zone = zone[k] * 6e-3 / 200;
     if (k == 1) {
         spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 2e4};
-        until_settled(&spec, 4e-8, 0.02);
+        until_quiet(&spec, 4e-8, 0.02);
     }
     return spec;
 }
 
+#ifdef __SANITIZE_ADDRESS__ /* kernels take 20 times as long */
+enum { STRIDE = 3 };
+#else
+enum { STRIDE = 1 };
+#endif
+
 static void check_cases(fracas_spec (*spec_of)(int k, double *noise), int count,
                         const lane_kind *kind)
 {
-    for (int k = 0; k < count; k++) {
+    for (int k = 0; k < count; k += STRIDE) {
         double noise[601];
         const fracas_spec spec = spec_of(k, noise);
         OWN(fracas_model) model = make_model(&spec);
@@ -85,7 +94,7 @@ static void check_cases(fracas_spec (*spec_of)(int k, double *noise), int count,
 
 static void a_lane_of_a_bar_is_its_run_alone(void **unused)
 {
-    check_cases(bar_case, 5, &bar_kind);
+    check_cases(bar_case, 8, &bar_kind);
 }
 
 static void a_lane_of_a_ring_is_its_run_alone(void **unused)

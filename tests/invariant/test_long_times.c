@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: ci slow-sanitize */
 /* Bars and rings to many times the time of their break-up (docs/theory/balance.md): the ledger
  * closes by the dissipated and by the vibrating energy, and the state is that of a small step. */
 #include "tests/support/long_times.h"

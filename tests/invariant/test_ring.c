@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
 /* The ring's energy: forces are its gradient, it does not see where the ring is, the ledger closes
  * with it. */
 #include "tests/support/dense.h"

@@ -6,7 +6,7 @@
 . tests/support/campaigns.sh
 
 sed 's/^replicas: .*/replicas: 8/; s/size: 0.3 mm/size: 0.5 mm/' "$source/campaigns/examples/plate-ring.yaml" > ring.yaml
-sed 's/^replicas: .*/replicas: 8/; s/size: 0.05 mm/size: 0.07 mm/; s/end: 200 ns, safety: 0.25/end: 100 ns, safety: 0.5/' "$source/campaigns/examples/plate-biaxial.yaml" > biaxial.yaml
+sed 's/^replicas: .*/replicas: 8/; s/size: 0.05 mm/size: 0.07 mm/; s/end: 1.2 us, safety: 0.25/end: 100 ns, safety: 0.5/' "$source/campaigns/examples/plate-biaxial.yaml" > biaxial.yaml
 for name in ring biaxial; do
     expect 0 "$fracas" run "$name.yaml" --study "$name"
     "$fracas" report "$name" --json > "$name.json"

@@ -52,10 +52,10 @@ static void mean_counts_are_those_of_independent_codes(void **unused)
         double rate, end, low, high, zmr;
         int64_t elements;
         size_t replicas;
-    } point[] = {{1e3, 2.5e-6, 55, 63, 0.25, 1250, 16},
-                 {1e4, 0.6e-6, 105, 120, 0.15, 2500, 16},
-                 {1e5, 0.3e-6, 360, 390, 0.15, 8000, 8},
-                 {1e6, 0.06e-6, 1500, 1680, 0.15, 32000, 8}};
+    } point[] = {{1e3, 4.4e-6, 55, 63, 0.25, 1250, 16},
+                 {1e4, 1.9e-6, 105, 120, 0.15, 2500, 16},
+                 {1e5, 0.55e-6, 360, 390, 0.15, 8000, 8},
+                 {1e6, 0.17e-6, 1500, 1680, 0.15, 32000, 8}};
     for (int p = 0; p < 4; p++) {
         double count = mean_count(point[p].elements, point[p].rate, point[p].end, 1.0 / 300,
                                   point[p].replicas);
@@ -73,7 +73,7 @@ static void wider_scatter_gives_fewer_fragments(void **unused)
 {
     const double scatter[] = {1.0 / 300, 0.10, 0.30}, theirs[] = {374, 319, 282};
     for (int i = 0; i < 3; i++) {
-        double count = mean_count(5000, 1e5, 3e-7, scatter[i], 8);
+        double count = mean_count(5000, 1e5, 5.5e-7, scatter[i], 8);
         print_message("[  figures ] scatter %.2f %%: mean count %.1f (%.0f)\n", 100 * scatter[i],
                       count, theirs[i]);
         assert_true(fabs(count / theirs[i] - 1) < 0.08);

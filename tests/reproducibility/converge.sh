@@ -1,4 +1,4 @@
-# ctest-labels: slow-sanitize
+# ctest-labels: ci slow-sanitize
 # fracas converge from end to end: a coarse mesh is found out and a fine one holds, what is interrupted goes on to the same numbers, more
 # replicas extend all studies, and what cannot be refined is said so.
 . tests/support/campaigns.sh
@@ -41,7 +41,7 @@ done
 bar 1000 '5 mm' 24 > fine.yaml
 expect 0 "$fracas" converge fine.yaml --study fine --jobs 2 --tolerance 8
 ! grep -q moved fine/converge.csv || { cat fine/converge.csv >&2; fail "a fine mesh is said to move numbers"; }
-for what in mesh step beta; do
+for what in mesh step beta end; do
     for number in count size dissipated onset_time; do
         case $(verdict $what $number fine) in
         holds | shifted) ;;
@@ -53,7 +53,7 @@ done
 # The same command computes nothing and says the same; the studies are those of `fracas run`, and JSON has the numbers of the CSV file.
 cp coarse/converge.csv before.csv
 "$fracas" converge coarse.yaml --study coarse --jobs 1 --json > coarse.json 2> said
-[ "$(grep -c 'is complete, nothing to compute' said)" -eq 4 ] || { cat said >&2; fail "a complete study was computed again"; }
+[ "$(grep -c 'is complete, nothing to compute' said)" -eq 5 ] || { cat said >&2; fail "a complete study was computed again"; }
 cmp before.csv coarse/converge.csv
 expect 0 "$fracas" run coarse/mesh.yaml --study again --jobs 1
 same coarse/mesh again
@@ -138,7 +138,7 @@ session=
 expect 3 "$fracas" converge long.yaml --study long --jobs 2 --walltime 1s
 expect 0 "$fracas" converge long.yaml --study long --jobs 2
 cmp long/converge.csv undisturbed/converge.csv
-for what in base step beta mesh; do
+for what in base end step beta mesh; do
     same long/$what undisturbed/$what
 done
 

@@ -1,4 +1,4 @@
-# ctest-labels: slow-sanitize
+# ctest-labels: ci slow-sanitize
 # Replicas decided while the campaign runs: study.h5 is the same, byte for byte, whatever computes it, however often it is killed,
 # and when a weaker rule came first; every decision is what a script of its own makes of study.h5.
 . tests/support/campaigns.sh
@@ -7,7 +7,7 @@
 rule()
 {
     campaign "$1" 8 '3e4 1/s, 6e4 1/s, 1e5 1/s'
-    sed -i -e "s/^replicas: .*/replicas: $2/" -e 's/elements: 500/elements: 200/' "$1"
+    sed -i -e "s/^replicas: .*/replicas: $2/" -e 's/elements: 500/elements: 200/; s/^seed: 7/seed: 1/' "$1"
 }
 until_narrow() { echo "{minimum: $1, maximum: $2, until: {quantity: $3, relative-half-width: $4, confidence: $5}}"; }
 decisions() { /usr/bin/python3 "$source/docs/examples/decisions_from_study.py" "$1/study.h5"; }

@@ -1,5 +1,5 @@
 # A plate, an annulus of curved elements and a bar in one study: study.h5 with its meshes is the same, byte for byte, whatever
-# computes it; the report and `fracas picture` draw the surfaces, and only them.
+# computes it; the report and `fracas picture` draw what they are told to.
 . tests/support/campaigns.sh
 
 annulus='{name: annulus, geometry: {shape: annulus, inner: 2 mm, outer: 4 mm, thickness: 0.1 mm}, mesh: {divisions: 4, order: 2}}'
@@ -62,6 +62,35 @@ for p, point in enumerate(points):
         assert said is None if p == 0 else abs(said / value - 1) < 1e-12 and value > 0, (key, said, value)  # sums of one sign
 END
 
+# Shapes, by another reader: volumes are masses by the density, crack areas twice the broken interfaces', a plate's smallest
+# semi-axis is that of its thickness along z, axes are a rotation.
+/usr/bin/python3 - <<'END' || fail "the shapes in study.h5 contradict its other numbers"
+import h5py, numpy as np
+
+study = h5py.File("one/study.h5")
+of = {name: column[()] for name, column in study["fragment"].items()}
+point, broken = study["realization/point"][()], study["realization/broken"][()]
+axes = np.stack([of[f"axis_{k}"] for k in (1, 2, 3)], axis=1)
+semi = np.stack([of[f"semi_axis_{k}"] for k in (1, 2, 3)], axis=1)
+assert np.allclose(axes @ axes.transpose(0, 2, 1), np.eye(3), atol=1e-14) and (np.linalg.det(axes) > 0).all()
+assert (np.diff(semi) <= 0).all()
+assert np.allclose(of["volume"] * 3900, of["mass"], rtol=1e-14)
+flat = of["offset"][3]  # after the bars
+assert (of["extent"][flat:] > semi[flat:, 0]).all() and (of["extent"][flat:] < 4 * semi[flat:, 0]).all()
+thin = np.abs(axes[flat:, :, 2]).argmax(axis=1)
+assert np.allclose(semi[flat:][np.arange(len(thin)), thin], np.sqrt(5 / 12) * 1e-4, rtol=1e-12)
+mesh, damage = study["mesh"], study["interface/damage"][()]
+for i in range(len(point)):
+    rows, faces = slice(*of["offset"][i:i + 2]), slice(*study["interface/offset"][i:i + 2])
+    area = np.full(broken[i], 1e-6)
+    if point[i] == 1:  # straight edges
+        nodes = mesh["node_position"][slice(*mesh["node_offset"][1:3])]
+        ends = nodes[mesh["interface_node"][slice(*mesh["interface_offset"][1:3])][:, :2][damage[faces] == 1]]
+        area = 1e-4 * np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
+    if point[i] < 2:
+        assert abs(of["crack_area"][rows].sum() - 2 * area.sum()) < 1e-12 * area.sum() > 0, i
+END
+
 # Extended: merged again, with the meshes of all points.
 surfaces part.yaml 2
 sed -i '/name: annulus/d' part.yaml
@@ -94,18 +123,33 @@ grep -q '>z</text>' seen/surface-point-2-replica-0-1.svg || fail "no axes were d
 expect 0 "$fracas" report one
 for point in 1 2; do
     for k in 1 2 3 4 5 6; do
-        grep -q "<figure id=\"surface-point-$point-$k\">" one/report/index.html || fail "the page lacks picture $k of point $point"
+        grep -q "<figure id=\"surface-point-$point-$k\" " one/report/index.html || fail "the page lacks picture $k of point $point"
         [ -s "one/report/surface-point-$point-$k.svg" ] || fail "picture $k of point $point is no file"
     done
 done
-! grep -q 'surface-point-0' one/report/index.html || fail "the bar was drawn as a surface"
+fragments=$(h5dump -d /realization/fragments one/study.h5 | sed -n 's/^ *(0): \([0-9]*\),.*/\1/p')
+grep -q "s: $fragments fragments\{0,1\}[ <]" one/report/surface-point-0-6.svg || fail "the bar is not drawn with $fragments fragments"
+
+# A film: one page of 24 times, the last one shown at first; on the report's page the pictures of a row are every fourth of its frames.
+expect 0 "$fracas" picture one --point 2 --film -o film
+said '^film/surface-point-2-replica-0.html: 24 times$'
+[ "$(ls film)" = surface-point-2-replica-0.html ] || fail "a film is one file"
+[ "$(grep -c '<figure class="frame" data-time=' film/surface-point-2-replica-0.html)" = 24 ] || fail "24 frames were expected"
+[ "$(grep -c '<figure class="frame" data-time="600.[0-9]* ns">' film/surface-point-2-replica-0.html)" = 1 ] || fail "the last frame is not the end"
+! grep -q '<script src\|https\{0,1\}://[^w]' film/surface-point-2-replica-0.html || fail "the film needs other files"
+[ "$(grep -c '<figure class="between" data-time=' one/report/index.html)" -ge 36 ] || fail "the page has no films"
+expect 0 "$fracas" picture one --point 0 --times 2 --png -o dots
+[ "$(head -c 8 dots/surface-point-0-replica-0-2.png | od -An -tx1)" = ' 89 50 4e 47 0d 0a 1a 0a' ] || fail "no PNG"
+[ "$(ls dots | wc -l)" = 4 ] || fail "two pictures in both forms were expected"
+expect 0 "$fracas" picture one --point 0 --table -o bars
+[ "$(wc -l < bars/times-point-0.csv)" = 4 ] || fail "the table of the bar has not 3 replicas"
 
 # The meshes are in study.h5 alone: without it the page says when pictures come.
 cp -r one partial
 rm partial/study.h5
 expect 0 "$fracas" report partial
 grep -q 'Crack pictures come with the complete study' partial/report/index.html || fail "the page does not say where its pictures are"
-! grep -q '<figure id="surface-' partial/report/index.html || fail "a surface was drawn without its mesh"
+! grep -q '<figure id="surface-point-[12]' partial/report/index.html || fail "a surface was drawn without its mesh"
 cmp one/report/points.csv partial/report/points.csv || fail "from segments a surface has other numbers"
 expect 5 "$fracas" picture partial
 said 'pictures come with the complete study: .*partial/study.h5 is not there'
@@ -121,7 +165,8 @@ refuses()
 }
 refuses 'there is no point 3: one has 3 of them' one --point 3
 refuses 'there is no replica 3: point 1 has 3 of them' one --point 1 --replica 3
-refuses 'point 0 is no surface' one
+refuses 'point 0 is no surface' one --vtk
+refuses 'picture: --vtk is in the place of pictures' one --point 1 --vtk --film
 refuses 'time 1.000 us is outside of the realization, which goes from 0 to 60' one --point 1 --times 1us
 refuses '`5 mm` is a length; expected a time' one --point 1 --times 5mm
 refuses '`x` is not a number' one --point 1 --times 100ns,x

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/simulator/calls.h"
 
+#include "tests/simulator/descriptors.h"
 #include "tests/simulator/farm.h"
 #include "tests/simulator/machine.h"
 
@@ -19,122 +20,19 @@
 #include <time.h>
 #include <unistd.h>
 
-/* ---- descriptors ---- */
-
-/* One side of a connection: the messages there. */
-typedef struct channel {
-    struct channel *peer;
-    process *reader, *writer; /* who waits */
-    unsigned char *bytes;
-    size_t size, room, capacity;
-    bool closed; /* nobody has this side any more */
-} channel;
-
-typedef struct {
-    process *owner;
-    size_t next; /* of its owner's, or of the free ones; 0: the last */
-    node *file;
-    size_t at;
-    channel *channel;
-} descriptor;
-
-static descriptor *all; /* the first is none */
-static size_t nall = 1, room, free_ones;
-
-static void own(size_t i, process *p)
-{
-    all[i].owner = p;
-    if (!p) return;
-    all[i].next = p->descriptors;
-    p->descriptors = i;
-}
-
-static void disown(size_t i)
-{
-    if (!all[i].owner) return;
-    size_t *at = &all[i].owner->descriptors;
-    while (*at != i) at = &all[*at].next;
-    *at = all[i].next;
-}
-
-static int new_descriptor(node *file, channel *side)
-{
-    size_t i = free_ones;
-    if (i) free_ones = all[i].next;
-    else if (fracas_grow(&all, sizeof *all, nall, &room, "descriptors")) abort();
-    else i = nall++;
-    all[i] = (descriptor){.file = file, .channel = side};
-    own(i, world.current);
-    return FIRST_FD + (int)i;
-}
-
-static descriptor *of(int fd)
-{
-    const size_t i = (size_t)(fd - FIRST_FD);
-    return fd >= FIRST_FD && i < nall && (all[i].file || all[i].channel) ? &all[i] : NULL;
-}
+/* ---- pipes ---- */
 
 void calls_pair(int fd[2], size_t capacity)
 {
     channel *side[2];
-    for (int s = 0; s < 2; s++) {
-        side[s] = calloc(1, sizeof *side[s]);
-        if (!side[s]) abort();
-        side[s]->capacity = capacity;
-        fd[s] = new_descriptor(NULL, side[s]);
-    }
-    side[0]->peer = side[1];
-    side[1]->peer = side[0];
-}
-
-void calls_give(int fd, process *to)
-{
-    const size_t i = (size_t)(fd - FIRST_FD);
-    disown(i);
-    own(i, to);
-}
-
-static double lag(void)
-{
-    return 5e-4 * roll(DICE_DELAY);
-}
-
-static void fill(channel *to, const void *bytes, size_t size)
-{
-    if (to->size + size > to->room) {
-        to->room = 2 * (to->size + size);
-        to->bytes = realloc(to->bytes, to->room);
-        if (!to->bytes) abort();
-    }
-    memcpy(to->bytes + to->size, bytes, size);
-    to->size += size;
-    process_wake(to->reader, lag());
+    channel_pair(side, capacity);
+    for (int s = 0; s < 2; s++) fd[s] = descriptor_new((descriptor){.channel = side[s]});
 }
 
 void calls_tell(int fd, const void *bytes, size_t size)
 {
-    descriptor *d = of(fd);
-    if (d && !d->channel->peer->closed) fill(d->channel->peer, bytes, size);
-}
-
-static void shut(size_t i)
-{
-    descriptor *d = &all[i];
-    channel *side = d->channel;
-    if (side) {
-        side->closed = true;
-        process_wake(side->peer->reader, lag());
-        process_wake(side->peer->writer, lag());
-    }
-    if (d->file && d->file->locked_by == d->owner) d->file->locked_by = NULL;
-    disown(i);
-    *d = (descriptor){.next = free_ones};
-    free_ones = i;
-}
-
-void calls_ended(const process *p)
-{
-    while (p->descriptors) shut(p->descriptors);
+    const descriptor *d = descriptor_of(fd);
+    if (d && !d->channel->peer->closed) channel_fill(d->channel->peer, bytes, size);
 }
 
 /* ---- bytes ---- */
@@ -144,7 +42,7 @@ ssize_t __wrap_read(int fd, void *to, size_t size)
 {
     if (fd < FIRST_FD) return __real_read(fd, to, size);
     call("read");
-    descriptor *d = of(fd);
+    descriptor *d = descriptor_of(fd);
     errno = EBADF;
     if (!d) return -1;
     if (d->file) {
@@ -153,27 +51,17 @@ ssize_t __wrap_read(int fd, void *to, size_t size)
         return got;
     }
     channel *side = d->channel;
-    for (side->reader = world.current; !side->size; process_wait(INFINITY))
-        if (side->peer->closed) return 0;
-    if (size > side->size) size = side->size;
-    memcpy(to, side->bytes, size);
-    side->size -= size;
-    memmove(side->bytes, side->bytes + size, side->size);
-    process_wake(side->peer->writer, lag());
-    return (ssize_t)size;
+    for (side->reader = world.current; !channel_readable(side); process_wait(INFINITY))
+        if (channel_is_gone(side)) return 0;
+    return (ssize_t)channel_take(side, to, size);
 }
 
 static ssize_t send_some(channel *side, const void *from, size_t size)
 {
-    channel *to = side->peer;
     for (side->writer = world.current;; process_wait(INFINITY)) {
-        errno = EPIPE;
-        if (to->closed) return -1;
-        if (to->size < to->capacity) break;
+        const ssize_t sent = channel_send(side, from, size);
+        if (sent >= 0 || errno != EAGAIN) return sent;
     }
-    if (size > to->capacity - to->size) size = to->capacity - to->size;
-    fill(to, from, size);
-    return (ssize_t)size;
 }
 
 ssize_t __real_write(int fd, const void *from, size_t size);
@@ -181,7 +69,7 @@ ssize_t __wrap_write(int fd, const void *from, size_t size)
 {
     if (fd < FIRST_FD) return __real_write(fd, from, size);
     call("write");
-    descriptor *d = of(fd);
+    descriptor *d = descriptor_of(fd);
     errno = EBADF;
     if (!d) return -1;
     if (d->channel) return send_some(d->channel, from, size);
@@ -195,33 +83,35 @@ ssize_t __wrap_pread(int fd, void *to, size_t size, off_t at)
 {
     if (fd < FIRST_FD) return __real_pread(fd, to, size, at);
     call("pread");
-    return disk_read(of(fd)->file, (size_t)at, to, size);
+    return disk_read(descriptor_of(fd)->file, (size_t)at, to, size);
 }
 
 ssize_t __wrap_pwrite(int fd, const void *from, size_t size, off_t at)
 {
     call("pwrite");
-    return disk_write(of(fd)->file, (size_t)at, from, size);
+    return disk_write(descriptor_of(fd)->file, (size_t)at, from, size);
 }
 
 int __real_close(int fd);
 int __wrap_close(int fd)
 {
     if (fd < FIRST_FD) return __real_close(fd);
-    if (of(fd)) shut((size_t)(fd - FIRST_FD));
+    descriptor_shut(fd);
     return 0;
 }
 
 int __wrap_ftruncate(int fd, off_t size)
 {
     call("ftruncate");
-    return disk_truncate(of(fd)->file, (size_t)size);
+    return disk_truncate(descriptor_of(fd)->file, (size_t)size);
 }
 
 int __wrap_fsync(int fd)
 {
     call("before fsync");
-    return fd < FIRST_FD ? 0 : disk_sync(of(fd)->file); /* the folder above is the real one */
+    return fd < FIRST_FD
+               ? 0
+               : disk_sync(descriptor_of(fd)->file); /* the folder above is the real one */
 }
 
 /* A rank looks for messages of other ranks between two polls of some ms; here one poll lasts until
@@ -242,10 +132,11 @@ int __wrap_poll(struct pollfd *from, nfds_t count, int timeout)
     for (bool waited = false;; waited = true) {
         int ready = 0;
         for (nfds_t i = 0; i < count; i++) {
-            const descriptor *d = of(from[i].fd);
-            from[i].revents = d && (d->channel->size || d->channel->peer->closed) ? POLLIN : 0;
+            const descriptor *d = descriptor_of(from[i].fd);
+            from[i].revents = d ? channel_events(d->channel, from[i].events) : 0;
             ready += from[i].revents != 0;
             if (d) d->channel->reader = world.current;
+            if (d && from[i].events & POLLOUT) d->channel->writer = world.current;
         }
         const bool woken = waited && world.current->role == RANK;
         if (ready || timeout == 0 || woken || world.now >= end) return ready;
@@ -270,7 +161,7 @@ int __wrap_open(const char *path, int flags, ...)
     if (!n) n = disk_make(path, false);
     if (!n) return -1;
     if (flags & O_TRUNC) disk_truncate(n, 0);
-    return new_descriptor(n, NULL);
+    return descriptor_new((descriptor){.file = n});
 }
 
 static int look_at(const node *n, struct stat *info)
@@ -296,7 +187,7 @@ int __wrap_lstat(const char *path, struct stat *info)
 int __real_fstat(int fd, struct stat *info);
 int __wrap_fstat(int fd, struct stat *info)
 {
-    return fd < FIRST_FD ? __real_fstat(fd, info) : look_at(of(fd)->file, info);
+    return fd < FIRST_FD ? __real_fstat(fd, info) : look_at(descriptor_of(fd)->file, info);
 }
 
 int __wrap_access(const char *path, int mode)
@@ -324,6 +215,14 @@ int __wrap_unlink(const char *path)
 {
     call("unlink");
     return disk_unlink(path);
+}
+
+int __wrap_rmdir(const char *path)
+{
+    const node *n = disk_find(path);
+    call("rmdir");
+    errno = ENOTEMPTY;
+    return n && n->nentries ? -1 : disk_unlink(path);
 }
 
 int __wrap_rename(const char *from, const char *to)
@@ -365,7 +264,7 @@ int __wrap_fcntl(int fd, int command, ...)
     struct flock *lock = va_arg(arguments, struct flock *);
     va_end(arguments);
     call("fcntl");
-    node *n = of(fd)->file;
+    node *n = descriptor_of(fd)->file;
     const bool taken = n->locked_by && n->locked_by != world.current;
     if (command == F_GETLK) {
         lock->l_type = taken ? F_WRLCK : F_UNLCK;
@@ -437,7 +336,7 @@ FILE *__wrap_fdopen(int fd, const char *mode)
         (void *)(intptr_t)fd, mode,
         (cookie_io_functions_t){.read = stream_read, .write = stream_write, .close = stream_close});
     for (size_t s = 0; s < MOST_STREAMS; s++)
-        if (!open_stream[s].fd || !of(open_stream[s].fd)) {
+        if (!open_stream[s].fd || !descriptor_of(open_stream[s].fd)) {
             open_stream[s].stream = stream;
             open_stream[s].fd = fd;
             break;
@@ -544,8 +443,6 @@ int __wrap_unsetenv(const char *name)
 
 int __wrap_gethostname(char *name, size_t size)
 {
-    const process *p = world.current;
-    const bool far = farm.hosts > 1 && p->role >= RANK && p->number % 2;
-    snprintf(name, size, far ? "barn" : "farm");
+    snprintf(name, size, "farm-%d", farm_host(world.current));
     return 0;
 }

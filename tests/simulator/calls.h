@@ -7,17 +7,11 @@
 
 #include "tests/simulator/disk.h"
 
-enum { FIRST_FD = 1000000 };
-
-/* Two connected sockets, of which each side may be given to another process. Its buffer takes
- * `capacity` bytes. */
+/* Two connected sockets, of which each side may be given to another process (descriptor_give). Its
+ * buffer takes `capacity` bytes. */
 void calls_pair(int fd[2], size_t capacity);
-void calls_give(int fd, process *to);
 /* Bytes for whoever reads the other side, as many as there may be. */
 void calls_tell(int fd, const void *bytes, size_t size);
-
-/* The process has ended: closes its descriptors, frees its locks. */
-void calls_ended(const process *p);
 
 /* Seconds of the monotonic clock, of the day since 1970. */
 double calls_monotonic(void);

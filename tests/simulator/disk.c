@@ -128,7 +128,7 @@ int disk_unlink(const char *path)
     node *folder = folder_of(path, &name);
     errno = ENOENT;
     if (!folder || !entry_of(folder->entry, folder->nentries, name)) return -1;
-    machine_removes(path);
+    machine_removes(path, false);
     move_entry(folder, name, NULL, NULL);
     return 0;
 }
@@ -140,7 +140,7 @@ int disk_rename(const char *from, const char *to)
     entry *e = folder ? entry_of(folder->entry, folder->nentries, old) : NULL;
     errno = ENOENT;
     if (!e || there != folder) return -1; /* fracas renames within a folder */
-    machine_removes(to);
+    machine_removes(to, true);
     move_entry(folder, name, e->to, old);
     return 0;
 }

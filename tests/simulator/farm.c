@@ -1,17 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tests/simulator/farm.h"
 
-#include "tests/simulator/disk.h"
+#include "tests/simulator/descriptors.h"
+#include "tests/simulator/engine.h"
 #include "tests/simulator/machine.h"
 #include "tests/simulator/oracle.h"
 
 #include "base/hash.h"
 #include "campaigns/scheduler/run.h"
+#include "campaigns/store/checkpoint.h"
+#include "campaigns/store/file/disk.h"
 
 #include <math.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 struct farm farm;
 
@@ -23,6 +28,11 @@ static struct {
 } watch;
 
 static const double LOOK = 4000; /* s between two looks of the user */
+
+int farm_host(const process *p)
+{
+    return p->role >= RANK ? p->number % farm.hosts : 0;
+}
 
 /* ---- the user ---- */
 
@@ -37,20 +47,54 @@ static void user_main(void *argument)
     process_end(world.current, (int)err << 8);
 }
 
-static void start(void *what, uint64_t number)
-{
-    (void)what, (void)number;
-    if (watch.user && watch.user->alive) return;
-    if (++watch.starts > watch.most_starts) broken("%d starts, and no end", watch.starts);
-    watch.user = process_start(USER_RUN, 0, NULL, user_main, NULL);
-    trace("THE USER STARTS %s", process_name(watch.user));
-}
-
 static bool any_living(void)
 {
     for (size_t i = 0; i < world.nprocesses; i++)
         if (world.process[i]->alive) return true;
     return false;
+}
+
+/* Another program version has left a checkpoint, or its bytes have rotted. */
+static void spoil_one(void)
+{
+    node *folder = disk_find(DISK_ROOT "/study/" FRACAS_CHECKPOINTS);
+    if (!folder || !folder->nentries || any_living()) return;
+    const entry *e = &folder->entry[roll_below(DICE_FAULT, folder->nentries)];
+    node *n = e->to;
+    const size_t size = n->size, least = sizeof(fracas_checkpoint_head) + FRACAS_OWN_SEAL;
+    const uint64_t how = roll_below(DICE_FAULT, 3);
+    if (size < 2 * least) return;
+    OWNED char *bytes = malloc(size);
+    if (!bytes) abort();
+    memcpy(bytes, n->data, size);
+    if (how == 0) bytes[roll_below(DICE_FAULT, size)] ^= 4;
+    if (how == 2) {
+        bytes[offsetof(fracas_checkpoint_head, version)]++;
+        engine_spoil(bytes + sizeof(fracas_checkpoint_head));
+    }
+    disk_truncate(n, 0);
+    disk_write(n, 0, bytes,
+               how == 0   ? size
+               : how == 1 ? roll_below(DICE_FAULT, size)
+                          : size - FRACAS_OWN_SEAL);
+    const int fd = descriptor_new((descriptor){.file = n});
+    if (how == 2 && fracas_disk_append_seal(fd, e->name)) trace("the disk is full");
+    descriptor_shut(fd);
+    disk_sync(n);
+    trace("FAULT: checkpoint %s is %s", e->name,
+          how == 2   ? "of another version"
+          : how == 1 ? "cut short"
+                     : "damaged");
+}
+
+static void start(void *what, uint64_t number)
+{
+    (void)what, (void)number;
+    if (watch.user && watch.user->alive) return;
+    if (farm.faults > 0 && chance(DICE_FAULT, 0.2)) spoil_one();
+    if (++watch.starts > watch.most_starts) broken("%d starts, and no end", watch.starts);
+    watch.user = process_start(USER_RUN, 0, NULL, user_main, NULL);
+    trace("THE USER STARTS %s", process_name(watch.user));
 }
 
 void farm_user_ended(const process *p)
@@ -113,6 +157,7 @@ static void kill_one(void)
     if (!p || (p->role == LEASE_CHILD && !oracle_may_hurt(p))) return;
     const bool later = p->main && p->role != LEASE_CHILD && chance(DICE_FAULT, 0.7);
     if (later) p->doom = 1 + (int)roll_below(DICE_FAULT, 60);
+    p->hurt = true;
     trace("FAULT: %s is killed%s", process_name(p), later ? " soon" : "");
     if (!later) process_end(p, SIGKILL);
 }
@@ -124,8 +169,19 @@ static void freeze_one(void)
     if (!p || p->frozen_until > world.now) return;
     if (p->role == LEASE_CHILD && !oracle_may_hurt(p)) return;
     const bool for_ever = chance(DICE_FAULT, 0.2);
+    p->hurt = true;
     p->frozen_until = for_ever ? INFINITY : world.now + roll_between(DICE_FAULT, 0.1, 30);
     trace("FAULT: %s hangs until %g", process_name(p), p->frozen_until);
+}
+
+/* Others for one body hear a process no more, and it hears none of them. */
+static void cut_one(void)
+{
+    process *p = pick(LEASE_CHILD);
+    if (!p || world.now < p->cut_until || !network_has(p)) return;
+    network_cut(p, chance(DICE_FAULT, 0.2) ? INFINITY
+                                           : world.now + roll_between(DICE_FAULT, 0.1, 200));
+    trace("FAULT: %s is cut off until %g", process_name(p), p->cut_until);
 }
 
 static void jump(void)
@@ -136,6 +192,7 @@ static void jump(void)
         farm.jumped = true;
     }
     world.skew += by;
+    farm.jumps += by;
     world.day += by + 1e4 * (roll(DICE_FAULT) - 0.5);
     trace("FAULT: the clock jumps by %g s", by);
 }
@@ -173,7 +230,7 @@ static void befall(void *mean, uint64_t number)
 {
     (void)number;
     if (farm.faults-- <= 0) return;
-    switch (roll_below(DICE_FAULT, 13)) {
+    switch (roll_below(DICE_FAULT, 15)) {
     case 0:
     case 1:
     case 2:
@@ -195,6 +252,8 @@ static void befall(void *mean, uint64_t number)
         break;
     case 10: chance(DICE_FAULT, 0.5) ? jump() : slow_messages(); break;
     case 11: ask_to_end(); break;
+    case 12:
+    case 13: cut_one(); break;
     default: run_another(); break;
     }
     world_at(world.now - *(double *)mean * log(roll(DICE_FAULT)), befall, mean, 0);
@@ -208,8 +267,13 @@ static void draw(int workers)
     const bool many = workers >= 100;
     farm.kind =
         &farm_campaign[many ? MOST_CAMPAIGNS - 1 : roll_below(DICE_FARM, MOST_CAMPAIGNS - 1)];
-    farm.hosts = chance(DICE_FARM, 0.3) ? 2 : 1;
-    farm.seconds = roll_between(DICE_FARM, 0.02, many ? 5 : 2);
+    farm.hosts = chance(DICE_FARM, 0.5) ? 2 + (int)roll_below(DICE_FARM, 5) : 1;
+    if (!many && farm.hosts > 1 && chance(DICE_FARM, 0.3))
+        farm.kind = &farm_campaign[MOST_CAMPAIGNS - 2]; /* few: most workers idle */
+    const bool is_long = !many && chance(DICE_FARM, farm.hosts > 1 ? 0.8 : 0.3);
+    farm.seconds = is_long ? roll_between(DICE_FARM, 2, 60)
+                           : roll_between(DICE_FARM, 0.02, many ? 5 : 2);
+    farm.parcel = chance(DICE_FARM, 0.2) ? roll_below(DICE_FARM, 400000) : 0;
     fracas_run_options *o = &farm.options;
     fracas_run_options_init(o);
     o->file = DISK_ROOT "/campaign.yaml";
@@ -221,8 +285,9 @@ static void draw(int workers)
     o->isolation = chance(DICE_FARM, 0.3) ? FRACAS_ISOLATION_NONE : FRACAS_ISOLATION_LEASE;
     o->lease_seconds = roll_between(DICE_FARM, 0.1, 5);
     o->segment_age = roll_between(DICE_FARM, 0.1, 20);
-    o->lease_limit = 60;
-    if (farm.kind->cursed == 0 && chance(DICE_FARM, 0.1))
+    o->lease_limit = 450; /* the longest twice, helpers waited for, and a slow disk */
+    o->checkpoint_seconds = roll_between(DICE_FARM, 0.01, 1) * farm.seconds;
+    if (!is_long && farm.kind->cursed == 0 && chance(DICE_FARM, 0.1))
         o->walltime = roll_between(DICE_FARM, 30, 200);
 }
 
@@ -241,6 +306,13 @@ static void check_study(void)
         broken("study.h5 has other bytes than that of an undisturbed run");
 }
 
+/* Nor is any checkpoint left. */
+static void check_checkpoints(void)
+{
+    const node *folder = disk_find(DISK_ROOT "/study/" FRACAS_CHECKPOINTS);
+    if (folder && folder->nentries) broken("checkpoint %s is left behind", folder->entry[0].name);
+}
+
 /* How long it takes undisturbed, about [s]. */
 static double expected(void)
 {
@@ -248,6 +320,26 @@ static double expected(void)
     for (size_t p = 0; p < farm.kind->read->npoints; p++)
         replicas += (double)farm.kind->read->table.point[p].replicas;
     return 2 + farm.seconds * replicas / farm.options.jobs;
+}
+
+/* Processes that heard too late of the end may leave a checkpoint: the next run removes it. */
+static void end_late_ones(void)
+{
+    const double end = world.now + 100;
+    farm.faults = 0;
+    if (!any_living()) return;
+    while (any_living() && world.now < end && world_step())
+        ;
+    for (size_t i = 0; i < world.nprocesses; i++)
+        if (world.process[i]->alive) process_end(world.process[i], SIGKILL);
+    watch.finished = false;
+    watch.settled = -1;
+    start(NULL, 0);
+    while (!watch.finished)
+        if (!world_step()) broken("nothing is left to happen");
+    check_study();
+    while (any_living() && world_step())
+        ;
 }
 
 uint64_t farm_run(uint64_t seed, int workers, int64_t faults, bool tracing)
@@ -276,6 +368,8 @@ uint64_t farm_run(uint64_t seed, int workers, int64_t faults, bool tracing)
     while (!watch.finished)
         if (!world_step()) broken("nothing is left to happen");
     check_study();
+    end_late_ones();
+    check_checkpoints();
     trace("ends after %llu events, %d starts", (unsigned long long)world.events, watch.starts);
     return fracas_checksum_of(&world.drawn, sizeof world.drawn) ^ world.events;
 }

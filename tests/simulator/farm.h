@@ -12,7 +12,7 @@
 /* A cursed realization does the same at every attempt. */
 typedef enum { SOUND, CRASHES, LACKS_MEMORY, NEVER_ENDS } curse;
 
-enum { MOST_CAMPAIGNS = 8 };
+enum { MOST_CAMPAIGNS = 9 };
 
 /* A campaign, and study.h5 of its undisturbed run. */
 typedef struct {
@@ -33,8 +33,12 @@ extern struct farm {
     double seconds; /* of a realization, about */
     int64_t faults; /* still to come, at most */
     bool jumped;    /* the clock, far enough to end every lease */
+    double jumps;   /* of the clock, together [s] */
+    size_t parcel;  /* bytes that processes for one body exchange beside its cells */
 } farm;
 
+/* The host of a process; 0: that of the user. */
+int farm_host(const process *p);
 /* By the campaign alone. */
 curse farm_curse(uint64_t point, int64_t replica);
 uint64_t farm_hash(uint64_t point, int64_t replica, uint64_t purpose);

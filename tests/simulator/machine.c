@@ -2,6 +2,7 @@
 #include "tests/simulator/machine.h"
 
 #include "tests/simulator/calls.h"
+#include "tests/simulator/descriptors.h"
 #include "tests/simulator/farm.h"
 #include "tests/simulator/oracle.h"
 #include "tests/simulator/vfs.h"
@@ -38,11 +39,10 @@ static void kill_later(void *what, uint64_t number)
     if (p->alive) process_end(p, SIGKILL);
 }
 
-/* Ranks with an odd number are on a second machine, which hears later of what happens here. */
+/* Other hosts hear later of what happens here. */
 static double lag_of(const process *p)
 {
-    const bool far = farm.hosts > 1 && p->role == RANK && p->number % 2;
-    return (far ? 3 : 5e-3) * roll(DICE_DELAY);
+    return (p->role == RANK && farm_host(p) ? 3 : 5e-3) * roll(DICE_DELAY);
 }
 
 /* A child dies with its parent. */
@@ -76,7 +76,7 @@ static void fail_run(run *r)
 void machine_ended(process *p)
 {
     run *r = p->run;
-    calls_ended(p);
+    descriptors_end(p);
     vfs_ended(p);
     if (world.dark) return;
     if (!r) {
@@ -84,7 +84,7 @@ void machine_ended(process *p)
         farm_user_ended(p);
         return;
     }
-    r->living -= !(farm.hosts > 1 && p->number % 2 && p->role != MPIRUN);
+    r->living -= !farm_host(p);
     end_children(p);
     process_wake(process_of(p->parent), 1e-4 * roll(DICE_DELAY));
     if (p->role == MPIRUN) process_wake(r->launcher, 0);
@@ -101,9 +101,9 @@ void machine_power_failed(void)
     farm_power_failed();
 }
 
-void machine_removes(const char *path)
+void machine_removes(const char *path, bool replaced)
 {
-    oracle_removes(path);
+    oracle_removes(path, replaced);
 }
 
 void machine_signal(process *p, int number)
@@ -249,12 +249,12 @@ static fracas_err start(const fracas_ranks *ranks, fracas_scratch *scratch, frac
     r->living++;
     calls_pair(out, 1 << 20);
     calls_pair(errors, 1 << 20);
-    calls_give(out[1], r->mpirun);
-    calls_give(errors[1], r->mpirun);
+    descriptor_give(out[1], r->mpirun);
+    descriptor_give(errors[1], r->mpirun);
     r->mpirun->out = out[1];
     for (int i = 0; i < jobs; i++) {
         start_rank(r, i);
-        r->living += !(farm.hosts > 1 && i % 2);
+        r->living += !farm_host(r->rank[i]);
     }
     *starter = (fracas_starter){r->mpirun->pid, out[0], errors[0]};
     return FRACAS_OK;

@@ -30,6 +30,6 @@ void machine_signal(process *p, int signal_number);
 /* Called when a process has ended; when the power has failed; before a file goes. */
 void machine_ended(process *p);
 void machine_power_failed(void);
-void machine_removes(const char *path);
+void machine_removes(const char *path, bool replaced);
 
 #endif

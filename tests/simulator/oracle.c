@@ -2,10 +2,13 @@
 #include "tests/simulator/oracle.h"
 
 #include "tests/simulator/calls.h"
+#include "tests/simulator/descriptors.h"
 #include "tests/simulator/farm.h"
 
+#include "base/version.h"
 #include "campaigns/scheduler/director/state.h"
 #include "campaigns/scheduler/session/prepare.h"
+#include "campaigns/store/checkpoint.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/index.h"
 
@@ -26,6 +29,7 @@ typedef struct {
 
 typedef struct {
     bool settled; /* done, or failed for good */
+    bool written; /* its record is durable */
     int hurt;     /* attempts lost to faults */
     hold hold[MOST_HOLDS];
     size_t next;
@@ -141,8 +145,8 @@ static void lease_one(const process *server, const fracas_lease *lease, size_t i
 /* A helper is of another host than its leader. */
 static void help_one(const process *helper, const fracas_lease *lease)
 {
-    const process *leader = process_of((int)lease->meeting.port);
-    if (helper->number % 2 == leader->number % 2)
+    const process *leader = network_listener(lease->meeting.port);
+    if (leader && farm_host(helper) == farm_host(leader))
         broken("rank %d is to help rank %d of its host", helper->number, leader->number);
 }
 
@@ -198,13 +202,40 @@ static void give_back(const fracas_lease_failure *failure)
             }
 }
 
+/* A process of the server's, or itself, has met a fault. */
+static bool is_hurt(const process *server)
+{
+    bool hurt = server->hurt || farm.jumps > 100;
+    for (size_t i = 0; i < world.nprocesses && !hurt; i++)
+        hurt = world.process[i]->parent == server->pid && world.process[i]->hurt;
+    return hurt;
+}
+
+static void check_failure(const fracas_lease_failure *failure)
+{
+    bool sound = true;
+    for (size_t p = 0; p < oracle.campaign->npoints; p++)
+        for (int64_t i = 0; i < oracle.room[p]; i++)
+            for (size_t h = 0; h < MOST_HOLDS; h++) {
+                const hold *held = &of(p, i)->hold[h];
+                if (held->server == world.current && held->lease == failure->lease &&
+                    held->place >= failure->kept && held->place < failure->kept + failure->count)
+                    sound &= farm_curse(p, i) == SOUND;
+            }
+    if (sound && !is_hurt(world.current))
+        broken("a lease of sound realizations fails: %s", failure->reason);
+}
+
 fracas_err __real_fracas_packet_send(int fd, fracas_packet_kind kind, const void *body,
                                      size_t size);
 fracas_err __wrap_fracas_packet_send(int fd, fracas_packet_kind kind, const void *body, size_t size)
 {
     process *p = world.current;
     trace("sends message %d", (int)kind);
-    if (p->role == SERVER && kind == FRACAS_PACKET_FAILED) give_back(body);
+    if (p->role == SERVER && kind == FRACAS_PACKET_FAILED) {
+        check_failure(body);
+        give_back(body);
+    }
     if (p->role == SERVER && (kind == FRACAS_PACKET_TROUBLE || kind == FRACAS_PACKET_ENDED))
         p->gave_up = true;
     if (kind == FRACAS_PACKET_TROUBLE || kind == FRACAS_PACKET_FAULT)
@@ -248,6 +279,7 @@ fracas_err __wrap_fracas_index_commit(fracas_index *index, const char *segment,
                                       const fracas_file_seal *seal, const fracas_segment_row *row,
                                       size_t count, const char *provenance)
 {
+    for (size_t i = 0; i < count; i++) of(point_of(&row[i].point), row[i].replica)->written = true;
     TRY(__real_fracas_index_commit(index, segment, seal, row, count, provenance));
     trace("commits %s: %zu realizations", segment, count);
     check_segment(segment, seal);
@@ -272,9 +304,126 @@ fracas_err __wrap_fracas_index_fail(fracas_index *index, const fracas_hash *poin
     return FRACAS_OK;
 }
 
-void oracle_removes(const char *path)
+/* ---- checkpoints ---- */
+
+static void checkpoint_path(uint64_t point, int64_t replica, char path[256])
+{
+    snprintf(path, 256, DISK_ROOT "/study/" FRACAS_CHECKPOINTS "/%s-%lld",
+             fracas_hash_hex(&oracle.campaign->point[point].hash).text, (long long)replica);
+}
+
+/* A whole checkpoint of this program; false: none. */
+static bool read_checkpoint(const char *path, fracas_checkpoint_head *head)
+{
+    const node *n = disk_find(path);
+    uint64_t seal[2];
+    if (!n || n->size < sizeof *head + FRACAS_OWN_SEAL) return false;
+    const size_t bytes = n->size - FRACAS_OWN_SEAL;
+    memcpy(head, n->data, sizeof *head);
+    memcpy(seal, n->data + n->size - sizeof seal, sizeof seal);
+    return seal[0] == bytes && seal[1] == fracas_checksum_of(n->data, bytes) &&
+           !strncmp(head->version, FRACAS_VERSION, sizeof head->version);
+}
+
+uint64_t oracle_checkpoint(uint64_t point, int64_t replica)
+{
+    char path[256];
+    fracas_checkpoint_head head;
+    checkpoint_path(point, replica, path);
+    return read_checkpoint(path, &head) && disk_is_durable(path) ? (uint64_t)head.steps : 0;
+}
+
+/* Meanwhile another copy of the lease may have ended, or left an older one. */
+void oracle_begins(uint64_t point, int64_t replica, uint64_t before, uint64_t steps)
+{
+    const uint64_t now = oracle_checkpoint(point, replica);
+    if (steps < before && steps < now)
+        broken("replica %lld of point %llu begins at step %llu, its checkpoint is of step %llu",
+               (long long)replica, (unsigned long long)point, (unsigned long long)steps,
+               (unsigned long long)before);
+}
+
+void oracle_interrupts(uint64_t point, int64_t replica, uint64_t steps)
+{
+    const realization *r = of(point, replica);
+    size_t holders = 0;
+    for (size_t h = 0; h < MOST_HOLDS; h++) holders += r->hold[h].server != NULL;
+    if (holders < 2 && oracle_checkpoint(point, replica) != steps)
+        broken("replica %lld of point %llu stops at step %llu without a checkpoint",
+               (long long)replica, (unsigned long long)point, (unsigned long long)steps);
+}
+
+fracas_err __real_fracas_checkpoint_create(const char *study, const fracas_file_header *header,
+                                           fracas_checkpoint_head *head,
+                                           fracas_checkpoint **checkpoint);
+fracas_err __wrap_fracas_checkpoint_create(const char *study, const fracas_file_header *header,
+                                           fracas_checkpoint_head *head,
+                                           fracas_checkpoint **checkpoint)
+{
+    TRY(__real_fracas_checkpoint_create(study, header, head, checkpoint));
+    world.current->saves = (saving){point_of(&head->point), head->replica, (uint64_t)head->steps};
+    return FRACAS_OK;
+}
+
+fracas_err __real_fracas_checkpoint_finish(fracas_checkpoint *checkpoint);
+fracas_err __wrap_fracas_checkpoint_finish(fracas_checkpoint *checkpoint)
+{
+    TRY(__real_fracas_checkpoint_finish(checkpoint));
+    const saving *s = &world.current->saves;
+    const uint64_t steps = oracle_checkpoint(s->point, s->replica);
+    trace("checkpoint of replica %lld of point %llu at step %llu", (long long)s->replica,
+          (unsigned long long)s->point, (unsigned long long)s->steps);
+    /* Another copy of the lease may have left another, or ended. */
+    if (!steps && !of(s->point, s->replica)->written)
+        broken("a checkpoint of step %llu is finished, and not durable",
+               (unsigned long long)s->steps);
+    return FRACAS_OK;
+}
+
+fracas_err __real_fracas_writer_create(const char *path, const fracas_file_header *header,
+                                       const fracas_point_table *table, fracas_writer **writer);
+fracas_err __wrap_fracas_writer_create(const char *path, const fracas_file_header *header,
+                                       const fracas_point_table *table, fracas_writer **writer)
+{
+    snprintf(world.current->writes, sizeof world.current->writes, "%s", path);
+    return __real_fracas_writer_create(path, header, table, writer);
+}
+
+void __real_fracas_checkpoints_remove(const char *study, const fracas_segment_row *row,
+                                      size_t count);
+void __wrap_fracas_checkpoints_remove(const char *study, const fracas_segment_row *row,
+                                      size_t count)
+{
+    const bool durable = disk_is_durable(world.current->writes);
+    for (size_t i = 0; i < count && durable; i++)
+        of(point_of(&row[i].point), row[i].replica)->written = true;
+    __real_fracas_checkpoints_remove(study, row, count);
+}
+
+static bool all_settled(void)
+{
+    for (size_t p = 0; p < oracle.campaign->npoints; p++)
+        for (int64_t i = 0; i < oracle.campaign->table.point[p].replicas; i++)
+            if (!of(p, i)->settled) return false;
+    return true;
+}
+
+static void check_removal(const char *path, const char *name)
+{
+    fracas_checkpoint_head head;
+    if (!strstr(path, "/" FRACAS_CHECKPOINTS "/") || *name == '.' || !read_checkpoint(path, &head))
+        return;
+    const realization *r = of(point_of(&head.point), head.replica);
+    if (!r->settled && !r->written && !all_settled())
+        broken("checkpoint %s is removed, and its record is nowhere", name);
+}
+
+/* ---- files ---- */
+
+void oracle_removes(const char *path, bool replaced)
 {
     const char *name = strrchr(path, '/') + 1;
+    if (!replaced && disk_find(path)) check_removal(path, name);
     if (disk_find(path) && knows(name)) broken("%s is removed or written over", path);
 }
 
@@ -296,9 +445,22 @@ static bool any_late(void)
     return false;
 }
 
+static void check_checkpoints(bool late)
+{
+    const node *folder = disk_find(DISK_ROOT "/study/" FRACAS_CHECKPOINTS);
+    for (size_t e = 0; folder && e < folder->nentries; e++) {
+        char path[256];
+        fracas_checkpoint_head head;
+        snprintf(path, sizeof path, DISK_ROOT "/study/" FRACAS_CHECKPOINTS "/%s",
+                 folder->entry[e].name);
+        if (!late && !read_checkpoint(path, &head)) broken("%s is of no use, and is kept", path);
+    }
+}
+
 static void check_files(void)
 {
     const bool late = any_late();
+    check_checkpoints(late);
     const node *folder = disk_find(DISK_ROOT "/study/segments");
     for (size_t e = 0; e < folder->nentries; e++) {
         const char *name = folder->entry[e].name;

@@ -17,7 +17,7 @@
 
 struct world world;
 
-enum { STACK = 640 << 10, MOST_EVENTS = 20000000 };
+enum { STACK = 640 << 10, MOST_EVENTS = 20000000, MOST_CALLS = 10000000 };
 
 static ucontext_t loop; /* of world_step */
 static void *corpse;    /* stack of a process after its own end */
@@ -186,6 +186,7 @@ static void resume(void *what, uint64_t turn)
         return;
     }
     p->turn++;
+    p->idle_calls = 0;
     world.current = p;
     swapcontext(&loop, &p->context);
     world.current = NULL;
@@ -288,6 +289,7 @@ void call(const char *name)
 {
     process *p = world.current;
     if (!p) return;
+    if (++p->idle_calls > MOST_CALLS) broken("calls %s and others without end", name);
     if (world.blackout && !--world.blackout) {
         trace("the power fails at %s", name);
         world.dark = true;

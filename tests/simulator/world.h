@@ -12,7 +12,7 @@
 #include <ucontext.h>
 
 /* Dice of different purposes, so that a change to one leaves the others as they were. */
-typedef enum { DICE_FARM, DICE_FAULT, DICE_DELAY, DICE_DISK, DICE_SQLITE, NDICE } dice;
+typedef enum { DICE_FARM, DICE_FAULT, DICE_DELAY, DICE_DISK, DICE_SQLITE, DICE_NET, NDICE } dice;
 
 enum { MESSAGE = 1024, FIRST_PID = 1000, NENV = 6 };
 
@@ -20,6 +20,13 @@ typedef struct run run;       /* one start of mpirun: machine.c */
 typedef struct letter letter; /* a message between ranks: machine.c */
 
 typedef enum { USER_RUN, MPIRUN, RANK, KEEPER, SERVER, LEASE_CHILD, NROLES } role;
+
+/* The checkpoint that a process writes. */
+typedef struct {
+    uint64_t point;
+    int64_t replica;
+    uint64_t steps;
+} saving;
 
 typedef struct process {
     int pid, parent;
@@ -34,9 +41,14 @@ typedef struct process {
     void *stack;
     uint64_t turn;       /* counts its resumptions: an older one is void */
     double frozen_until; /* it does nothing before */
-    int doom;            /* calls until it dies; 0: none */
-    int alarm;           /* number of its last timer */
-    bool drain;          /* signals received */
+    double cut_until;    /* of the process of a lease: no other hears it before */
+    int idle_calls;      /* since it slept last */
+    bool hurt;           /* by a fault */
+    saving saves;
+    char writes[256]; /* the segment */
+    int doom;         /* calls until it dies; 0: none */
+    int alarm;        /* number of its last timer */
+    bool drain;       /* signals received */
     int asked;
     int error; /* its errno and its last message while others run */
     char message[MESSAGE];

@@ -65,6 +65,25 @@ static void distributions_follow_their_laws(void **state)
     }
 }
 
+/* Mean 310 MPa above 264 MPa with modulus 2: scale 46 MPa/Gamma(3/2) = 92 MPa/sqrt(pi); by shape
+ * alone (1000 at most) the mean above 0. Rounding of a gamma function. */
+static void weibull_by_its_mean_and_shape(void **state)
+{
+    const fracas_strength given = STRENGTH("weibull", .minimum = 264e6, .mean = 310e6, .shape = 2),
+                          narrow = STRENGTH("weibull", .mean = 310e6, .shape = 1000),
+                          low = STRENGTH("weibull", .minimum = 264e6, .mean = 264e6, .shape = 2),
+                          three = STRENGTH("weibull", .mean = 310e6, .shape = 2, .scale = 1e6);
+    const fracas_probability median = fracas_probability_of(0.5);
+    fracas_strength ready;
+    assert_true(fabs(mean_of_strength(&given, body) - 310e6) < 1e-12 * 310e6);
+    assert_true(fabs(mean_of_strength(&narrow, body) - 310e6) < 1e-12 * 310e6);
+    OK(fracas_strength_init(&given, &ready));
+    assert_true(fabs(fracas_strength_quantile(&ready, (fracas_extent){body, 1.0}, median) -
+                     (264e6 + 92e6 / sqrt(M_PI) * sqrt(log(2)))) < 1e-12 * 310e6);
+    FAILS(fracas_strength_init(&low, &ready), FRACAS_USAGE, "the mean is above the minimum");
+    FAILS(fracas_strength_init(&three, &ready), FRACAS_USAGE, "take out `mean`");
+}
+
 /* `raw`: first four moments of strength - minimum. Returns the mean, in closed form. */
 static double check_law(const fracas_strength *law, uint64_t seed, const double raw[4])
 {
@@ -169,5 +188,6 @@ static void the_weakest_of_n_scales(void **state)
         }
 }
 
-TESTS(distributions_follow_their_laws, weibull_moments, normal_moments, gamma_moments,
-      flaws_moments, flaws_do_not_see_the_mesh, the_weakest_of_n_scales)
+TESTS(distributions_follow_their_laws, weibull_by_its_mean_and_shape, weibull_moments,
+      normal_moments, gamma_moments, flaws_moments, flaws_do_not_see_the_mesh,
+      the_weakest_of_n_scales)

@@ -11,6 +11,16 @@ enum { MOST = 2000 }; /* elements */
 static const fracas_kind *const laws[] = {&fracas_law_nitsche.kind, &fracas_law_rigid_link.kind};
 static const fracas_kind *const ends[] = {&fracas_ends_periodic, &fracas_ends_held};
 
+/* Ends joined, held, free, free between walls at a gap. */
+enum { ENDS = 4, ENDS_FREE = 2, ENDS_WALLS };
+static inline const char *set_ends(fracas_spec *spec, int which, double gap)
+{
+    static const char *const name[ENDS] = {"periodic", "held", "free", "between walls"};
+    spec->geometry.ends = which < 2 ? ends[which] : &fracas_ends_free;
+    spec->geometry.gap = which == ENDS_WALLS ? gap : NAN;
+    return name[which];
+}
+
 /* The meshes of most tests: graded either way, moved by the most that is allowed. UNIFORM leaves
  * the spec as it is. */
 enum { MESHES = 3, UNIFORM = MESHES };

@@ -31,7 +31,7 @@ static const char plain_campaign[] = "name: test\n"                  /* 1 */
                                      "loading:\n"                    /* 19 */
                                      "  rate: 1e4 1/s\n"             /* 20 */
                                      "time:\n"                       /* 21 */
-                                     "  stop: settled\n"             /* 22 */
+                                     "  stop: quiet\n"               /* 22 */
                                      "  end: 500 ns\n"               /* 23 */
                                      "  quiet: 100 ns\n"             /* 24 */
                                      "replicas: 3\n"                 /* 25 */
@@ -86,7 +86,7 @@ static inline char *write_text(const fracas_campaign *campaign)
 static inline char *plan_text(const fracas_campaign *campaign, int jobs, bool json)
 {
     FILE *out = text_begin();
-    OK(fracas_plan_print(campaign, jobs, false, out, json));
+    OK(fracas_plan_print(campaign, &(fracas_plan_options){.jobs = jobs, .json = json}, out));
     return text_end(out);
 }
 

@@ -34,7 +34,7 @@ material: {young: 275 GPa, density: 2750 kg/m3}
 cohesive: {law: nitsche, fracture_energy: 100 J/m2, beta: 4}
 strength: {distribution: uniform, minimum: 299 MPa, maximum: 301 MPa}
 loading: {type: imposed-rate, rate: 1e5 1/s}
-time: {stop: settled, end: 300 ns, quiet: 50 ns, safety: 0.25}
+time: {stop: quiet, end: 300 ns, quiet: 50 ns, safety: 0.25}
 sweep:
   - loading.rate: [$3]
 replicas: $2
@@ -142,7 +142,8 @@ processes()
 named()
 {
     for pid in $(processes); do
-        [ "$(cat "/proc/$pid/comm" 2>/dev/null)" != "$1" ] || echo "$pid"
+        { read -r name < "/proc/$pid/comm"; } 2>/dev/null || continue
+        [ "$name" != "$1" ] || echo "$pid"
     done
 }
 

@@ -19,6 +19,7 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.actions.action_builder import ActionBuilder
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+from selenium.webdriver.support.ui import WebDriverWait
 
 report = os.path.abspath(os.path.join(sys.argv[1], "report"))
 url = "file://" + os.path.join(report, "index.html")
@@ -166,7 +167,7 @@ def check_drawing(svg, rows):
 
 def check_figures():
     charts = 0
-    for figure in all_of("figure"):
+    for figure in all_of("figure:not(.film *)"):
         name = figure.get_attribute("id")
         drawings = all_of("svg", figure)
         assert drawings
@@ -174,6 +175,11 @@ def check_figures():
         assert "SVG" in links and "CSV" in links, (name, links)
         rows = list(csv.reader(open(os.path.join(report, name + ".csv"), encoding="utf-8")))
         assert len(rows) > 1
+        if all_of(".film", figure):  # an interface a line; rings and periodic bars
+            broken = sum(math.isfinite(float(row[-1] or "nan")) for row in rows[1:])
+            words = [text.get_attribute("textContent") for text in all_of("text", drawings[-1])]
+            assert any(re.search(rf": {broken} fragments?( |$)", word) for word in words), (broken, words)
+            continue
         if rows[0][:3] != ["panel", "series", "kind"]:
             assert len(all_of(".band", figure)) == len(rows) - 1  # a crack pattern
             continue
@@ -328,6 +334,37 @@ def check_print(figures, tables):
     return pages
 
 
+def check_films():
+    """Six pictures side by side until somebody plays or slides: then one frame of them all at a time."""
+    films = all_of(".film")
+    for film in films:
+        frames = film.find_elements(By.XPATH, "./figure")
+        shown = lambda: [k for k, frame in enumerate(frames) if frame.is_displayed()]
+        row = shown()
+        assert len(row) == 6 and row[-1] == len(frames) - 1, row
+        if film != films[0]:
+            continue
+        times = [frame.get_attribute("data-time") for frame in frames]
+        controls = film.find_element(By.XPATH, "preceding-sibling::div[@class='play']")
+        (play, back), slider, time = all_of("button", controls), one_of("input", controls), one_of("output", controls)
+        assert not back.is_displayed()
+        slider.send_keys(Keys.HOME)
+        assert shown() == [0] and time.text == times[0], (shown(), time.text)
+        slider.send_keys(Keys.ARROW_RIGHT, Keys.ARROW_RIGHT)
+        assert shown() == [2] and slider.get_attribute("aria-valuetext") == times[2]
+        media(kind="print")
+        assert shown() == row and not controls.is_displayed(), shown()
+        media()
+        slider.send_keys(Keys.END)
+        click(play)
+        assert play.text == "Pause" and len(shown()) == 1 and shown()[0] < len(frames) - 1
+        WebDriverWait(browser, 30).until(lambda _: play.text == "Play")
+        assert shown() == [len(frames) - 1]
+        click(back)
+        assert shown() == row and not back.is_displayed()
+    return len(films)
+
+
 def check_pdfs():
     """Vectors of the size of the drawing, with its words."""
     names = [name for name in sorted(os.listdir(report)) if name.endswith(".pdf")]
@@ -353,8 +390,8 @@ try:
     resize(1600)
     media()
     browser.get(url)
-    figures, tables = len(all_of("figure")), len(all_of("table"))
-    captions = [caption.text for caption in all_of("figcaption")]
+    figures, tables = len(all_of("figure:not(.film *)")), len(all_of("table"))
+    captions = [caption.text for caption in all_of("figcaption:not(.film *)")]
     of_four = bool(all_of("#converge-count"))  # studies: the figures name their folder, which is no campaign
     for k, caption in enumerate(captions, 1):
         assert caption.startswith(f"Figure {k}. ") and (", campaign " in caption) != of_four, caption
@@ -379,6 +416,8 @@ try:
         if all_of("input.axes", figure):
             check_axes(figure)
     check_widths()
+    films = check_films()
+    assert films == {"rates": 0, "rings": 2, "converged": 0}[sys.argv[1]], films
     pages = check_print(figures, tables)
     pdfs = check_pdfs()
     errors = browser.get_log("browser")

@@ -97,11 +97,11 @@ def fisher_beyond(x, above, below):
     return float(np.sum(weight * np.exp(log)) * end / 2)
 
 
-def known_of(group):
-    """The points of a line: log rate, log size, error, degrees of freedom behind it, whether its variance is shared, and the freedom of that (or None)."""
-    of = [row for row in group if row["rate"] > 0 and row["size.mean"] > 0 and row["count.mean"] != 1]
-    n = np.array([row["size.n"] for row in of], float)
-    relative = np.array([row["size.deviation"] / row["size.mean"] if row["size.n"] > 1 else 0 for row in of])**2
+def known_of(group, of_what="size"):
+    """The points of a line: log rate, log of the mean, error, degrees of freedom behind it, whether its variance is shared, and the freedom of that (or None)."""
+    of = [row for row in group if row["rate"] > 0 and row["size.mean"] > 0 and row["count.mean"] != 1 and row[of_what + ".mean"] > 0]
+    n = np.array([row[of_what + ".n"] for row in of], float)
+    relative = np.array([row[of_what + ".deviation"] / row[of_what + ".mean"] if row[of_what + ".n"] > 1 else 0 for row in of])**2
     behind = n - 1
     few = n < 8
     together = None
@@ -112,7 +112,7 @@ def known_of(group):
         relative[few] = max(own, every) if together < 4 or not own else own
         together = together or sum(behind)
         behind[few] = together
-    x, y = (np.array([math.log(row[key]) for row in of]) for key in ("rate", "size.mean"))
+    x, y = (np.array([math.log(row[key]) for row in of]) for key in ("rate", of_what + ".mean"))
     used = relative > 0
     return x[used], y[used], np.sqrt(relative / n)[used], behind[used], few[used], together if any(used & few) else None, (x, y)
 
@@ -129,8 +129,8 @@ def misfit_of(chi2, freedom, derivative, error, behind, few):
     return fisher_beyond(chi2 / (freedom + 2 * a - 6 * a / (freedom + 2)), freedom, freedom * (freedom + 2) / (3 * a))
 
 
-def slope(group):
-    x, y, sigma, behind, few, together, everything = known_of(group)
+def slope(group, of_what="size"):
+    x, y, sigma, behind, few, together, everything = known_of(group, of_what)
     weighted = len(x) > 0
     if not weighted:
         x, y = everything
@@ -148,19 +148,34 @@ def slope(group):
     return len(x), exponent, error, half_width, chi2, misfit, together
 
 
-expected = [slope(group) for group in groups.values()] if len(groups) > 1 else []
-expected = [fit for fit in [*expected, slope(rows)] if fit] if slope(rows) else []
+def slopes(of_what):
+    """Of each series, if there are several, and of all points."""
+    series = [slope(group, of_what) for group in groups.values()] if len(groups) > 1 else []
+    return [fit for fit in [*series, slope(rows, of_what)] if fit] if slope(rows, of_what) else []
+
+
+def check_slopes(listed, expected, sign):
+    assert len(listed) == len(expected)
+    for ours, theirs in zip(listed, expected):
+        assert ours["points"] == theirs[0] and (ours["mott"] is None or ours["mott"] == -sign and math.isclose(ours["grady"], -sign * 2 / 3))
+        for key, value in zip(("slope", "standard_error", "half_width", "chi2", "misfit", "pooled_freedom"), theirs[1:]):
+            assert ours[key] is value is None or math.isclose(ours[key], value, rel_tol=1e-7, abs_tol=1e-12), (key, ours[key], value)  # numpy solves by SVD
+
+
+expected = slopes("size")
 mixed = sum(any(row["rate"] > 0 and row["size.mean"] > 0 and row["count.mean"] != 1 for row in group) for group in groups.values())
 for i, ours in enumerate(summary["slopes"], 1):
     last = i == len(expected)
     assert ours["mixes"] == (mixed if last else 1) and (not last or ours["series"] == "all points" + f", {mixed} series mixed" * (mixed > 1))
 assert ("series, which differ in more than the strain rate" in open(os.path.join(report, "index.html"), encoding="utf-8").read()) == (
     bool(expected) and mixed > 1)
-assert len(summary["slopes"]) == len(expected)
-for ours, theirs in zip(summary["slopes"], expected):
-    assert ours["points"] == theirs[0] and ours["mott"] == -1 and math.isclose(ours["grady"], -2 / 3)
-    for key, value in zip(("slope", "standard_error", "half_width", "chi2", "misfit", "pooled_freedom"), theirs[1:]):
-        assert ours[key] is value is None or math.isclose(ours[key], value, rel_tol=1e-7, abs_tol=1e-12), (key, ours[key], value)  # numpy solves by SVD
+check_slopes(summary["slopes"], expected, 1)
+check_slopes(summary["count_slopes"], slopes("count"), -1)
+much = any(row["dust_share"] > 0.05 for row in rows)
+check_slopes(summary["count_large_slopes"], slopes("count_large") if much else [], -1)
+has_length = [math.isfinite(point["parameters"].get("derived.length") or math.nan) for point in summary["points"]]
+for of in summary["slopes"] + summary["count_slopes"] + summary["count_large_slopes"] if len(set(has_length)) == 1 else []:
+    assert (of["mott"] is not None) == (of["grady"] is not None) == has_length[0]
 
 # Slopes between neighbouring rates, in the summary and the file.
 expected, certain = [], []  # certain: whether there is an interval, and its freedom
@@ -178,8 +193,11 @@ for group in groups.values():
             certain.append((some, freedom))
 assert len(summary["windows"]) == len(expected)
 lines = [line for line in csv.DictReader(open(os.path.join(report, "slopes.csv")))]
-assert len(lines) == len(summary["slopes"]) + len(expected)
-for ours, line in zip(summary["slopes"], lines):
+of_counts = summary["count_slopes"] + summary["count_large_slopes"]
+assert len(lines) == len(summary["slopes"]) + len(expected) + len(of_counts)
+assert [line["kind"] for line in lines[len(lines) - len(of_counts):]] == (
+    ["count"] * len(summary["count_slopes"]) + ["count_large"] * len(summary["count_large_slopes"]))
+for ours, line in zip(summary["slopes"] + of_counts, lines[:len(summary["slopes"])] + lines[len(lines) - len(of_counts):]):
     for key in ("slope", "standard_error", "half_width", "chi2", "misfit", "pooled_freedom"):
         assert ours[key] is None and line[key] == "" or math.isclose(ours[key], float(line[key]), rel_tol=1e-12), key
 for ours, line, theirs in zip(summary["windows"], lines[len(summary["slopes"]):], expected):
@@ -194,30 +212,29 @@ for ours, (some, freedom) in zip(summary["windows"], certain):
 
 # Crossovers: chi2 is that of the constants, and the least about them.
 used = [known_of(group) for group in groups.values() if any(row["rate"] > 0 and not math.isnan(row["size.mean"]) for row in group)]
-if not any(point["parameters"].get("geometry.thickness") for point in summary["points"]):  # of surfaces there are none
-    assert len(summary["crossovers"]) == len(used)
-    for fit, of in zip(summary["crossovers"], used):
-        x, y, error, behind, few, together, _ = of
-        assert fit["points"] == len(x) and (fit["reason"] is None) == (fit["rate"]["value"] is not None)
-        if fit["reason"] is not None:
-            continue
+assert len(summary["crossovers"]) == len(used)
+for fit, of in zip(summary["crossovers"], used):
+    x, y, error, behind, few, together, _ = of
+    assert fit["points"] == len(x) and (fit["reason"] is None) == (fit["rate"]["value"] is not None)
+    if fit["reason"] is not None:
+        continue
 
-        def chi2(size, rate, k):
-            return np.sum(((y - math.log(size) + np.logaddexp(0, k * (x - math.log(rate)))) / error)**2)
+    def chi2(size, rate, k):
+        return np.sum(((y - math.log(size) + np.logaddexp(0, k * (x - math.log(rate)))) / error)**2)
 
-        best = np.array([fit["size"]["value"], fit["rate"]["value"], -fit["high_exponent"]["value"]])
-        assert math.isclose(chi2(*best), fit["chi2"], rel_tol=1e-9)
-        for step in np.vstack((np.eye(3), -np.eye(3))) * 1e-3:
-            assert chi2(*(best * (1 + step))) > fit["chi2"]
-        z = -best[2] * (math.log(best[1]) - x)
-        soft = 1 / (1 + np.exp(-z))
-        derivative = np.stack((np.ones(len(x)), soft * best[2], -soft * z), axis=1)  # by the logarithms of the constants
-        misfit = misfit_of(fit["chi2"], len(x) - 3, derivative, error, behind, few)
-        assert math.isclose(fit["misfit"], misfit, rel_tol=1e-5) and fit["pooled_freedom"] == together
-        assert math.isclose(fit["inflation"], max(1, math.sqrt(fit["chi2"] / (len(x) - 3))), rel_tol=1e-9)
-        for name in ("size", "rate", "high_exponent"):
-            assert fit[name]["low"] < fit[name]["value"] < fit[name]["high"]
-            assert 0 < 2 * fit[name]["standard_error"] < fit[name]["high"] - fit[name]["low"]
+    best = np.array([fit["size"]["value"], fit["rate"]["value"], -fit["high_exponent"]["value"]])
+    assert math.isclose(chi2(*best), fit["chi2"], rel_tol=1e-9)
+    for step in np.vstack((np.eye(3), -np.eye(3))) * 1e-3:
+        assert chi2(*(best * (1 + step))) > fit["chi2"]
+    z = -best[2] * (math.log(best[1]) - x)
+    soft = 1 / (1 + np.exp(-z))
+    derivative = np.stack((np.ones(len(x)), soft * best[2], -soft * z), axis=1)  # by the logarithms of the constants
+    misfit = misfit_of(fit["chi2"], len(x) - 3, derivative, error, behind, few)
+    assert math.isclose(fit["misfit"], misfit, rel_tol=1e-5) and fit["pooled_freedom"] == together
+    assert math.isclose(fit["inflation"], max(1, math.sqrt(fit["chi2"] / (len(x) - 3))), rel_tol=1e-9)
+    for name in ("size", "rate", "high_exponent"):
+        assert fit[name]["low"] < fit[name]["value"] < fit[name]["high"]
+        assert 0 < 2 * fit[name]["standard_error"] < fit[name]["high"] - fit[name]["low"]
 
 # So does the SQL example, from the index, as far as the index goes.
 if shutil.which("sqlite3"):
@@ -280,8 +297,17 @@ with_mean = sum(not math.isnan(row["size.mean"]) for row in rows)
 SVG = "{http://www.w3.org/2000/svg}"
 
 
+def drawings(name):
+    """A figure of more than six series is of several drawings: NAME, NAME-2, ..."""
+    return [name] + [f"{name}-{k}" for k in range(2, 13) if os.path.exists(os.path.join(report, f"{name}-{k}.svg"))]
+
+
+def found(name, what):
+    return [each for one in drawings(name) for each in xml.parse(os.path.join(report, one + ".svg")).findall(f".//{SVG}path[@class={what}")]
+
+
 def marks(name):
-    return len(xml.parse(os.path.join(report, name)).findall(f".//{SVG}path[@class='mark']"))
+    return len(found(name, "'mark']"))
 
 
 for name in glob.glob(os.path.join(report, "*.svg")):
@@ -289,16 +315,20 @@ for name in glob.glob(os.path.join(report, "*.svg")):
 PDF = "PDF</a>" in open(os.path.join(report, "index.html"), encoding="utf-8").read()  # not in a program without librsvg
 drawn = {name[:-4] for name in os.listdir(report) if name.endswith(".svg")}
 assert {name[:-4] for name in os.listdir(report) if name.endswith(".pdf")} == (drawn if PDF else set())
-assert marks("size-against-rate.svg") == marks("size-against-rate-normalised.svg") == with_mean
+assert marks("count-against-rate") == with_mean
+assert marks("size-against-rate") == marks("size-against-rate-normalised") == with_mean
 assert len(glob.glob(os.path.join(report, "sizes-point-*.svg"))) == with_mean
 assert len(glob.glob(os.path.join(report, "energies-point-*.svg"))) == with_mean
-together = xml.parse(os.path.join(report, "sizes.svg")).findall(f".//{SVG}path[@class='line']/{SVG}title")
+together = found("sizes", f"'line']/{SVG}title")
 assert len(together) == with_mean
 
 # The data of each chart: of the means, the numbers of the summary; of the sizes, the fragments themselves.
 def data(name):
-    with open(os.path.join(report, name + ".csv"), encoding="utf-8") as file:
-        head, *lines = csv.reader(file)
+    lines = []
+    for one in drawings(name):
+        with open(os.path.join(report, one + ".csv"), encoding="utf-8") as file:
+            head, *more = csv.reader(file)
+            lines += more
     assert head[:3] == ["panel", "series", "kind"] and head[5:] == ["low", "high"]
     return head, lines
 
@@ -315,6 +345,18 @@ if with_mean:
     for ours, theirs in zip(means, wanted):
         assert all(math.isclose(a * b, c, rel_tol=1e-13) or (math.isnan(a) and math.isnan(c)) for a, b, c in zip(ours, (1, unit, unit, unit), theirs))
     assert {line[1] for line in lines if line[2] == "curve"} <= {"ZMR", "Grady", "GC", "ZMR-2", "fitted crossover", ""}
+    # Counts with and, where there is any, without dust; the lines pass through what the summary has of them.
+    head, lines = data("count-against-rate")
+    assert head[3:5] == ["strain rate [1/s]", "mean number of fragments"]
+    for key, which in (("count", False), ("count_large", True)):
+        means = sorted(tuple(float(field or "nan") for field in line[3:]) for line in lines if line[2] == "mark" and line[1].endswith(", without dust") == which)
+        wanted = sorted((row["rate"], row[key + ".mean"], row[key + ".mean"] - row[key + ".half_width"], row[key + ".mean"] + row[key + ".half_width"])
+                        for row in rows if row[key + ".mean"] > 0)
+        wanted = [] if which and not much else wanted
+        assert len(means) == len(wanted) and np.allclose(means, wanted, rtol=1e-13, equal_nan=True)
+    for of in summary["count_slopes"] if len(groups) == 1 else []:
+        x, y = np.array([[math.log(float(field)) for field in line[3:5]] for line in lines if line[2] == "curve"]).T
+        assert np.allclose(np.diff(y) / np.diff(x), of["slope"], rtol=1e-9)
 usable = [np.flatnonzero((realization["point"] == p) & (realization["outcome"] <= 2)) for p in range(len(rows))]
 for p, at in enumerate(usable):
     sizes = np.sort(np.concatenate([size[slice(*fragment["offset"][i:i + 2])] for i in at])) if len(at) else np.array([])
@@ -327,6 +369,28 @@ for p, at in enumerate(usable):
     assert len(values) == first.sum() and {line[2] for line in lines} == {"steps"}
     assert np.allclose(values[:, 0] * unit, sizes[first], rtol=1e-9, atol=0)
     assert np.allclose(values[:, 1], 1 - np.flatnonzero(first) / len(sizes), rtol=1e-12, atol=0)
+
+# Fragments of a body by mass: all points, dust among them; left of a mark all are dust.
+if os.path.exists(os.path.join(report, "masses.csv")):
+    head, lines = data("masses")
+    kilogram = {"p": 1e-15, "n": 1e-12, "µ": 1e-9, "m": 1e-6, "": 1e-3, "k": 1.0}[re.fullmatch(r"fragment mass m \[(.?)g\]", head[3]).group(1)]
+    step = [np.array([float(field) for field in line[3:5]]) for line in lines if line[2] == "steps"]
+    dust_ends = [(float(line[3]) * kilogram, float(line[4])) for line in lines if line[2] == "mark"]
+    for p, at in enumerate(usable):
+        of = [slice(*fragment["offset"][i:i + 2]) for i in at]
+        heavy, dust = (np.concatenate([column[where] for where in of] or [[]]) for column in (mass, fragment["dust"]))
+        if not len(heavy):
+            continue
+        ascending = np.sort(heavy)
+        first = np.concatenate([[True], np.diff(ascending) > 1e-9 * ascending[1:]])
+        mine, step = np.array(step[:first.sum()]), step[first.sum():]
+        assert np.allclose(mine[:, 0] * kilogram, ascending[first], rtol=1e-9, atol=0)
+        assert np.allclose(mine[:, 1], (len(heavy) - np.flatnonzero(first)) / len(at), rtol=1e-12, atol=0)
+        assert math.isclose(mine[0, 1], rows[p]["count.mean"], rel_tol=1e-12)
+        if any(dust == 0) and min(heavy[dust == 0]) > ascending[0] * (1 + 1e-9):
+            end, number = dust_ends.pop(0)
+            assert math.isclose(end, min(heavy[dust == 0]), rel_tol=1e-13) and math.isclose(number, (heavy * (1 + 1e-9) >= end).sum() / len(at), rel_tol=1e-12)
+    assert not step and not dust_ends
 
 PREFIX = {"n": 1e-9, "µ": 1e-6, "m": 1e-3, "": 1.0, "k": 1e3, "M": 1e6}
 
@@ -342,8 +406,8 @@ for p in range(len(rows)):
         assert not of or int(of[0]["realizations"]) < 2
         continue
     head, lines = data(f"bands-point-{p}")
-    curves = [name for name in ENERGIES if name != "created" and  # friction and bending where they are
-              (name not in ("dissipated_bending", "friction") or any(float(row[f"{name}.high"]) > 0 for row in of))]
+    curves = [name for name in ENERGIES if name != "created" and  # friction, bending and damping where they are
+              (name not in ("dissipated_bending", "friction", "damped") or any(float(row[f"{name}.high"]) > 0 for row in of))]
     assert len(lines) == len(curves) * len(of) and {line[2] for line in lines} == {"band"}
     second, joule = unit_of(head[3], "s"), unit_of(head[4], "J")
     for e, name in enumerate(curves):
@@ -464,8 +528,8 @@ class Page(html.parser.HTMLParser):
 
     def handle_starttag(self, tag, attributes):
         attributes = dict(attributes)
-        if tag == "figure":
-            self.figure = attributes["id"]
+        if tag == "figure":  # frames of films have no name
+            self.figure = attributes.get("id")
         if attributes.get("class") == "mark":
             self.marks[self.figure] = self.marks.get(self.figure, 0) + 1
         self.bands += str(attributes.get("class")).startswith("band ")
@@ -514,7 +578,7 @@ digest = base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
 assert "default-src 'none'" in policy and f"script-src 'sha256-{digest}';" in policy, policy
 assert page.scripts == 1
 # Marks on two and three pairs of axes; of a figure, for a new one may have marks, too.
-for name in ("size-against-rate", "size-against-rate-normalised"):
+for name in ("size-against-rate", "size-against-rate-normalised", "count-against-rate"):
     assert page.marks.get(name, 0) == 2 * with_mean, name
 for path in glob.glob(report + "/fits-point-*.csv"):
     name = os.path.basename(path)[:-4]
@@ -536,6 +600,8 @@ for place, p in enumerate(shown_points, 1):
             shows(half_width, rows[p][key + ".half_width"], unit)
 assert page.rows.pop("results") == len(rows)
 assert page.rows.pop("slopes", 0) == len(summary["slopes"])
+assert page.rows.pop("count-slopes", 0) == len(summary["count_slopes"])
+assert page.rows.pop("count-large-slopes", 0) == len(summary["count_large_slopes"])
 assert page.rows.pop("windows", 0) == len(summary["windows"])
 assert page.rows.pop("crossovers", 0) == sum(of["points"] > 1 for of in summary["crossovers"])
 if os.path.exists(os.path.join(study, "fits.csv")):

@@ -6,7 +6,7 @@ import math
 import os
 
 PLAIN = ("rank", "log_likelihood", "aicc", "delta_aicc", "bic", "ks", "ks_p", "ad", "ad_p")
-ENERGIES = ("kinetic", "elastic", "cohesive", "dissipated", "dissipated_bending", "friction", "created", "work")
+ENERGIES = ("kinetic", "elastic", "cohesive", "dissipated", "dissipated_bending", "friction", "damped", "created", "work")
 
 
 def check_pages(summary, source):

@@ -48,7 +48,7 @@ material: {young: 275 GPa, density: 2750 kg/m3}
 cohesive: {law: nitsche, fracture_energy: 100 J/m2, beta: 4}
 strength: {distribution: uniform, minimum: 299 MPa, maximum: 301 MPa}
 loading: {type: imposed-rate, rate: 1e5 1/s}
-time: {stop: settled, end: 30 ns, quiet: 5 ns, safety: 0.25}
+time: {stop: quiet, end: 30 ns, quiet: 5 ns, safety: 0.25}
 replicas: 2
 output: {history: 2, interfaces: true}
 """

@@ -15,6 +15,8 @@
  * With FRACAS_TEST_LOG=FILE, where FILE exists, a line is appended for each batch that begins: pid,
  * pid of the parent, point, replicas.
  *
+ * With FRACAS_TEST_PAUSE=SECONDS each batch begins so much later, for those who watch a run.
+ *
  * With FRACAS_TEST_GATE=FILE a batch waits before it begins. It appends a byte to FILE.arrived, n
  * of all, and goes on when FILE has n bytes or more, or is not there: hold of campaigns.sh. */
 #include "campaigns/scheduler/worker/models.h"
@@ -113,6 +115,12 @@ static void log_batch(uint64_t point, const int64_t *replica, size_t count)
     close(fd);
 }
 
+static void pause_if_asked(void)
+{
+    const char *asked = getenv("FRACAS_TEST_PAUSE");
+    if (asked) usleep((useconds_t)(1e6 * atof(asked)));
+}
+
 /* The place of this batch in the row before the gate, from 1. */
 static off_t arrive(const char *gate)
 {
@@ -138,6 +146,7 @@ static void wait_at_gate(void)
 fracas_err __wrap_fracas_solve(const fracas_computation *computation, const int64_t *replica,
                                size_t count, fracas_record *record)
 {
+    pause_if_asked();
     wait_at_gate();
     log_batch(computation->lease->point, replica, count);
     TRY(strike_if_asked(computation->lease->point, replica, count));

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A study as large as the report is made for, written through the store without computing anything:
- * rings in fragments at ten rates. */
+ * rings in fragments at ten rates, and more points of other fracture energies. */
 #ifndef FRACAS_TESTS_SUPPORT_LARGE_STUDY_H
 #define FRACAS_TESTS_SUPPORT_LARGE_STUDY_H
 
 #include "campaigns/store/store.h"
 #include "tests/support/test.h"
 
-enum { LARGE_COLUMNS = 10, LARGE_MOST_POINTS = 64, LARGE_HISTORY = 100 };
+enum { LARGE_COLUMNS = 12, LARGE_MOST_POINTS = 1000, LARGE_HISTORY = 100, LARGE_RATES = 10 };
 
 typedef struct {
     size_t points;
@@ -21,6 +21,8 @@ typedef struct {
 
 static const fracas_column large_column[LARGE_COLUMNS] = {
     {"cohesive.fracture_energy", "J/m2", "fracture energy", false},
+    {"derived.fracture_energy", "J/m2", "fracture energy", false},
+    {"derived.length", "m", "length", false},
     {"derived.strain_rate", "1/s", "strain rate", false},
     {"derived.strength_mean", "Pa", "mean strength", false},
     {"geometry.area", "m2", "area", false},
@@ -37,10 +39,19 @@ static inline void large_study_init(large_study *study, size_t points, int64_t r
 {
     *study = (large_study){.points = points, .replicas = replicas, .fragments = fragments};
     for (size_t p = 0; p < points; p++) {
-        const double rate = 1e4 * pow(1.2, (double)p), radius = 8e-3;
-        const double real[LARGE_COLUMNS] = {
-            100, rate, 300e6, 1e-6, radius, rate * radius, 2750, 275e9, 100.0 * (double)fragments,
-            NAN};
+        const double rate = 1e4 * pow(1.2, (double)(p % LARGE_RATES)), radius = 8e-3;
+        const double real[LARGE_COLUMNS] = {100 + (double)(p / LARGE_RATES),
+                                            100 + (double)(p / LARGE_RATES),
+                                            2 * M_PI * radius,
+                                            rate,
+                                            300e6,
+                                            1e-6,
+                                            radius,
+                                            rate * radius,
+                                            2750,
+                                            275e9,
+                                            100.0 * (double)fragments,
+                                            NAN};
         for (size_t c = 0; c < LARGE_COLUMNS; c++)
             study->value[p][c] = (fracas_value){real[c], large_column[c].text ? "ring" : ""};
         study->point[p] = (fracas_point_row){
@@ -110,7 +121,7 @@ static inline bool large_record(const large_study *study, size_t p, int64_t repl
                                 fracas_record *record)
 {
     uint64_t state = 1000003 * p + (uint64_t)replica;
-    const double speed = study->value[p][5].real;
+    const double speed = study->value[p][7].real;
     for (int i = 0; i < 4; i++) random_share(&state);
     fracas_record_init(record);
     record->outcome = FRACAS_FRAGMENTED;
@@ -125,7 +136,7 @@ static inline bool large_record(const large_study *study, size_t p, int64_t repl
     record->mass = 2750 * 1e-6 * 2 * M_PI * 8e-3;
     record->kinetic = record->work = 0.5 * record->mass * speed * speed;
     record->dissipated = 1e-4 * (double)record->fragments * (1 + 0.02 * random_share(&state));
-    record->elastic = record->cohesive = record->friction = record->created =
+    record->elastic = record->cohesive = record->friction = record->damped = record->created =
         record->dissipated_bending = record->residual_end = 0;
     record->residual = 1e-5 * record->dissipated;
     for (int i = 0; i < 3; i++) record->momentum[i] = 0;

@@ -13,7 +13,7 @@ segment_each="--lanes 1 --lease-time 0 --segment-size 1e-6"
 tiny()
 {
     campaign "$1" "$2" "$3"
-    sed -i -e 's/elements: 500/elements: 20/' -e 's/time: .*/time: {stop: settled, end: 30 ns, quiet: 5 ns, safety: 0.25}/' \
+    sed -i -e 's/elements: 500/elements: 20/' -e 's/time: .*/time: {stop: quiet, end: 30 ns, quiet: 5 ns, safety: 0.25}/' \
         -e 's/history: 20/history: 2/' "$1"
 }
 

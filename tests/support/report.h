@@ -74,14 +74,14 @@ static inline void report_analyse(const char *folder)
     snprintf(path, sizeof path, "%s/table.txt", folder);
     FILE *out = fopen(path, "w");
     assert_non_null(out);
-    fracas_analysis_print_table(analysis, out);
+    fracas_analysis_print_table(analysis, 0, out);
     assert_int_equal(fclose(out), 0);
     snprintf(path, sizeof path, "%s/summary.json", folder);
     out = fopen(path, "w");
     assert_non_null(out);
     OK(fracas_analysis_write_json(analysis, folder, out));
     assert_int_equal(fclose(out), 0);
-    OK(fracas_report_write(analysis, folder));
+    OK(fracas_report_write(analysis, folder, NULL, 0));
     snprintf(path, sizeof path, "%s/export", folder);
     OK(fracas_export_write(analysis, path, true));
 }

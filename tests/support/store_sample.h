@@ -90,15 +90,19 @@ static inline void sample_reals(uint64_t *state, double *value, size_t count)
     for (size_t i = 0; i < count; i++) value[i] = sample_real(state);
 }
 
+/* Reals of a fragment's shape, which lie in a row. */
+enum { SAMPLE_SHAPE = (sizeof(fracas_fragment) - offsetof(fracas_fragment, volume)) / 8 };
+
 /* The record of a realization, a function of (point, replica) alone. At most `most` rows in a part.
  */
 static inline void sample_record(size_t point, int64_t replica, size_t most, fracas_record *record)
 {
     uint64_t state = point * 1000003u + (uint64_t)replica;
+    uint64_t reals = ~state; /* their own: how many there are changes nothing else */
     fracas_record_init(record);
     record->outcome = sample_count(&state, FRACAS_NOUTCOMES);
     if (record->outcome == FRACAS_FAILED) return;
-    sample_reals(&state, &record->onset_time, FRACAS_ENERGIES + 6); /* to residual_end, in a row */
+    sample_reals(&reals, &record->onset_time, FRACAS_ENERGIES + 6); /* to residual_end, in a row */
     sample_reals(&state, record->momentum, 3);
     record->nfragment = record->outcome == FRACAS_INTACT ? 1 : sample_bits(&state) % (most + 1);
     record->nhistory = sample_bits(&state) % (most + 1);
@@ -121,6 +125,7 @@ static inline void sample_record(size_t point, int64_t replica, size_t most, fra
         sample_reals(&state, f->velocity, 3);
         sample_reals(&state, f->angular_momentum, 3);
         sample_reals(&state, f->spin, 3);
+        sample_reals(&reals, &f->volume, SAMPLE_SHAPE);
     }
     for (size_t i = 0; i < record->nhistory; i++) {
         sample_reals(&state, &record->history[i].time, FRACAS_ENERGIES + 2); /* to residual */
@@ -148,6 +153,7 @@ static inline void sample_make_canonical(fracas_record *record)
     for (size_t i = 0; i < record->nfragment; i++) {
         sample_canonical(&record->fragment[i].mass, 2);
         sample_canonical(record->fragment[i].position, 12); /* to spin they lie in a row */
+        sample_canonical(&record->fragment[i].volume, SAMPLE_SHAPE);
     }
     for (size_t i = 0; i < record->nhistory; i++)
         sample_canonical(&record->history[i].time, FRACAS_ENERGIES + 2);

@@ -38,7 +38,7 @@ mesh: {elements: 1500}
 material: {young: 275 GPa, density: 2750 kg/m3}
 cohesive: {law: nitsche, fracture_energy: 100 J/m2, beta: 4}
 strength: {distribution: uniform, minimum: 299 MPa, maximum: 301 MPa}
-time: {stop: settled, end: 300 ns, quiet: 50 ns, safety: 0.25}
+time: {stop: quiet, end: 300 ns, quiet: 50 ns, safety: 0.25}
 loading: {type: imposed-rate}
 sweep:
   - loading.rate: [3e4 1/s, 1e5 1/s]

@@ -56,6 +56,12 @@ says 2 err '--shuffle takes no value' run a.yaml --shuffle=yes
 says 2 err '--json takes no value' status x --json=1
 says 0 out '--times LIST' help picture
 says 0 out '--resamples B' help fit
+# Every mistake of a campaign file is told, each on a line.
+printf 'name: a\nseed: x\nmodel: bar\nmateril: {young: 1 GPa}\nreplicas: 0\n' >"$folder/wrong.yaml"
+got=0
+"$fracas" plan "$folder/wrong.yaml" >"$folder/out" 2>"$folder/err" || got=$?
+[ "$got" = 2 ] && [ ! -s "$folder/out" ]
+[ "$(sed "s|fracas: $folder/wrong.yaml:||; s| .*||" "$folder/err" | tr '\n' ' ')" = '1:1: 1:1: 1:1: 1:1: 1:1: 1:1: 2:7: 4:1: 5:11: ' ]
 # What a command refuses, with a reason, its help does not list.
 says 2 err 'when all of them are complete: leave it out' converge a.yaml --part 1/2
 says 2 err 'submit: --walltime follows from --time: leave it out' submit a.yaml --walltime 1h

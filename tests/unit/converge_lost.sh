@@ -21,7 +21,7 @@ END
 expect 0 "$fracas" converge lossy.yaml --study lossy --jobs 2
 cp said terminal.txt
 "$fracas" converge lossy.yaml --study lossy --jobs 2 --json > lossy.json 2> said
-for study in base mesh step beta; do
+for study in base mesh step beta end; do
     "$fracas" report lossy/$study > $study.txt 2>&1
 done
 
@@ -32,7 +32,7 @@ terminal = open("terminal.txt").read()
 page = html.unescape(open("lossy/report/index.html", encoding="utf-8").read())
 told = json.load(open("lossy.json"))
 rows = list(csv.DictReader(open("lossy/converge.csv")))
-points = {s: list(csv.DictReader(open(f"lossy/{s}/report/points.csv"))) for s in ("base", "mesh", "step", "beta")}
+points = {s: list(csv.DictReader(open(f"lossy/{s}/report/points.csv"))) for s in ("base", "mesh", "step", "beta", "end")}
 rates = ["100 1/s", "3e5 1/s", "7.5e5 1/s", "9e5 1/s"]
 wanted, seen = [], set()
 for study, of in points.items():
@@ -55,13 +55,13 @@ assert [(w["refinement"], w["point"], w["text"]) for w in told["warnings"]] == w
 assert re.findall("^warning: (.*)$", terminal, re.M) == [text for _, _, text in wanted]
 assert re.findall("<li>warning: (.*)</li>", page) == [text for _, _, text in wanted]
 
-# Figures and tables are of all four studies: they name the folder of them.
+# Figures and tables are of all five studies: they name the folder of them.
 sources = re.findall('<span class="source">([^<]*)</span>', page)
 assert len(sources) == page.count("<b>Figure") + page.count("<b>Table") >= 5, sources
 assert all(re.fullmatch(r" ?lossy, fracas [^,]*\.", source) for source in sources), sources
 
 # A point of which a study has lost all is in the table, and counted.
-for study in ("mesh", "step", "beta"):
+for study in ("mesh", "step", "beta", "end"):
     of = [row for row in rows if row["refinement"] == study]
     assert {row["point"] for row in of} == {"0", "1", "2", "3"}, study
     for row in of:

@@ -4,7 +4,7 @@
 
 campaign end.yaml 4 '1e5 1/s'
 sed -i 's/^time:.*//; s/history: 20/history: 100/
-    s/^  - loading.rate:.*/  - time: [{stop: time, end: 70 ns}, {stop: time, end: 300 ns}, {stop: settled, end: 70 ns, quiet: 50 ns}]/' end.yaml
+    s/^  - loading.rate:.*/  - time: [{stop: time, end: 70 ns}, {stop: time, end: 300 ns}, {stop: quiet, end: 70 ns, quiet: 50 ns}]/' end.yaml
 expect 0 "$fracas" run end.yaml --study end --jobs 2
 expect 0 "$fracas" report end
 grep -F 'bodies were still breaking at time.end' said > warnings || fail "no warning of bodies that still break"

@@ -86,7 +86,7 @@ planted()
     said "$1"
 }
 
-planted 'column dissipated is' realizations.csv '2s/\(\([^,]*,\)\{15\}\)\([^,]*\)/\11\3/'
+planted 'column dissipated is' realizations.csv '2s/\(\([^,]*,\)\{16\}\)\([^,]*\)/\11\3/'
 planted 'column size is' fragments.csv '3s/\(\([^,]*,\)\{5\}\)[^,]*/\10.001/'
 planted 'is no number' histories.csv '4s/\(\([^,]*,\)\{4\}\)[^,]*/\1early/'
 planted 'is none of' realizations.csv '2s/FRAGMENTED/BROKEN/'

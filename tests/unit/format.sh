@@ -10,7 +10,7 @@ tools/fuzz-planted --check
 
 tree=$(mktemp -d)
 trap 'rm -rf "$tree"' EXIT
-for room in base engine sampler campaigns analysis cli tests bench; do mkdir "$tree/$room"; done
+for room in base engine sampler campaigns analysis cli library tests bench; do mkdir "$tree/$room"; done
 mkdir "$tree/tools"
 cp tools/check-format "$tree/tools"
 cp .clang-format "$tree"

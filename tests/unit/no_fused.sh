@@ -1,6 +1,7 @@
 #!/bin/sh
+# ctest-labels: slow-sanitize
 # No fused multiply-add anywhere in what computes: with one, a realization's bits would depend on the instruction set. That
-# contraction is off does not keep every compiler from it.
+# contraction is off does not keep every compiler from it. A build under sanitizers is compiled otherwise.
 set -eu
 
 command -v objdump >/dev/null || { echo "skipped: there is no objdump"; exit 0; }

@@ -18,7 +18,7 @@ import re, sys
 import h5py, numpy as np
 
 study, page = h5py.File(sys.argv[1], "r"), open(sys.argv[2]).read()
-assert study.attrs["format_version"] == 3 and study.attrs["seed"] == 2**64 - 5 and study.attrs["complete"] == 1
+assert study.attrs["format_version"] == 5 and study.attrs["seed"] == 2**64 - 5 and study.attrs["complete"] == 1
 assert study["point"].attrs["columns"] == 3
 assert len(study.attrs["campaign"]) == 32 and study.attrs["program_version"] == b"0.1.0"
 assert study.attrs["history"] == 100 and study.attrs["interfaces"] == 1
@@ -52,7 +52,7 @@ z, f, h, k = study["realization"], study["fragment"], study["history"], study["i
 for i in range(len(z["point"])):
     line = [str(z[c][i]) for c in ("point", "replica", "outcome", "fragments", "steps")] + [bits(z["end_time"][i])]
     for j in range(f["offset"][i], f["offset"][i + 1]):
-        line += ["f", str(f["elements"][j]), str(f["dust"][j]), bits(f["velocity"][j, 2]), bits(f["spin"][j, 1])]
+        line += ["f", str(f["elements"][j]), str(f["dust"][j]), bits(f["velocity"][j, 2]), bits(f["spin"][j, 1]), bits(f["axis_2"][j, 1]), bits(f["crack_area"][j])]
     for j in range(h["offset"][i], h["offset"][i + 1]):
         line += ["h", str(h["broken"][j]), bits(h["residual"][j])]
     for j in range(k["offset"][i], k["offset"][i + 1]):

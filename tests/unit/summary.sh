@@ -85,3 +85,12 @@ echo nonsense > other/fits.csv
 /usr/bin/python3 -c 'import json
 summary = json.load(open("json"))
 assert summary["points"][0]["fits"] is None and "damaged" in summary["fits_left_out"]' || fail "fits that are damaged"
+
+# A report elsewhere has the same files, but for its own figures, and leaves that of the study alone.
+expect 0 "$fracas" report one
+expect 0 "$fracas" report one -o elsewhere --quiet
+diff -r one/report elsewhere || fail "a report elsewhere is another one"
+expect 0 "$fracas" report one --x size.mean --output elsewhere
+said '^report: elsewhere/index.html$'
+[ -f elsewhere/count-against-size-mean.svg ] && [ ! -e one/report/count-against-size-mean.svg ] || fail "not there, or in the study's report"
+expect 2 "$fracas" report one -o one/campaign.yaml

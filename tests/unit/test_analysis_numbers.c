@@ -381,6 +381,32 @@ static void warnings_at_their_limits(void **state)
     free(warning);
 }
 
+/* In place of those of residual and drift: a shorter step is no remedy. */
+static void a_warning_of_an_open_ledger(void **state)
+{
+    static const fracas_column column[] = {{"derived.open_ledger", "1", "", false}};
+    for (int open = 0; open < 2; open++) {
+        fracas_value value = {.real = open ? 1 : NAN, .text = ""};
+        fracas_point_row row = {.value = &value};
+        fracas_point_table table = {.ncolumns = 1, .column = column, .npoints = 1, .point = &row};
+        fracas_point_statistics point = {.realizations = 9,
+                                         .usable = 9,
+                                         .outcome = {9},
+                                         .residual = 0.21,
+                                         .elements = 10,
+                                         .drift = 0.02,
+                                         .drifted = 2};
+        fracas_analysis analysis = {.table = &table, .point = &point, .header.complete = true};
+        fracas_warning *warning;
+        size_t count;
+        OK(fracas_analysis_warnings(&analysis, &warning, &count));
+        assert_int_equal(count, open ? 1 : 2);
+        assert_string_equal(warning[0].kind, open ? "open" : "residual");
+        assert_true(!open || strstr(warning[0].text, "up to 0.21 of the dissipated"));
+        free(warning);
+    }
+}
+
 /* Of one point, and of many points that lose more and more energy and have ever smaller fragments:
  * a line a kind, of its worst point, and a line for the study. */
 static void a_line_a_kind_of_warning(void **state)
@@ -538,5 +564,5 @@ static void ticks(void **state)
 TESTS(estimate_of_eight, estimate_of_few, estimates_as_text, digits_as_the_interval_supports,
       numbers_as_text, prefixes, columns_that_tell_points_apart, names_come_before_their_numbers,
       labels_leave_out_what_a_point_lacks, laws_of_a_point, statistics_of_records,
-      warnings_at_their_limits, a_line_a_kind_of_warning, strengths_that_the_mesh_changes,
-      figure_of_sizes, ticks)
+      warnings_at_their_limits, a_warning_of_an_open_ledger, a_line_a_kind_of_warning,
+      strengths_that_the_mesh_changes, figure_of_sizes, ticks)

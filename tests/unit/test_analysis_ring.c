@@ -244,8 +244,8 @@ static void make_record(const void *context, size_t p, int64_t replica, fracas_r
     record->mass = 2750e-6 * 2 * M_PI * radius_of(p);
     record->dissipated = intact ? 0 : 1.2e-4 * (double)record->fragments;
     record->kinetic = record->mass * speed_of(p) * speed_of(p) / 2;
-    record->elastic = record->cohesive = record->friction = record->created = record->work =
-        record->dissipated_bending = 0;
+    record->elastic = record->cohesive = record->friction = record->damped = record->created =
+        record->work = record->dissipated_bending = 0;
     double largest = fmax(record->kinetic, record->dissipated);
     record->residual = (p == 2 && (replica == 3 || replica == 4) ? 0.012 : 0.9e-4) * largest;
     record->residual_end = record->residual;
@@ -341,9 +341,11 @@ static void figure_of_rings(void **state)
     }
     fracas_analysis analysis = {.table = &made.table, .point = point};
     OK(fracas_columns_create(&made.table, &analysis.shown));
-    fracas_chart chart;
-    fracas_chart_init(&chart);
-    OK(fracas_figure_rate(&analysis, false, &chart));
+    FRACAS_CLEARED(fracas_charts) charts = {0};
+    OK(fracas_means_axes_create(&analysis, NULL, NULL, &analysis.axes));
+    OK(fracas_figure_means(&analysis, FRACAS_MEANS_SIZE, &charts));
+    assert_int_equal(charts.count, 1);
+    fracas_chart chart = charts.chart[0];
     assert_string_equal(chart.panel[0].x.label, "strain rate [1/s]");
     const char *const expected[] = {"radius 8 mm", "radius 16 mm"};
     size_t marks = 0;
@@ -358,15 +360,20 @@ static void figure_of_rings(void **state)
         marks++;
     }
     assert_int_equal(marks, 2);
-    fracas_chart_clear(&chart);
+    fracas_charts_clear(&charts);
     for (size_t p = 0; p < NPOINTS; p++)
-        point[p].rate = p == 1 ? 1e4 : 0; /* a ring that only spins is none for a log axis */
-    fracas_chart_init(&chart);
-    OK(fracas_figure_rate(&analysis, false, &chart));
+        point[p].rate = p % 4 == 1 ? 1e4 * (double)p : 0; /* a ring that only spins has none */
+    marks = 0;
+    OK(fracas_analysis_axes(&analysis, NULL, NULL));
+    OK(fracas_figure_means(&analysis, FRACAS_MEANS_SIZE, &charts));
+    chart = charts.chart[0];
     for (size_t s = 0; s < chart.panel[0].nseries; s++)
-        for (size_t i = 0; i < chart.panel[0].series[s].n; i++)
+        for (size_t i = 0; i < chart.panel[0].series[s].n; i++) {
             assert_true(chart.panel[0].series[s].x[i] > 0);
-    fracas_chart_clear(&chart);
+            marks += chart.panel[0].series[s].kind == FRACAS_MARKS;
+        }
+    assert_int_equal(marks, 2);
+    fracas_means_axes_clear(&analysis.axes);
     fracas_columns_clear(&analysis.shown);
 }
 
@@ -399,15 +406,17 @@ static void laws_of_mixed_series(void **state)
             point[p].scales.modulus = p % 2 ? table[i].odd_modulus : table[i].even_modulus;
             point[p].scales.size = 1e-4 + (p % 2 ? table[i].odd : table[i].even) * (double)p;
         }
-        FRACAS_CLEARED(fracas_chart) chart;
-        fracas_chart_init(&chart);
-        OK(fracas_figure_rate(&analysis, false, &chart));
+        FRACAS_CLEARED(fracas_charts) charts = {0};
+        OK(fracas_analysis_axes(&analysis, NULL, NULL));
+        OK(fracas_figure_means(&analysis, FRACAS_MEANS_SIZE, &charts));
+        const fracas_chart chart = charts.chart[0];
         size_t curves = 0;
         for (size_t s = 0; s < chart.panel[0].nseries; s++)
             curves += chart.panel[0].series[s].kind == FRACAS_CURVE;
         assert_int_equal(curves, table[i].curves);
         assert_has(chart.caption, table[i].caption);
     }
+    fracas_means_axes_clear(&analysis.axes);
     fracas_columns_clear(&analysis.shown);
 }
 

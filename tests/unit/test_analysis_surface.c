@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Broken surfaces: their state at a time, cracks through the width, their pictures, and what
- * `fracas picture` refuses. Meshes are made by hand: grids of squares of 1 m, cut in two. */
+ * `fracas picture` refuses. Meshes are made by hand: grids of squares of 1 m, cut in two. Bars and
+ * rings as strips. */
 #include "tests/support/store_sample.h"
 #include "tests/support/stored_mesh.h"
 #include "tests/support/svg_path.h"
 
+#include "analysis/data/strip.h"
 #include "analysis/draw/facets.h"
 #include "analysis/draw/surface_picture.h"
 #include "base/hash.h"
@@ -209,14 +211,25 @@ static void moments_end_at_the_end(void **state)
 {
     fracas_record record;
     double time[6];
+    size_t count = 6;
+    fracas_interface_row row[14];
     fracas_record_init(&record);
     record.onset_time = 2;
     record.end_time = 14;
-    assert_int_equal(fracas_surface_moments(&record, 6, time), 6);
+    OK(fracas_surface_moments(&record, time, &count));
+    assert_int_equal(count, 6);
     for (int k = 0; k < 6; k++)
         assert_true(time[k] == 4 + 2 * k); /* multiples of 1/6 of 12 round to these */
+    record.interface = row;
+    record.ninterface = sizeof row / sizeof *row;
+    for (int i = 0; i < 14; i++) /* 12 times, of these 3 twice, and one that never comes */
+        row[i].break_time = i == 13 ? NAN : 3 + 0.1 * (i < 1 ? 0 : i - 1);
+    OK(fracas_surface_moments(&record, time, &count));
+    for (int k = 0; k < 5; k++) assert_true(time[k] == 3 + 0.1 * (2 * k + 1));
+    assert_true(count == 6 && time[5] == 14);
     record.onset_time = NAN;
-    assert_int_equal(fracas_surface_moments(&record, 6, time), 1);
+    OK(fracas_surface_moments(&record, time, &count));
+    assert_int_equal(count, 1);
     assert_true(time[0] == 14);
 }
 
@@ -437,7 +450,118 @@ static void pictures_stay_small(void **state)
     free(svg);
 }
 
-TESTS(a_plate_is_cut_in_two_and_in_four, small_pieces_are_dust, a_ring_cracks_through,
+/* ---- strips of bars and rings ---- */
+
+/* A record of `between` interfaces and fragments of these elements and sizes [m]. */
+static void chain_record(size_t between, size_t fragments, const int64_t *elements,
+                         const double *size, fracas_record *record)
+{
+    fracas_record_init(record);
+    record->outcome = FRACAS_FRAGMENTED;
+    record->end_time = 10;
+    record->nfragment = fragments;
+    record->fragment = calloc(fragments, sizeof *record->fragment);
+    record->ninterface = between;
+    record->interface = calloc(between, sizeof *record->interface);
+    if (!record->fragment || !record->interface) abort();
+    for (size_t f = 0; f < fragments; f++) {
+        record->fragment[f].elements = elements[f];
+        record->fragment[f].size = size[f];
+    }
+    for (size_t i = 0; i < between; i++)
+        record->interface[i] = (fracas_interface_row){1e8, 0, NAN, NAN};
+}
+
+static void crack(fracas_record *record, size_t i, double onset, double broken)
+{
+    record->interface[i].onset_time = onset;
+    record->interface[i].break_time = broken;
+}
+
+/* Elements of the chain from `first` to `last` are in fragment f. */
+static void assert_piece(const fracas_surface_state *now, size_t first, size_t last, uint32_t f)
+{
+    for (size_t e = 2 * first; e <= 2 * last + 1; e++) assert_int_equal(now->fragment[e], f);
+}
+
+/* 2, 1 and 4 elements of 0.1, 0.3 and 0.2 m; its ends are borders, the sections at the ends of its
+ * elements are where their lengths add up to, to rounding. */
+static void a_bar_is_a_strip(void **state)
+{
+    static const double at[] = {0, 0.1, 0.2, 0.5, 0.7, 0.9, 1.1, 1.3};
+    FRACAS_CLEARED(fracas_stored_mesh) mesh = {0};
+    FRACAS_CLEARED(fracas_record) record;
+    FRACAS_CLEARED(fracas_surface_state) now;
+    chain_record(6, 3, (const int64_t[]){2, 1, 4}, (const double[]){0.2, 0.3, 0.8}, &record);
+    crack(&record, 2, 1, 3);
+    crack(&record, 1, 2, 4);
+    crack(&record, 4, 5, NAN);
+    OK(fracas_strip_create(&record, &mesh));
+    assert_null(fracas_stored_mesh_fault(&mesh));
+    assert_int_equal(mesh.nelements, 14);
+    assert_int_equal(mesh.nborders, 16);
+    assert_int_equal(mesh.ninterfaces, 13);
+    assert_int_equal(record.ninterface, 13);
+    for (size_t n = 0; n < 16; n++) {
+        assert_true(fabs(mesh.node[n].position[0] - at[n / 2]) < 1e-15);
+        assert_true(fabs(mesh.node[n].position[1] - (n % 2 ? 0 : 1.3 / 12)) < 1e-15);
+    }
+    assert_state(&mesh, &record, 2.5, 1, 2, 0);
+    assert_state(&mesh, &record, 3, 2, 1, 1);
+    assert_state(&mesh, &record, 10, 3, 1, 2);
+    OK(fracas_surface_state_create(&mesh, &record, 10, &now));
+    assert_piece(&now, 0, 1, 0);
+    assert_piece(&now, 2, 2, 1);
+    assert_piece(&now, 3, 6, 2);
+    assert_int_equal(now.ndust, 1); /* one element */
+    char *svg = draw(&mesh, &record, 10, FRACAS_SHOW_FRAGMENTS);
+    assert_int_equal(measure(svg, "broken").edges, 2);
+    assert_int_equal(measure(svg, "cracked").edges, 1);
+    assert_has(svg, "s: 3 fragments (dust: 1)</text>");
+    free(svg);
+}
+
+/* 8 elements; broken between 1 and 2, 5 and 6: the first fragment goes over the seam. Its elements
+ * are 1 m long, those of the other 3 m: the circle has 16 m. */
+static void a_ring_is_a_circle(void **state)
+{
+    FRACAS_CLEARED(fracas_stored_mesh) mesh = {0};
+    FRACAS_CLEARED(fracas_record) record;
+    FRACAS_CLEARED(fracas_surface_state) now;
+    static const double at[] = {0, 1, 2, 5, 8, 11, 14, 15, 16};
+    chain_record(8, 2, (const int64_t[]){4, 4}, (const double[]){4, 12}, &record);
+    crack(&record, 1, 1, 3);
+    crack(&record, 5, 2, 4);
+    OK(fracas_strip_create(&record, &mesh));
+    assert_null(fracas_stored_mesh_fault(&mesh));
+    assert_int_equal(mesh.nborders, 16);
+    for (size_t n = 0; n < 32; n++) {
+        const size_t e = n % 16 / 2;
+        const double along = n < 16 ? at[e] : (at[e] + at[e + 1]) / 2,
+                     angle = 2 * M_PI * along / 16,
+                     radius = 16 / (2 * M_PI) * (n % 2 ? 1.05 : 0.95);
+        assert_true(fabs(mesh.node[n].position[0] - radius * cos(angle)) < 1e-14);
+        assert_true(fabs(mesh.node[n].position[1] - radius * sin(angle)) < 1e-14);
+    }
+    assert_state(&mesh, &record, 3.5, 1, 1, 1); /* broken once, a ring is whole */
+    OK(fracas_surface_state_create(&mesh, &record, 10, &now));
+    assert_int_equal(now.nfragments, 2);
+    assert_piece(&now, 0, 1, 0);
+    assert_piece(&now, 2, 5, 1);
+    assert_piece(&now, 6, 7, 0);
+}
+
+static void a_strip_needs_its_interfaces(void **state)
+{
+    FRACAS_CLEARED(fracas_stored_mesh) mesh = {0};
+    FRACAS_CLEARED(fracas_record) record;
+    chain_record(3, 1, (const int64_t[]){5}, (const double[]){1}, &record);
+    FAILS(fracas_strip_create(&record, &mesh), FRACAS_DAMAGED,
+          "3 interfaces are not those between the 5 elements");
+}
+
+TESTS(a_bar_is_a_strip, a_ring_is_a_circle, a_strip_needs_its_interfaces,
+      a_plate_is_cut_in_two_and_in_four, small_pieces_are_dust, a_ring_cracks_through,
       edges_that_meet_have_no_width, crack_through_against_a_walk, moments_end_at_the_end,
       fragments_are_filled, holes_stay_holes, curved_edges_are_curved,
       flat_pictures_stay_as_they_are, neighbours_have_different_tints, pictures_stay_small)

@@ -116,8 +116,8 @@ static void names_and_files_reach_their_place(void **unused)
         assert_string_equal(fracas_param_text(&side, &section), sides[i]->name);
     }
     assert_string_equal(fracas_param_text(&file, &section), "");
-    fracas_param_attach(&file, &section, &attached);
-    assert_true(section.file == &attached && fracas_param_attachment(&file, &section) == &attached);
+    fracas_param_place(&file, &section, &attached);
+    assert_true(section.file == &attached && fracas_param_object(&file, &section) == &attached);
     assert_string_equal(fracas_param_text(&file, &section), "0123");
     assert_true(section.before == 1);
 }

@@ -18,19 +18,43 @@ static void append_line(part *to, const char *text)
     unescape(strcpy(at, text));
 }
 
-/* The message is at `where`, "LINE:COLUMN word | word", and has the words. */
-static void check_message(const char *path, const char *put, char *where)
+/* The first line of *message is at `where`, "LINE:COLUMN word | word", and has the words. Moves on
+ * to the next line; NULL: there is none. */
+static void check_message(const char *path, const char *put, char *where, const char **message)
 {
-    char place[80], *words = strchr(where, ' ');
+    char place[80], line[1024], *words = strchr(where, ' ');
     assert_non_null(words);
     *words++ = '\0';
+    if (!*message) fail_msg("no message for %s of \"%s\": %s", where, put, fracas_message());
+    snprintf(line, sizeof line, "%.*s", (int)strcspn(*message, "\n"), *message);
     snprintf(place, sizeof place, "%s:%s: ", path, where);
-    if (strncmp(fracas_message(), place, strlen(place)) != 0)
+    if (strncmp(line, place, strlen(place)) != 0)
         fail_msg("expected %s for \"%s\": %s", where, put, fracas_message());
     for (char *end; words; words = end ? end + strlen(" | ") : NULL) {
         if ((end = strstr(words, " | "))) *end = '\0';
-        assert_has(fracas_message(), words);
+        assert_has(line, words);
     }
+    const char *end = strchr(*message, '\n');
+    *message = end ? end + 1 : NULL;
+}
+
+/* The whole message: `where`, and a line more for each "& " that follows in the file. */
+static void check_messages(const char *path, const char *put, char *where, FILE *in)
+{
+    const char *message = fracas_message();
+    char line[4096];
+    check_message(path, put, where, &message);
+    for (;;) {
+        const long here = ftell(in);
+        if (!fgets(line, sizeof line, in)) break;
+        if (line[0] != '&') {
+            assert_int_equal(fseek(in, here, SEEK_SET), 0);
+            break;
+        }
+        line[strcspn(line, "\n")] = '\0';
+        check_message(path, put, line + 2, &message);
+    }
+    if (message) fail_msg("more is said of \"%s\": %s", put, fracas_message());
 }
 
 /* Every record of tests/data/campaigns/wrong.txt, which says how it is written. */
@@ -62,16 +86,41 @@ static void test_wrong_files(void **state)
                 fail_msg("accepted: %s", put.text);
             if (getenv("FRACAS_READ_ALOUD"))
                 print_message("%s   (%s)\n", fracas_message() + strlen(path), line);
-            check_message(path, put.text, line);
+            check_messages(path, put.text, line, in);
             free(text);
             records++;
         }
         find = put = (part){0};
     }
-    assert_int_equal(records, 249);
+    assert_int_equal(records, 282);
     free(base);
     unlink(path);
     fclose(in);
+}
+
+/* Twenty are printed, the others counted; all by line, whatever the order in which they are found.
+ */
+static void test_many_errors(void **state)
+{
+    char path[40], text[4096], expected[200];
+    size_t used = 0;
+    fracas_campaign *campaign = NULL;
+    make_path(path);
+    for (int i = 0; i < 24; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "key%c: 1\n", 'a' + i);
+    snprintf(text + used, sizeof text - used, "%s", strstr(plain_campaign, "seed:"));
+    write_bytes(path, text, strlen(text));
+    assert_int_equal(fracas_campaign_read_with(*state, path, &campaign), FRACAS_USAGE);
+    const char *line = fracas_message();
+    snprintf(expected, sizeof expected, "%s:1:1: the file has no `name`", path); /* found later */
+    assert_has(line, expected);
+    for (int i = 0; i < 20; i++, line = strchr(line, '\n') + 1) {
+        snprintf(expected, sizeof expected, "%s:%d:1: ", path, i < 2 ? 1 : i);
+        if (strncmp(line, expected, strlen(expected)) != 0) fail_msg("%d: %s", i, line);
+    }
+    snprintf(expected, sizeof expected, "%s: and 5 more", path);
+    assert_string_equal(line, expected);
+    unlink(path);
 }
 
 /* Ranges with no lower limit. */
@@ -148,4 +197,4 @@ static int unload(void **state)
     return 0;
 }
 
-TESTS_ALL(load, unload, test_wrong_files, test_any_number, test_whole_files)
+TESTS_ALL(load, unload, test_wrong_files, test_many_errors, test_any_number, test_whole_files)

@@ -157,6 +157,28 @@ static void test_page_example(void **state)
     assert_int_equal(fracas_model_surface(model)->order, 2);
 }
 
+/* The plate is 2 by 1 units; its groups 11 and 12 have no key of their own. */
+static void test_unit(void **state)
+{
+    static const char plate[] = FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order1-msh22-text.msh";
+    static const char strength[] = "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n";
+    OWNED char *grouped = file_campaign(plate, strength),
+               *metres = replace(grouped, "edge_2: held, edge_3: fixed", "edges: held"),
+               *microns = replace(metres, "thickness: 1 mm", "unit: um, thickness: 1 mm");
+    OWN(fracas_campaign) in_m = read_text(metres), *in_um = read_text(microns);
+    OWN(fracas_model) large = model_of(in_m, 0), *small = model_of(in_um, 0);
+    /* rounding of 1e-6 and of products */
+    assert_true(fabs(fracas_model_interface_volume(small, 0) /
+                         (1e-12 * fracas_model_interface_volume(large, 0)) -
+                     1) < 1e-14);
+    FAILS(fracas_model_check_strength(large, 300e6), FRACAS_USAGE,
+          "the mesh file makes a body of 2 by 1 by 0 m: geometry.unit: mm is for files in mm");
+    OWNED char *plan = plan_text(in_um, 1, false);
+    assert_non_null(strstr(plan, "msh22-text.msh: 2e-06 by 1e-06 by 0 m.\n"));
+    assert_non_null(strstr(plan, "edges of the mesh file's physical group 11 are held as "
+                                 "geometry.edges says"));
+}
+
 /* A file that is no mesh is found out when it is used: by a plan, or where strengths depend on the
  * volume of an interface. */
 static void test_no_mesh(void **state)
@@ -368,6 +390,30 @@ static void test_plan_of_thick_shells(void **state)
     assert_true(step[1] / step[0] > 4 && fabs(said / (step[1] / step[0]) - 1) < 0.25);
 }
 
+/* A column, and a line of the plan, where some point has such a law: else the table stays as it is.
+ */
+static void test_open_ledger(void **state)
+{
+    static const char text[] =
+        "name: t\nseed: 7\nmodel: shell\ngeometry: {shape: plate, width: 1 mm, height: 1 mm, "
+        "thickness: 0.1 mm}\nmesh: {divisions: 4}\nmaterial: {young: 370e9, poisson: 0.25, "
+        "density: 3900}\ncohesive: {fracture_energy: 100}\nstrength: {minimum: 264e6, scale: "
+        "50e6, shape: 2}\nloading: {rate: 1e5}\ntime: {end: 1e-7}\nreplicas: 1\nsweep:\n  - "
+        "cohesive.law: [nitsche%s]\n";
+    for (int open = 0; open < 2; open++) {
+        char whole[700];
+        snprintf(whole, sizeof whole, text, open ? ", becker-noels" : "");
+        OWN(fracas_campaign) campaign = read_text(whole);
+        OWNED char *plan = plan_text(campaign, 1, false);
+        assert_int_equal(strstr(plan, "warning: point 1: law becker-noels gains") != NULL, open);
+        assert_int_equal(
+            fracas_point_table_find(&campaign->table, "derived.open_ledger") != SIZE_MAX, open);
+        if (!open) continue;
+        assert_true(isnan(at(campaign, 0, "derived.open_ledger")->real));
+        assert_true(at(campaign, 1, "derived.open_ledger")->real == 1);
+    }
+}
+
 /* A regular plate of strength 300 MPa cracks along lines; with E rate t/(1 - nu) = 493 MPa it does
  * crack. E G_c/sigma_c^2 is 206 um, the mean edge of squares of 1.25 mm cut in two (24 + 28 sides
  * and 32 diagonals of 84) 1.25 mm (52 + 32 sqrt 2)/84 = 1.447 mm: 7.04 of it, 14.1 times too much.
@@ -546,7 +592,7 @@ static void test_bounds_of_others(void **state)
     }
 }
 
-TESTS_ALL(read_file, free_file, test_plate, test_annulus, test_file, test_page_example,
+TESTS_ALL(read_file, free_file, test_plate, test_annulus, test_file, test_page_example, test_unit,
           test_no_mesh, test_mean_strength, test_swept_model, test_inherited, test_perturbed,
-          test_plan, test_plan_of_thick_shells, test_plan_of_fields, test_bytes, test_bound,
-          test_steps_that_pass_strengths, test_bounds_of_others)
+          test_plan, test_plan_of_thick_shells, test_open_ledger, test_plan_of_fields, test_bytes,
+          test_bound, test_steps_that_pass_strengths, test_bounds_of_others)

@@ -3,6 +3,7 @@
 #include "tests/support/strengths.h"
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/plan.h"
+#include "campaigns/store/file/schema.h"
 #include "engine/engine.h"
 #include "tests/support/campaign_text.h"
 
@@ -54,13 +55,35 @@ static void test_json(void **state)
     expect(text, "\"realizations\": 12");
     expect(text, "\"loading.rate\": 10000");
     expect(text, "\"elements\": 100");
-    /* Bytes: a record's scalars and, for each of 100/20 fragments and 10 + 4 history rows, its
-     * struct. */
+    /* Intact bodies of one fragment, with 11 rows of history: at 0 and 10 times. */
+    expect(text, "\"fragments\": 1,");
     char bytes[64];
-    snprintf(bytes, sizeof bytes, "\"bytes\": %zu",
-             3 * (offsetof(fracas_record, nfragment) + 5 * sizeof(fracas_fragment) +
-                  14 * sizeof(fracas_history_row)));
+    snprintf(bytes, sizeof bytes, "\"bytes\": %.15g",
+             3 * (fracas_row_bytes(FRACAS_SET_REALIZATION) + fracas_row_bytes(FRACAS_SET_FRAGMENT) +
+                  11 * fracas_row_bytes(FRACAS_SET_HISTORY)));
     expect(text, bytes);
+}
+
+/* More than 100 points are summed up, unless all are asked for. */
+static void test_summary(void **state)
+{
+    OWN(fracas_campaign) campaign = read_replaced(
+        "", "sweep:\n  - loading.rate: {from: 1 1/s, to: 101 1/s, points: 101}\n"
+            "  - cohesive.law: [nitsche]\n");
+    OWNED char *text = plan_text(campaign, 1, false);
+    expect(text, "loading.rate      1/s");
+    double least = 0, most = 0;
+    assert_int_equal(
+        sscanf(strstr(text, "loading.rate"), "loading.rate 1/s %lg %lg", &least, &most), 2);
+    assert_true(least == 1 && most == 101);
+    expect(text, "`--points` lists every point.");
+    assert_null(strstr(text, "\n   57 "));
+    FILE *out = text_begin();
+    OK(fracas_plan_print(campaign, &(fracas_plan_options){.jobs = 1, .points = true}, out));
+    OWNED char *all = text_end(out);
+    expect(all, "\n   57 ");
+    expect(all, "\n  100 ");
+    assert_null(strstr(all, "--points"));
 }
 
 /* Points that run, but tell little: elements longer than a softening zone, strengths without
@@ -241,7 +264,8 @@ static void test_warnings_of_rings(void **state)
                                        "are strength, material and loading in",
                                        "the ring turns by",
                                        "waves go at",
-                                       "is reached in 1 time step of"};
+                                       "is reached in 1 time step of",
+                                       "faster than waves go in it, 1e+04 m/s"};
     const struct {
         const char *loading, *more;
         unsigned expected; /* bit i: says[i] */
@@ -270,6 +294,8 @@ static void test_warnings_of_rings(void **state)
          128}, /* 25.5 km/s */
         {"type: initial-velocity, radial: 1000 m/s", ", material: {young: 275 GPa, density: 1e12}",
          32 | 128 | 256},
+        {"type: initial-velocity, radial: 9.9 km/s", "", 0},
+        {"type: initial-velocity, radial: 10.1 km/s", "", 512},
         /* turned until 0.5 us by V t/R, V t/R + a t^2/2R, f t^2/(2 rho A R) + f' t^3/(6 rho A R):
            0.0075 or 0.0125 */
         {"type: initial-velocity, radial: 1000 m/s, circumferential: 150 m/s", "initial", 0},
@@ -332,7 +358,8 @@ static void test_refused(void **state)
         "", "sweep:\n  - cohesive.fracture_energy: [100, 1e-9]\n");
     FILE *out = fopen("/dev/null", "w");
     assert_non_null(out);
-    FAILS(fracas_plan_print(campaign, 1, false, out, false), FRACAS_USAGE, "point 1: ");
+    FAILS(fracas_plan_print(campaign, &(fracas_plan_options){.jobs = 1}, out), FRACAS_USAGE,
+          "point 1: ");
     fclose(out);
 }
 
@@ -384,11 +411,77 @@ static void test_write_fails(void **state)
     OWN(fracas_campaign) campaign = read_text(plain_campaign);
     FILE *full = fopen("/dev/full", "w");
     assert_non_null(full);
-    FAILS(fracas_plan_print(campaign, 1, false, full, true), FRACAS_ENVIRONMENT, "No space left");
+    FAILS(fracas_plan_print(campaign, &(fracas_plan_options){.jobs = 1, .json = true}, full),
+          FRACAS_ENVIRONMENT, "No space left");
     fclose(full);
 }
 
-TESTS(test_cost, test_text, test_json, test_warnings, test_a_line_a_kind,
+/* Grady's fragments of 100 J/m2 at 1e5 /s are (2400/(3900 1e10))^(1/3) = 395 um, which waves cross
+ * in 40.5 ns. After the onset at 300 MPa/(370 GPa 1e5 /s) = 8.1 ns, 1 us is k = 24.5, 0.8 us 19.5.
+ */
+static void plan_of_long_runs(void **state)
+{
+    static const struct {
+        const char *model, *law, *time;
+        bool said;
+    } table[] = {{"membrane", "nitsche", "safety: 0.5, end: 1e-6", true},
+                 {"membrane", "nitsche", "safety: 0.25, end: 1e-6", false},
+                 {"membrane", "nitsche", "safety: 0.5, end: 0.8e-6", false},
+                 {"membrane", "camacho-ortiz", "safety: 0.5, end: 1e-6", false},
+                 {"shell", "nitsche", "safety: 0.5, end: 1e-6", false},
+                 {"shell", "nitsche", "safety: 0.6, end: 1e-6", true}};
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
+        char text[700];
+        snprintf(
+            text, sizeof text,
+            "name: t\nseed: 7\nmodel: %s\ngeometry: {shape: plate, width: 1 mm, height: 1 mm, "
+            "thickness: 0.1 mm}\nmesh: {divisions: 4}\nmaterial: {young: 370e9, poisson: 0.25, "
+            "density: 3900}\ncohesive: {law: %s, fracture_energy: 100}\nstrength: "
+            "{distribution: constant, value: 300e6}\nloading: {rate: 1e5}\ntime: {%s}\n"
+            "replicas: 1\n",
+            table[i].model, table[i].law, table[i].time);
+        OWN(fracas_campaign) campaign = read_text(text);
+        fracas_forecast forecast;
+        OK(fracas_forecast_make(campaign, 0, &forecast));
+        const double end = campaign->point[0].spec.time.end;
+        assert_true(fabs(forecast.transits / ((end - 3e8 / 370e9 / 1e5) * sqrt(370e9 / 3900) /
+                                              cbrt(2400 / (3900 * 1e10))) -
+                         1) < 1e-12);
+        OWNED char *plan = plan_text(campaign, 1, false);
+        assert_int_equal(strstr(plan, "crosses a fragment some 24 times") != NULL, table[i].said);
+    }
+}
+
+/* A bar is one part; 128 triangles are two blocks of 64. */
+static void plan_of_parts(void **state)
+{
+    static const char bar[] = "model: bar\ngeometry: {length: 10 mm}\nmesh: {elements: 800}",
+                      plate[] = "model: membrane\ngeometry: {shape: plate, width: 1 mm, height: "
+                                "1 mm, thickness: 0.1 mm}\nmesh: {divisions: 8}";
+    static const struct {
+        const char *body;
+        int parts;
+        const char *said;
+    } table[] = {{bar, 1, NULL},
+                 {bar, 2, "a body of 800 elements is computed in 1 part at most, and"},
+                 {plate, 2, NULL},
+                 {plate, 3, "a body of 128 elements is computed in 2 parts at most, and"}};
+    (void)state;
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
+        char text[700];
+        snprintf(text, sizeof text,
+                 "name: t\nseed: 7\n%s\nmaterial: {young: 370e9, density: 3900%s}\ncohesive: "
+                 "{fracture_energy: 100}\nstrength: {minimum: 264e6, scale: 50e6, shape: 2}\n"
+                 "loading: {rate: 1e5}\ntime: {end: 1e-7}\nreplicas: 1\nparallel: {parts: %d}\n",
+                 table[i].body, table[i].body == plate ? ", poisson: 0.2" : "", table[i].parts);
+        OWN(fracas_campaign) campaign = read_text(text);
+        OWNED char *plan = plan_text(campaign, 1, false);
+        if (table[i].said) assert_has(plan, table[i].said);
+        else assert_null(strstr(plan, "parallel.parts is"));
+    }
+}
+
+TESTS(test_cost, test_text, test_json, test_summary, test_warnings, test_a_line_a_kind,
       test_strengths_that_the_mesh_changes, test_heavy_tail, test_flaws_of_small_elements,
       test_bound_of_a_rings_stress, test_warnings_of_rings, test_refused, test_refined,
-      test_refined_too_far, test_write_fails)
+      test_refined_too_far, test_write_fails, plan_of_long_runs, plan_of_parts)

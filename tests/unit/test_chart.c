@@ -195,12 +195,12 @@ static void put_file(const char *name, const char *text)
 
 static void fails_with(char (*name)[FRACAS_DRAWING], const char *message)
 {
-    FAILS(fracas_pdf_write(folder, name, 1), FRACAS_ENVIRONMENT, message);
+    FAILS(fracas_convert(folder, name, 1, FRACAS_DRAWING_PDF), FRACAS_ENVIRONMENT, message);
 }
 
 static void drawings_become_pdf(void **state)
 {
-    if (!fracas_pdf_made) {
+    if (!fracas_convert_possible) {
         print_message("skipped: built without librsvg\n");
         skip();
     }
@@ -208,7 +208,7 @@ static void drawings_become_pdf(void **state)
     put_file("chart.svg", svg);
     put_file("again.svg", svg);
     free(svg);
-    OK(fracas_pdf_write(folder, names, 2));
+    OK(fracas_convert(folder, names, 2, FRACAS_DRAWING_PDF));
     for (int i = 0; i < 2; i++) {
         snprintf(path, sizeof path, "%s/%s.pdf", folder, names[i]);
         OWNED char *pdf = whole_file(path);
@@ -216,7 +216,7 @@ static void drawings_become_pdf(void **state)
     }
     char missing[1][FRACAS_DRAWING] = {"missing"}, torn[1][FRACAS_DRAWING] = {"torn"},
          taken[1][FRACAS_DRAWING] = {"taken"};
-    fails_with(missing, "missing.svg to make a PDF of it");
+    fails_with(missing, "missing.svg to make a pdf of it");
     put_file("torn.svg",
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"><path");
     fails_with(torn, "torn.svg");
@@ -224,8 +224,24 @@ static void drawings_become_pdf(void **state)
     snprintf(path, sizeof path, "%s/taken.pdf", folder);
     assert_int_equal(mkdir(path, 0777), 0);
     fails_with(taken, "taken.pdf");
-    OK(fracas_pdf_write(folder, NULL, 0));
+    OK(fracas_convert(folder, NULL, 0, FRACAS_DRAWING_PDF));
+}
+
+/* A drawing of 9 by 5 pixels has 18 by 10 dots: both numbers follow the head of a PNG, the first
+ * byte the highest. */
+static void drawings_become_png(void **state)
+{
+    if (!fracas_convert_possible) {
+        print_message("skipped: built without librsvg\n");
+        skip();
+    }
+    char name[1][FRACAS_DRAWING] = {"dots"}, path[512];
+    put_file("dots.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"5\"/>");
+    OK(fracas_convert(folder, name, 1, FRACAS_DRAWING_PNG));
+    snprintf(path, sizeof path, "%s/dots.png", folder);
+    OWNED char *png = whole_file(path);
+    assert_memory_equal(png, "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x12\0\0\0\x0a", 24);
 }
 
 TESTS_ALL(make_folder, remove_folder, the_csv_has_what_is_drawn, drawings_have_marks_bands_and_keys,
-          an_axis_may_have_names, drawings_become_pdf)
+          an_axis_may_have_names, drawings_become_pdf, drawings_become_png)

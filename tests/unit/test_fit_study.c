@@ -92,7 +92,7 @@ static fracas_fits *fit(const char *folder, size_t point, FILE *out)
     fracas_fits *fits = NULL;
     OK(fracas_analysis_create(folder, NULL, NULL, &analysis));
     OK(fracas_fits_create(analysis, point, RESAMPLES, &fits));
-    if (out) fracas_fits_print(fits, analysis, out);
+    if (out) fracas_fits_print(fits, analysis, 0, out);
     return fits;
 }
 

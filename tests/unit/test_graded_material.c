@@ -224,13 +224,13 @@ static void check_points(const char *text, size_t points)
     FRACAS_CLEARED(fracas_sample) sample;
     OK(fracas_sample_draw(campaign, 0, 4, &sample));
     const fracas_stream stream = fracas_point_stream(campaign, 0, FRACAS_PURPOSE_STRENGTH, 4);
-    assert_int_equal(fracas_model_strengths_per_interface(sample.model), points);
-    assert_int_equal(sample.n, points * fracas_model_interfaces(sample.model));
-    for (size_t i = 0, k = 0; i < fracas_model_interfaces(sample.model); i++)
+    assert_int_equal(fracas_model_strengths_per_interface(sample.realizer.model), points);
+    assert_int_equal(sample.n, points * fracas_model_interfaces(sample.realizer.model));
+    for (size_t i = 0, k = 0; i < fracas_model_interfaces(sample.realizer.model); i++)
         for (size_t g = 0; g < points; g++, k++) {
             const fracas_extent extent = {
-                fracas_model_interface_volume(sample.model, i) / (double)points,
-                fracas_model_interface_area(sample.model, i) / (double)points};
+                fracas_model_interface_volume(sample.realizer.model, i) / (double)points,
+                fracas_model_interface_area(sample.realizer.model, i) / (double)points};
             const double u = fracas_stream_uniform(&stream, fracas_stream_site(i, g));
             assert_true(sample.strength[k] == fracas_strength_quantile(&campaign->point[0].strength,
                                                                        extent,

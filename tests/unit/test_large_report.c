@@ -32,8 +32,8 @@ static int report_of(const char *folder, bool whole)
     FILE *out = fopen(path, "w");
     fracas_err err = fracas_analysis_create(folder, whole ? NULL : &study.header.campaign,
                                             whole ? NULL : &study.table, &analysis);
-    if (!err) fracas_analysis_print_table(analysis, out);
-    if (!err) err = fracas_report_write(analysis, folder);
+    if (!err) fracas_analysis_print_table(analysis, 0, out);
+    if (!err) err = fracas_report_write(analysis, folder, NULL, 0);
     if (err) fprintf(stderr, "%s\n", fracas_message());
     if (!err) fracas_analysis_destroy(analysis);
     fclose(out);

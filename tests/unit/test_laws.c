@@ -165,7 +165,6 @@ static void one_pair_is_given_whole(void **state)
         [4] = "; add `deviation`",
         [8] = "; add `mean`",
         [5] = "parts of both are given: take out `mean` and add `shape`",
-        [6] = "take out `mean` and add `scale`",
         [9] = "take out `deviation` and add `shape`",
         [10] = "take out `deviation` and add `scale`",
         [7] = "`scale` and `shape` say all: take out `mean`",
@@ -173,7 +172,7 @@ static void one_pair_is_given_whole(void **state)
         [13] = "`mean` and `deviation` say all: take out `scale`",
         [14] = "`mean` and `deviation` say all: take out `shape`",
         [15] = "`scale` and `shape` say all: take out `mean` and `deviation`",
-    };
+    }; /* none for 3, 6 and 12: a Weibull distribution takes shape and mean as well */
     for (unsigned given = 0; given < 16; given++) {
         fracas_strength law = law_blank("weibull");
         for (int k = 0; k < 4; k++)

@@ -63,7 +63,8 @@ static void a_bar_is_as_long_as_what_is_computed(void **state)
          "\r[##########..........] 4/8 done, 0 failed, 0.04/s, 1:40 left\033[K"},
         {100,
          {.total = 8, .done = 2, .memory = 1, .failed = 1, .work = 1e-3},
-         "\r[##########..........] 2/8 done, 1 computed, 1 failed, 0.04/s, 27:45:00 left\033[K"},
+         "\r[##########..........] 2/8 done, 1 more computed, 1 failed, 0.04/s, 27:45:00 "
+         "left\033[K"},
         {100,
          {.total = 8, .done = 8, .work = 1},
          "\r[####################] 8/8 done, 0 failed, 0.08/s\033[K"},
@@ -126,8 +127,9 @@ static void a_file_gets_lines(void **state)
     fracas_progress_end(&progress);
     rewind(out);
     assert_non_null(fgets(line, sizeof line, out));
-    assert_string_equal(line,
-                        "4 of 8 realizations done, 1 computed, 0 failed, 0.05/s, 1:40 left\n");
+    assert_string_equal(
+        line,
+        "4 of 8 realizations done, 1 more computed, not yet stored, 0 failed, 0.05/s, 1:40 left\n");
     assert_non_null(fgets(line, sizeof line, out));
     assert_string_equal(line, "a message\n");
     fclose(out);

@@ -21,9 +21,10 @@ static bool is_named(const char *path, const char *const *names)
 /* What may differ: twice or half of what it was, and what follows. */
 static double factor_of(fracas_refinement what, const char *path)
 {
-    static const char *const doubled[FRACAS_NREFINEMENTS][4] = {
+    static const char *const doubled[FRACAS_NREFINEMENTS][5] = {
         [FRACAS_REFINE_MESH] = {"mesh.elements", "mesh.divisions"},
-        [FRACAS_REFINE_BETA] = {"cohesive.beta", "cohesive.beta_shear"}};
+        [FRACAS_REFINE_BETA] = {"cohesive.beta", "cohesive.beta_shear"},
+        [FRACAS_REFINE_END] = {"time.end", "time.transits", "time.quiet", "time.multiple"}};
     static const char *const halved[FRACAS_NREFINEMENTS][2] = {
         [FRACAS_REFINE_MESH] = {"mesh.size"}, [FRACAS_REFINE_STEP] = {"time.safety"}};
     return is_named(path, doubled[what]) ? 2 : is_named(path, halved[what]) ? 0.5 : 1;
@@ -227,7 +228,7 @@ static void some_left_out(void **state)
     fracas_refined_clear(&refined);
 }
 
-/* Strengths are shared with step and beta, as the streams say, not with the mesh; replicas beside
+/* Strengths are shared with all but the mesh, as the streams say; replicas beside
  * the file count. */
 static void names_and_numbers(void **state)
 {

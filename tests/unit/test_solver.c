@@ -23,7 +23,10 @@ static fracas_batch *batch_of(const fracas_spec *spec, size_t n, fracas_batch_op
 static int64_t count_broken(const fracas_model *model, int64_t broken)
 {
     fracas_step step = {.broken = {broken}};
-    return model->formulation->fragment_count(model, &step, 0);
+    fracas_census census;
+    OK(model->formulation->count(model, &step, 0, &census));
+    assert_true(census.held == 0);
+    return census.all;
 }
 
 /* State of a realization, and its end by the rule. */
@@ -55,7 +58,7 @@ static void stop_at_a_set_time(void **unused)
     follow(&(fracas_time){.stop = &fracas_stop_time, .end = 1.0}, at, FRACAS_COUNT(at));
 }
 
-static void settled_waits_for_quiet_after_the_first_onset(void **unused)
+static void quiet_waits_after_the_first_onset(void **unused)
 {
     static const progress settles[] = {
         {5, 0, 0, 0, GOES_ON}, /* not armed, however long it is quiet */
@@ -68,7 +71,7 @@ static void settled_waits_for_quiet_after_the_first_onset(void **unused)
                                        {10, 1, 1, 0, FRACAS_TIME_LIMIT}}; /* the cap */
     static const progress never_cracks[] = {{10, 0, 0, 0, FRACAS_INTACT}};
     const fracas_time rule = {
-        .stop = &fracas_stop_settled, .end = 10, .quiet = 1, .quiet_fraction = 0.01};
+        .stop = &fracas_stop_quiet, .end = 10, .quiet = 1, .quiet_fraction = 0.01};
     follow(&rule, settles, FRACAS_COUNT(settles));
     follow(&rule, runs_on, FRACAS_COUNT(runs_on));
     follow(&rule, never_cracks, FRACAS_COUNT(never_cracks));
@@ -127,7 +130,11 @@ static void the_ledger_adds_every_term(void **unused)
     step.friction[0] = 1024; /* a sink of its own */
     fracas_ledger_update(&ledger, &step, 0, false);
     assert_true(ledger.friction == 1024 && ledger.residual == 240 + 1024 - 223 - 4.5 - 15);
+    step.damped[0] = 512; /* a term of the residual, and of nothing else */
+    fracas_ledger_update(&ledger, &step, 0, false);
+    assert_true(ledger.residual == 240 + 1024 + 512 - 223 - 4.5 - 15);
     assert_true(fracas_energy_lost(ledger.energy) == 128 + 1024);
+    assert_true(fracas_energy_held(ledger.energy, 0) == 240 + 1024);
 }
 
 static void fragments_are_connected_elements(void **unused)
@@ -441,7 +448,7 @@ static void a_batch_refuses_what_it_cannot_run(void **unused)
           "model bar does not go with centrifugal");
 }
 
-TESTS(stop_at_a_set_time, settled_waits_for_quiet_after_the_first_onset,
+TESTS(stop_at_a_set_time, quiet_waits_after_the_first_onset,
       history_keeps_intervals_onset_peak_and_end, the_ledger_adds_every_term,
       fragments_are_connected_elements, a_fragment_across_the_end_is_in_one_piece,
       fragments_are_sums_over_their_elements, nitsche_is_the_secant_law,

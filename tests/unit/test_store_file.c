@@ -172,6 +172,8 @@ static void write_and_tell(const char *path)
             printf(" f %lld %d", (long long)r.fragment[f].elements, (int)r.fragment[f].dust);
             tell_bits("", r.fragment[f].velocity[2]);
             tell_bits("", r.fragment[f].spin[1]);
+            tell_bits("", r.fragment[f].axis[1][1]);
+            tell_bits("", r.fragment[f].crack_area);
         }
         for (size_t h = 0; h < r.nhistory; h++) {
             printf(" h %lld", (long long)r.history[h].broken);

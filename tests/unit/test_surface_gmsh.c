@@ -41,7 +41,7 @@ static void test_round_trip(void **state)
         for (int order = 1; order <= 2; order++) {
             OWN(a_surface) s = rectangle(3, order), *back = NULL;
             gmsh_file f = variant(s, which);
-            if (fracas_surface_read_gmsh(f.bytes, f.size, &back))
+            if (fracas_surface_read_gmsh(f.bytes, f.size, 1, &back))
                 fail_msg("variant %d: %s", which, fracas_message());
             assert_int_equal(back->order, order);
             assert_int_equal(back->nnodes, s->nnodes);
@@ -80,7 +80,7 @@ static void test_plates(void **state)
         size_t size;
         OWNED char *bytes = read_plate(i, &size);
         OWN(a_surface) s = NULL;
-        if (fracas_surface_read_gmsh(bytes, size, &s))
+        if (fracas_surface_read_gmsh(bytes, size, 1, &s))
             fail_msg("%s: %s", plates[i], fracas_message());
         check_edges(s);
         assert_int_equal(euler(s), 1);
@@ -114,10 +114,10 @@ static void test_plates_agree(void **state)
         size_t size;
         char *bytes = read_plate(i, &size);
         OWN(a_surface) s = NULL, *first = NULL;
-        OK(fracas_surface_read_gmsh(bytes, size, &s));
+        OK(fracas_surface_read_gmsh(bytes, size, 1, &s));
         free(bytes);
         bytes = read_plate(i / 4 * 4, &size);
-        OK(fracas_surface_read_gmsh(bytes, size, &first));
+        OK(fracas_surface_read_gmsh(bytes, size, 1, &first));
         free(bytes);
         assert_int_equal(s->nnodes, first->nnodes);
         assert_int_equal(s->nelements, first->nelements);
@@ -212,7 +212,7 @@ static void test_refused(void **state)
 {
     for (size_t i = 0; i < FRACAS_COUNT(refused); i++) {
         OWN(a_surface) s = NULL;
-        assert_int_equal(fracas_surface_read_gmsh(refused[i].text, strlen(refused[i].text), &s),
+        assert_int_equal(fracas_surface_read_gmsh(refused[i].text, strlen(refused[i].text), 1, &s),
                          FRACAS_USAGE);
         assert_null(s);
         if (!strstr(fracas_message(), refused[i].message))
@@ -230,7 +230,7 @@ static void test_refused_binary(void **state)
     at += 10;
     while (*at++ != '\n') continue;
     memcpy(at + 4, &(int32_t){1000}, 4); /* type, how many follow, tags */
-    FAILS(fracas_surface_read_gmsh(f.bytes, f.size, &back), FRACAS_USAGE,
+    FAILS(fracas_surface_read_gmsh(f.bytes, f.size, 1, &back), FRACAS_USAGE,
           "1000 elements in a block");
     assert_true(strncmp(fracas_message(), "byte ", 5) == 0);
     free(f.bytes);
@@ -242,7 +242,7 @@ static bool survives(const char *bytes, size_t size)
     OWNED char *copy = taken(size + (size == 0));
     memcpy(copy, bytes, size);
     OWN(a_surface) s = NULL;
-    fracas_err err = fracas_surface_read_gmsh(copy, size, &s);
+    fracas_err err = fracas_surface_read_gmsh(copy, size, 1, &s);
     if (err ? err != FRACAS_USAGE || s || !*fracas_message() : !s)
         fail_msg("%d: %s", err, fracas_message());
     if (!err) check_edges(s);

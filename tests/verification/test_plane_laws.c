@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
 /* The cohesive laws of a point that opens and slides, against what must hold of them by themselves:
  * the ledger of energies on any path, traction against separation, onset, cycles, extremes, lanes.
  * Theory: docs/theory/cohesive.md. */

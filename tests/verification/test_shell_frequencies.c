@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
+/* ctest-labels: ci slow-sanitize */
 /* Frequencies of thin plates and strips by the shell's operator, masses lumped.
  */
 #include "tests/support/shell_statics.h"

@@ -335,6 +335,7 @@ fracas_err fracas_launcher_run(const fracas_starter_kind *kind, const fracas_ran
     p->kind = kind;
     p->durable = -1;
     fracas_progress_init(&p->progress, stderr);
+    p->progress.quiet = ranks->options->quiet;
     fracas_reap_begin(&p->reap);
     set_deadline(p, ranks->options->walltime, began);
     fracas_err err = run(p, ranks, ran);

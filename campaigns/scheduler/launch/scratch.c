@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/launch/scratch.h"
 
+#include "base/file.h"
 #include "base/own.h"
 #include "base/param.h"
 #include "campaigns/plan/plan.h"
@@ -8,7 +9,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <ftw.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,18 +21,6 @@
 #define PREFIX ".fracas-mpi-"
 #define SHARED "FRACAS_SHARED"
 #define SURROUNDING "FRACAS_TMPDIR"
-
-static int remove_one(const char *path, const struct stat *info, int type, struct FTW *place)
-{
-    (void)info, (void)type, (void)place;
-    remove(path);
-    return 0; /* the rest is removed all the same */
-}
-
-static void remove_folder(const char *path)
-{
-    nftw(path, remove_one, 8, FTW_DEPTH | FTW_PHYS | FTW_MOUNT);
-}
 
 /* Locks this user's folder; -1: it cannot be, or, with LOCK_NB, another process has it. */
 static int lock_folder(const char *path, int wait)
@@ -57,7 +45,7 @@ static void sweep(const char *base)
             snprintf(path, sizeof path, "%s/%s", base, entry->d_name) >= (int)sizeof path)
             continue;
         OWN_FD lock = lock_folder(path, LOCK_NB);
-        if (lock >= 0) remove_folder(path);
+        if (lock >= 0) fracas_folder_remove(path);
     }
     closedir(all);
 }
@@ -144,8 +132,8 @@ void fracas_scratch_import(void)
 
 void fracas_scratch_remove(fracas_scratch *scratch)
 {
-    if (*scratch->session.path) remove_folder(scratch->session.path);
-    if (*scratch->shared.path) remove_folder(scratch->shared.path);
+    if (*scratch->session.path) fracas_folder_remove(scratch->session.path);
+    if (*scratch->shared.path) fracas_folder_remove(scratch->shared.path);
     if (scratch->session.lock >= 0) close(scratch->session.lock);
     if (scratch->shared.lock >= 0) close(scratch->shared.lock);
     *scratch = (fracas_scratch)FRACAS_SCRATCH_NONE;

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "campaigns/scheduler/types/header.h"
 #include "campaigns/scheduler/types/packet.h"
+#include "campaigns/store/checkpoint.h"
 #include "campaigns/store/file/disk.h"
 
 #include <errno.h>
@@ -161,7 +162,8 @@ fracas_err fracas_study_examine(const char *study, const fracas_campaign *campai
     int lock;
     TRY(fracas_study_lock_to_look(study, force, &lock));
     fracas_err err = look_at(study, campaign, settled, failed);
-    if (access(file, F_OK)) *settled = false; /* to be written again */
+    if (access(file, F_OK)) *settled = false;            /* to be written again */
+    if (!err && *settled) fracas_checkpoints_end(study); /* left by a power cut, or written late */
     close(lock);
     return err;
 }

@@ -39,7 +39,8 @@ FRACAS_MUST_USE fracas_err fracas_study_settled(const char *study, fracas_index 
                                                 const fracas_campaign *campaign, bool *settled,
                                                 int64_t *failed);
 
-/* Examines a study under its lock (`force` as in fracas_study_lock), without changing it.
+/* Examines a study under its lock (`force` as in fracas_study_lock), without changing it; only from
+ * a settled one it removes the checkpoints that are left.
  * FRACAS_IN_USE when another run has it, FRACAS_DAMAGED when it does not fit, else *settled and
  * *failed as above (false and 0 for a new study). Here a settled study also has all bytes as sealed
  * in the index; a run repairs any other. */

@@ -94,6 +94,7 @@ fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaig
 /* ---- gc ---- */
 
 fracas_err fracas_upkeep_collect(const char *study, const fracas_campaign *campaign, bool dry,
+                                 bool merged,
                                  void (*found)(void *context, const fracas_collected *item),
                                  void *context, uint64_t *freed)
 {
@@ -108,6 +109,8 @@ fracas_err fracas_upkeep_collect(const char *study, const fracas_campaign *campa
     options.attachment = digest;
     TRY(fracas_study_lock(study, false, &h.lock));
     TRY(dry ? fracas_index_open(study, false, &h.index) : open_index(study, &h.index));
+    const fracas_file_header header = fracas_campaign_header(campaign);
+    if (merged && !dry) TRY(fracas_study_fold(study, h.index, &header));
     return fracas_study_collect(study, h.index, &options, freed);
 }
 

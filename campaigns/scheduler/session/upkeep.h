@@ -18,9 +18,9 @@ FRACAS_MUST_USE fracas_err fracas_upkeep_merge(const char *study, const fracas_c
                                                const fracas_said *said, fracas_index_counts *end,
                                                bool *written);
 
-/* fracas_study_collect with the files named in the campaign. */
+/* fracas_study_collect with the files named in the campaign; `merged`: after fracas_study_fold. */
 FRACAS_MUST_USE fracas_err fracas_upkeep_collect(
-    const char *study, const fracas_campaign *campaign, bool dry,
+    const char *study, const fracas_campaign *campaign, bool dry, bool merged,
     void (*found)(void *context, const fracas_collected *item), void *context, uint64_t *freed);
 
 /* fracas_index_retry of one point, or of all (`point` negative). FRACAS_USAGE for an unknown point.

@@ -5,18 +5,19 @@
 #define FRACAS_CAMPAIGNS_SCHEDULER_STATUS_PROGRESS_H
 
 #include "base/err.h"
-#include "campaigns/scheduler/types/lease.h"
+#include "campaigns/scheduler/status/describe.h"
 
 #include <stdbool.h>
 #include <stdio.h>
 
 typedef struct {
     FILE *out;
-    bool terminal;
-    bool bar;     /* the last line of the terminal is a bar */
-    bool any;     /* counts have come */
-    double began; /* fracas_now of the first counts, from which the rate counts */
-    double shown; /* fracas_now of the last line */
+    bool terminal; /* one that moves its cursor */
+    bool quiet;    /* only messages are shown */
+    bool bar;      /* the last line of the terminal is a bar */
+    bool any;      /* counts have come */
+    double began;  /* fracas_now of the first counts, from which the rate counts */
+    double shown;  /* fracas_now of the last line */
     fracas_counts first, last;
 } fracas_progress;
 

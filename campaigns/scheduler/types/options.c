@@ -2,14 +2,15 @@
 #include "campaigns/scheduler/types/options.h"
 
 #include "campaigns/scheduler/types/lease.h"
+#include "campaigns/store/file/schema.h"
 
 const char *const fracas_isolation_name[2] = {"lease", "none"};
 
 void fracas_run_options_init(fracas_run_options *options)
 {
     *options = (fracas_run_options){.isa = FRACAS_ISA_BEST,
-                                    .segment_age = 5,
-                                    .segment_bytes = 64.0 * 1024 * 1024,
+                                    .segment_age = FRACAS_SEGMENT_AGE,
+                                    .segment_bytes = FRACAS_SEGMENT_BYTES,
                                     .lease_seconds = 1,
                                     .checkpoint_seconds = 120};
 }

@@ -34,6 +34,8 @@ typedef struct {
     int64_t replicas;          /* for every point; 0: the campaign file's */
     int part, parts;           /* compute realizations part, part + parts, ...; parts 0 or 1: all */
     bool force;                /* take over the lock of another host */
+    bool quiet;                /* show no progress, and no table at the end ... */
+    bool wide;                 /* ... or one wider than the terminal */
     bool ignore_space;         /* start although the disk is predicted to be too small */
 } fracas_run_options;
 

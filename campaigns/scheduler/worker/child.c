@@ -52,14 +52,13 @@ static fracas_err meet(const fracas_computation *computation, size_t *from, int 
         TRY(fracas_group_join(computation->group, &lease->meeting, from));
         return fracas_packet_send(fd, FRACAS_PACKET_MEETING, &lease->meeting, sizeof meeting);
     }
-    const size_t most = most_of(computation->model);
-    if (!fracas_model_surface(computation->model) || most < 2 ||
+    const size_t most = most_of(computation->realizer->model);
+    if (!fracas_model_surface(computation->realizer->model) || most < 2 ||
         fracas_group_open(computation->group, most, &meeting))
         return FRACAS_OK; /* alone */
     return fracas_packet_send(fd, FRACAS_PACKET_MEETING, &meeting, sizeof meeting);
 }
 
-/* Sends the records of each batch when it is done. */
 static fracas_err compute(const fracas_computation *computation, fracas_models *models, int fd)
 {
     fracas_computation own = *computation;
@@ -81,17 +80,12 @@ static fracas_err compute(const fracas_computation *computation, fracas_models *
                                                  : FRACAS_OK;
 }
 
-/* The life of the child. */
-static _Noreturn void run_child(const fracas_computation *computation, fracas_models *models,
-                                int fd, int errors)
+bool fracas_child_live(const fracas_computation *computation, fracas_models *models, int fd)
 {
-    if (errors >= 0) dup2(errors, STDERR_FILENO);
     fracas_err err = compute(computation, models, fd);
     fracas_trouble fault;
     if (err) fracas_trouble_take(err, &fault);
-    if (err && fracas_packet_send(fd, FRACAS_PACKET_FAULT, &fault, sizeof fault))
-        _exit(FRACAS_ENVIRONMENT); /* the server is gone */
-    _exit(0);
+    return !err || !fracas_packet_send(fd, FRACAS_PACKET_FAULT, &fault, sizeof fault);
 }
 
 /* ---- in the server ---- */
@@ -124,7 +118,8 @@ fracas_err fracas_child_start(fracas_child *child, const fracas_computation *com
     if (pid == 0) {
         close(fd[0]);
         close(server_fd);
-        run_child(computation, models, fd[1], errors);
+        if (errors >= 0) dup2(errors, STDERR_FILENO);
+        _exit(fracas_child_live(computation, models, fd[1]) ? 0 : FRACAS_ENVIRONMENT);
     }
     close(fd[1]);
     const double now = fracas_now();

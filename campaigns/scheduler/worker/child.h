@@ -35,6 +35,10 @@ FRACAS_MUST_USE fracas_err fracas_child_start(fracas_child *child,
                                               const fracas_computation *computation,
                                               fracas_models *models, int server_fd);
 
+/* The life of the child: computes the lease and sends to `fd` the records of each batch when it is
+ * done, or a FAULT message. false: the server is gone. */
+bool fracas_child_live(const fracas_computation *computation, fracas_models *models, int fd);
+
 /* Reads from the child, blocking until something comes; *ended at the end of its records. */
 FRACAS_MUST_USE fracas_err fracas_child_receive(fracas_child *child, bool *ended);
 

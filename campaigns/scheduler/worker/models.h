@@ -3,15 +3,14 @@
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_WORKER_MODELS_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_WORKER_MODELS_H
 
+#include "campaigns/plan/realize.h"
 #include "campaigns/scheduler/worker/solve.h"
 
 enum { FRACAS_MODELS_KEPT = 4 };
 
 typedef struct {
-    size_t point;
-    fracas_model *model; /* NULL: free */
-    fracas_field *field;
-    uint64_t used; /* clock of the last use */
+    fracas_realizer realizer; /* all zero: free */
+    uint64_t used;            /* clock of the last use */
 } fracas_kept_model;
 
 typedef struct {
@@ -19,7 +18,7 @@ typedef struct {
     uint64_t clock;
 } fracas_models;
 
-/* Sets the model and the strength field of the lease's point, owned by `models` and valid until the
+/* Sets the realizer of the lease's point, owned by `models` and valid until the
  * next call. */
 FRACAS_MUST_USE fracas_err fracas_models_get(fracas_models *models,
                                              fracas_computation *computation);

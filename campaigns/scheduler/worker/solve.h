@@ -4,7 +4,7 @@
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_WORKER_SOLVE_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_WORKER_SOLVE_H
 
-#include "campaigns/campaign.h"
+#include "campaigns/plan/realize.h"
 #include "campaigns/scheduler/types/lease.h"
 #include "campaigns/scheduler/types/options.h"
 
@@ -12,11 +12,11 @@
 typedef struct {
     const fracas_campaign *campaign;
     const fracas_run_options *options;
-    const char *study;         /* NULL: no checkpoints */
-    const fracas_model *model; /* at the lease's point ... */
-    const fracas_field *field; /* ... and of its strengths: fracas_models_get */
+    const char *study;               /* NULL: no checkpoints */
+    const fracas_realizer *realizer; /* at the lease's point: fracas_models_get */
     const fracas_lease *lease;
-    struct fracas_group *group; /* NULL: this process computes alone */
+    struct fracas_group *group;      /* NULL: this process computes alone */
+    const fracas_batch_watch *watch; /* in the place of checkpoints; NULL: nobody */
 } fracas_computation;
 
 /* Computes `count` replicas of the lease's point side by side into record[0] ... record[count - 1],

@@ -144,6 +144,10 @@ static fracas_err start(fracas_h5 *h5, const char *path, bool writing)
     return FRACAS_OK;
 }
 
+#define TEXT(x) #x
+#define VERSION(major, minor, release) TEXT(major) "." TEXT(minor) "." TEXT(release)
+const char fracas_hdf5_built[] = VERSION(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE);
+
 void fracas_hdf5_version(char text[32])
 {
     unsigned major = 0, minor = 0, release = 0;

@@ -19,6 +19,14 @@
     COLUMN("realization", name, type, unit, meaning, fracas_stored_realization, record.name)
 #define FRAGMENT(name, type, unit, meaning) \
     COLUMN("fragment", name, type, unit, meaning, fracas_fragment, name)
+#define SEMI_AXIS(number, meaning)                                                       \
+    COLUMN("fragment", semi_axis_##number, FLOAT64, "m", meaning " semi-axis" ELLIPSOID, \
+           fracas_fragment, semi_axis[number - 1])
+#define AXIS(number, meaning)                                                                      \
+    COLUMN("fragment", axis_##number, FLOAT64, "1",                                                \
+           "direction (x, y, z) of semi_axis_" #number ", a unit vector" meaning, fracas_fragment, \
+           axis[number - 1])
+#define ELLIPSOID " of the homogeneous ellipsoid with its second moments at end_time"
 #define HISTORY(name, type, unit, meaning) \
     COLUMN("history", name, type, unit, meaning, fracas_history_row, name)
 #define INTERFACE(name, type, unit, meaning) \
@@ -35,12 +43,14 @@
 #define AT_END_STORED " at end_time"
 #define AT_END_SINK " until end_time"
 #define AT_END_PART ""
+#define AT_END_DAMPING " until end_time"
 #define AT_END_SOURCE " until end_time"
 #define AT_END_LOAD " until end_time"
 #define SO_FAR_KINETIC ""
 #define SO_FAR_STORED ""
 #define SO_FAR_SINK " so far"
 #define SO_FAR_PART ""
+#define SO_FAR_DAMPING " so far"
 #define SO_FAR_SOURCE " so far"
 #define SO_FAR_LOAD " so far"
 
@@ -53,6 +63,8 @@ static const fracas_store_column realization[] = {
            "counts 0)"),
     RECORD(fragments, INT64, "1", "fragments, dust included"),
     RECORD(fragments_dust, INT64, "1", "of those, dust"),
+    RECORD(fragments_held, INT64, "1",
+           "of those, pieces on an edge that moves with the load: these never stop breaking off"),
     RECORD(broken, INT64, "1", "interfaces opened to delta_c at every Gauss point"),
     RECORD(cracked, INT64, "1", "interfaces past onset, broken ones included"),
     RECORD(steps, INT64, "1", "time steps taken"),
@@ -63,6 +75,18 @@ static const fracas_store_column realization[] = {
     FRACAS_EACH_ENERGY(AT_END) RECORD(
         residual, FLOAT64, "J", "largest absolute value over the run of " FRACAS_ENERGY_BALANCE),
     RECORD(residual_end, FLOAT64, "J", "the same sum, signed, at end_time"),
+    RECORD(vibrating, FLOAT64, "J",
+           "elastic + cohesive + kinetic energy beside the rigid motion of each fragment, at "
+           "end_time"),
+    RECORD(transits, FLOAT64, "1",
+           "transits k of a mean fragment by a longitudinal wave since the first onset; of "
+           "fragments that are not held, as all of these"),
+    RECORD(growth, FLOAT64, "1",
+           "share Delta of the fragments that the last half of that time has added"),
+    RECORD(rest, FLOAT64, "1",
+           "breaks R still expected from the energies of the fragments; NaN of surfaces"),
+    RECORD(rest_variance, FLOAT64, "1", "variance of that number"),
+    RECORD(rest_bound, FLOAT64, "1", "breaks B that those energies can pay for"),
     RECORD(momentum, FLOAT64, "kg m/s",
            "linear momentum (x, y, z) of the motion beside an imposed rate, half a time step after "
            "end_time"),
@@ -84,7 +108,8 @@ OFFSETS(mesh_border_offset, "/mesh/border_offset", "borders of the mesh of point
 
 static const fracas_store_column fragment[] = {
     FRAGMENT(mass, FLOAT64, "kg", "mass"),
-    FRAGMENT(size, FLOAT64, "m", "size: length in 1D, square root of the area in 2D"),
+    FRAGMENT(size, FLOAT64, "m",
+             "size: length in 1D, square root of the area in 2D, cube root of the volume in 3D"),
     FRAGMENT(elements, INT64, "1", "elements"),
     FRAGMENT(dust, INT8, "1",
              "1 if of so few elements that the mesh decides its size (one in 1D, one or two in "
@@ -98,6 +123,17 @@ static const fracas_store_column fragment[] = {
     FRAGMENT(spin, FLOAT64, "rad/s",
              "angular velocity (x, y, z) of the rigid body of the same inertia with that angular "
              "momentum; 0 about an axis without inertia, and in a bar"),
+    FRAGMENT(volume, FLOAT64, "m3", "volume, before any motion"),
+    SEMI_AXIS(1, "largest"),
+    SEMI_AXIS(2, "middle"),
+    SEMI_AXIS(3, "smallest"),
+    AXIS(1, "; its largest component is positive"),
+    AXIS(2, "; its largest component is positive"),
+    AXIS(3, ", axis_1 x axis_2"),
+    FRAGMENT(extent, FLOAT64, "m", "largest distance of two of its nodes at end_time"),
+    FRAGMENT(crack_area, FLOAT64, "m2",
+             "area of its faces on broken interfaces, before any motion; of surfaces: their length "
+             "times the thickness"),
 };
 
 static const fracas_store_column history[] = {
@@ -216,6 +252,12 @@ const fracas_store_column fracas_store_point_hash = {
 const fracas_store_column fracas_store_point_replicas = {
     "/point/replicas", FRACAS_INT64, 1, "1", "replicas planned at the point", 0};
 
+const char *const fracas_stored_type_name[] = {[FRACAS_INT8] = "int8",
+                                               [FRACAS_INT32] = "int32",
+                                               [FRACAS_INT64] = "int64",
+                                               [FRACAS_FLOAT64] = "float64",
+                                               [FRACAS_TEXT] = "text"};
+
 size_t fracas_stored_size(const fracas_store_column *column)
 {
     static const size_t size[] = {[FRACAS_INT8] = 1,
@@ -273,15 +315,12 @@ void fracas_rows_load(const fracas_store_column *column, const void *stored, siz
 
 static void reference_row(FILE *out, const fracas_store_column *column, size_t chunk)
 {
-    static const char *const name[] = {[FRACAS_INT8] = "int8",
-                                       [FRACAS_INT32] = "int32",
-                                       [FRACAS_INT64] = "int64",
-                                       [FRACAS_FLOAT64] = "float64"};
+    const char *type = fracas_stored_type_name[column->type];
     bool text = column->type == FRACAS_TEXT;
     fprintf(out, "| `%s` | ", column->path);
-    if (text) fprintf(out, "text%zu | (n)", column->width);
-    else if (column->width > 1) fprintf(out, "%s | (n, %zu)", name[column->type], column->width);
-    else fprintf(out, "%s | (n)", name[column->type]);
+    if (text) fprintf(out, "%s%zu | (n)", type, column->width);
+    else if (column->width > 1) fprintf(out, "%s | (n, %zu)", type, column->width);
+    else fprintf(out, "%s | (n)", type);
     fprintf(out, " | %zu | %s | %s |\n", chunk, text ? "-" : column->unit, column->description);
 }
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The schema of segments and studies: one const table for writer, reader, verification and
- * docs/formats/study.md. For the store alone, and for analysis/export, whose tables have the same
- * columns. */
+ * docs/formats/study.md. For the store alone, for analysis/export, whose tables have the same
+ * columns, and for the sizes of a plan. */
 #ifndef FRACAS_CAMPAIGNS_STORE_FILE_SCHEMA_H
 #define FRACAS_CAMPAIGNS_STORE_FILE_SCHEMA_H
 
+#include "campaigns/points.h"
 #include "engine/record.h"
 
 #include <stddef.h>
@@ -19,6 +20,8 @@ typedef enum {
     FRACAS_FLOAT64,
     FRACAS_TEXT
 } fracas_stored_type;
+
+extern const char *const fracas_stored_type_name[]; /* "int8" ... by fracas_stored_type */
 
 /* One dataset. */
 typedef struct {
@@ -108,6 +111,16 @@ size_t fracas_rows_store(const fracas_store_column *column, const void *rows, si
 /* The inverse. */
 void fracas_rows_load(const fracas_store_column *column, const void *stored, size_t count,
                       void *rows, size_t row_size);
+
+/* Bytes of a row of the set, and about those of a file with so many rows of each set (0: without
+ * it) and the points of the table. A file has whole chunks: the smallest has a third of a megabyte.
+ */
+double fracas_row_bytes(fracas_set_name set);
+double fracas_file_bytes(const double rows[FRACAS_NSETS], const fracas_point_table *table);
+
+/* A worker writes its segment at this age [s], or size [bytes]. */
+#define FRACAS_SEGMENT_AGE 5
+#define FRACAS_SEGMENT_BYTES (64.0 * 1024 * 1024)
 
 /* The table of datasets in docs/formats/study.md. */
 void fracas_schema_reference(FILE *out);

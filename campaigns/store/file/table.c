@@ -35,7 +35,7 @@ static fracas_err write_points(const fracas_h5 *h5, const fracas_point_table *ta
     return write_column(h5, &fracas_store_point_replicas, table->npoints, replicas);
 }
 
-static size_t longest_text(const fracas_point_table *table, size_t c)
+size_t fracas_table_text_width(const fracas_point_table *table, size_t c)
 {
     size_t longest = 1; /* HDF5 has no empty type */
     for (size_t p = 0; p < table->npoints; p++) {
@@ -56,7 +56,7 @@ static fracas_err write_values(const fracas_h5 *h5, const fracas_point_table *ta
                            from->path);
     fracas_store_column column = {path,       FRACAS_FLOAT64, 1,
                                   from->unit, from->doc,      offsetof(fracas_value, real)};
-    if (from->text) column.type = FRACAS_TEXT, column.width = longest_text(table, c);
+    if (from->text) column.type = FRACAS_TEXT, column.width = fracas_table_text_width(table, c);
     OWNED char *stored = column_memory(&column, table->npoints);
     if (!stored) return fracas_no_memory("the point table");
     for (size_t p = 0; p < table->npoints; p++) {

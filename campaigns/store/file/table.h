@@ -15,6 +15,9 @@ typedef struct {
     char **text;         /* one block of texts a column, NULL if real */
 } fracas_stored_table;
 
+/* Bytes of a value in column `c`, one of text: those of the longest, at least 1. */
+size_t fracas_table_text_width(const fracas_point_table *table, size_t c);
+
 FRACAS_MUST_USE fracas_err fracas_table_write(const fracas_h5 *h5, const fracas_point_table *table);
 /* *stored must be all zero; cleared by the caller, after an error too. */
 FRACAS_MUST_USE fracas_err fracas_table_read(const fracas_h5 *h5, fracas_stored_table *stored);

@@ -121,6 +121,10 @@ bool fracas_index_is_json(fracas_index *index, const char *text);
 FRACAS_MUST_USE fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point,
                                                    int64_t *id);
 
+/* The same; FRACAS_DAMAGED if it is missing. */
+FRACAS_MUST_USE fracas_err fracas_index_need_point(fracas_index *index, const fracas_hash *point,
+                                                   int64_t *id);
+
 /* Counts the points. */
 FRACAS_MUST_USE fracas_err fracas_index_points(fracas_index *index, int64_t *points);
 
@@ -130,6 +134,11 @@ FRACAS_MUST_USE fracas_err fracas_index_plan_point(fracas_index *index,
 
 /* The place in a row with FRACAS_PLACE_COLUMNS from column `first` on. */
 fracas_place fracas_place_read(sqlite3_stmt *row, int first);
+
+/* One column: a status, planned for a text with a flipped bit (the tables' CHECK allows none); a
+ * number, NaN for NULL. */
+fracas_row_status fracas_status_read(sqlite3_stmt *row, int column);
+double fracas_real_read(sqlite3_stmt *row, int column);
 
 /* True if place and record agree: a flipped bit in the index, which SQLite does not see, gets no
  * further. `sized`: the record has its fragments, and the mean size counts, too. */
@@ -142,6 +151,11 @@ typedef fracas_err fracas_place_visit(void *context, const fracas_hash *point, i
 FRACAS_MUST_USE fracas_err fracas_index_each_by_segment(fracas_index *index,
                                                         fracas_place_visit *visit, void *context);
 
+/* One transaction, durable on return: the segment, and all `count` rows as its rows, which are done
+ * already, in place of those of other segments. FRACAS_DAMAGED if one is not. */
+FRACAS_MUST_USE fracas_err fracas_index_fold(fracas_index *index, const char *segment,
+                                             const fracas_file_seal *seal,
+                                             const fracas_segment_row *row, size_t count);
 /* FRACAS_DAMAGED if the index has no such realization. */
 FRACAS_MUST_USE fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point,
                                               int64_t replica, fracas_place *place);

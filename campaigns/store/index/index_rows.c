@@ -15,8 +15,7 @@ static const char *const status_text[] = {
     [FRACAS_FAILED_ROW] = "failed", [FRACAS_QUARANTINED] = "quarantined",
 };
 
-/* The tables' CHECK allows nothing else; a text with a flipped bit counts as planned. */
-static fracas_row_status status_of(sqlite3_stmt *row, int column)
+fracas_row_status fracas_status_read(sqlite3_stmt *row, int column)
 {
     const unsigned char *text = sqlite3_column_text(row, column);
     for (int s = FRACAS_PLANNED; text && s <= FRACAS_QUARANTINED; s++)
@@ -24,7 +23,7 @@ static fracas_row_status status_of(sqlite3_stmt *row, int column)
     return FRACAS_PLANNED;
 }
 
-static double read_real(sqlite3_stmt *row, int column)
+double fracas_real_read(sqlite3_stmt *row, int column)
 {
     return sqlite3_column_type(row, column) == SQLITE_NULL ? NAN
                                                            : sqlite3_column_double(row, column);
@@ -32,12 +31,12 @@ static double read_real(sqlite3_stmt *row, int column)
 
 fracas_place fracas_place_read(sqlite3_stmt *row, int first)
 {
-    fracas_place place = {.status = status_of(row, first),
+    fracas_place place = {.status = fracas_status_read(row, first),
                           .segment = sqlite3_column_int64(row, first + 1),
                           .row = sqlite3_column_int64(row, first + 2)};
     first += 3;
 #define READ_INTEGER sqlite3_column_int64
-#define READ_REAL read_real
+#define READ_REAL fracas_real_read
 #define READ(key, type, value, meaning) place.summary.key = READ_##type(row, first++);
     FRACAS_EACH_SUMMARY(READ)
     return place;
@@ -57,8 +56,7 @@ fracas_err fracas_index_find_point(fracas_index *index, const fracas_hash *point
                               SQL_VALUES(SQL_HASH(point)), id, NULL);
 }
 
-/* The same of a point; FRACAS_DAMAGED if it is missing. */
-static fracas_err need_point(fracas_index *index, const fracas_hash *point, int64_t *id)
+fracas_err fracas_index_need_point(fracas_index *index, const fracas_hash *point, int64_t *id)
 {
     TRY(fracas_index_find_point(index, point, id));
     if (*id) return FRACAS_OK;
@@ -75,7 +73,7 @@ fracas_err fracas_index_plan_point(fracas_index *index, const fracas_point_row *
                       "INSERT INTO point(hash, replicas) VALUES (?1, ?2) ON CONFLICT (hash) DO "
                       "UPDATE SET replicas = max(replicas, excluded.replicas)",
                       SQL_VALUES(SQL_HASH(&point->hash), SQL_INTEGER(point->replicas))));
-    TRY(need_point(index, &point->hash, &id));
+    TRY(fracas_index_need_point(index, &point->hash, &id));
     TRY(fracas_sql_numbers(
         index, "SELECT count(*) FROM realization WHERE point = ?1 AND replica < ?2",
         SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(point->replicas)), &there, NULL));
@@ -103,7 +101,7 @@ fracas_err fracas_index_rows_from(fracas_index *index, const fracas_point_row *p
     int64_t id, found = first;
     fracas_err err;
     OWN(sqlite3_stmt) s = NULL;
-    TRY(need_point(index, &point->hash, &id));
+    TRY(fracas_index_need_point(index, &point->hash, &id));
     TRY(fracas_sql_start(
         index,
         "SELECT replica, status, attempts FROM realization WHERE point = ?1 AND replica >= ?3 AND "
@@ -111,7 +109,7 @@ fracas_err fracas_index_rows_from(fracas_index *index, const fracas_point_row *p
         SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(point->replicas), SQL_INTEGER(first)), &s));
     for (; fracas_sql_next(index, s, &err); found++) {
         if (sqlite3_column_int64(s, 0) != found) break; /* it must be first, first + 1 ... */
-        row[found - first] = (fracas_index_row){p, found, status_of(s, 1),
+        row[found - first] = (fracas_index_row){p, found, fracas_status_read(s, 1),
                                                 sqlite3_column_int64(s, 2)};
     }
     TRY(err);
@@ -149,14 +147,14 @@ fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *
         int64_t id;
         fracas_err err;
         OWN(sqlite3_stmt) s = NULL;
-        TRY(need_point(index, &table->point[p].hash, &id));
+        TRY(fracas_index_need_point(index, &table->point[p].hash, &id));
         TRY(fracas_sql_start(index,
                              "SELECT replica, status, attempts, coalesce(reason, '') FROM "
                              "realization WHERE point = ?1 AND status IN ('failed', 'quarantined') "
                              "ORDER BY replica",
                              SQL_VALUES(SQL_INTEGER(id)), &s));
         while (fracas_sql_next(index, s, &err)) {
-            fracas_index_row row = {p, sqlite3_column_int64(s, 0), status_of(s, 1),
+            fracas_index_row row = {p, sqlite3_column_int64(s, 0), fracas_status_read(s, 1),
                                     sqlite3_column_int64(s, 2)};
             const char *reason = (const char *)sqlite3_column_text(s, 3);
             TRY(fracas_sql_whole(index));
@@ -173,7 +171,7 @@ fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int
     int64_t id;
     fracas_err err;
     OWN(sqlite3_stmt) s = NULL;
-    TRY(need_point(index, point, &id));
+    TRY(fracas_index_need_point(index, point, &id));
     TRY(fracas_sql_start(
         index, "SELECT " FRACAS_PLACE_COLUMNS " FROM realization WHERE point = ?1 AND replica = ?2",
         SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(replica)), &s));
@@ -226,7 +224,7 @@ fracas_err fracas_index_lease(fracas_index *index, const fracas_hash *point, int
                               int64_t count)
 {
     int64_t id;
-    TRY(need_point(index, point, &id));
+    TRY(fracas_index_need_point(index, point, &id));
     if (index->local) TRY(fracas_sql_script(index, "PRAGMA synchronous = NORMAL"));
     fracas_err err = fracas_sql_do(
         index,
@@ -245,7 +243,7 @@ fracas_err fracas_index_fail(fracas_index *index, const fracas_hash *point, int6
 {
     int64_t id;
     const char *status = status_text[final ? FRACAS_FAILED_ROW : FRACAS_PLANNED];
-    TRY(need_point(index, point, &id));
+    TRY(fracas_index_need_point(index, point, &id));
     TRY(fracas_sql_do(
         index,
         "UPDATE realization SET attempts = attempts + 1, reason = ?3, status = ?4, outcome = ?5 "
@@ -319,9 +317,33 @@ fracas_err fracas_index_commit(fracas_index *index, const char *segment,
     fracas_err err = add_segment(index, segment, seal, count, provenance, &id);
     for (size_t r = 0; !err && r < count; r++) {
         if (r == 0 || !fracas_hash_equal(&row[r].point, &row[r - 1].point))
-            err = need_point(index, &row[r].point, &point);
+            err = fracas_index_need_point(index, &row[r].point, &point);
         if (!err) err = set_done(index, point, id, &row[r]);
     }
+    return fracas_index_end(index, err);
+}
+
+fracas_err fracas_index_fold(fracas_index *index, const char *segment, const fracas_file_seal *seal,
+                             const fracas_segment_row *row, size_t count)
+{
+    static const char move[] = "UPDATE realization SET segment = ?3, row = ?4 WHERE point = ?1 AND "
+                               "replica = ?2 AND status = 'done'";
+    static const char sum[] = "SELECT count(*) FROM realization WHERE segment = ?1";
+    TRY(fracas_index_begin(index));
+    int64_t id = 0, point = 0, rows = 0;
+    fracas_err err = add_segment(index, segment, seal, count, "{\"merged\": true}", &id);
+    for (size_t r = 0; !err && r < count; r++) {
+        if (r == 0 || !fracas_hash_equal(&row[r].point, &row[r - 1].point))
+            err = fracas_index_need_point(index, &row[r].point, &point);
+        if (!err)
+            err = fracas_sql_do(index, move,
+                                SQL_VALUES(SQL_INTEGER(point), SQL_INTEGER(row[r].replica),
+                                           SQL_INTEGER(id), SQL_INTEGER(row[r].row)));
+    }
+    if (!err) err = fracas_sql_numbers(index, sum, SQL_VALUES(SQL_INTEGER(id)), &rows, NULL);
+    if (!err && (size_t)rows != count)
+        err = fracas_fail(FRACAS_DAMAGED, "%s: %" PRId64 " of %zu rows of study.h5 are done; %s",
+                          index->path, rows, count, remedy);
     return fracas_index_end(index, err);
 }
 
@@ -422,86 +444,6 @@ fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment, size
     return fracas_index_end(index, err);
 }
 
-/* ---- counting ---- */
-
-static void add_to(fracas_index_counts *counts, fracas_row_status status, int64_t outcome)
-{
-    counts->realizations++;
-    switch (status) {
-    case FRACAS_PLANNED: counts->planned++; break;
-    case FRACAS_LEASED: counts->leased++; break;
-    case FRACAS_DONE: counts->done++; break;
-    case FRACAS_FAILED_ROW:
-    case FRACAS_QUARANTINED: counts->failed++; break;
-    }
-    if (outcome >= 0 && outcome < FRACAS_NOUTCOMES) counts->outcome[outcome]++;
-}
-
-fracas_err fracas_index_points(fracas_index *index, int64_t *points)
-{
-    return fracas_sql_numbers(index, "SELECT count(*) FROM point", NULL, 0, points, NULL);
-}
-
-fracas_err fracas_index_check_points(fracas_index *index, const fracas_point_table *table)
-{
-    int64_t points, id, known = 0;
-    TRY(fracas_index_points(index, &points));
-    for (size_t p = 0; p < table->npoints; p++) {
-        TRY(fracas_index_find_point(index, &table->point[p].hash, &id));
-        known += id != 0;
-    }
-    if (points <= known) return FRACAS_OK;
-    return fracas_fail(FRACAS_DAMAGED,
-                       "%s: %" PRId64 " of its %" PRId64
-                       " points are not in the campaign; if campaign.yaml of the study was edited "
-                       "put it back, else `fracas reindex` makes the index anew from the segments",
-                       index->path, points - known, points);
-}
-
-/* Counts every row into *counts, and those of point id `i` into each[i - 1], for i to `most`. */
-static fracas_err count_all(fracas_index *index, fracas_index_counts *counts,
-                            fracas_index_counts **each, int64_t most)
-{
-    OWN(sqlite3_stmt) s = NULL;
-    fracas_err err;
-    *counts = (fracas_index_counts){0};
-    TRY(fracas_index_points(index, &counts->points));
-    TRY(fracas_sql_numbers(index, "SELECT count(*), coalesce(sum(bytes), 0) FROM segment", NULL, 0,
-                           &counts->segments, &counts->bytes));
-    TRY(fracas_sql_start(index, "SELECT status, coalesce(outcome, -1), point FROM realization",
-                         NULL, 0, &s));
-    while (fracas_sql_next(index, s, &err)) {
-        const fracas_row_status status = status_of(s, 0);
-        const int64_t outcome = sqlite3_column_int64(s, 1);
-        add_to(counts, status, outcome);
-        const int64_t id = each ? sqlite3_column_int64(s, 2) : 0;
-        if (id > 0 && id <= most && each[id - 1]) add_to(each[id - 1], status, outcome);
-    }
-    return err;
-}
-
-fracas_err fracas_index_count(fracas_index *index, fracas_index_counts *counts)
-{
-    return count_all(index, counts, NULL, 0);
-}
-
-fracas_err fracas_index_count_points(fracas_index *index, const fracas_point_table *table,
-                                     fracas_index_counts *counts, fracas_index_counts *point)
-{
-    OWNED int64_t *id = malloc((table->npoints + 1) * sizeof *id);
-    int64_t most = 0;
-    if (!id) return fracas_no_memory("the counts of the points");
-    for (size_t p = 0; p < table->npoints; p++) {
-        point[p] = (fracas_index_counts){.points = 1};
-        TRY(need_point(index, &table->point[p].hash, &id[p]));
-        if (id[p] > most) most = id[p];
-    }
-    OWNED fracas_index_counts **each = calloc((size_t)most + 1, sizeof *each);
-    if (!each) return fracas_no_memory("the counts of the points");
-    for (size_t p = 0; p < table->npoints; p++) each[id[p] - 1] = &point[p];
-    return count_all(index, counts, each, most);
-}
-
 /* ---- decisions on the number of replicas, and the summaries they rest on ---- */
 
 fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point, size_t count,
@@ -511,7 +453,7 @@ fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point,
     size_t found = 0;
     fracas_err err;
     OWN(sqlite3_stmt) s = NULL;
-    TRY(need_point(index, point, &id));
+    TRY(fracas_index_need_point(index, point, &id));
     TRY(fracas_sql_start(index,
                          "SELECT " FRACAS_PLACE_COLUMNS
                          " FROM realization WHERE point = ?1 AND replica < ?2 ORDER BY replica",
@@ -533,7 +475,7 @@ fracas_err fracas_index_decisions(fracas_index *index, const fracas_hash *point,
     OWNED fracas_decision *found = NULL;
     *decision = NULL;
     *count = 0;
-    TRY(need_point(index, point, &id));
+    TRY(fracas_index_need_point(index, point, &id));
     TRY(fracas_sql_start(
         index,
         "SELECT 0, round, replicas, replicas - failed, mean, half_width, stop, quantity, minimum, "
@@ -558,7 +500,7 @@ fracas_err fracas_index_decide(fracas_index *index, const fracas_point_row *poin
                                const fracas_decision *d, const char *reason)
 {
     int64_t id;
-    TRY(need_point(index, &point->hash, &id));
+    TRY(fracas_index_need_point(index, &point->hash, &id));
     TRY(fracas_sql_do(index, "DELETE FROM decision WHERE point = ?1 AND round >= ?2",
                       SQL_VALUES(SQL_INTEGER(id), SQL_INTEGER(d->round))));
     TRY(fracas_sql_do(

@@ -98,6 +98,8 @@ fracas_err fracas_index_part(fracas_index *index, int *part, int *parts)
 
 /* ---- SQLite ---- */
 
+const char fracas_sqlite_built[] = SQLITE_VERSION;
+
 const char *fracas_sqlite_version(void)
 {
     return sqlite3_libversion();

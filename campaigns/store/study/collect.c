@@ -82,7 +82,7 @@ static fate judge_study(const collection *c, const char *name, const char **why)
     static const char *const ours[] = {
         "campaign.yaml",        "index.sqlite", "index.sqlite-wal", "index.sqlite-shm",
         "index.sqlite-journal", "lock",         "study.h5",         "segments",
-        "attachments",          "report",       FRACAS_CHECKPOINTS};
+        "attachments",          "report",       FRACAS_CHECKPOINTS, "fields"};
     (void)c;
     for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
         if (strcmp(name, ours[i]) == 0) return KEEP;

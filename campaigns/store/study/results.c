@@ -324,6 +324,33 @@ fracas_err fracas_results_record(fracas_results *results, size_t row, unsigned p
     return read_entry(results, &results->row[row], parts, record);
 }
 
+/* Rows are in plan order. */
+fracas_err fracas_results_find(fracas_results *results, size_t point, int64_t replica, size_t *row)
+{
+    FRACAS_CLEARED(fracas_record) record;
+    fracas_record_init(&record);
+    size_t low = 0, high = results->nrows;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        size_t p;
+        int64_t r;
+        if (results->reader) {
+            TRY(fracas_reader_record(results->reader, middle, 0, &p, &r, &record));
+        } else {
+            p = results->row[middle].point;
+            r = results->row[middle].replica;
+        }
+        if (p == point && r == replica) {
+            *row = middle;
+            return FRACAS_OK;
+        }
+        if (p < point || (p == point && r < replica)) low = middle + 1;
+        else high = middle;
+    }
+    *row = results->nrows;
+    return FRACAS_OK;
+}
+
 /* ---- all of them ---- */
 
 typedef struct {

@@ -33,6 +33,9 @@ FRACAS_MUST_USE fracas_err fracas_segments_open(fracas_segments *segments, int64
 /* True after fracas_segments_open has found it damaged. */
 bool fracas_segments_is_bad(const fracas_segments *segments, int64_t id);
 
+/* True for a study.h5 that is the segment of all its realizations (fracas_study_fold). */
+bool fracas_segment_is_study(const char *name);
+
 /* The record in a place, checked to be of this realization; parts as fracas_reader_record. Cheapest
  * by segment and row. */
 FRACAS_MUST_USE fracas_err fracas_segments_record(fracas_segments *segments,

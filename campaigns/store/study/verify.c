@@ -110,8 +110,8 @@ static fracas_err check_consistency(verification *v)
 /* Links and other things in the place of files and folders of ours. */
 static fracas_err check_places(verification *v)
 {
-    static const char *const name[] = {"lock", "segments", FRACAS_CHECKPOINTS, "attachments",
-                                       "report"};
+    static const char *const name[] = {"lock",        "segments", FRACAS_CHECKPOINTS,
+                                       "attachments", "report",   "fields"};
     for (size_t n = 0; n < FRACAS_COUNT(name); n++) {
         OWNED char *path = NULL;
         TRY(fracas_disk_join(v->study, name[n], &path));
@@ -214,7 +214,8 @@ static fracas_err check_segment(verification *v, int64_t id)
     fracas_reader *reader;
     TRY(fracas_segments_open(v->segments, id, &reader));
     fracas_err err = check_facts(v, reader);
-    if (!err && fracas_reader_header(reader)->complete)
+    const bool whole = fracas_segment_is_study(fracas_segments_name(v->segments, id));
+    if (!err && fracas_reader_header(reader)->complete && !whole)
         err = fracas_fail(FRACAS_DAMAGED, "it says that it is complete, as no segment is");
     if (err == FRACAS_DAMAGED)
         return fracas_fail_within(err,

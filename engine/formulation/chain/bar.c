@@ -16,13 +16,25 @@ FRACAS_KERNEL_TABLE(const fracas_bar_kernel, fracas_bar);
 static const fracas_chain chain = {
     .fields = BAR_FIELDS, .damage = BAR_DAMAGE, .strength = BAR_STRENGTH, .law = BAR_LAW};
 
+/* Where the background is at rest [m]  (bar.1). */
+static double middle_of(const fracas_model *model)
+{
+    return fracas_chain_is_free(model) ? 0.5 * model->spec.geometry.length : 0;
+}
+
 /* Nodal mass as (bar.5). */
 static fracas_bar_constants constants_of(const fracas_model *model)
 {
     const fracas_spec *spec = &model->spec;
-    const double young = spec->material.young, energy = spec->cohesive.fracture_energy;
+    const double young = spec->material.young, energy = spec->cohesive.fracture_energy,
+                 gap = fracas_chain_gap(model);
     return (fracas_bar_constants){.elements = model->elements,
                                   .periodic = fracas_chain_is_closed(model),
+                                  .held = fracas_chain_is_held(model),
+                                  .walls = gap >= 0,
+                                  .gap = gap,
+                                  .parting = spec->loading.rate * middle_of(model),
+                                  .contact_factor = fracas_chain_contact_factor(spec),
                                   .young = young,
                                   .spring = spec->cohesive.beta * young / model->element_size,
                                   .beta = spec->cohesive.beta,
@@ -69,7 +81,9 @@ static fracas_err bar_model_init(fracas_model *model)
 {
     TRY(fracas_chain_model_init(model, &chain, 2));
     TRY(fill_sizes(model));
-    if (!fracas_chain_is_closed(model)) model->idle = FRACAS_MOTION_NONE;
+    /* a free bar may fly, unless it meets a wall */
+    if (fracas_chain_is_held(model) || fracas_chain_gap(model) >= 0)
+        model->idle = FRACAS_MOTION_NONE;
     /* check_strength keeps a stiffness of contact by strength below the elements'. */
     return fracas_chain_critical_step(model);
 }
@@ -129,22 +143,20 @@ static void bar_add_up(const fracas_model *model, const fracas_step *step, int l
 {
     const fracas_spec *spec = &model->spec;
     const size_t back = taken_back(model, step, lane);
-    const double stretch = 1 + spec->loading.rate * step->time[lane];
+    const double background = spec->loading.rate * step->time[lane];
     double start = 0;
     for (size_t e = 0; e < model->elements; e++) {
         const size_t f = step->partition.label[e];
         const double h = fracas_chain_size(model, e), volume = spec->geometry.area * h,
                      mass = 0.5 * spec->material.density * volume;
-        const double strain = stretch - 1 +
-                              (*fracas_chain_field(model, step, e, BAR_W_RIGHT, lane) -
-                               *fracas_chain_field(model, step, e, BAR_W_LEFT, lane)) /
-                                  h;
+        const double strain = background + (*fracas_chain_field(model, step, e, BAR_W_RIGHT, lane) -
+                                            *fracas_chain_field(model, step, e, BAR_W_LEFT, lane)) /
+                                               h;
         sums[f].elements++;
         sums[f].strain_energy += 0.5 * spec->material.young * strain * strain * volume;
         for (int side = 0; side < 2; side++) {
             const double at = start + side * h - (e >= back ? spec->geometry.length : 0);
-            const double x[3] = {at * stretch +
-                                 *fracas_chain_field(model, step, e, BAR_W_LEFT + side, lane)};
+            const double x[3] = {at};
             double v[3] = {*fracas_chain_field(model, step, e, BAR_V_LEFT + side, lane)};
             if (motion) fracas_fragment_motion_take_off(&motion[f], x, v);
             fracas_fragment_sums_add(&sums[f], mass, x, v);
@@ -153,13 +165,20 @@ static void bar_add_up(const fracas_model *model, const fracas_step *step, int l
     }
 }
 
+static double bar_background(const fracas_model *model, double time)
+{
+    (void)time;
+    return model->spec.loading.rate;
+}
+
 /* Adds up the elements of each fragment, moved as (bar.1). */
 static void add_elements(const fracas_model *model, const fracas_step *step, int lane,
                          fracas_fragment *fragment)
 {
     const fracas_spec *spec = &model->spec;
     const double mass_per_length = spec->material.density * spec->geometry.area;
-    const double time = step->time[lane], rate = spec->loading.rate, length = spec->geometry.length;
+    const double time = step->time[lane], rate = spec->loading.rate, length = spec->geometry.length,
+                 drift = rate * middle_of(model);
     const size_t back = taken_back(model, step, lane);
     double node = 0;
     for (size_t e = 0; e < model->elements; e++) {
@@ -171,8 +190,8 @@ static void add_elements(const fracas_model *model, const fracas_step *step, int
         f->elements++;
         f->mass += mass_per_length * h;
         f->size += h;
-        f->position[0] += h * (x * (1 + rate * time) + w);
-        f->velocity[0] += h * (rate * x + v);
+        f->position[0] += h * (x * (1 + rate * time) - drift * time + w);
+        f->velocity[0] += h * (rate * x - drift + v);
         node += h;
     }
 }
@@ -208,6 +227,70 @@ static fracas_err bar_harvest(const fracas_model *model, fracas_step *step, int 
     return fracas_chain_harvest_interfaces(model, step, lane, record);
 }
 
+/* Where a fragment begins that goes on across the end of the coordinate: behind a break. */
+static size_t beginning_of(const fracas_model *model, const fracas_step *step, int lane,
+                           const uint32_t *element, size_t count)
+{
+    for (size_t n = 1; n < count; n++)
+        if (fracas_chain_is_broken(model, step, element[n - 1], lane)) return n;
+    return 0;
+}
+
+/* Seen from where the fragment begins. */
+static void bar_add_matter(const fracas_model *model, const fracas_step *step, int lane,
+                           const uint32_t *element, size_t count, fracas_fragment_matter *matter,
+                           double (*node)[3])
+{
+    const fracas_spec *spec = &model->spec;
+    const double stretch = 1 + spec->loading.rate * step->time[lane],
+                 mass_per_length = spec->material.density * spec->geometry.area;
+    const size_t begin = beginning_of(model, step, lane, element, count);
+    double start = 0;
+    for (size_t n = 0; n < count; n++) {
+        const size_t e = element[(begin + n) % count];
+        const double h = fracas_chain_size(model, e);
+        const double ends[2][3] = {
+            {start * stretch + *fracas_chain_field(model, step, e, BAR_W_LEFT, lane)},
+            {(start + h) * stretch + *fracas_chain_field(model, step, e, BAR_W_RIGHT, lane)}};
+        fracas_chain_add_segment(spec, mass_per_length * h, ends, matter);
+        memcpy(node[2 * n], ends, sizeof ends);
+        start += h;
+    }
+}
+
+/* (bar.1): the background's part of displacements is exact, not a difference of places. */
+static void bar_fields(const fracas_model *model, const fracas_step *step, int lane,
+                       fracas_fields *f)
+{
+    const fracas_spec *spec = &model->spec;
+    const double rate = spec->loading.rate, time = step->time[lane],
+                 drift = rate * middle_of(model);
+    double start = 0;
+    for (size_t e = 0; e < model->elements; e++) {
+        const double h = fracas_chain_size(model, e);
+        const double *w = fracas_chain_field(model, step, e, BAR_W_LEFT, lane);
+        const size_t apart = (size_t)step->lanes; /* from a field to the next */
+        f->stress[0][e] = spec->material.young * (rate * time + (w[apart] - w[0]) / h);
+        for (size_t side = 0; side < 2; side++) {
+            const size_t node = 2 * e + side;
+            const double x = (model->sizes ? start : h * (double)e) + (double)side * h,
+                         u = (rate * x - drift) * time + w[side * apart],
+                         v = rate * x - drift + w[(BAR_V_LEFT + side) * apart];
+            memcpy(f->place[node], (double[3]){x + u}, sizeof f->place[node]);
+            memcpy(f->displacement[node], (double[3]){u}, sizeof f->displacement[node]);
+            memcpy(f->velocity[node], (double[3]){v}, sizeof f->velocity[node]);
+            f->mass[node] = 0.5 * spec->material.density * spec->geometry.area * h;
+        }
+        start += h;
+    }
+    for (size_t e = 0; e < model->interfaces; e++) {
+        fracas_chain_fill_interface(model, step, lane, e, f);
+        f->opening[e] = *fracas_chain_field(model, step, fracas_chain_next(model, e), BAR_W_LEFT,
+                                            lane) -
+                        *fracas_chain_field(model, step, e, BAR_W_RIGHT, lane);
+    }
+}
+
 static const fracas_kind *const goes_with[] = {&fracas_shape_bar, &fracas_spacing_uniform,
                                                &fracas_spacing_graded, &fracas_spacing_perturbed,
                                                &fracas_loading_imposed_rate};
@@ -221,5 +304,8 @@ const fracas_formulation fracas_formulation_bar = {
     .lane_init = fracas_chain_lane_init,
     .advance = bar_advance,
     .add_up = bar_add_up,
+    .background = bar_background,
     .harvest = bar_harvest,
+    .add_matter = bar_add_matter,
+    .fields = bar_fields,
     FRACAS_CHAIN_FORMULATION};

@@ -236,8 +236,13 @@ LANES_FUNCTION void bar_finish(bar_context *c, int uniform, int flux, size_t e,
     lanes_store(at + BAR_V_RIGHT * LANES, v_right);
 }
 
-/* Sums to energies [J], those of the potential (bar.4), and power [W]  (bar.8). */
-LANES_FUNCTION void bar_totals(const bar_context *c)
+/* Tractions of walls at both ends [Pa], and twice the energy that they store per area; else 0. */
+typedef struct {
+    vd traction[2], energy;
+} bar_walls;
+
+/* Sums to energies [J], those of the potential (bar.4), and power [W]  (bar.8), (bar.21). */
+LANES_FUNCTION void bar_totals(const bar_context *c, const bar_walls *walls)
 {
     const fracas_bar_constants *bar = c->bar;
     fracas_step *step = c->step;
@@ -249,9 +254,61 @@ LANES_FUNCTION void bar_totals(const bar_context *c)
     lanes_store(step->cohesive + c->first, lanes_set(0.5 * bar->area) * c->opening_energy);
     lanes_store(step->dissipated + c->first,
                 lanes_set(bar->area * bar->fracture_energy) * c->damage);
-    lanes_store(step->power + c->first,
-                lanes_set(bar->area * bar->rate) *
-                    (lanes_set(bar->size) * c->stress + lanes_set(bar->young) * c->slip));
+    lanes_store(
+        step->power + c->first,
+        lanes_set(bar->area * bar->rate) *
+                (lanes_set(bar->size) * c->stress + lanes_set(bar->young) * c->slip) -
+            lanes_set(bar->area * bar->parting) * (walls->traction[0] + walls->traction[1]));
+}
+
+LANES_FUNCTION bar_context bar_begin(const fracas_bar_constants *bar, fracas_step *step, int first)
+{
+    return (bar_context){.bar = bar,
+                         .step = step,
+                         .first = first,
+                         .state = step->state + (size_t)first * bar->elements * BAR_FIELDS,
+                         .drift = lanes_load(step->drift + first),
+                         .kick = lanes_load(step->kick + first) / lanes_set(bar->nodal_mass),
+                         .load_stress = lanes_set(bar->young) *
+                                        (lanes_set(bar->rate) * lanes_load(step->time + first)),
+                         .spring = lanes_set(bar->spring),
+                         .compliance = lanes_set(1.0 / bar->spring),
+                         .modulus = lanes_set(bar->young / bar->size)};
+}
+
+/* The wall beyond the left or right end, which meet as the faces of a broken interface  (bar.20).
+ */
+LANES_FUNCTION void bar_wall(const bar_context *c, int operates, const bar_element *end, int right,
+                             bar_walls *walls)
+{
+    const vd zero = lanes_set(0.0), one = lanes_set(1.0);
+    const vd spring = lanes_set(c->bar->contact_factor) * end->modulus;
+    const vd inward = right ? zero - end->w_right : end->w_left,
+             speed = right ? zero - end->v_right : end->v_left;
+    const vd away = lanes_set(c->bar->gap) -
+                    lanes_set(c->bar->parting) * lanes_load(c->step->time + c->first);
+    const vd q = away + inward, trial = spring * q, traction = lanes_min(zero, trial);
+    const line_input in = {.mean = end->stress, .damage = one};
+    const line_result it = {.traction = traction, .damage = one, .trial = trial, .secant = zero};
+    const balance_coupling coupling = balance_couple(spring, c->kick / end->size, c->drift, one,
+                                                     one);
+    const vd change = c->drift * (spring * (speed - lanes_set(c->bar->parting)));
+    walls->energy += traction * q;
+    walls->traction[right] = traction + balance_traction(&coupling, &in, &it, change);
+    if (operates) walls->traction[right] = spring * inward;
+}
+
+/* Out of line, and before the sweep: elements there have all registers. */
+__attribute__((noinline, cold, unused)) static void bar_meet_walls(const fracas_bar_constants *bar,
+                                                                   fracas_step *step, int first,
+                                                                   int operates, bar_walls *walls)
+{
+    const bar_context context = bar_begin(bar, step, first);
+    const int uniform = !bar->sizes;
+    const bar_element left = bar_load(&context, uniform, 0),
+                      right = bar_load(&context, uniform, bar->elements - 1);
+    bar_wall(&context, operates, &left, 0, walls);
+    bar_wall(&context, operates, &right, 1, walls);
 }
 
 LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, int first,
@@ -259,17 +316,10 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
 {
     const vd zero = lanes_set(0.0);
     const size_t last = bar->elements - 1;
-    bar_context context = {.bar = bar,
-                           .step = step,
-                           .first = first,
-                           .state = step->state + (size_t)first * bar->elements * BAR_FIELDS,
-                           .drift = lanes_load(step->drift + first),
-                           .kick = lanes_load(step->kick + first) / lanes_set(bar->nodal_mass),
-                           .load_stress = lanes_set(bar->young) *
-                                          (lanes_set(bar->rate) * lanes_load(step->time + first)),
-                           .spring = lanes_set(bar->spring),
-                           .compliance = lanes_set(1.0 / bar->spring),
-                           .modulus = lanes_set(bar->young / bar->size)};
+    bar_walls walls = {.energy = zero};
+    if (bar->walls) bar_meet_walls(bar, step, first, law == BAR_OPERATOR, &walls);
+    bar_context context = bar_begin(bar, step, first);
+    context.opening_energy = walls.energy;
     bar_context *c = &context;
     if (balanced && uniform)
         c->coupling = balance_couple(c->spring, c->kick + c->kick, c->drift, lanes_set(bar->whole),
@@ -278,14 +328,14 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
     /* One pass in place: an element is written once both its interfaces are known; registers keep
      * the part for its right neighbour. The interface closing a periodic bar comes first. */
     bar_element element = bar_load(c, uniform, 0);
-    bar_link closing = {.traction = zero, .slip = zero}, left;
+    bar_link closing = {.traction = walls.traction[0], .slip = zero}, left;
     if (bar->periodic) {
         bar_element end = bar_load(c, uniform, last);
         closing = bar_join(c, uniform, flux, law, balanced, last, &end, &element);
     }
     bar_element next = bar_load(c, uniform, 1);
     bar_link right = bar_join(c, uniform, flux, law, balanced, 0, &element, &next);
-    if (bar->periodic) bar_finish(c, uniform, flux, 0, &element, &closing, &right, 0, 0);
+    if (!bar->held) bar_finish(c, uniform, flux, 0, &element, &closing, &right, 0, 0);
     else bar_finish(c, uniform, flux, 0, &element, &closing, &right, 1, 0);
     for (size_t e = 1; e < last; e++) {
         left = right;
@@ -294,9 +344,10 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
         right = bar_join(c, uniform, flux, law, balanced, e, &element, &next);
         bar_finish(c, uniform, flux, e, &element, &left, &right, 0, 0);
     }
-    if (bar->periodic) bar_finish(c, uniform, flux, last, &next, &right, &closing, 0, 0);
+    if (!bar->periodic) closing.traction = walls.traction[1];
+    if (!bar->held) bar_finish(c, uniform, flux, last, &next, &right, &closing, 0, 0);
     else bar_finish(c, uniform, flux, last, &next, &right, &closing, 0, 1);
-    if (law != BAR_OPERATOR) bar_totals(c);
+    if (law != BAR_OPERATOR) bar_totals(c, &walls);
 }
 
 #define BAR_SWEEP(name, uniform, flux, law, balanced)                               \

@@ -22,7 +22,26 @@ fracas_err fracas_chain_model_init(fracas_model *model, const fracas_chain *chai
     model->interfaces = model->elements - (closed ? 0 : 1);
     model->element_size = model->longest = fracas_spec_length(spec) / (double)elements;
     model->mass = spec->material.density * spec->geometry.area * fracas_spec_length(spec);
+    model->wave_speed = sqrt(spec->material.young / spec->material.density);
     return FRACAS_OK;
+}
+
+bool fracas_chain_is_free(const fracas_model *model)
+{
+    const fracas_shape *shape = fracas_shape_of(&model->spec);
+    return shape->free && shape->free(&model->spec.geometry);
+}
+
+double fracas_chain_gap(const fracas_model *model)
+{
+    const fracas_shape *shape = fracas_shape_of(&model->spec);
+    return shape->gap ? shape->gap(&model->spec.geometry) : NAN;
+}
+
+double fracas_chain_contact_factor(const fracas_spec *spec)
+{
+    const fracas_law *law = fracas_law_of(spec);
+    return law->contact ? law->contact(&spec->cohesive) : 1.0;
 }
 
 double *fracas_chain_field(const fracas_model *model, const fracas_step *step, size_t element,
@@ -106,10 +125,14 @@ fracas_err fracas_chain_check_strength(const fracas_model *model, double strengt
                              "and lengths [m] in the units meant? A bare number is SI");
 }
 
-int64_t fracas_chain_fragment_count(const fracas_model *model, fracas_step *step, int lane)
+fracas_err fracas_chain_count(const fracas_model *model, fracas_step *step, int lane,
+                              fracas_census *census)
 {
     const int64_t broken = step->broken[lane];
-    return fracas_chain_is_closed(model) ? (broken > 1 ? broken : 1) : broken + 1;
+    census->all = fracas_chain_is_closed(model) ? (broken > 1 ? broken : 1) : broken + 1;
+    census->held = 0;
+    census->size = fracas_spec_length(&model->spec) / (double)census->all;
+    return FRACAS_OK;
 }
 
 bool fracas_chain_is_broken(const fracas_model *model, const fracas_step *step, size_t element,
@@ -130,6 +153,73 @@ size_t fracas_chain_partition(const fracas_model *model, fracas_step *step, int 
     return fracas_partition_label(partition);
 }
 
+/* A square of area A has the second moment A/12 along each direction, a rod of length l l^2/12. */
+void fracas_chain_add_segment(const fracas_spec *spec, double mass, const double ends[2][3],
+                              fracas_fragment_matter *matter)
+{
+    double middle[3], along[3], square = 0, spread[6];
+    for (int i = 0; i < 3; i++) {
+        middle[i] = 0.5 * (ends[0][i] + ends[1][i]);
+        along[i] = ends[1][i] - ends[0][i];
+        square += along[i] * along[i];
+    }
+    const double length = sqrt(square);
+    for (int i = 0; i < 3; i++) along[i] /= length;
+    fracas_fragment_spread(along, mass * square / 12, mass * spec->geometry.area / 12, spread);
+    fracas_fragment_matter_add(matter, mass, middle, spread);
+}
+
+size_t fracas_chain_element_nodes(const fracas_model *model)
+{
+    (void)model;
+    return 2;
+}
+
+void fracas_chain_add_cracks(const fracas_model *model, const fracas_step *step, int lane,
+                             fracas_fragment *fragment)
+{
+    const uint32_t *label = step->partition.label;
+    for (size_t e = 0; e < model->interfaces; e++) {
+        if (!fracas_chain_is_broken(model, step, e, lane)) continue;
+        fragment[label[e]].crack_area += model->spec.geometry.area;
+        fragment[label[fracas_chain_next(model, e)]].crack_area += model->spec.geometry.area;
+    }
+}
+
+size_t fracas_chain_interface_nodes(const fracas_model *model)
+{
+    (void)model;
+    return 1;
+}
+
+/* Times are NaN where none are kept. */
+static fracas_interface_row row_of(const fracas_model *model, const fracas_step *step, int lane,
+                                   size_t e)
+{
+    const size_t at = e * (size_t)step->width + (size_t)lane;
+    return (fracas_interface_row){
+        .strength = *fracas_chain_field(model, step, e, model->chain->strength, lane),
+        .damage = *fracas_chain_field(model, step, e, model->chain->damage, lane),
+        .onset_time = step->onset_time ? step->onset_time[at] : NAN,
+        .break_time = step->onset_time ? step->break_time[at] : NAN};
+}
+
+/* The last interface of a closed bar lies at both ends of the line: it takes its first side. */
+void fracas_chain_fill_interface(const fracas_model *model, const fracas_step *step, int lane,
+                                 size_t e, fracas_fields *f)
+{
+    const fracas_interface_row row = row_of(model, step, lane, e);
+    const size_t next = fracas_chain_next(model, e);
+    const double *left = f->place[2 * e + 1],
+                 *right = next < e && fracas_model_period(model) > 0 ? left : f->place[2 * next];
+    for (int i = 0; i < 3; i++) f->middle[e][i] = 0.5 * (left[i] + right[i]);
+    f->between[e][0] = (int64_t)e;
+    f->between[e][1] = (int64_t)next;
+    f->damage[e] = row.damage;
+    f->strength[e] = row.strength;
+    f->onset_time[e] = row.onset_time;
+}
+
 fracas_err fracas_chain_harvest_interfaces(const fracas_model *model, const fracas_step *step,
                                            int lane, fracas_record *record)
 {
@@ -137,13 +227,7 @@ fracas_err fracas_chain_harvest_interfaces(const fracas_model *model, const frac
     record->interface = calloc(model->interfaces, sizeof *record->interface);
     if (!record->interface) return fracas_no_memory("the interfaces of a realization");
     record->ninterface = model->interfaces;
-    for (size_t e = 0; e < model->interfaces; e++) {
-        size_t at = e * (size_t)step->width + (size_t)lane;
-        record->interface[e] = (fracas_interface_row){
-            .strength = *fracas_chain_field(model, step, e, model->chain->strength, lane),
-            .damage = *fracas_chain_field(model, step, e, model->chain->damage, lane),
-            .onset_time = step->onset_time[at],
-            .break_time = step->break_time[at]};
-    }
+    for (size_t e = 0; e < model->interfaces; e++)
+        record->interface[e] = row_of(model, step, lane, e);
     return FRACAS_OK;
 }

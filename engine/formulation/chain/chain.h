@@ -10,10 +10,11 @@
 #include "engine/formulation/formulation.h"
 
 typedef struct fracas_chain {
-    int fields;   /* fields of an element */
-    int damage;   /* number of the field delta_max/delta_c of the interface; behind it are ... */
-    int strength; /* ... sigma_c [Pa], and ... */
-    int law;      /* ... the law's constant */
+    int fields;    /* fields of an element */
+    int damage;    /* number of the field delta_max/delta_c of the interface; behind it are ... */
+    int strength;  /* ... sigma_c [Pa], and ... */
+    int law;       /* ... the law's constant */
+    double barred; /* value of `law` at an interface that can never open; 0: none has it */
 } fracas_chain;
 
 /* Fills elements, interfaces, lengths and mass of a model with elements of one length.
@@ -25,6 +26,19 @@ static inline bool fracas_chain_is_closed(const fracas_model *model)
 {
     return model->interfaces == model->elements;
 }
+
+/* Open, with ends that move by themselves; with ends that the load moves. */
+bool fracas_chain_is_free(const fracas_model *model);
+static inline bool fracas_chain_is_held(const fracas_model *model)
+{
+    return !fracas_chain_is_closed(model) && !fracas_chain_is_free(model);
+}
+
+/* From free ends to the walls beyond at the start [m]; NaN: there are none. */
+double fracas_chain_gap(const fracas_model *model);
+
+/* Stiffness of contact by E/h; 1 for laws that have another measure. */
+double fracas_chain_contact_factor(const fracas_spec *spec);
 
 /* Element or vertex after e, around a closed chain. */
 static inline size_t fracas_chain_next(const fracas_model *model, size_t e)
@@ -55,18 +69,26 @@ double *fracas_chain_strength(const fracas_model *model, const fracas_step *step
                               size_t *stride);
 void fracas_chain_lane_init(const fracas_model *model, const fracas_step *step, int lane);
 
-#define FRACAS_CHAIN_FORMULATION                                                              \
-    .interface_volume = fracas_chain_interface_volume, .state_size = fracas_chain_state_size, \
-    .strength = fracas_chain_strength, .fragment_count = fracas_chain_fragment_count,         \
-    .partition = fracas_chain_partition
+#define FRACAS_CHAIN_FORMULATION                                                                 \
+    .safety = 0.25, .interface_volume = fracas_chain_interface_volume,                           \
+    .state_size = fracas_chain_state_size, .strength = fracas_chain_strength,                    \
+    .count = fracas_chain_count, .partition = fracas_chain_partition, .rest = fracas_chain_rest, \
+    .element_nodes = fracas_chain_element_nodes, .add_cracks = fracas_chain_add_cracks,          \
+    .interface_nodes = fracas_chain_interface_nodes, .stress = {{"stress", 1}}
 
 /* FRACAS_USAGE unless the strength [Pa], for a law with flux, lets the longest element soften as
  * slowly as the law asks, K > sigma_c/delta_c  (cohesive.7). */
 FRACAS_MUST_USE fracas_err fracas_chain_check_strength(const fracas_model *model, double strength);
 
-/* Number of fragments: a closed chain needs two breaks to have two, an open one is cut in two by
- * the first. */
-int64_t fracas_chain_fragment_count(const fracas_model *model, fracas_step *step, int lane);
+/* A closed chain needs two breaks to have two fragments, an open one is cut in two by the first. */
+FRACAS_MUST_USE fracas_err fracas_chain_count(const fracas_model *model, fracas_step *step,
+                                              int lane, fracas_census *census);
+
+/* (settled.3) to (settled.6), of a chain with a break; energies are by the partition's labels. */
+FRACAS_MUST_USE fracas_err fracas_chain_rest(const fracas_model *model, const fracas_step *step,
+                                             int lane, const double *energy,
+                                             const fracas_fragment_sums *element,
+                                             fracas_rest *rest);
 
 /* True where the interface on the right of `element` is broken, or there is none. */
 bool fracas_chain_is_broken(const fracas_model *model, const fracas_step *step, size_t element,
@@ -75,6 +97,21 @@ bool fracas_chain_is_broken(const fracas_model *model, const fracas_step *step, 
 /* Elements connected by unbroken interfaces (bar.17), labelled, as the step's partition; returns
  * their number. */
 size_t fracas_chain_partition(const fracas_model *model, fracas_step *step, int lane);
+
+/* Adds a straight element between two ends [m], of this mass [kg], to its fragment's matter; its
+ * cross-section counts as a square, since only the area is known. */
+void fracas_chain_add_segment(const fracas_spec *spec, double mass, const double ends[2][3],
+                              fracas_fragment_matter *matter);
+
+/* As the functions of fracas_formulation. */
+size_t fracas_chain_element_nodes(const fracas_model *model);
+size_t fracas_chain_interface_nodes(const fracas_model *model);
+void fracas_chain_add_cracks(const fracas_model *model, const fracas_step *step, int lane,
+                             fracas_fragment *fragment);
+
+/* Fills an interface's fields but its opening; elements have their places. */
+void fracas_chain_fill_interface(const fracas_model *model, const fracas_step *step, int lane,
+                                 size_t interface, fracas_fields *fields);
 
 /* The interface rows of a record, if they are kept. */
 FRACAS_MUST_USE fracas_err fracas_chain_harvest_interfaces(const fracas_model *model,

@@ -37,7 +37,7 @@ static fracas_err open_operator(const fracas_model *model, bool contact, chain_o
     const fracas_spec *spec = &model->spec;
     const fracas_law *law = fracas_law_of(spec);
     const double young = spec->material.young, h = model->element_size,
-                 factor = law->contact ? law->contact(&spec->cohesive) : 1.0;
+                 factor = fracas_chain_contact_factor(spec);
     chain_operator *o = aligned_alloc(64, (sizeof *o + 63) / 64 * 64);
     if (!o) return fracas_no_memory("the critical time step");
     const size_t n = !model->sizes && model->elements > ENOUGH ? ENOUGH : model->elements;
@@ -45,6 +45,9 @@ static fracas_err open_operator(const fracas_model *model, bool contact, chain_o
                           .flux = contact || law->flux,
                           .bar = {.elements = n,
                                   .periodic = fracas_chain_is_closed(model),
+                                  .held = fracas_chain_is_held(model),
+                                  .walls = fracas_chain_gap(model) >= 0,
+                                  .contact_factor = factor,
                                   .contact = contact,
                                   .young = young,
                                   .beta = factor,
@@ -99,7 +102,7 @@ static void fill_start(const chain_operator *o, double *start)
         start[2 * e + 1] = tied ? 0.0 : large * (-1.0 + 0.25 * sign) - small;
     }
     for (size_t e = 0; tied && e < n; e++) start[2 * e + 1] = start[2 * ((e + 1) % n)];
-    if (!o->bar.periodic) start[0] = start[2 * n - 1] = 0;
+    if (o->bar.held) start[0] = start[2 * n - 1] = 0;
 }
 
 static fracas_err critical_step(const fracas_model *model, bool contact, double *step)

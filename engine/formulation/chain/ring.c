@@ -18,7 +18,8 @@ static const fracas_chain flux_chain = {
 static const fracas_chain rigid_chain = {.fields = RING_FIELDS_STERSHIC,
                                          .damage = RING_DAMAGE,
                                          .strength = RING_STRENGTH,
-                                         .law = RING_LAW};
+                                         .law = RING_LAW,
+                                         .barred = RING_LINK_BARRED};
 
 static bool has_flux(const fracas_model *model)
 {
@@ -152,29 +153,50 @@ static void ring_advance(const fracas_model *model, fracas_step *step)
 
 /* ---- fragments ---- */
 
+static void chord_of(const fracas_model *model, const fracas_step *step, int lane, size_t e,
+                     double chord[2])
+{
+    const double *start = model->table + e * RING_TABLE + RING_START_X;
+    for (int i = 0; i < 2; i++)
+        chord[i] = start[i] + *fracas_chain_field(model, step, e, RING_U_RIGHT + i, lane) -
+                   *fracas_chain_field(model, step, e, RING_U_LEFT + i, lane);
+}
+
+/* Stress of an element [Pa], and its strain. */
+static double stress_of(const fracas_model *model, const fracas_step *step, int lane, size_t e,
+                        double *strain)
+{
+    double chord[2];
+    chord_of(model, step, lane, e, chord);
+    *strain = sqrt(chord[0] * chord[0] + chord[1] * chord[1]) / model->element_size - 1;
+    return has_flux(model) ? model->spec.material.young * *strain
+                           : *fracas_chain_field(model, step, e, RING_STRESS, lane);
+}
+
 /* [J] */
 static double strain_energy(const fracas_model *model, const fracas_step *step, int lane, size_t e)
 {
-    const fracas_spec *spec = &model->spec;
-    const double *table = model->table + e * RING_TABLE, h = model->element_size;
-    const double *start = table + RING_START_X;
-    double square = 0;
-    for (int i = 0; i < 2; i++) {
-        const double side = start[i] + *fracas_chain_field(model, step, e, RING_U_RIGHT + i, lane) -
-                            *fracas_chain_field(model, step, e, RING_U_LEFT + i, lane);
-        square += side * side;
-    }
-    const double strain = sqrt(square) / h - 1;
-    const double stress = has_flux(model) ? spec->material.young * strain
-                                          : *fracas_chain_field(model, step, e, RING_STRESS, lane);
-    return 0.5 * spec->geometry.area * h * stress * strain;
+    double strain;
+    const double stress = stress_of(model, step, lane, e, &strain);
+    return 0.5 * model->spec.geometry.area * model->element_size * stress * strain;
+}
+
+/* Place of a node of an element now [m]. */
+static void place_of(const fracas_model *model, const fracas_step *step, int lane, size_t e,
+                     size_t side, double x[3])
+{
+    const double radius = vertex_radius(model);
+    const double *table = model->table + (e + side) % model->elements * RING_TABLE;
+    const int u = side ? RING_U_RIGHT : RING_U_LEFT;
+    x[0] = radius * table[RING_COS] + *fracas_chain_field(model, step, e, u, lane);
+    x[1] = radius * table[RING_SIN] + *fracas_chain_field(model, step, e, u + 1, lane);
+    x[2] = 0;
 }
 
 /* Adds one element's two nodes to its fragment's sums, less a motion, unless that is NULL. */
 static void add_element(const fracas_model *model, const fracas_step *step, int lane, size_t e,
                         const fracas_fragment_motion *motion, fracas_fragment_sums *f)
 {
-    const double radius = vertex_radius(model);
     const double mass = 0.5 * model->spec.material.density * model->spec.geometry.area *
                         model->element_size;
     const double before = f->mass;
@@ -182,11 +204,9 @@ static void add_element(const fracas_model *model, const fracas_step *step, int 
     f->size += model->element_size;
     f->strain_energy += strain_energy(model, step, lane, e);
     for (size_t side = 0; side < 2; side++) {
-        const double *table = model->table + (e + side) % model->elements * RING_TABLE;
-        const int u = side ? RING_U_RIGHT : RING_U_LEFT, v = side ? RING_V_RIGHT : RING_V_LEFT;
-        const double x[3] = {
-            radius * table[RING_COS] + *fracas_chain_field(model, step, e, u, lane),
-            radius * table[RING_SIN] + *fracas_chain_field(model, step, e, u + 1, lane)};
+        const int v = side ? RING_V_RIGHT : RING_V_LEFT;
+        double x[3];
+        place_of(model, step, lane, e, side, x);
         double w[3] = {*fracas_chain_field(model, step, e, v, lane),
                        *fracas_chain_field(model, step, e, v + 1, lane)};
         if (motion) fracas_fragment_motion_take_off(motion, x, w);
@@ -216,6 +236,66 @@ static fracas_err ring_harvest(const fracas_model *model, fracas_step *step, int
     return fracas_chain_harvest_interfaces(model, step, lane, record);
 }
 
+static void ring_add_matter(const fracas_model *model, const fracas_step *step, int lane,
+                            const uint32_t *element, size_t count, fracas_fragment_matter *matter,
+                            double (*node)[3])
+{
+    const fracas_spec *spec = &model->spec;
+    const double mass = spec->material.density * spec->geometry.area * model->element_size;
+    for (size_t n = 0; n < count; n++, node += 2) {
+        for (size_t side = 0; side < 2; side++)
+            place_of(model, step, lane, element[n], side, node[side]);
+        fracas_chain_add_segment(spec, mass, (const double(*)[3])node, matter);
+    }
+}
+
+/* ---- fields ---- */
+
+static double opening_of(const fracas_model *model, const fracas_step *step, int lane, size_t e)
+{
+    const size_t next = fracas_chain_next(model, e);
+    const double *vertex = model->table + next * RING_TABLE;
+    double normal[2] = {-vertex[RING_SIN], vertex[RING_COS]}, jump = 0; /* (ring.4) */
+    if (model->spec.geometry.direction == &fracas_direction_current) {
+        double left[2], right[2];
+        chord_of(model, step, lane, e, left);
+        chord_of(model, step, lane, next, right);
+        for (int i = 0; i < 2; i++) normal[i] = left[i] + right[i];
+        const double length = sqrt(normal[0] * normal[0] + normal[1] * normal[1]);
+        for (int i = 0; i < 2; i++) normal[i] /= length;
+    }
+    for (int i = 0; i < 2; i++)
+        jump += normal[i] * (*fracas_chain_field(model, step, next, RING_U_LEFT + i, lane) -
+                             *fracas_chain_field(model, step, e, RING_U_RIGHT + i, lane));
+    return jump;
+}
+
+static void ring_fields(const fracas_model *model, const fracas_step *step, int lane,
+                        fracas_fields *f)
+{
+    const double mass = 0.5 * model->spec.material.density * model->spec.geometry.area *
+                        model->element_size;
+    for (size_t e = 0; e < model->elements; e++) {
+        double strain;
+        f->stress[0][e] = stress_of(model, step, lane, e, &strain);
+        for (size_t side = 0; side < 2; side++) {
+            const size_t node = 2 * e + side;
+            const int u = side ? RING_U_RIGHT : RING_U_LEFT, v = side ? RING_V_RIGHT : RING_V_LEFT;
+            place_of(model, step, lane, e, side, f->place[node]);
+            for (int i = 0; i < 2; i++) {
+                f->displacement[node][i] = *fracas_chain_field(model, step, e, u + i, lane);
+                f->velocity[node][i] = *fracas_chain_field(model, step, e, v + i, lane);
+            }
+            f->displacement[node][2] = f->velocity[node][2] = 0;
+            f->mass[node] = mass;
+        }
+    }
+    for (size_t e = 0; e < model->interfaces; e++) {
+        fracas_chain_fill_interface(model, step, lane, e, f);
+        f->opening[e] = opening_of(model, step, lane, e);
+    }
+}
+
 static const fracas_kind *const goes_with[] = {&fracas_shape_ring,
                                                &fracas_spacing_uniform,
                                                &fracas_loading_imposed_rate,
@@ -233,4 +313,6 @@ const fracas_formulation fracas_formulation_ring = {
     .advance = ring_advance,
     .add_up = ring_add_up,
     .harvest = ring_harvest,
+    .add_matter = ring_add_matter,
+    .fields = ring_fields,
     FRACAS_CHAIN_FORMULATION};

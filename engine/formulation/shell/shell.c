@@ -9,6 +9,7 @@
 #include "engine/mesh/body.h"
 
 #include <math.h>
+#include <string.h>
 
 FRACAS_KERNEL_TABLE(const fracas_surface_kernel, fracas_shell);
 
@@ -258,6 +259,24 @@ static void add_node(const fracas_surface_tables *t, size_t e, size_t k, const d
     fracas_fragment_sums_add(sums, t->lumped[(2 * e + 1) * SHELL_NODES + k], x[k], v[k]);
 }
 
+/* r_xx x x + r_yy y y + r_xy (x y + y x), of n and of m. */
+static void turn_stress(const double *bulk, const double *stress, double *tensor)
+{
+    static const int pair[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}};
+    const double *x = bulk + SHELL_X, *y = bulk + SHELL_Y;
+    for (const double *r = stress; r < stress + 6; r += 3, tensor += 6)
+        for (int p = 0; p < 6; p++) {
+            const int i = pair[p][0], j = pair[p][1];
+            tensor[p] = r[0] * x[i] * x[j] + r[1] * y[i] * y[j] +
+                        r[2] * (x[i] * y[j] + y[i] * x[j]);
+        }
+}
+
+static void normal_at(const double *point, double normal[3])
+{
+    memcpy(normal, point + SHELL_N, 3 * sizeof *normal);
+}
+
 static const double layer[] = SHELL_LAYER_WEIGHTS;
 static const fracas_surface_body body = {.dimension = 3,
                                          .stresses = 6,
@@ -277,6 +296,8 @@ static const fracas_surface_body body = {.dimension = 3,
                                          .fill_rim = fill_rim,
                                          .fill_rotary = fill_rotary,
                                          .hold_edge = hold_edge,
+                                         .turn_stress = turn_stress,
+                                         .normal = normal_at,
                                          .add_node = add_node};
 
 static const fracas_kind *const goes_with[] = {
@@ -287,4 +308,6 @@ const fracas_formulation fracas_formulation_shell = {
              .doc = "a thin shell or plate that stretches and bends, of triangles in space",
              FRACAS_GOES_WITH(goes_with),
              .traits = &body},
+    .safety = 0.5,
+    .stress = {{"N", 6}, {"M", 6}},
     FRACAS_SURFACE_FORMULATION};

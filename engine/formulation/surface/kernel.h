@@ -20,6 +20,7 @@
  *   NAME_press      turns such a point into one of a broken interface in contact, for the operator
  *   NAME_input      mean traction and jump at a layer, for the law
  *   NAME_crack      the law at a Gauss point
+ *   NAME_opening    opening of a layer over that of its break, from the point's values
  *   NAME_give       adds forces and strains of an interface to the slots of its two elements
  *   NAME_forces     adds the forces of an element's own stresses
  *   NAME_kinetic    twice its kinetic energy, and its share of SURFACE_MOMENT
@@ -107,11 +108,11 @@ LANES_FUNCTION void surface_drift(const fracas_surface_motion *m, vd dt, int siz
 }
 
 /* Velocities of an element after its kick, from those before it, by the accelerations a of its
- * forces over `dt`. `begins`: in a lane's first step. */
+ * forces over `dt`; Hulbert-Chung: v becomes v-, after is v+ (membrane.20). `begins`: in a lane's
+ * first step. */
 LANES_FUNCTION void surface_kick(const fracas_surface_motion *m, vd dt, vmask begins, int size,
-                                 double *at, const vd *a, const vd *v, vd *after)
+                                 double *at, const vd *a, vd *v, vd *after)
 {
-    UNROLL_FOR (int i = 0; i < size; i++) after[i] = v[i];
     if (!m->alpha) {
         UNROLL_FOR (int i = 0; i < size; i++) {
             after[i] = central_kick(v[i], a[i], dt);
@@ -125,6 +126,8 @@ LANES_FUNCTION void surface_kick(const fracas_surface_motion *m, vd dt, vmask be
                                         lanes_load(surface_at(at, SURFACE_A_NEXT * size + i)));
             lanes_store(surface_at(at, SURFACE_A * size + i), old);
             lanes_store(surface_at(at, SURFACE_A_NEXT * size + i), (a[i] - keep * old) / share);
+            v[i] -= lanes_set(0.5) * dt * old;
+            after[i] = central_kick(v[i], a[i], dt);
         }
     }
 }

@@ -6,6 +6,7 @@
 #include "engine/mesh/body.h"
 
 #include <math.h>
+#include <string.h>
 
 FRACAS_KERNEL_TABLE(const fracas_surface_kernel, fracas_membrane);
 
@@ -128,6 +129,17 @@ static void add_node(const fracas_surface_tables *t, size_t e, size_t k, const d
     fracas_fragment_sums_add_coupled(sums, mass, x[k], v[k], carried, momentum);
 }
 
+static void turn_stress(const double *bulk, const double *stress, double *tensor)
+{
+    (void)bulk;
+    memcpy(tensor, (double[6]){stress[0], stress[1], 0, stress[2]}, 6 * sizeof *tensor);
+}
+
+static void normal_at(const double *point, double normal[3])
+{
+    memcpy(normal, (double[3]){point[MEMBRANE_NX], point[MEMBRANE_NY]}, 3 * sizeof *normal);
+}
+
 static const double layer[] = {1.0};
 static const fracas_surface_body body = {.dimension = 2,
                                          .stresses = 3,
@@ -142,6 +154,8 @@ static const fracas_surface_body body = {.dimension = 2,
                                          .fill_head = fill_head,
                                          .fill_point = fill_point,
                                          .hold_edge = hold_edge,
+                                         .turn_stress = turn_stress,
+                                         .normal = normal_at,
                                          .add_node = add_node};
 
 static const fracas_kind *const goes_with[] = {
@@ -153,4 +167,6 @@ const fracas_formulation fracas_formulation_membrane = {
              .doc = "a plate in plane stress, of triangles in its plane",
              FRACAS_GOES_WITH(goes_with),
              .traits = &body},
+    .safety = 0.25,
+    .stress = {{"stress", 6}},
     FRACAS_SURFACE_FORMULATION};

@@ -167,6 +167,15 @@ LANES_FUNCTION plane_input membrane_input(const fracas_surface_constants *m, con
                          .q_t = p->jump[1] * nx - p->jump[0] * ny};
 }
 
+LANES_FUNCTION vd membrane_opening(const fracas_surface_constants *m,
+                                   const plane_interface *interface, const plane_input *in,
+                                   const membrane_point *p, int layer, const double *point)
+{
+    (void)p;
+    (void)layer;
+    return plane_opening(m->law, interface, in, point);
+}
+
 LANES_FUNCTION surface_opening membrane_crack(const surface_context *c,
                                               const plane_interface *interface, int law,
                                               const double *place, membrane_point *p, double *point,

@@ -28,8 +28,8 @@ void fracas_surface_add_blocks(const fracas_surface_constants *c, const fracas_s
     }
 }
 
-/* Work of the body force since the step before [J]. Central difference: it is exactly the mean of
- * the forces of both steps times dt v_{n-1/2}. */
+/* Work of the body force since the step before [J]: exactly the mean of the forces of both steps
+ * times the change of displacements. */
 static double work_of(const fracas_surface_constants *c, const fracas_step *step, int l,
                       double moment)
 {
@@ -41,7 +41,6 @@ static double work_of(const fracas_surface_constants *c, const fracas_step *step
 static void set_totals(const fracas_surface_constants *c, fracas_step *step, int l,
                        const double sum[SURFACE_SUMS])
 {
-    const bool forced = c->tables->position != NULL, alpha = c->motion.alpha;
     step->kinetic[l] = 0.5 * sum[SURFACE_KINETIC];
     step->elastic[l] = 0.5 * (sum[SURFACE_STRAIN] + (sum[SURFACE_FLUX] + sum[SURFACE_RIMS]));
     step->cohesive[l] = 0.5 * sum[SURFACE_STORED];
@@ -49,9 +48,9 @@ static void set_totals(const fracas_surface_constants *c, fracas_step *step, int
     step->dissipated_bending[l] += sum[SURFACE_BENDING];
     step->created[l] += sum[SURFACE_CREATED];
     step->friction[l] += sum[SURFACE_RUBBED];
+    step->damped[l] += sum[SURFACE_DAMPED];
     step->power[l] = sum[SURFACE_POWER];
-    if (forced && alpha) step->power[l] += step->spin[l] * sum[SURFACE_MOMENT];
-    step->work[l] = forced && !alpha ? work_of(c, step, l, sum[SURFACE_MOMENT]) : 0;
+    step->work[l] = c->tables->position ? work_of(c, step, l, sum[SURFACE_MOMENT]) : 0;
 }
 
 void fracas_surface_totals(const fracas_surface_constants *c, fracas_step *step)

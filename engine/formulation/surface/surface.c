@@ -47,7 +47,8 @@ fracas_surface_constants fracas_surface_constants_of(const fracas_model *model)
         .strengths = (int)model->strengths,
         .speed = spins ? spec->loading.speed : 0,
         .ramp = spec->loading.ramp,
-        .motion = {accelerations, alpha.alpha_m, alpha.beta, alpha.gamma}};
+        .motion = {accelerations, alpha.alpha_m, alpha.beta, alpha.gamma, alpha.excess,
+                   alpha.damping, sqrt(0.5 * (1 - alpha.alpha_m))}};
     c.c12 = nu * c.c11;
     c.d11 = bending * c.c11;
     c.d12 = bending * nu * c.c11;
@@ -150,6 +151,9 @@ fracas_err fracas_surface_model_init(fracas_model *model)
     for (size_t e = 0; e < t->nelements; e++)
         for (size_t k = 0; k < nodes; k++) model->mass += t->lumped[(2 * e + 1) * nodes + k];
     measure(model);
+    model->wave_speed = sqrt(model->spec.material.young /
+                             (model->spec.material.density *
+                              (1 - model->spec.material.poisson * model->spec.material.poisson)));
     return fracas_surface_critical_step(model);
 }
 
@@ -164,10 +168,20 @@ fracas_err fracas_surface_check_strength(const fracas_model *model, double stren
                         fracas_spec_fracture_energy(spec, strength) /
                         (strength * strength * (law->flux ? law->steepest : 1));
     if (!law->flux || (isfinite(most) && model->longest <= most)) return FRACAS_OK;
+    char unit[160] = "";
+    if (fracas_shape_of(spec)->from_file && !spec->geometry.unit && model->longest > 30 * most) {
+        double side[3];
+        fracas_surface_box(model->surface, side);
+        snprintf(unit, sizeof unit,
+                 "; the mesh file makes a body of %.3g by %.3g by %.3g m: geometry.unit: mm is for "
+                 "files in mm",
+                 side[0], side[1], side[2]);
+    }
     return fracas_fail(FRACAS_USAGE,
                        "strength %g Pa needs elements of which area/edge is below %.4g m, the "
-                       "largest is %.4g m: refine the mesh %.3g times (or raise cohesive.beta)",
-                       strength, most, model->longest, ceil(100 * model->longest / most) / 100);
+                       "largest is %.4g m: refine the mesh %.3g times (or raise cohesive.beta)%s",
+                       strength, most, model->longest, ceil(100 * model->longest / most) / 100,
+                       unit);
 }
 
 /* A third of its two elements. */
@@ -185,6 +199,11 @@ size_t fracas_surface_state_size(const fracas_model *model)
 {
     const fracas_surface_constants c = fracas_surface_constants_of(model);
     return fracas_surface_state_fields(&c);
+}
+
+size_t fracas_surface_parts_most(const fracas_model *model)
+{
+    return fracas_surface_blocks(fracas_surface_constants_of(model).tables);
 }
 
 fracas_err fracas_surface_model_divide(const fracas_model *model, size_t parts,
@@ -343,9 +362,46 @@ size_t fracas_surface_partition(const fracas_model *model, fracas_step *step, in
     return fracas_partition_label(&step->partition);
 }
 
-int64_t fracas_surface_fragment_count(const fracas_model *model, fracas_step *step, int lane)
+/* True if the load moves an edge of the element along; a sliding edge in a plane of symmetry stays.
+ */
+static bool is_pulled(const fracas_model *model, size_t e)
 {
-    return step->broken[lane] == 0 ? 1 : (int64_t)fracas_surface_partition(model, step, lane);
+    const fracas_surface_tables *t = tables_of(model);
+    const uint32_t moving = t->held[e] & ~t->fixed[e];
+    for (size_t i = 0; moving >> i; i++)
+        if (moving >> i & 1 && start_velocity(model, e, i) != 0) return true;
+    return false;
+}
+
+/* Fragments with such an element, and the area of the others [m2]. */
+static fracas_err count_held(const fracas_model *model, const fracas_step *step,
+                             fracas_census *census, double *area)
+{
+    OWNED bool *held = calloc((size_t)census->all, sizeof *held);
+    if (!held) return fracas_no_memory("the fragments of a realization");
+    for (size_t e = 0; e < model->elements; e++) {
+        const size_t f = step->partition.label[e];
+        if (held[f] || !is_pulled(model, e)) continue;
+        held[f] = true;
+        census->held++;
+    }
+    *area = 0;
+    for (size_t e = 0; e < model->elements; e++)
+        *area += held[step->partition.label[e]] ? 0 : model->surface->area[e];
+    return FRACAS_OK;
+}
+
+fracas_err fracas_surface_count(const fracas_model *model, fracas_step *step, int lane,
+                                fracas_census *census)
+{
+    const double surface_density = model->spec.material.density * model->spec.geometry.thickness;
+    double area = model->mass / surface_density;
+    *census = (fracas_census){.all = 1};
+    if (step->broken[lane] > 0) census->all = (int64_t)fracas_surface_partition(model, step, lane);
+    if (tables_of(model)->moves && step->broken[lane] > 0)
+        TRY(count_held(model, step, census, &area));
+    census->size = sqrt(area / (double)(census->all - census->held));
+    return FRACAS_OK;
 }
 
 /* The least of an interface's strengths. */
@@ -356,25 +412,30 @@ static double weakest_of(const double *strength, size_t stride, size_t strengths
     return least;
 }
 
+fracas_interface_row fracas_surface_interface_row(const fracas_model *model,
+                                                  const fracas_surface_constants *c,
+                                                  const fracas_step *step, size_t i, int lane)
+{
+    const double *strength = fracas_surface_field(
+        step, fracas_surface_strengths_at(c) + fracas_surface_strength_of(c, i, 0), lane);
+    const size_t at = i * (size_t)step->width + (size_t)lane;
+    return (fracas_interface_row){
+        .strength = weakest_of(strength, (size_t)step->lanes, model->strengths),
+        .damage = damage_of(c, step, i, lane),
+        .onset_time = step->onset_time ? step->onset_time[at] : NAN,
+        .break_time = step->onset_time ? step->break_time[at] : NAN};
+}
+
 static fracas_err harvest_interfaces(const fracas_model *model, const fracas_step *step, int lane,
                                      fracas_record *record)
 {
     const fracas_surface_constants c = fracas_surface_constants_of(model);
-    size_t stride;
-    const double *strength = fracas_surface_strength(model, step, lane, &stride);
     record->interface = calloc(model->interfaces ? model->interfaces : 1,
                                sizeof *record->interface);
     if (!record->interface) return fracas_no_memory("the interfaces of a realization");
     record->ninterface = model->interfaces;
-    for (size_t i = 0; i < model->interfaces; i++) {
-        const size_t at = i * (size_t)step->width + (size_t)lane;
-        const double weakest = weakest_of(strength + i * model->strengths * stride, stride,
-                                          model->strengths);
-        record->interface[i] = (fracas_interface_row){.strength = weakest,
-                                                      .damage = damage_of(&c, step, i, lane),
-                                                      .onset_time = step->onset_time[at],
-                                                      .break_time = step->break_time[at]};
-    }
+    for (size_t i = 0; i < model->interfaces; i++)
+        record->interface[i] = fracas_surface_interface_row(model, &c, step, i, lane);
     return FRACAS_OK;
 }
 
@@ -395,7 +456,8 @@ static void add_element(const fracas_model *model, const fracas_surface_constant
     }
     sums->elements++;
     sums->strain_energy +=
-        (*c->tables->body->kernels)[FRACAS_ISA_BASELINE][1]->strain[c->tables->order - 1](c, e, u);
+        (*c->tables->body->kernels)[FRACAS_ISA_BASELINE][1]->strain[c->tables->order - 1](c, e, u,
+                                                                                          NULL);
     for (size_t k = 0; k < nodes; k++)
         c->tables->body->add_node(c->tables, e, k, (const double(*)[3])x, (const double(*)[3])v,
                                   sums);

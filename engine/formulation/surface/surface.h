@@ -60,8 +60,9 @@ enum {
     SURFACE_RUBBED,     /* energy dissipated by friction in this step [J] */
     SURFACE_SUMS_BY_TURN,
     SURFACE_KINETIC = SURFACE_SUMS_BY_TURN, /* twice the kinetic energy [J] */
+    SURFACE_DAMPED,                         /* energy damped in this step [J] */
     SURFACE_POWER,                          /* power of reactions [W] */
-    SURFACE_MOMENT,                         /* membranes: sum of m r.v [kg m2/s] */
+    SURFACE_MOMENT,                         /* membranes: sum of m r.du/dt of this step [kg m2/s] */
     SURFACE_SUMS
 };
 enum { SURFACE_BLOCK = 64 }; /* elements */
@@ -121,8 +122,10 @@ typedef struct {
 } fracas_surface_tables;
 
 typedef struct {
-    int alpha;            /* Hulbert-Chung, with its parameters; else central difference */
-    double alpha_m, b, g; /* 1 */
+    int alpha;              /* Hulbert-Chung, with its parameters; else central difference */
+    double alpha_m, b, g;   /* 1 */
+    double excess, damping; /* 1 */
+    double root;            /* 1: sqrt((1 - alpha_m)/2) */
 } fracas_surface_motion;
 
 /* Input of a sweep, the same for all lanes. */
@@ -156,9 +159,10 @@ typedef struct {
 typedef void fracas_surface_look(const fracas_surface_constants *constants, size_t interface,
                                  fracas_surface_view *view);
 
-/* Strain energy of an element with displacements u [J]. */
+/* Strain energy of an element with displacements u [J], and its stresses at the bulk points,
+ * [point][body->stresses]; NULL: they are not wanted. */
 typedef double fracas_surface_strain(const fracas_surface_constants *constants, size_t element,
-                                     double *u);
+                                     double *u, double *stress);
 
 /* Number of the linear operator's sweep, after those of the laws. */
 enum { SURFACE_OPERATOR = FRACAS_LAWS, SURFACE_SWEEPS };
@@ -203,6 +207,11 @@ struct fracas_surface_body {
     /* Components held by an edge of this kind, as bits; FRACAS_USAGE where it cannot be. */
     fracas_err (*hold_edge)(const fracas_model *model, const fracas_surface_border *border,
                             const fracas_kind *kind, unsigned *components);
+    /* Turns the stresses of a bulk point, by its table, into tensors in space: xx, yy, zz, xy, yz,
+     * xz of each three. */
+    void (*turn_stress)(const double *bulk, const double *stress, double *tensor);
+    /* Normal of an interface at a Gauss point, by its table. */
+    void (*normal)(const double *point, double normal[3]);
     /* Adds node k of an element to its fragment's sums, with its inertia in the sweep; x and v
      * are those of all its nodes [m], [m/s]. */
     void (*add_node)(const fracas_surface_tables *tables, size_t element, size_t k,
@@ -319,6 +328,11 @@ bool fracas_surface_is_broken(const fracas_surface_constants *constants, const f
                               size_t interface, int lane);
 void fracas_surface_break(const fracas_surface_constants *constants, const fracas_step *step,
                           size_t interface, int lane);
+/* An interface as a record has it; times are NaN where none are kept. */
+fracas_interface_row fracas_surface_interface_row(const fracas_model *model,
+                                                  const fracas_surface_constants *constants,
+                                                  const fracas_step *step, size_t interface,
+                                                  int lane);
 
 /* ---- functions of the formulations ---- */
 
@@ -327,6 +341,7 @@ FRACAS_MUST_USE fracas_err fracas_surface_check_strength(const fracas_model *mod
                                                          double strength);
 double fracas_surface_interface_volume(const fracas_model *model, size_t interface);
 size_t fracas_surface_state_size(const fracas_model *model);
+size_t fracas_surface_parts_most(const fracas_model *model);
 FRACAS_MUST_USE fracas_err fracas_surface_model_divide(const fracas_model *model, size_t parts,
                                                        const fracas_peers *peers,
                                                        fracas_division *division);
@@ -337,23 +352,37 @@ void fracas_surface_advance(const fracas_model *model, fracas_step *step);
 FRACAS_MUST_USE fracas_err fracas_surface_share_step(const fracas_model *model, fracas_step *step);
 FRACAS_MUST_USE fracas_err fracas_surface_gather(const fracas_model *model, fracas_step *step,
                                                  int lane);
-int64_t fracas_surface_fragment_count(const fracas_model *model, fracas_step *step, int lane);
+FRACAS_MUST_USE fracas_err fracas_surface_count(const fracas_model *model, fracas_step *step,
+                                                int lane, fracas_census *census);
 size_t fracas_surface_partition(const fracas_model *model, fracas_step *step, int lane);
 void fracas_surface_add_up(const fracas_model *model, const fracas_step *step, int lane,
                            const fracas_fragment_motion *motion, fracas_fragment_sums *sums);
 FRACAS_MUST_USE fracas_err fracas_surface_harvest(const fracas_model *model, fracas_step *step,
                                                   int lane, fracas_record *record);
 
-/* All members of a formulation of surfaces but `kind`, whose traits are the body. */
+void fracas_surface_add_matter(const fracas_model *model, const fracas_step *step, int lane,
+                               const uint32_t *element, size_t count,
+                               fracas_fragment_matter *matter, double (*node)[3]);
+void fracas_surface_add_cracks(const fracas_model *model, const fracas_step *step, int lane,
+                               fracas_fragment *fragment);
+size_t fracas_surface_element_nodes(const fracas_model *model);
+size_t fracas_surface_interface_nodes(const fracas_model *model);
+void fracas_surface_fields(const fracas_model *model, const fracas_step *step, int lane,
+                           fracas_fields *fields);
+
+/* All members of a formulation of surfaces but `stress` and `kind`, whose traits are the body. */
 #define FRACAS_SURFACE_FORMULATION                                                              \
     .model_init = fracas_surface_model_init, .check_strength = fracas_surface_check_strength,   \
     .interface_volume = fracas_surface_interface_volume,                                        \
     .plan_destroy = fracas_surface_tables_destroy, .state_size = fracas_surface_state_size,     \
-    .divide = fracas_surface_model_divide, .division_destroy = fracas_surface_division_destroy, \
-    .strength = fracas_surface_strength, .lane_init = fracas_surface_lane_init,                 \
-    .advance = fracas_surface_advance, .share = fracas_surface_share_step,                      \
-    .gather = fracas_surface_gather, .fragment_count = fracas_surface_fragment_count,           \
-    .partition = fracas_surface_partition, .add_up = fracas_surface_add_up,                     \
-    .harvest = fracas_surface_harvest
+    .parts_most = fracas_surface_parts_most, .divide = fracas_surface_model_divide,             \
+    .division_destroy = fracas_surface_division_destroy, .strength = fracas_surface_strength,   \
+    .lane_init = fracas_surface_lane_init, .advance = fracas_surface_advance,                   \
+    .share = fracas_surface_share_step, .gather = fracas_surface_gather,                        \
+    .count = fracas_surface_count, .partition = fracas_surface_partition,                       \
+    .add_up = fracas_surface_add_up, .harvest = fracas_surface_harvest,                         \
+    .element_nodes = fracas_surface_element_nodes, .add_matter = fracas_surface_add_matter,     \
+    .add_cracks = fracas_surface_add_cracks, .interface_nodes = fracas_surface_interface_nodes, \
+    .fields = fracas_surface_fields
 
 #endif

@@ -208,12 +208,12 @@ LANES_FUNCTION vd surface_twist(const double *table, uint32_t held, const vd *ac
     return sum;
 }
 
-/* Twice its kinetic energy, of leapfrog velocities  (shell.18) */
-LANES_FUNCTION vd surface_spun(const double *table, const vd *v, const vd *after)
+/* Product of the rotary inertia with vectors at its nodes, x.R y  (shell.18) */
+LANES_FUNCTION vd surface_spun(const double *table, const vd *x, const vd *y)
 {
     vd before[6], then[6], sum = lanes_set(0.0);
-    surface_turning(table, v, before);
-    surface_turning(table, after, then);
+    surface_turning(table, x, before);
+    surface_turning(table, y, then);
     UNROLL_FOR (int k = 0; k < 6; k++)
         sum += surface_row(table + SURFACE_ROTARY, k, before) * then[k];
     return sum;
@@ -266,6 +266,56 @@ LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size
     }
 }
 
+/* x.M y of an element, and the moment of M x. */
+LANES_FUNCTION vd surface_product(const surface_context *c, int order, size_t e, const vd *x,
+                                  const vd *y, vd *moment)
+{
+    const double *rotary = c->tables->rotary;
+    *moment = lanes_set(0.0);
+    vd product = BODY(kinetic)(c, order, e, x, y, moment);
+    if (BODY_DIMENSION == 3 && rotary)
+        product += surface_spun(rotary + e * SURFACE_ROTARY_TABLE, x, y);
+    return product;
+}
+
+/* Adds to an element's sums what Hulbert and Chung's scheme has beside leapfrog: kinetic energy,
+ * damped energy, displacement in this step. `last` is a_{n-1}  (membrane.20), (membrane.21),
+ * (membrane.22). */
+LANES_FUNCTION void surface_damp_of(const surface_context *c, int order, size_t e, double *at,
+                                    const vd *last)
+{
+    const fracas_surface_motion *m = &c->constants->motion;
+    const int size = BODY_SIZE(order);
+    const vd dt = c->kick, root = lanes_set(m->root);
+    vd less[18], more[18], change[18], moment;
+    UNROLL_FOR (int i = 0; i < size; i++) {
+        const vd now = lanes_load(surface_at(at, SURFACE_A * size + i)),
+                 next = lanes_load(surface_at(at, SURFACE_A_NEXT * size + i));
+        less[i] = now - root * (next - now);
+        more[i] = now + root * (next - now);
+        change[i] = next - lanes_select(c->begins, now, last[i]);
+    }
+    double *sums = surface_sums(c, e);
+    surface_add(surface_at(sums, SURFACE_KINETIC),
+                lanes_set(m->excess) * dt * dt * surface_product(c, order, e, less, more, &moment));
+    surface_add(surface_at(sums, SURFACE_DAMPED),
+                lanes_set(0.25 * m->damping) * dt * dt *
+                    surface_product(c, order, e, change, change, &moment));
+    if (!BODY_PLANE || !c->tables->position) return;
+    UNROLL_FOR (int i = 0; i < size; i++)
+        change[i] = lanes_load(surface_at(at, SURFACE_A * size + i)) - last[i];
+    surface_product(c, order, e, change, change, &moment);
+    surface_add(surface_at(sums, SURFACE_MOMENT), lanes_set(m->excess) * dt * moment);
+}
+
+/* A function of its own: central difference, which does not call it, stays as fast. */
+__attribute__((noinline)) static void surface_damp(const surface_context *c, int order, size_t e,
+                                                   double *at, const vd *last)
+{
+    if (BODY_PLANE && order == 1) surface_damp_of(c, 1, e, at, last);
+    else surface_damp_of(c, 2, e, at, last);
+}
+
 /* Forces and kick of an element, and its share of kinetic energy. */
 LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
                                    const fracas_surface_finish *finish)
@@ -284,14 +334,17 @@ LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
             lanes_store(surface_at(at, SURFACE_V * size + i), a[i]);
         return;
     }
+    const int alpha = c->constants->motion.alpha;
+    vd last[18], moment;
+    if (alpha) {
+        UNROLL_FOR (int i = 0; i < size; i++)
+            last[i] = lanes_load(surface_at(at, SURFACE_A * size + i));
+    }
     surface_kick(&c->constants->motion, c->kick, c->begins, size, at, a, v, after);
     double *sums = surface_sums(c, e);
-    vd moment = lanes_set(0.0), kinetic = BODY(kinetic)(c, order, e, v, after, &moment);
-    const double *rotary = c->tables->rotary;
-    if (BODY_DIMENSION == 3 && rotary)
-        kinetic += surface_spun(rotary + e * SURFACE_ROTARY_TABLE, v, after);
-    surface_add(surface_at(sums, SURFACE_KINETIC), kinetic);
+    surface_add(surface_at(sums, SURFACE_KINETIC), surface_product(c, order, e, v, after, &moment));
     if (BODY_PLANE) surface_add(surface_at(sums, SURFACE_MOMENT), moment);
+    if (alpha) surface_damp(c, order, e, at, last);
 }
 
 /* Begins the sums of element e's block, and ends them at its last turn. */
@@ -400,22 +453,23 @@ LANES_FUNCTION void surface_look(const fracas_surface_constants *s, int order, s
     BODY(flux)(&c, order, i, &sides, at);
     for (int p = 0; p < SURFACE_EDGE(order) * BODY_LAYERS; p++) {
         const int g = p / BODY_LAYERS;
-        const double *point = view->fields + p * s->point_fields;
+        const double *fields = view->fields + g * BODY_LAYERS * s->point_fields;
         const plane_input in = BODY(input)(s, table + BODY_HEAD + g * BODY_POINT_TABLE, &at[g],
                                            p % BODY_LAYERS);
         const plane_traction held = plane_held(&interface, &in);
         view->onset[p] = lanes_sqrt(plane_onset(&interface, held.n, held.t)) / view->strength[g];
-        view->opening[p] = plane_opening(s->law, &interface, &in, point);
+        view->opening[p] = BODY(opening)(s, &interface, &in, &at[g], p % BODY_LAYERS, fields);
     }
 }
 
 LANES_FUNCTION double surface_strain(const fracas_surface_constants *s, int order, size_t e,
-                                     double *u)
+                                     double *u, double *stress)
 {
     surface_context c = {.constants = s, .tables = s->tables};
     double slot[BODY_SLOT(2)], energy;
     surface_enter(&c, order, e, u, slot);
     lanes_store(&energy, c.sum[SURFACE_STRAIN]);
+    if (stress) memcpy(stress, slot, (size_t)BODY_SLOT_EXTRA(order) * sizeof *stress);
     return 0.5 * energy;
 }
 #endif
@@ -438,9 +492,10 @@ LANES_FUNCTION double surface_strain(const fracas_surface_constants *s, int orde
         surface_look(constants, order, i, view);                          \
     }
 #define SURFACE_STRAIN(name, order, law)                                                     \
-    static double name(const fracas_surface_constants *constants, size_t element, double *u) \
+    static double name(const fracas_surface_constants *constants, size_t element, double *u, \
+                       double *stress)                                                       \
     {                                                                                        \
-        return surface_strain(constants, order, element, u);                                 \
+        return surface_strain(constants, order, element, u, stress);                         \
     }
 #if BODY_PLANE
 #define SURFACE_ORDERS(DEFINE, name, law) \

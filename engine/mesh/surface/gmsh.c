@@ -431,7 +431,7 @@ static fracas_err allocate_resolved(const mesh *m, resolved *out)
     return fracas_no_memory("a mesh");
 }
 
-static fracas_err resolve_elements(const mesh *m, resolved *out)
+static fracas_err resolve_elements(const mesh *m, double unit, resolved *out)
 {
     const size_t corners = (size_t)(3 * m->order);
     for (size_t n = 0; n < m->nnodes; n++) out->new_node[n] = UINT32_MAX;
@@ -445,7 +445,8 @@ static fracas_err resolve_elements(const mesh *m, resolved *out)
                                    m->element[e], m->corner[e][k]);
             uint32_t *node = &out->new_node[at->value];
             if (*node == UINT32_MAX) {
-                memcpy(out->node[out->nnodes], m->node[at->value], sizeof *out->node);
+                for (int i = 0; i < 3; i++)
+                    out->node[out->nnodes][i] = unit * m->node[at->value][i];
                 out->node_number[out->nnodes] = at->number;
                 *node = (uint32_t)out->nnodes++;
             }
@@ -471,13 +472,14 @@ static fracas_err resolve_lines(const mesh *m, resolved *out)
     return FRACAS_OK;
 }
 
-fracas_err fracas_surface_read_gmsh(const void *bytes, size_t size, const fracas_surface **surface)
+fracas_err fracas_surface_read_gmsh(const void *bytes, size_t size, double unit,
+                                    const fracas_surface **surface)
 {
     FRACAS_CLEARED(mesh) m = {.scan = {.text = bytes, .size = size}};
     FRACAS_CLEARED(resolved) out = {0};
     TRY(read_file(&m));
     TRY(allocate_resolved(&m, &out));
-    TRY(resolve_elements(&m, &out));
+    TRY(resolve_elements(&m, unit, &out));
     TRY(resolve_lines(&m, &out));
     const fracas_surface_arrays arrays = {.order = m.order,
                                           .nnodes = out.nnodes,

@@ -5,6 +5,18 @@
 
 #include <math.h>
 
+void fracas_surface_box(const fracas_surface *surface, double side[3])
+{
+    for (int i = 0; i < 3; i++) {
+        double least = INFINITY, most = -INFINITY;
+        for (size_t n = 0; n < surface->nnodes; n++) {
+            least = fmin(least, surface->node[n][i]);
+            most = fmax(most, surface->node[n][i]);
+        }
+        side[i] = most - least;
+    }
+}
+
 /* (meshes.1) */
 double fracas_surface_density(const fracas_surface *surface, size_t element, double xi, double eta,
                               double shape[6])

@@ -111,6 +111,9 @@ static inline const double *fracas_surface_node(const fracas_surface *surface, s
     return surface->node[surface->element[element * surface->corners + corner]];
 }
 
+/* Sides of the box around all nodes [m]. */
+void fracas_surface_box(const fracas_surface *surface, double side[3]);
+
 /* |dx/dxi x dx/deta| and the values of the shape functions at a point of an element [m2]. */
 double fracas_surface_density(const fracas_surface *surface, size_t element, double xi, double eta,
                               double shape[6]);

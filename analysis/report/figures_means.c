@@ -1,0 +1,574 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Mean sizes and counts against the abscissa of the axes. */
+#include "analysis/report/figures.h"
+
+#include "analysis/scaling/scaling.h"
+#include "analysis/data/format.h"
+#include "base/own.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LAW_VALUES = 80, TALL = FRACAS_FIGURE_TALL };
+
+static const size_t ALL_SERIES = SIZE_MAX;
+
+typedef struct {
+    size_t point;
+    size_t series;  /* for the whole figure, in the order of first points */
+    size_t drawing; /* likewise */
+    char name[128]; /* slopes and crossovers know its series by this */
+} mean_mark;
+
+/* Marks of a figure, or of one of its drawings. */
+typedef struct {
+    const fracas_analysis *analysis;
+    const fracas_means_axes *axes;
+    fracas_means of;
+    double size_factor;
+    size_t n, nseries; /* nseries: for the whole figure */
+    mean_mark *mark;
+    double x[2]; /* least and greatest of the whole figure */
+    fracas_size_slope *slope;
+    size_t nslopes;
+    fracas_size_crossover *crossover;
+    size_t ncrossovers;
+} means_plot;
+
+static void means_plot_clear(means_plot *plot)
+{
+    free(plot->mark);
+    free(plot->slope);
+    free(plot->crossover);
+}
+
+static bool is_normalised(const means_plot *plot)
+{
+    return plot->of == FRACAS_MEANS_NORMALISED;
+}
+
+static const fracas_point_statistics *statistics_of(const means_plot *plot, size_t mark)
+{
+    return &plot->analysis->point[plot->mark[mark].point];
+}
+
+static bool has_mean(const fracas_analysis *analysis, size_t point)
+{
+    const double x = analysis->axes.value[point];
+    return isfinite(x) && (!analysis->axes.log || x > 0) &&
+           isfinite(analysis->point[point].size.mean);
+}
+
+static bool has_scales(const fracas_analysis *analysis, size_t point)
+{
+    const fracas_point_statistics *statistics = &analysis->point[point];
+    return has_mean(analysis, point) && !statistics->surface && isfinite(statistics->scales.size) &&
+           isfinite(statistics->scales.rate);
+}
+
+static bool mark_has_scales(const means_plot *plot, size_t mark)
+{
+    return has_scales(plot->analysis, plot->mark[mark].point);
+}
+
+/* Rate and size that are 1 on the axes. */
+static fracas_scales units_of(const means_plot *plot, const fracas_scales *scales)
+{
+    return is_normalised(plot) ? *scales
+                               : (fracas_scales){.rate = 1, .size = 1 / plot->size_factor};
+}
+
+static double x_of(const means_plot *plot, size_t point)
+{
+    return plot->axes->value[point] / units_of(plot, &plot->analysis->point[point].scales).rate;
+}
+
+/* ---- series and drawings ---- */
+
+/* Marks with their series and drawings; a drawing has at most FRACAS_MEANS_SERIES series. */
+static void number_marks(const size_t *series, const size_t *drawing, means_plot *plot)
+{
+    const size_t nchunks = (plot->nseries + FRACAS_MEANS_SERIES - 1) / FRACAS_MEANS_SERIES;
+    for (size_t p = 0; p < plot->analysis->table->npoints; p++) {
+        if (is_normalised(plot) ? !has_scales(plot->analysis, p) : !has_mean(plot->analysis, p))
+            continue;
+        const double x = x_of(plot, p);
+        plot->x[0] = plot->n ? fmin(plot->x[0], x) : x;
+        plot->x[1] = plot->n ? fmax(plot->x[1], x) : x;
+        plot->mark[plot->n++] = (mean_mark){
+            .point = p,
+            .series = series[p],
+            .drawing = drawing[p] * nchunks + series[p] / FRACAS_MEANS_SERIES};
+    }
+}
+
+/* Numbers drawings anew from 0, without gaps; returns how many there are. */
+static size_t number_drawings(means_plot *plot)
+{
+    size_t count = 0;
+    for (size_t low = 0;; count++) {
+        size_t next = SIZE_MAX;
+        for (size_t m = 0; m < plot->n; m++)
+            if (plot->mark[m].drawing >= low && plot->mark[m].drawing < next)
+                next = plot->mark[m].drawing;
+        if (next == SIZE_MAX) return count;
+        for (size_t m = 0; m < plot->n; m++)
+            if (plot->mark[m].drawing == next) plot->mark[m].drawing = count;
+        low = next + 1;
+    }
+}
+
+static fracas_err find_marks(means_plot *plot, size_t *ndrawings)
+{
+    const fracas_point_table *table = plot->analysis->table;
+    OWNED size_t *series = calloc(2 * table->npoints + 1, sizeof *series);
+    plot->mark = calloc(table->npoints + 1, sizeof *plot->mark);
+    if (!plot->mark || !series) return fracas_no_memory("a figure");
+    size_t *drawing = series + table->npoints;
+    plot->nseries = fracas_columns_classes(table, &plot->axes->series, series);
+    fracas_columns_classes(table, &plot->axes->drawings, drawing);
+    number_marks(series, drawing, plot);
+    *ndrawings = number_drawings(plot);
+    return FRACAS_OK;
+}
+
+/* Against the rate: fitted powers and crossovers, and the names of their series. */
+static fracas_err find_fits(means_plot *plot)
+{
+    FRACAS_CLEARED(fracas_columns) rates = {0};
+    if (!plot->axes->rate) return FRACAS_OK;
+    TRY(fracas_columns_without_rate(plot->analysis->table, &plot->analysis->shown, &rates));
+    for (size_t m = 0; m < plot->n; m++)
+        fracas_columns_label(plot->analysis->table, &rates, plot->mark[m].point, plot->mark[m].name,
+                             sizeof plot->mark[m].name);
+    if (plot->of == FRACAS_MEANS_COUNT)
+        return fracas_count_slopes(plot->analysis, true, &plot->slope, &plot->nslopes);
+    if (!is_normalised(plot)) TRY(fracas_size_slopes(plot->analysis, &plot->slope, &plot->nslopes));
+    return fracas_size_crossovers(plot->analysis, false, &plot->crossover, &plot->ncrossovers);
+}
+
+/* The first mark of a series; SIZE_MAX: it has none here. */
+static size_t first_of(const means_plot *plot, size_t series)
+{
+    for (size_t m = 0; m < plot->n; m++)
+        if (plot->mark[m].series == series) return m;
+    return SIZE_MAX;
+}
+
+/* ---- marks ---- */
+
+/* The marks of a series. quantity: place of the mean in a point's statistics. */
+static fracas_err add_means(const means_plot *plot, size_t quantity, size_t number,
+                            fracas_panel *panel)
+{
+    fracas_series *series;
+    TRY(fracas_panel_add(panel, FRACAS_MARKS, (unsigned)number, plot->n, &series));
+    FRACAS_PRINT(series->name, "mean, 95 %% interval");
+    series->n = 0;
+    for (size_t m = 0; m < plot->n; m++) {
+        if (plot->mark[m].series != number) continue;
+        const fracas_point_statistics *statistics = statistics_of(plot, m);
+        const fracas_estimate *mean = (const void *)((const char *)statistics + quantity);
+        const double unit = units_of(plot, &statistics->scales).size;
+        const size_t i = series->n++;
+        if (i == 0 && plot->axes->series.count > 0)
+            fracas_columns_label(plot->analysis->table, &plot->axes->series, plot->mark[m].point,
+                                 series->name, sizeof series->name);
+        series->x[i] = x_of(plot, plot->mark[m].point);
+        series->y[i] = mean->mean / unit;
+        series->low[i] = (mean->mean - mean->half_width) / unit;
+        series->high[i] = (mean->mean + mean->half_width) / unit;
+    }
+    return FRACAS_OK;
+}
+
+/* A line from mark to mark for the eye; none against the rate, where laws and powers are, against a
+ * text, and where two marks have one abscissa. */
+static fracas_err join_means(const means_plot *plot, fracas_panel *panel)
+{
+    const size_t marks = panel->nseries - 1;
+    fracas_series *line;
+    if (plot->axes->rate || plot->axes->nnames) return FRACAS_OK;
+    const size_t n = panel->series[marks].n;
+    TRY(fracas_panel_add(panel, FRACAS_CURVE, panel->series[marks].look, n, &line));
+    const fracas_series *of = &panel->series[marks];
+    line->n = 0;
+    for (size_t i = 0; i < n; i++) { /* sorted in */
+        size_t at = line->n++;
+        for (; at > 0 && line->x[at - 1] > of->x[i]; at--) {
+            line->x[at] = line->x[at - 1];
+            line->y[at] = line->y[at - 1];
+        }
+        line->x[at] = of->x[i];
+        line->y[at] = of->y[i];
+    }
+    for (size_t i = 1; i < n; i++)
+        if (line->x[i] == line->x[i - 1]) line->n = 0;
+    if (line->n < 2) line->n = 0;
+    return FRACAS_OK;
+}
+
+/* ---- laws of the strain rate ---- */
+
+/* A curve over the rates of all marks and a factor of two beyond, without its y. */
+static fracas_err add_curve(const means_plot *plot, unsigned look, fracas_panel *panel,
+                            fracas_series **series)
+{
+    TRY(fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, series));
+    for (size_t i = 0; i < LAW_VALUES; i++)
+        (*series)->x[i] = plot->x[0] / 2 *
+                          pow(4 * plot->x[1] / plot->x[0], (double)i / (LAW_VALUES - 1));
+    return FRACAS_OK;
+}
+
+static fracas_err add_law(const means_plot *plot, fracas_scaling_law_id law,
+                          const fracas_scales *scales, unsigned look, fracas_panel *panel)
+{
+    fracas_series *series;
+    TRY(add_curve(plot, look, panel, &series));
+    FRACAS_PRINT(series->name, "%s", fracas_scaling_laws[law].name);
+    for (size_t i = 0; i < LAW_VALUES; i++)
+        series->y[i] = is_normalised(plot)
+                           ? fracas_scaling_laws[law].normalised(series->x[i], scales->modulus)
+                           : fracas_scaling_law_at(law, scales, series->x[i]) * plot->size_factor;
+    return FRACAS_OK;
+}
+
+/* True if one curve of a scaling law serves all marks of a series, or of ALL_SERIES. */
+static bool same_scales(const means_plot *plot, size_t series)
+{
+    const fracas_scales *first = NULL;
+    for (size_t m = 0; m < plot->n; m++) {
+        const fracas_scales *scales = &statistics_of(plot, m)->scales;
+        if (!mark_has_scales(plot, m) || (series != ALL_SERIES && plot->mark[m].series != series))
+            continue;
+        if (first && (first->size != scales->size || first->rate != scales->rate)) return false;
+        first = scales;
+    }
+    return true;
+}
+
+/* True if the law is a number, and one curve of it serves all marks: Mott's only where all
+ * strengths have one modulus. */
+static bool law_serves(const means_plot *plot, fracas_scaling_law_id law,
+                       const fracas_scales *scales)
+{
+    if (!isfinite(fracas_scaling_laws[law].normalised(1, scales->modulus))) return false;
+    for (size_t m = 0; law == FRACAS_LAW_MOTT && m < plot->n; m++)
+        if (mark_has_scales(plot, m) && statistics_of(plot, m)->scales.modulus != scales->modulus)
+            return false;
+    return true;
+}
+
+/* All laws where one curve each serves all marks; else ZMR in the colour of each series it serves.
+ * None for surfaces, and none against anything but the rate. */
+static fracas_err add_laws(const means_plot *plot, size_t number, bool *drawn, fracas_panel *panel)
+{
+    const size_t first = first_of(plot, number);
+    const fracas_scales *scales = &statistics_of(plot, first)->scales;
+    if (!plot->axes->rate || !mark_has_scales(plot, first) || *drawn) return FRACAS_OK;
+    if (is_normalised(plot) || same_scales(plot, ALL_SERIES)) {
+        *drawn = true;
+        for (unsigned law = 0; law < FRACAS_SCALING_LAWS; law++)
+            if (law_serves(plot, (fracas_scaling_law_id)law, scales))
+                TRY(add_law(plot, (fracas_scaling_law_id)law, scales, (unsigned)plot->nseries + law,
+                            panel));
+    } else if (same_scales(plot, number)) {
+        TRY(add_law(plot, FRACAS_LAW_ZMR, scales, (unsigned)number, panel));
+        panel->series[panel->nseries - 1].name[0] = '\0'; /* named by its marks */
+    }
+    return FRACAS_OK;
+}
+
+/* The look of the series that slopes and crossovers know by this name; false: it has no marks here.
+ */
+static bool look_of(const means_plot *plot, const char *name, bool only, unsigned *look)
+{
+    *look = 0;
+    if (only) return true;
+    for (size_t m = 0; m < plot->n; m++) {
+        *look = (unsigned)plot->mark[m].series;
+        if (!strcmp(plot->mark[m].name, name)) return true;
+    }
+    return false;
+}
+
+static bool series_has_scales(const means_plot *plot, unsigned series)
+{
+    for (size_t m = 0; m < plot->n; m++)
+        if (plot->mark[m].series == series && mark_has_scales(plot, m)) return true;
+    return false;
+}
+
+/* The fitted line of each series, in the colour of its marks; sizes only of those that have no
+ * laws.
+ */
+static fracas_err add_slopes(const means_plot *plot, fracas_panel *panel)
+{
+    const bool only = plot->nseries == 1 && plot->axes->drawings.count == 0,
+               beside_laws = plot->of == FRACAS_MEANS_COUNT;
+    for (size_t i = 0; i < plot->nslopes; i++) {
+        const fracas_size_slope *of = &plot->slope[i];
+        unsigned number;
+        fracas_series *series;
+        if (!look_of(plot, of->name, only, &number)) continue; /* through several series */
+        if (!beside_laws && series_has_scales(plot, number)) continue;
+        TRY(add_curve(plot, number + 2 * FRACAS_CHART_COLOURS, panel, &series));
+        for (size_t v = 0; v < LAW_VALUES; v++)
+            series->y[v] = fracas_slope_at(&of->slope, series->x[v]) * plot->size_factor;
+        if (only)
+            FRACAS_PRINT(series->name, "fitted: power %s", fracas_slope_text(&of->slope).text);
+    }
+    return FRACAS_OK;
+}
+
+/* The fitted crossover of each series, in the colour of its marks. */
+static fracas_err add_crossovers(const means_plot *plot, fracas_panel *panel)
+{
+    const bool only = plot->ncrossovers == 1;
+    for (size_t i = 0; i < plot->ncrossovers; i++) {
+        const fracas_size_crossover *of = &plot->crossover[i];
+        const fracas_scales unit = units_of(plot, &of->scales);
+        unsigned look;
+        fracas_series *series;
+        if (*of->reason || !isfinite(unit.rate) || !isfinite(unit.size)) continue;
+        if (!look_of(plot, of->name, only, &look)) continue; /* surfaces have no normalised sizes */
+        /* ZMR has the other dashes */
+        TRY(add_curve(plot, look + (only ? 0 : FRACAS_CHART_COLOURS), panel, &series));
+        for (size_t v = 0; v < LAW_VALUES; v++)
+            series->y[v] = fracas_crossover_at(of, series->x[v] * unit.rate) / unit.size;
+        if (only) FRACAS_PRINT(series->name, "fitted crossover");
+    }
+    return FRACAS_OK;
+}
+
+/* ---- words ---- */
+
+static fracas_number_text replicas_text(const fracas_analysis *analysis)
+{
+    size_t least = SIZE_MAX, most = 0; /* replicas a mark */
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        const size_t n = (size_t)analysis->point[p].size.n;
+        if (!has_mean(analysis, p)) continue;
+        least = n < least ? n : least;
+        most = n > most ? n : most;
+    }
+    return fracas_figure_range(least, most);
+}
+
+static const char *lines_of(const means_plot *plot)
+{
+    return plot->axes->rate || plot->axes->nnames ? "" : " Lines join the marks of a series.";
+}
+
+static void caption_of_size(const means_plot *plot, fracas_chart *chart)
+{
+    const fracas_number_text n = replicas_text(plot->analysis);
+    const bool rate = plot->axes->rate, normalised = is_normalised(plot);
+    if (fracas_analysis_all_surfaces(plot->analysis)) {
+        FRACAS_PRINT(chart->caption,
+                     "Mean over replicas (n = %s) of the mean square root of a fragment\u2019s "
+                     "area, dust included; bars: 95 %% interval of the mean (Student\u2019s t over "
+                     "replicas).%s%s",
+                     n.text, lines_of(plot),
+                     rate ? " Lines: powers of the rate, and a crossover where there is one, "
+                            "fitted to the marks of the same colour. The scaling laws are of bars "
+                            "and rings."
+                          : "");
+        return;
+    }
+    FRACAS_PRINT(
+        chart->caption,
+        "%sMean over replicas (n = %s) of body length / fragments%s%s; bars: 95 %% interval of the "
+        "mean (Student\u2019s t over replicas).%s%s%s",
+        normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over \u03b5\u0307\u2080 "
+                     "= c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. "
+                   : "",
+        n.text,
+        !normalised && fracas_analysis_any_surface(plot->analysis)
+            ? ", of surfaces of the mean square root of their areas"
+            : "",
+        rate && !normalised && fracas_analysis_any_surface(plot->analysis)
+            ? ", with a fitted power of the rate"
+            : "",
+        lines_of(plot),
+        !rate ? ""
+        : normalised || same_scales(plot, ALL_SERIES)
+            ? " Lines: scaling laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
+              "and Chudnovsky (GC); Mott\u2019s where all strengths have one Weibull modulus."
+            : " Lines: ZMR law with the material of the marks of the same colour, where these "
+              "have one.",
+        rate ? " A crossover fitted to the marks, where there is one, is a line in their colour, "
+               "too."
+             : "");
+}
+
+static void caption_of_count(const means_plot *plot, fracas_chart *chart)
+{
+    FRACAS_PRINT(
+        chart->caption,
+        "Mean over replicas (n = %s) of the number of fragments of a body, dust "
+        "included%s; bars: 95 %% interval of the mean (Student\u2019s t over replicas).%s%s",
+        replicas_text(plot->analysis).text,
+        fracas_analysis_much_dust(plot->analysis) ? ", and without it (open marks)" : "",
+        lines_of(plot),
+        plot->axes->rate
+            ? " Lines: powers of the rate fitted to the filled marks of the same colour."
+            : "");
+}
+
+static const struct {
+    const char *file, *suffix, *title, *y;
+} texts[] = {
+    [FRACAS_MEANS_SIZE] = {"size", "", "Mean fragment size", "mean fragment size [%sm]"},
+    [FRACAS_MEANS_NORMALISED] = {"size", "-normalised", "Normalised mean fragment size",
+                                 "mean fragment size s/s\u2080"},
+    [FRACAS_MEANS_COUNT] = {"count", "", "Mean number of fragments", "mean number of fragments"},
+};
+
+/* "count-against-strength-shape-2" */
+static void name_file(const means_plot *plot, size_t drawing, fracas_chart *chart)
+{
+    FRACAS_PRINT(chart->file, "%s-against-%.38s%s", texts[plot->of].file,
+                 plot->axes->rate ? "rate" : plot->axes->key, texts[plot->of].suffix);
+    for (char *dot = chart->file; (dot = strpbrk(dot, "._"));) *dot = '-';
+    if (drawing > 0) fracas_append(chart->file, sizeof chart->file, "-", "%zu", drawing + 1);
+}
+
+static void name_chart(const means_plot *plot, size_t drawing, fracas_chart *chart)
+{
+    char label[128] = "";
+    name_file(plot, drawing, chart);
+    if (plot->axes->drawings.count > 0 && plot->n > 0)
+        fracas_columns_label(plot->analysis->table, &plot->axes->drawings, plot->mark->point, label,
+                             sizeof label);
+    FRACAS_PRINT(chart->title, "%s against %s%s%s", texts[plot->of].title, plot->axes->words,
+                 *label ? ", " : "", label);
+    if (plot->of == FRACAS_MEANS_COUNT) caption_of_count(plot, chart);
+    else caption_of_size(plot, chart);
+}
+
+/* Marks at the ends of the range do not lie on the frame. */
+static void leave_room(const double range[2], fracas_axis *axis)
+{
+    const double part = 0.04, apart = range[1] - range[0];
+    if (axis->nnames || !(apart > 0)) return;
+    axis->show[0] = axis->log      ? range[0] * pow(range[0] / range[1], part)
+                    : range[0] < 0 ? range[0] - part * apart
+                                   : fmax(0, range[0] - part * apart);
+    axis->show[1] = axis->log ? range[1] * pow(range[1] / range[0], part) : range[1] + part * apart;
+}
+
+/* Sizes and counts go with powers of the rate; against anything else an axis is logarithmic if its
+ * values are of several decades. */
+static void set_axes(const means_plot *plot, const char *sign, fracas_chart *chart)
+{
+    fracas_panel *panel = chart->panel;
+    double least = INFINITY, most = 0;
+    const char *y = texts[plot->of].y;
+    for (size_t m = 0; m < plot->n; m++) {
+        const fracas_point_statistics *statistics = statistics_of(plot, m);
+        const double mean = plot->of == FRACAS_MEANS_COUNT ? statistics->count.mean
+                                                           : statistics->size.mean;
+        least = fmin(least, mean);
+        most = fmax(most, mean);
+    }
+    panel->x.log = plot->axes->log;
+    panel->y.log = plot->axes->rate || (least > 0 && most >= 10 * least);
+    panel->x.nnames = plot->axes->nnames;
+    panel->x.name = plot->axes->name;
+    leave_room(plot->x, &panel->x);
+    if (panel->x.log || panel->y.log) chart->offers = FRACAS_AXES_LINEAR;
+    if (is_normalised(plot))
+        FRACAS_PRINT(panel->x.label, "strain rate \u03b5\u0307/\u03b5\u0307\u2080");
+    else FRACAS_PRINT(panel->x.label, "%s", plot->axes->label);
+    if (plot->of == FRACAS_MEANS_SIZE)
+        FRACAS_PRINT(panel->y.label, "mean fragment size [%sm]", sign);
+    else FRACAS_PRINT(panel->y.label, "%s", y);
+}
+
+/* ---- charts ---- */
+
+/* Marks with dust on those without it, where there is much. */
+static fracas_err add_counts(const means_plot *plot, size_t series, fracas_panel *panel)
+{
+    if (fracas_analysis_much_dust(plot->analysis)) {
+        TRY(add_means(plot, offsetof(fracas_point_statistics, count_large), series, panel));
+        fracas_series *large = &panel->series[panel->nseries - 1];
+        large->open = true;
+        fracas_append(large->name, sizeof large->name, ", ", "without dust");
+    }
+    TRY(add_means(plot, offsetof(fracas_point_statistics, count), series, panel));
+    return join_means(plot, panel);
+}
+
+static fracas_err add_series(const means_plot *plot, fracas_panel *panel)
+{
+    bool drawn = false; /* laws for all series */
+    for (size_t s = 0; s < plot->nseries; s++) {
+        if (first_of(plot, s) == SIZE_MAX) continue;
+        if (plot->of == FRACAS_MEANS_COUNT) {
+            TRY(add_counts(plot, s, panel));
+            continue;
+        }
+        TRY(add_laws(plot, s, &drawn, panel));
+        TRY(add_means(plot, offsetof(fracas_point_statistics, size), s, panel));
+        TRY(join_means(plot, panel));
+    }
+    TRY(add_slopes(plot, panel));
+    return add_crossovers(plot, panel);
+}
+
+/* The drawing of this number, by its own marks. */
+static fracas_err draw(const means_plot *whole, size_t drawing, const char *sign,
+                       fracas_chart *chart)
+{
+    means_plot plot = *whole; /* its marks alone are its own */
+    OWNED mean_mark *mark = calloc(whole->n + 1, sizeof *mark);
+    if (!mark) return fracas_no_memory("a figure");
+    plot.mark = mark;
+    plot.n = 0;
+    for (size_t m = 0; m < whole->n; m++)
+        if (whole->mark[m].drawing == drawing) mark[plot.n++] = whole->mark[m];
+    name_chart(&plot, drawing, chart);
+    if (plot.n == 0) return FRACAS_OK;
+    fracas_panel *panel = fracas_chart_add(chart, TALL);
+    set_axes(whole, sign, chart);
+    return add_series(&plot, panel);
+}
+
+void fracas_charts_clear(fracas_charts *charts)
+{
+    for (size_t i = 0; i < charts->count; i++) fracas_chart_clear(&charts->chart[i]);
+    free(charts->chart);
+    *charts = (fracas_charts){0};
+}
+
+fracas_err fracas_figure_means(const fracas_analysis *analysis, fracas_means of,
+                               fracas_charts *charts)
+{
+    const bool normalised = of == FRACAS_MEANS_NORMALISED;
+    fracas_prefix prefix = {1, "", ""};
+    size_t ndrawings = 0;
+    *charts = (fracas_charts){0};
+    if (of != FRACAS_MEANS_COUNT)
+        prefix = fracas_prefix_over(&analysis->point->size.mean, sizeof *analysis->point,
+                                    analysis->table->npoints);
+    FRACAS_CLEARED(means_plot)
+    plot = {.analysis = analysis, .axes = &analysis->axes, .of = of, .size_factor = prefix.factor};
+    if (!*analysis->axes.key || (normalised && !analysis->axes.rate)) return FRACAS_OK;
+    TRY(find_marks(&plot, &ndrawings));
+    TRY(find_fits(&plot));
+    charts->left_out = ndrawings > FRACAS_MOST_DRAWINGS ? ndrawings - FRACAS_MOST_DRAWINGS : 0;
+    ndrawings -= charts->left_out;
+    charts->chart = calloc(ndrawings + 1, sizeof *charts->chart);
+    if (!charts->chart) return fracas_no_memory("a figure");
+    for (size_t d = 0; d < ndrawings; d++) {
+        fracas_chart_init(&charts->chart[charts->count++]);
+        TRY(draw(&plot, d, prefix.sign, &charts->chart[d]));
+    }
+    if (ndrawings > 1) fracas_charts_align(charts->chart, ndrawings);
+    return FRACAS_OK;
+}

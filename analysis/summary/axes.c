@@ -1,0 +1,345 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/summary/study.h"
+
+#include "analysis/data/field.h"
+#include "analysis/data/format.h"
+#include "analysis/data/words.h"
+#include "base/own.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char rate_path[] = "derived.strain_rate";
+static const double decades = 10; /* greatest by least value from which an axis is logarithmic */
+
+void fracas_means_axes_clear(fracas_means_axes *axes)
+{
+    free(axes->value);
+    free(axes->name);
+    fracas_columns_clear(&axes->series);
+    fracas_columns_clear(&axes->drawings);
+    fracas_columns_clear(&axes->all);
+    *axes = (fracas_means_axes){0};
+}
+
+/* ---- errors ---- */
+
+/* True for the column of strain rates that no parameter names, as those of rings by velocities. */
+static bool has_rates(const fracas_point_table *table, size_t column)
+{
+    const size_t imposed = fracas_point_table_find(table, "loading.rate");
+    bool differ = false;
+    if (imposed != SIZE_MAX && fracas_point_table_varies(table, imposed)) return false;
+    if (strcmp(table->column[column].path, "derived.strain_rate") != 0) return false;
+    for (size_t p = 1; p < table->npoints; p++)
+        differ |= table->point[p].value[column].real != table->point[0].value[column].real;
+    return differ;
+}
+
+/* Names of parameters in which the points differ, "a, b", and of the strain rate. */
+static void name_varying(const fracas_point_table *table, char *text, size_t size)
+{
+    text[0] = '\0';
+    for (size_t c = 0; c < table->ncolumns; c++)
+        if (fracas_point_table_varies(table, c) || has_rates(table, c))
+            fracas_append(text, size, ", ", "%s", table->column[c].path);
+    if (!*text) snprintf(text, size, "nothing");
+}
+
+static fracas_err unknown(const fracas_analysis *analysis, const char *what, const char *key,
+                          bool statistics)
+{
+    char varying[512];
+    name_varying(analysis->table, varying, sizeof varying);
+    return fracas_fail(
+        FRACAS_USAGE, "%s `%s`: no parameter of the points%s has this name; they differ in %s",
+        what, key, statistics ? " and no statistic (summary.json has these)" : "", varying);
+}
+
+static fracas_err alike(const fracas_analysis *analysis, const char *what, const char *key)
+{
+    char varying[512];
+    name_varying(analysis->table, varying, sizeof varying);
+    return fracas_fail(FRACAS_USAGE, "%s `%s`: it is the same at all points; they differ in %s",
+                       what, key, varying);
+}
+
+/* ---- the abscissa ---- */
+
+static bool is_number(const fracas_value *value)
+{
+    return isfinite(value->real);
+}
+
+/* Whether two points differ in the column, derived or not. */
+static bool varies(const fracas_point_table *table, size_t column)
+{
+    for (size_t p = 1; p < table->npoints; p++)
+        if (!fracas_value_same(&table->point[0].value[column], &table->point[p].value[column]))
+            return true;
+    return false;
+}
+
+/* The rates of the points, in what they are above 0: the abscissa of scaling laws. */
+static void take_rate(const fracas_analysis *analysis, fracas_means_axes *axes)
+{
+    axes->rate = axes->log = true;
+    FRACAS_PRINT(axes->key, "%s", rate_path);
+    FRACAS_PRINT(axes->words, "strain rate");
+    FRACAS_PRINT(axes->label, "strain rate [1/s]");
+    for (size_t p = 0; p < analysis->table->npoints; p++)
+        axes->value[p] = analysis->point[p].rate > 0 ? analysis->point[p].rate : NAN;
+}
+
+/* The unit of the axis, and whether it is logarithmic, from SI values. */
+static void scale(const char *unit, size_t npoints, fracas_means_axes *axes)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (size_t p = 0; p < npoints; p++) {
+        least = fmin(least, axes->value[p]);
+        most = fmax(most, axes->value[p]);
+    }
+    const double ends[] = {least, most};
+    const fracas_prefix prefix = fracas_prefix_in(unit, ends, 2);
+    const bool pure = !*unit || !strcmp(unit, "1");
+    for (size_t p = 0; p < npoints; p++) axes->value[p] *= prefix.factor;
+    axes->log = least > 0 && most >= decades * least;
+    if (pure) FRACAS_PRINT(axes->label, "%s", axes->words);
+    else FRACAS_PRINT(axes->label, "%.64s [%s%.16s]", axes->words, prefix.sign, unit);
+}
+
+/* Texts become their numbers in the order in which they come first. */
+static fracas_err take_texts(const fracas_analysis *analysis, size_t column,
+                             fracas_means_axes *axes)
+{
+    const fracas_point_table *table = analysis->table;
+    axes->name = calloc(table->npoints + 1, sizeof *axes->name);
+    if (!axes->name) return fracas_no_memory("the axes of a figure");
+    for (size_t p = 0; p < table->npoints; p++) {
+        const char *text = table->point[p].value[column].text;
+        size_t n = 0;
+        if (!*text) continue;
+        while (n < axes->nnames && strcmp(axes->name[n], text) != 0) n++;
+        if (n == axes->nnames) axes->name[axes->nnames++] = text;
+        axes->value[p] = (double)n + 1;
+    }
+    FRACAS_PRINT(axes->label, "%s", axes->words);
+    return FRACAS_OK;
+}
+
+static fracas_err take_column(const fracas_analysis *analysis, size_t column,
+                              fracas_means_axes *axes)
+{
+    const fracas_point_table *table = analysis->table;
+    FRACAS_PRINT(axes->key, "%s", table->column[column].path);
+    FRACAS_PRINT(axes->words, "%s", fracas_column_words(table, column));
+    if (table->column[column].text) return take_texts(analysis, column, axes);
+    for (size_t p = 0; p < table->npoints; p++) axes->value[p] = table->point[p].value[column].real;
+    scale(table->column[column].unit, table->npoints, axes);
+    return FRACAS_OK;
+}
+
+typedef struct {
+    const char *key;
+    const fracas_analysis *analysis;
+    fracas_means_axes *axes;
+    bool found;
+} statistic;
+
+/* "number of fragments", of "number of fragments (...); ...". */
+static void take_words(const char *doc, fracas_means_axes *axes)
+{
+    const size_t length = strcspn(doc, "(,;");
+    FRACAS_PRINT(axes->words, "%.*s", (int)length, doc);
+    for (char *end = axes->words + strlen(axes->words); end > axes->words && end[-1] == ' ';)
+        *--end = '\0';
+}
+
+static void take_if_named(void *context, const fracas_field *leaf)
+{
+    statistic *wanted = context;
+    const bool number = leaf->type == FRACAS_FIELD_NUMBER,
+               whole = leaf->type == FRACAS_FIELD_INTEGER;
+    if (wanted->found || strcmp(leaf->key, wanted->key) != 0 || !(number || whole)) return;
+    const size_t npoints = wanted->analysis->table->npoints;
+    wanted->found = true;
+    for (size_t p = 0; p < npoints; p++) {
+        const char *at = (const char *)&wanted->analysis->point[p] + leaf->offset;
+        int64_t integer;
+        if (number) memcpy(&wanted->axes->value[p], at, sizeof(double));
+        else memcpy(&integer, at, sizeof integer);
+        if (whole) wanted->axes->value[p] = (double)integer;
+    }
+    FRACAS_PRINT(wanted->axes->key, "%s", leaf->key);
+    take_words(leaf->doc, wanted->axes);
+    scale(leaf->unit, npoints, wanted->axes);
+}
+
+static bool equals_rate(const fracas_analysis *analysis, size_t column)
+{
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        const double value = analysis->table->point[p].value[column].real,
+                     rate = analysis->point[p].rate;
+        if (value != rate && !(isnan(value) && isnan(rate))) return false;
+    }
+    return true;
+}
+
+static fracas_err take_key(const fracas_analysis *analysis, const char *key,
+                           fracas_means_axes *axes)
+{
+    const size_t column = fracas_point_table_find(analysis->table, key);
+    if (column == SIZE_MAX) {
+        statistic wanted = {key, analysis, axes, false};
+        fracas_fields_walk(&fracas_statistics, ".", take_if_named, &wanted);
+        return wanted.found ? FRACAS_OK : unknown(analysis, "x of the figures,", key, true);
+    }
+    if (!varies(analysis->table, column)) return alike(analysis, "x of the figures,", key);
+    if (!equals_rate(analysis, column)) return take_column(analysis, column, axes);
+    take_rate(analysis, axes);
+    return FRACAS_OK;
+}
+
+/* Points with two rates above 0, or one at least. */
+static size_t count_rates(const fracas_analysis *analysis)
+{
+    double first = NAN;
+    for (size_t p = 0; p < analysis->table->npoints; p++) {
+        const double rate = analysis->point[p].rate;
+        if (!(rate > 0) || !isfinite(rate)) continue;
+        if (isnan(first)) first = rate;
+        else if (rate != first) return 2;
+    }
+    return isnan(first) ? 0 : 1;
+}
+
+/* The first column in the names of points, SIZE_MAX if there is none. */
+static size_t first_shown(const fracas_analysis *analysis, bool text)
+{
+    const fracas_point_table *table = analysis->table;
+    for (size_t i = 0; i < analysis->shown.count; i++) {
+        const size_t column = analysis->shown.column[i];
+        size_t numbers = 0;
+        if (table->column[column].text != text || !varies(table, column)) continue;
+        for (size_t p = 0; p < table->npoints && !text; p++)
+            numbers += is_number(&table->point[p].value[column]);
+        if (text || numbers > 1) return column;
+    }
+    return SIZE_MAX;
+}
+
+static fracas_err choose(const fracas_analysis *analysis, fracas_means_axes *axes)
+{
+    const size_t rates = count_rates(analysis), number = first_shown(analysis, false),
+                 text = first_shown(analysis, true);
+    if (rates > 1 || (rates > 0 && number == SIZE_MAX && text == SIZE_MAX))
+        take_rate(analysis, axes);
+    else if (number != SIZE_MAX) return take_column(analysis, number, axes);
+    else if (text != SIZE_MAX) return take_column(analysis, text, axes);
+    return FRACAS_OK;
+}
+
+/* ---- series and drawings ---- */
+
+/* True if points of one abscissa, alike in the columns, differ in this one. */
+static bool parts(const fracas_analysis *analysis, const fracas_means_axes *axes, size_t column,
+                  const fracas_columns *columns)
+{
+    const fracas_point_table *table = analysis->table;
+    for (size_t p = 0; p < table->npoints; p++)
+        for (size_t q = 0; q < p; q++)
+            if (axes->value[p] == axes->value[q] &&
+                !fracas_value_same(&table->point[p].value[column],
+                                   &table->point[q].value[column]) &&
+                fracas_columns_same(table, columns, p, q))
+                return true;
+    return false;
+}
+
+static fracas_err with_room(const fracas_analysis *analysis, fracas_columns *columns)
+{
+    *columns = (fracas_columns){
+        .column = malloc((analysis->table->ncolumns + 1) * sizeof *columns->column)};
+    return columns->column ? FRACAS_OK : fracas_no_memory("the series of a figure");
+}
+
+/* All columns that make series or drawings; `first`, if it is one, comes first. */
+static fracas_err find_columns(const fracas_analysis *analysis, size_t first,
+                               fracas_means_axes *axes)
+{
+    if (axes->rate && first == SIZE_MAX) {
+        fracas_columns_clear(&axes->all);
+        return fracas_columns_without_rate(analysis->table, &analysis->shown, &axes->all);
+    }
+    TRY(with_room(analysis, &axes->all));
+    if (first != SIZE_MAX) axes->all.column[axes->all.count++] = first;
+    for (size_t i = 0; i < analysis->shown.count; i++) {
+        const size_t column = analysis->shown.column[i];
+        if (column != first && parts(analysis, axes, column, &axes->all))
+            axes->all.column[axes->all.count++] = column;
+    }
+    return FRACAS_OK;
+}
+
+static size_t classes_of(const fracas_analysis *analysis, const fracas_columns *columns,
+                         size_t *class)
+{
+    return fracas_columns_classes(analysis->table, columns, class);
+}
+
+/* The first of all columns with few enough values to be series; SIZE_MAX: none. */
+static size_t few_values(const fracas_analysis *analysis, const fracas_means_axes *axes,
+                         size_t *class)
+{
+    for (size_t i = 0; i < axes->all.count; i++) {
+        const fracas_columns one = {1, &axes->all.column[i]};
+        const size_t n = classes_of(analysis, &one, class);
+        if (n > 1 && n <= FRACAS_MEANS_SERIES) return axes->all.column[i];
+    }
+    return SIZE_MAX;
+}
+
+/* Parts the columns into those of series, `by` alone if it is one, and those of drawings. */
+static fracas_err part_columns(const fracas_analysis *analysis, size_t by, fracas_means_axes *axes)
+{
+    OWNED size_t *class = calloc(analysis->table->npoints + 1, sizeof *class);
+    if (!class) return fracas_no_memory("the series of a figure");
+    if (by == SIZE_MAX && classes_of(analysis, &axes->all, class) > FRACAS_MEANS_SERIES)
+        by = few_values(analysis, axes, class);
+    TRY(with_room(analysis, &axes->series));
+    TRY(with_room(analysis, &axes->drawings));
+    for (size_t i = 0; i < axes->all.count; i++) {
+        const size_t column = axes->all.column[i];
+        fracas_columns *to = by == SIZE_MAX || column == by ? &axes->series : &axes->drawings;
+        to->column[to->count++] = column;
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err find_series(const fracas_analysis *analysis, const char *key, size_t *column)
+{
+    *column = SIZE_MAX;
+    if (!key) return FRACAS_OK;
+    *column = fracas_point_table_find(analysis->table, key);
+    if (*column == SIZE_MAX) return unknown(analysis, "series of the figures,", key, false);
+    if (!varies(analysis->table, *column)) return alike(analysis, "series of the figures,", key);
+    return FRACAS_OK;
+}
+
+fracas_err fracas_means_axes_create(const fracas_analysis *analysis, const char *x,
+                                    const char *series, fracas_means_axes *axes)
+{
+    size_t by;
+    const size_t npoints = analysis->table->npoints;
+    *axes = (fracas_means_axes){.value = calloc(npoints + 1, sizeof *axes->value)};
+    if (!axes->value) return fracas_no_memory("the axes of a figure");
+    for (size_t p = 0; p < npoints; p++) axes->value[p] = NAN;
+    TRY(find_series(analysis, series, &by));
+    if (x && series && !strcmp(x, series))
+        return fracas_fail(FRACAS_USAGE, "`%s` is both x and series of the figures; give another",
+                           x);
+    TRY(x ? take_key(analysis, x, axes) : choose(analysis, axes));
+    TRY(find_columns(analysis, by, axes));
+    return part_columns(analysis, by, axes);
+}

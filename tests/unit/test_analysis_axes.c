@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Axes of the figures of means: abscissa, series, small multiples; names of parameters in words. */
+#include "analysis/data/words.h"
+#include "analysis/report/figures.h"
+#include "analysis/summary/study.h"
+#include "campaigns/file/catalog.h"
+#include "tests/support/test.h"
+
+enum { RATES = 2, MODULI = 8, YOUNGS = 2, NPOINTS = RATES * MODULI * YOUNGS, NCOLUMNS = 6 };
+
+static const fracas_column column[NCOLUMNS] = {
+    {"derived.strain_rate", "1/s", "", false}, {"derived.strength_modulus", "1", "", false},
+    {"geometry.thickness", "m", "", false},    {"loading.rate", "1/s", "", false},
+    {"material.young", "Pa", "", false},       {"strength.shape", "1", "", false}};
+
+typedef struct {
+    fracas_value value[NPOINTS][NCOLUMNS];
+    fracas_point_row row[NPOINTS];
+    fracas_point_table table;
+    fracas_point_statistics point[NPOINTS];
+    fracas_analysis analysis;
+} made;
+
+/* Point p of rates by moduli by Young's moduli, the last fastest; its count is 10 + p. */
+static void make(size_t rates, size_t moduli, size_t youngs, made *of)
+{
+    static const double rate[RATES] = {1e3, 1e4}, young[YOUNGS] = {70e9, 370e9};
+    const size_t npoints = rates * moduli * youngs;
+    *of = (made){.table = {NCOLUMNS, column, npoints, of->row}};
+    for (size_t p = 0; p < npoints; p++) {
+        const double m = 3 * (double)(1 + p / youngs % moduli), r = rate[p / (youngs * moduli)],
+                     real[NCOLUMNS] = {r, m, 1e-4, r, young[p % youngs], m};
+        for (size_t c = 0; c < NCOLUMNS; c++) of->value[p][c] = (fracas_value){real[c], ""};
+        of->row[p] = (fracas_point_row){.value = of->value[p]};
+        of->point[p].rate = r;
+        of->point[p].count = (fracas_estimate){4, 10 + (double)p, 1, 2};
+        of->point[p].size = (fracas_estimate){4, 1e-3 / (10 + (double)p), 1e-5, 1e-5};
+        of->point[p].scales = (fracas_scales){NAN, NAN, NAN, NAN};
+    }
+    of->analysis = (fracas_analysis){.table = &of->table, .point = of->point};
+    OK(fracas_columns_create(&of->table, &of->analysis.shown));
+}
+
+static void clear(made *of)
+{
+    fracas_columns_clear(&of->analysis.shown);
+    fracas_means_axes_clear(&of->analysis.axes);
+}
+
+static void assert_axes(made *of, const char *x, const char *series, const char *expected)
+{
+    char text[256];
+    OK(fracas_analysis_axes(&of->analysis, x, series));
+    const fracas_means_axes *axes = &of->analysis.axes;
+    FRACAS_PRINT(text, "%s", axes->key);
+    for (size_t i = 0; i < axes->series.count; i++)
+        fracas_append(text, sizeof text, i ? "," : " by ", "%s",
+                      column[axes->series.column[i]].path);
+    for (size_t i = 0; i < axes->drawings.count; i++)
+        fracas_append(text, sizeof text, i ? "," : " in ", "%s",
+                      column[axes->drawings.column[i]].path);
+    assert_string_equal(text, expected);
+}
+
+static void axes_are_chosen_by_what_varies(void **state)
+{
+    static made of;
+    make(2, 3, 1, &of);
+    assert_axes(&of, NULL, NULL, "derived.strain_rate by strength.shape");
+    assert_true(of.analysis.axes.rate && of.analysis.axes.log);
+    assert_axes(&of, "strength.shape", NULL, "strength.shape by loading.rate");
+    assert_string_equal(of.analysis.axes.label, "Weibull modulus");
+    assert_true(!of.analysis.axes.rate && !of.analysis.axes.log && of.analysis.axes.value[5] == 9);
+    assert_axes(&of, "loading.rate", "strength.shape", "derived.strain_rate by strength.shape");
+    assert_axes(&of, "count.mean", NULL, "count.mean");
+    assert_string_equal(of.analysis.axes.label, "mean over replicas of the number of fragments");
+    assert_true(of.analysis.axes.value[5] == 15);
+    assert_axes(&of, "size.mean", "loading.rate", "size.mean by loading.rate");
+    assert_true(strstr(of.analysis.axes.label, "[\u00b5m]") != NULL);
+    assert_true(fabs(of.analysis.axes.value[0] - 100) < 1e-9); /* um: 1e-3/10 m, two roundings */
+    clear(&of);
+    make(1, 3, 1, &of); /* no rate varies */
+    assert_axes(&of, NULL, NULL, "strength.shape");
+    clear(&of);
+    make(1, 1, 2, &of);
+    assert_axes(&of, NULL, NULL, "material.young");
+    assert_string_equal(of.analysis.axes.label, "Young's modulus [GPa]");
+    assert_true(of.analysis.axes.value[1] == 370);
+    clear(&of);
+    make(1, 1, 1, &of); /* one point, and its rate */
+    assert_axes(&of, NULL, NULL, "derived.strain_rate");
+    clear(&of);
+}
+
+static void wrong_keys_name_those_that_vary(void **state)
+{
+    static made of;
+    make(2, 3, 1, &of);
+    fracas_analysis *analysis = &of.analysis;
+    FAILS(fracas_analysis_axes(analysis, "strength.shap", NULL), FRACAS_USAGE,
+          "`strength.shap`: no parameter of the points and no statistic");
+    FAILS(fracas_analysis_axes(analysis, "geometry.thickness", NULL), FRACAS_USAGE,
+          "x of the figures, `geometry.thickness`: it is the same at all points; they differ in "
+          "loading.rate, strength.shape");
+    FAILS(fracas_analysis_axes(analysis, NULL, "size.mean"), FRACAS_USAGE,
+          "series of the figures, `size.mean`: no parameter of the points has this name");
+    FAILS(fracas_analysis_axes(analysis, "strength.shape", "strength.shape"), FRACAS_USAGE,
+          "both x and series");
+    clear(&of);
+}
+
+/* Points of two rates and two Young's moduli against the Weibull modulus: two series in each of two
+ * drawings with the same axes. Counts grow with the number of a point. */
+static void other_parameters_make_small_multiples(void **state)
+{
+    static made of;
+    FRACAS_CLEARED(fracas_charts) charts = {0};
+    make(2, 3, 2, &of);
+    assert_axes(&of, "strength.shape", "loading.rate",
+                "strength.shape by loading.rate in material.young");
+    OK(fracas_figure_means(&of.analysis, FRACAS_MEANS_COUNT, &charts));
+    assert_true(charts.count == 2 && charts.left_out == 0);
+    assert_string_equal(charts.chart[0].title, "Mean number of fragments against Weibull modulus, "
+                                               "Young's modulus 70 GPa");
+    assert_string_equal(charts.chart[0].file, "count-against-strength-shape");
+    assert_string_equal(charts.chart[1].file, "count-against-strength-shape-2");
+    for (size_t d = 0; d < 2; d++) {
+        const fracas_panel *panel = charts.chart[d].panel;
+        assert_int_equal(panel->nseries, 4); /* marks and the line that joins them */
+        assert_true(fabs(panel->x.show[0] - 2.76) < 1e-12 && fabs(panel->x.show[1] - 9.24) < 1e-12);
+        assert_true(panel->y.show[0] == 8 && panel->y.show[1] == 23); /* 10 - 2 to 21 + 2 */
+        for (size_t s = 0; s < 2; s++) {
+            const fracas_series *marks = &panel->series[2 * s], *line = marks + 1;
+            assert_true(marks->kind == FRACAS_MARKS && line->kind == FRACAS_CURVE && !*line->name);
+            assert_string_equal(marks->name, s ? "rate 1e4 1/s" : "rate 1e3 1/s");
+            assert_true(marks->n == 3 && line->n == 3 && marks->look == s && line->look == s);
+            for (size_t i = 0; i < 3; i++) {
+                const double count = (double)(10 + 6 * s + 2 * i + d);
+                assert_true(marks->x[i] == 3 * (double)(1 + i) && marks->y[i] == count);
+                assert_true(marks->low[i] == count - 2 && marks->high[i] == count + 2);
+                assert_true(line->x[i] == marks->x[i] && line->y[i] == marks->y[i]);
+            }
+        }
+    }
+    clear(&of);
+}
+
+/* Eight moduli against the rate: six series in one drawing, two in the next, each in its own
+ * colour. */
+static void six_series_are_the_most(void **state)
+{
+    static made of;
+    FRACAS_CLEARED(fracas_charts) charts = {0};
+    make(2, MODULI, 1, &of);
+    assert_axes(&of, NULL, NULL, "derived.strain_rate by strength.shape");
+    OK(fracas_figure_means(&of.analysis, FRACAS_MEANS_SIZE, &charts));
+    assert_int_equal(charts.count, 2);
+    for (size_t d = 0; d < 2; d++) {
+        size_t marks = 0;
+        for (size_t s = 0; s < charts.chart[d].panel->nseries; s++) {
+            const fracas_series *series = &charts.chart[d].panel->series[s];
+            char name[64];
+            if (series->kind != FRACAS_MARKS) continue;
+            FRACAS_PRINT(name, "Weibull modulus %zu", 3 * (1 + 6 * d + marks));
+            assert_string_equal(series->name, name);
+            assert_true(series->look == 6 * d + marks && series->n == 2);
+            marks++;
+        }
+        assert_int_equal(marks, d ? 2 : 6);
+    }
+    clear(&of);
+    make(2, MODULI, 2, &of); /* by the parameter with few values; the other one makes drawings */
+    assert_axes(&of, NULL, NULL, "derived.strain_rate by material.young in strength.shape");
+    clear(&of);
+}
+
+static void every_parameter_has_words(void **state)
+{
+    OWN(fracas_campaign_memory) memory = fracas_memory_create();
+    const fracas_catalog *catalog;
+    OK(fracas_catalog_make(memory, &catalog));
+    for (size_t i = 0; i < catalog->nleaves; i++) {
+        const char *path = catalog->leaf[i].path;
+        const bool run = !catalog->leaf[i].section->table->hashed;
+        if (!run && !strcmp(fracas_words_of(path), path) && strcmp(path, "model") != 0)
+            fail_msg("%s has no line in analysis/data/words.list.h", path);
+    }
+    static made of;
+    make(1, 1, 1, &of);
+    assert_string_equal(fracas_column_words(&of.table, 5), "Weibull modulus");
+    of.value[0][1].real = NAN; /* the shape of another distribution */
+    assert_string_equal(fracas_column_words(&of.table, 5), "shape of the strengths");
+    clear(&of);
+}
+
+TESTS(axes_are_chosen_by_what_varies, wrong_keys_name_those_that_vary,
+      other_parameters_make_small_multiples, six_series_are_the_most, every_parameter_has_words)
