@@ -39,6 +39,13 @@ static bool is_kind_known(const fracas_file *file, const fracas_draft *draft, vi
            (section == model || is_kind_known(file, draft, of, model));
 }
 
+static bool are_kinds_known(const fracas_file *file, const fracas_draft *draft, view of,
+                            const fracas_file_section *section)
+{
+    return is_kind_known(file, draft, of, section) &&
+           is_kind_known(file, draft, of, file->catalog->section);
+}
+
 /* The model, and the setting with its name (NULL: default). */
 static const fracas_kind *model_of(const fracas_file *file, const fracas_draft *draft, view of,
                                    const fracas_setting **chosen)
@@ -451,9 +458,9 @@ fracas_err fracas_draft_resolve(const fracas_file *file, const fracas_draft *dra
     const fracas_setting *by;
     const size_t before = fracas_file_noted(file);
     resolving r = {.file = file, .draft = draft, .table = section->table};
-    if (!is_kind_known(file, draft, POINT, section) ||
-        !is_kind_known(file, draft, POINT, catalog->section))
-        return FRACAS_OK;
+    if (!are_kinds_known(file, draft, POINT, section) ||
+        !are_kinds_known(file, draft, BASE, section))
+        return FRACAS_OK; /* values of the base hold at the point if its kinds do */
     r.model = model_of(file, draft, POINT, &by);
     r.kind = kind_of(file, draft, POINT, section, &r.chosen);
     TRY(check_partner(file, draft, POINT, r.chosen));

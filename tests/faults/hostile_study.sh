@@ -133,29 +133,30 @@ expect 2 "$fracas" compare '' sound
 
 # A study moved away under its run: nothing is said to be kept.
 campaign longer.yaml 60 '3e4 1/s, 1e5 1/s'
+hold
 start longer.yaml --study moved --jobs 2 --segment-size 0.01
 wait_segments moved 2
 mv moved gone
-status=0
-wait "$session" || status=$?
-session=
+finish
 [ $status -eq 6 ] || { cat background; fail "status $status of a run without its study"; }
 grep -q 'moved, or a part of it, was moved or removed' background || { cat background; fail "it is not said that the study is gone"; }
 grep -q 'done and kept' background && fail "something is said to be kept"
 
 # A study is not damaged because a run computes it.
+hold
 start longer.yaml --study busy --jobs 2 --segment-size 0.01
 wait_segments busy 2
-looks=0
-while [ -n "$(processes)" ]; do
+look()
+{
     status=0
     "$fracas" verify --full busy > said 2>&1 || status=$?
     [ $status -eq 0 ] || [ $status -eq 4 ] || { cat said; fail "status $status of verify beside a run"; }
-    looks=$((looks + 1))
-done
-wait "$session"
-session=
-[ $looks -gt 0 ] || fail "the run was over before it was looked at"
+}
+look
+release
+while [ -n "$(processes)" ]; do look; done
+finish
+[ $status -eq 0 ] || { cat background; fail "status $status of a run that was looked at"; }
 expect 0 "$fracas" verify --full busy
 
 # Reading commands change no byte and no name of a study, also beside the log of a killed run.

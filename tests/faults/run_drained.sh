@@ -2,20 +2,10 @@
 # locked. A second Ctrl-C stops at once.
 . tests/support/campaigns.sh
 
-# interrupted STUDY: the run in the background ended with status 3 and said how to resume. False, with everything removed,
-# where a busy machine kept this script waiting until the run was over: once more then, twenty times at most.
-tries=0
+# interrupted STUDY: the run in the background ends with status 3 and says how to resume.
 interrupted()
 {
-    status=0
-    wait "$session" || status=$?
-    session=
-    if [ $status -eq 0 ]; then
-        tries=$((tries + 1))
-        [ $tries -lt 20 ] || fail "$1 was over before the signal, $tries times"
-        rm -rf "$1"
-        return 1
-    fi
+    drain
     [ $status -eq 3 ] || { cat background >&2; fail "status $status instead of 3"; }
     grep -q 'same command goes on' background || fail "it did not say how to resume"
     [ ! -e "$1/study.h5" ] || fail "$1 is complete, though it was interrupted"
@@ -24,52 +14,48 @@ interrupted()
 campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
 for signal in INT TERM; do
-    while :; do
-        start small.yaml --study drained --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
-        wait_segments drained $(($(segments drained) + 2))
-        second=0
-        "$fracas" run small.yaml --study drained > said 2>&1 || second=$?
-        "$fracas" status drained > state
-        kill -$signal "$session" 2>/dev/null || true
-        ! interrupted drained || break
-    done
+    hold
+    start small.yaml --study drained --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+    wait_segments drained $(($(segments drained) + 2))
+    second=0
+    "$fracas" run small.yaml --study drained > said 2>&1 || second=$?
+    "$fracas" status drained > state
+    kill -$signal "$session"
+    interrupted drained
+    grep -q '^draining' background || fail "it did not say that it drains"
     [ $second -eq 4 ] || { cat said >&2; fail "status $second of a second run"; }
     said 'pid [0-9]'
     grep -q 'being computed' state || { cat state >&2; fail "status does not know that it runs"; }
-    grep -q '^draining' background || fail "it did not say that it drains"
     "$fracas" status drained > state
     grep -q 'interrupted' state || { cat state >&2; fail "status does not know that it was interrupted"; }
 done
 expect 0 "$fracas" run small.yaml --study drained
 same undisturbed drained
 
-while :; do
-    start small.yaml --study stopped --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
-    wait_segments stopped 2
-    kill -INT "$session" 2>/dev/null || true
-    kill -TERM "$session" 2>/dev/null || true
-    ! interrupted stopped || break
-done
+hold
+start small.yaml --study stopped --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+wait_segments stopped 2
+kill -INT "$session"
+kill -TERM "$session" 2>/dev/null || true
+interrupted stopped
 expect 0 "$fracas" run small.yaml --study stopped
 same undisturbed stopped
 
 # The starter gets it alone, and passes it on.
-while :; do
-    start small.yaml --study passed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
-    wait_segments passed 2
-    kill -TERM "$(named fracas-starter)" 2>/dev/null || true
-    ! interrupted passed || break
-done
+hold
+start small.yaml --study passed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+wait_segments passed 2
+kill -TERM "$(named fracas-starter)"
+interrupted passed
 expect 0 "$fracas" run small.yaml --study passed
 same undisturbed passed
 
 # Drained by the user's own mpirun.
-while :; do
-    launch -n 2 "$fracas" run small.yaml --study direct --lanes 1 --lease-time 0 --segment-size 1e-6 > background 2>&1 &
-    session=$!
-    wait_segments direct 2
-    kill -USR1 "$session" 2>/dev/null || true
-    ! interrupted direct || break
-done
+hold
+launch -n 2 "$faulty" run small.yaml --study direct --lanes 1 --lease-time 0 --segment-size 1e-6 > background 2>&1 &
+session=$!
+wait_segments direct 2
+kill -USR1 "$session"
+interrupted direct
 expect 0 "$fracas" run small.yaml --study direct
 same undisturbed direct

@@ -25,15 +25,14 @@ within 3 3 env FRACAS_MPIRUN=1 PATH="$PWD/silent:$PATH" "$fracas" run small.yaml
 said 'walltime is over.*same command goes on'
 
 # Compute servers that stand still: the run cannot drain, and is killed.
-setsid "$fracas" run small.yaml --study still --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 --walltime 8s > background 2>&1 &
-session=$!
+hold
+start small.yaml --study still --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 --walltime 8s
 began=$(date +%s)
 wait_segments still 2
 servers="$(named fracas-supervis) $(named fracas-server) $(named fracas-lease)"
 [ -n "$(named fracas-server)" ] || fail "there are no servers"
 kill -STOP $servers 2>/dev/null || true # processes of leases come and go
-status=0
-wait "$session" || status=$?
+finish
 took=$(($(date +%s) - began))
 [ $status -eq 3 ] || { cat background >&2; fail "status $status of a run that stood still"; }
 [ $took -le 8 ] || [ $took -le $((8 + $(busy 2))) ] || fail "$took s with a walltime of 8 s"

@@ -6,21 +6,17 @@
 campaign small.yaml 30 '3e4 1/s, 1e5 1/s'
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
 left=0
-kill=1 tries=0
+kill=1
 while [ $kill -le 3 ]; do # of 60 segments, one for each realization
+    hold
     start small.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     wait_segments killed $((left + $(random 1 6)))
     sleep "0.0$(random 10 49)"
     running=$(processes | wc -l)
     kill_session
     left=$(segments killed)
-    if [ "$left" -ge 60 ] || [ -e killed/study.h5 ]; then # a busy machine kept this script waiting: all over again
-        tries=$((tries + 1))
-        [ $tries -lt 20 ] || fail "not killed in the middle, $tries times"
-        rm -rf killed
-        kill=1 left=0
-        continue
-    fi
+    release
+    [ "$left" -lt 60 ] && [ ! -e killed/study.h5 ] || fail "it was over before kill $kill"
     echo "kill $kill at $left segments of 60"
     [ "$left" -ge 1 ] || fail "killed before the first segment"
     [ "$running" -ge 6 ] || fail "parent, starter, 2 ranks and 2 servers should have run, not $running processes"
@@ -31,14 +27,11 @@ expect 0 "$fracas" run small.yaml --study killed --jobs 1 --lease-time 0 --segme
 same undisturbed killed
 
 # The parent alone: the others must not outlive it.
+hold
 start small.yaml --study orphaned --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments orphaned 2
-kill -9 "$session" 2>/dev/null || true # it may have ended by itself on a busy machine
-tries=0
-while [ -n "$(processes)" ]; do
-    tries=$((tries + 1))
-    [ $tries -lt 6000 ] || fail "processes outlive the parent: $(processes)"
-    sleep 0.01
-done
+kill -9 "$session"
+wait_gone 'the kill of the parent'
+release
 expect 0 "$fracas" run small.yaml --study orphaned
 same undisturbed orphaned

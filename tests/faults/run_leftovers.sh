@@ -29,6 +29,7 @@ nothing_left()
 begin()
 {
     rm -rf study
+    hold
     start small.yaml --study study --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     wait_segments study 1
 }
@@ -37,12 +38,8 @@ begin()
 end()
 {
     [ $# -lt 2 ] || kill "-$2" "$session" 2>/dev/null || true
-    polls=0
-    while [ -n "$(processes)" ]; do
-        polls=$((polls + 1))
-        [ $polls -lt 6000 ] || fail "after $1, processes remain"
-        sleep 0.01
-    done
+    release
+    wait_gone "$1"
     wait "$session" 2>/dev/null || true
     session=
     nothing_left "$1"
@@ -60,6 +57,7 @@ kill -9 $(ranks)
 end "the kill of all ranks" TERM
 begin
 kill_session
+release
 nothing_left "the kill of everything"
 
 # Before the ranks have started: within the first moments, which the number of files tells.

@@ -8,11 +8,11 @@ expect 0 "$fracas" status undisturbed
 ! grep -q '^lock' said || fail "a study that is free shows a lock"
 
 # Another host, which is killed: refused with its name until --force; nothing is changed before.
-export FRACAS_TEST_HOST=node7
-program=$faulty # which takes this for the name of its host
+export FRACAS_TEST_HOST=node7 # which $faulty takes for the name of its host
+hold
 start small.yaml --study study --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments study 3
-unset FRACAS_TEST_HOST program
+unset FRACAS_TEST_HOST
 expect 4 "$fracas" run small.yaml --study study
 said 'another run uses this study: host node7, pid [0-9]*, since 20'
 expect 4 "$fracas" run small.yaml --study study --force
@@ -20,6 +20,7 @@ said 'wait for it or stop it'
 expect 0 "$fracas" status study
 said '^lock  *held: host node7'
 kill_session
+release
 cp study/lock before
 expect 4 "$fracas" run small.yaml --study study
 said 'host node7, pid .*look on that host.*--force'
@@ -35,9 +36,11 @@ sqlite3 study/index.sqlite 'SELECT kind, text FROM event' > said
 said 'took over|the lock.*host node7'
 
 # This host: taken over without a word.
+hold
 start small.yaml --study own --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments own 3
 kill_session
+release
 expect 0 "$fracas" status own
 said '^lock  *left by a run that died'
 expect 0 "$fracas" run small.yaml --study own --jobs 2
@@ -48,10 +51,11 @@ said '^took over$'
 
 # A job of Slurm that was requeued to another node.
 export FRACAS_TEST_HOST=node8 SLURM_JOB_ID=77
-program=$faulty
+hold
 start small.yaml --study job --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments job 3
 kill_session
+release
 export FRACAS_TEST_HOST=node9
 expect 4 "$faulty" run small.yaml --study job --jobs 2
 SLURM_RESTART_COUNT=1

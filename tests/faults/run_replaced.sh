@@ -13,24 +13,18 @@ events()
     sqlite3 "$1/index.sqlite" "SELECT count(*) FROM event WHERE kind = '$2'"
 }
 
+is_named() { [ -n "$(named "$1")" ]; }
+
 # killed STUDY ISOLATION NAME [JOBS]: kill -9 of the first process of that name while there is much to do.
 killed()
 {
-    tries=0
-    while :; do
-        start long.yaml --study "$1" --jobs "${4:-2}" --isolation "$2" --lanes 1 --lease-time 0 --segment-size 0.1 # three records
-        wait_segments "$1" 1
-        servers=$(named fracas-server)
-        victim=$(named "$3" | head -n 1)
-        if [ -n "$victim" ] && kill -9 "$victim" 2>/dev/null && [ "$(segments "$1")" -le 4 ]; then break; fi
-        kill_session # a busy machine kept this script waiting, or it was between two leases: once more
-        rm -rf "$1"
-        tries=$((tries + 1))
-        [ $tries -lt 50 ] || fail "there is no $3 to be killed"
-    done
-    status=0
-    wait "$session" || status=$?
-    session=
+    hold
+    start long.yaml --study "$1" --jobs "${4:-2}" --isolation "$2" --lanes 1 --lease-time 0 --segment-size 0.1 # three records
+    wait_segments "$1" 1
+    await "process $3" is_named "$3"
+    servers=$(named fracas-server)
+    kill -9 "$(named "$3" | head -n 1)"
+    finish
     [ $status -eq 0 ] || { cat background >&2; fail "status $status after kill -9 of $3"; }
     same undisturbed "$1"
 }
@@ -74,20 +68,18 @@ export FRACAS_TEST_FAULT=hang:0:0
 program=$faulty
 start one.yaml --study five --jobs 1 --isolation none
 last=
+is_next()
+{
+    server=$(named fracas-server)
+    [ -n "$server" ] && [ "$server" != "$last" ] && [ -z "$(zombies)" ]
+}
 for death in 1 2 3 4 5; do
-    tries=0
-    while server=$(named fracas-server) && dead=$(zombies) && { [ -z "$server" ] || [ "$server" = "$last" ] || [ -n "$dead" ]; }; do
-        tries=$((tries + 1))
-        [ $tries -lt 6000 ] || fail "no server number $death, or zombies: $dead"
-        sleep 0.01
-    done
+    await "server number $death, or there are zombies" is_next
     kill -9 "$server"
     last=$server
 done
-status=0
-wait "$session" || status=$?
-session=
-unset FRACAS_TEST_FAULT program
+finish
+unset FRACAS_TEST_FAULT
 [ $status -eq 6 ] || { cat background >&2; fail "status $status after five deaths"; }
 grep -q 'compute server of rank 0 died of signal 9 .*and 4 died before it with no segment in between; it is not started again' background ||
     { cat background >&2; fail "it did not say why it gave up"; }

@@ -6,6 +6,8 @@
 campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
 expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
 
+restarts_are() { [ "$(grep -c 'the ranks are started again' background)" -eq "$1" ]; }
+
 # killed WHOM TIMES: kills of a run, each after two realizations more were stored. The run is held, so that none comes too late.
 killed()
 {
@@ -13,22 +15,16 @@ killed()
     start small.yaml --study restarted --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     kill=0
     while [ $kill -lt "$2" ]; do
-        until [ "$(grep -c 'the ranks are started again' background)" -eq $kill ]; do
-            [ -n "$(processes)" ] || { cat background >&2; fail "it ended after kill $kill"; }
-            sleep 0.01
-        done
+        await "start after kill $kill" restarts_are $kill
         wait_segments restarted $(($(segments restarted) + 2))
         victim=$($1 | head -n 1)
         [ -n "$victim" ] || fail "there is no process of $1 to kill"
         kill -9 "$victim"
         kill=$((kill + 1))
     done
-    release
-    status=0
-    wait "$session" || status=$?
-    session=
+    finish
     [ $status -eq 0 ] || { cat background >&2; fail "status $status"; }
-    [ "$(grep -c 'the ranks are started again' background)" -eq "$2" ] || { cat background >&2; fail "not started again $2 times"; }
+    restarts_are "$2" || { cat background >&2; fail "not started again $2 times"; }
 }
 
 # Four ranks in turn: more starts than may be in vain, and none was.
@@ -76,16 +72,9 @@ rm -r broken starts
 : > background # what the run before said is none of this one's words
 PATH="$PWD/bin:$PATH" setsid "$fracas" run small.yaml --study broken --jobs 2 > background 2>&1 &
 session=$!
-tries=0
-until grep -q 'started again' background; do
-    tries=$((tries + 1))
-    [ $tries -lt 10000 ] || fail "it was not started again"
-    sleep 0.01
-done
+await 'second start' restarts_are 1
 kill -USR1 "$session"
-status=0
-wait "$session" || status=$?
-session=
+finish
 [ $status -eq 3 ] || { cat background >&2; fail "status $status"; }
 expect 0 "$fracas" run small.yaml --study broken --jobs 2
 same undisturbed broken

@@ -121,22 +121,22 @@ static void try_mutation(const fracas_units *units, const unsigned char *example
     fracas_campaign_destroy(campaign);
 }
 
-/* FRACAS_FUZZ_SECONDS: for longer than the two seconds of a test, with another seed. */
+/* FRACAS_FUZZ_SECONDS: by time, with another seed. The test itself makes the same mutations on
+ * every machine. */
 static void test_mutations_of(const unsigned char *example, size_t size, bool of_strengths)
 {
     fracas_units *units;
     OK(fracas_units_create(&units));
     const char *longer = getenv("FRACAS_FUZZ_SECONDS");
-    const double start = seconds(), most = longer ? strtod(longer, NULL) : 2.0;
+    const double start = seconds(), most = longer ? strtod(longer, NULL) : 0;
     uint64_t x = longer ? (uint64_t)time(NULL) : 20261121;
     tally count = {0};
-    while ((longer || count.tried < 6000) && seconds() - start < most)
+    while (longer ? seconds() - start < most : count.tried < 4000)
         try_mutation(units, example, size, of_strengths, &x, &count);
     fracas_units_destroy(units);
     print_message("%zu mutations, %zu still a campaign, slowest %.1f ms\n", count.tried,
                   count.accepted, 1e3 * count.slowest);
-    /* Fewer would mean that reading had become a hundred times slower than it is (0.2 ms). */
-    assert_true(count.tried > 100 && count.accepted > 0);
+    assert_true(count.accepted > 0);
 }
 
 static void test_bars(void **state)

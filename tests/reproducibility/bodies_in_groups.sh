@@ -35,8 +35,8 @@ begin()
 # end_well STUDY HELPED: it ends with the bytes of the study `one`, after so many helpers at least went on to the end.
 end_well()
 {
-    wait "$session" || fail "$(cat "$1.said")"
-    session=
+    finish
+    [ $status -eq 0 ] || fail "$(cat "$1.said")"
     same one "$1"
     [ "$(helped "$1" 'to the end')" -ge "$2" ] || fail "$1: not $2 helpers: $(helped "$1" '')"
 }
@@ -55,14 +55,12 @@ END
 wait_group()
 {
     wait_checkpoints "$2" 1
-    polls=0
-    while group=$(named fracas-lease | sort -n) && [ "$(echo "$group" | wc -w)" -lt "$1" ]; do
-        polls=$((polls + 1))
-        [ $polls -lt 500 ] || fail "no $1 processes compute $2"
-        sleep 0.02
-    done
+    await "$1 processes that compute $2" has_processes "$1"
+    group=$(named fracas-lease | sort -n)
     first=$(echo "$group" | head -n 1) last=$(echo "$group" | tail -n 1)
 }
+
+has_processes() { [ "$(named fracas-lease | wc -l)" -ge "$1" ]; }
 
 expect 0 "$fracas" run body.yaml --study one --jobs 1
 h5dump -d /realization/broken one/study.h5 | grep -q '(0): [1-9][0-9]*$' || fail "nothing broke"
@@ -70,20 +68,24 @@ begin 3 three
 end_well three 1 # the third may be late on a busy machine
 
 # The first of its processes leads.
+hold
 begin 2 helper-killed
 wait_group 2 helper-killed
 kill -9 "$last"
 end_well helper-killed 0
 [ "$(helped helper-killed 'its process died')" -eq 1 ] || fail "no helper died"
+hold
 begin 2 leader-killed
 wait_group 2 leader-killed
 kill -9 "$first"
 end_well leader-killed 0
 [ "$(helped leader-killed 'is gone')" -eq 1 ] || fail "the helper did not notice"
 
+hold
 begin 2 killed
 wait_group 2 killed
 kill_session
+release
 [ ! -e killed/study.h5 ] || fail "it was over before it was killed"
 expect 0 env FRACAS_TEST_HOST=host-1 "$faulty" run body.yaml --study killed --jobs 1
 same one killed

@@ -38,13 +38,12 @@ chmod +x "$alone"
 # wait_threads COUNT: until a process that computes a lease has that many.
 wait_threads()
 {
-    polls=0 threads=0
-    while [ "$threads" -ne "$1" ]; do
-        polls=$((polls + 1))
-        [ $polls -lt 600 ] || fail "$threads threads compute $1 parts"
-        sleep 0.1
-        threads=$(for process in $(named fracas-lease); do ls "/proc/$process/task"; done 2>/dev/null | wc -l)
-    done
+    await "$1 threads" has_threads "$1"
+}
+
+has_threads()
+{
+    [ "$(for process in $(named fracas-lease); do ls "/proc/$process/task"; done 2>/dev/null | wc -l)" -eq "$1" ]
 }
 
 bodies 1
@@ -81,9 +80,11 @@ said 'parallel.parts 1000 are 1000 threads'
 [ ! -e many ] || fail "a study was begun"
 
 # Killed, and resumed in other parts.
+hold
 start bodies-1.yaml --study killed --jobs 1 --checkpoint-time 0.01
 wait_checkpoints killed 1
 kill_session
+release
 [ ! -e killed/study.h5 ] || fail "it was over before it was killed"
 expect 0 "$alone" run bodies-3.yaml --study killed
 same one killed

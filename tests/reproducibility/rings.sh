@@ -48,9 +48,11 @@ done
 compare all.yaml --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 # a segment for each realization
 
 # Killed in the middle, each realization a segment, and resumed.
+hold
 start all.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments killed "$(random 1 20)"
 kill_session
+release
 expect 0 "$fracas" run all.yaml --study killed
 same one killed
 

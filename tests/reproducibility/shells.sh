@@ -55,9 +55,11 @@ same one extended
 
 # Killed with some segments written, twice, and resumed.
 for kill in 1 2; do
+    hold
     start all.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 --shuffle
     wait_segments killed $((4 * kill))
     kill_session
+    release
     [ ! -e killed/study.h5 ] || fail "it was over before it was killed"
 done
 expect 0 "$fracas" run all.yaml --study killed --jobs 1

@@ -67,7 +67,7 @@ segments()
     ls "$1/segments" 2>/dev/null | grep -c '\.h5$' || true
 }
 
-# start ARGUMENTS...: fracas run in the background, in a session of its own; waits below end after a minute.
+# start ARGUMENTS...: fracas run in the background, in a session of its own.
 start()
 {
     : > background
@@ -75,13 +75,13 @@ start()
     session=$!
 }
 
-# hold: from now on no run of $faulty computes but while a wait_segments lets it. Whatever is signalled, killed or read behind the wait
-# finds the run in the middle, on a machine of any speed. `release` lets it go on.
+# hold: from now on runs of `start` and of $faulty compute only while a wait below lets them. Whatever is signalled, killed or read behind
+# the wait finds the run in the middle, on a machine of any speed. `release` lets it go on.
 hold()
 {
     release
-    : > gate.arrived
-    : > gate
+    : > "$work/gate.arrived"
+    : > "$work/gate"
     export FRACAS_TEST_GATE="$work/gate"
     program=$faulty
 }
@@ -89,12 +89,51 @@ hold()
 release()
 {
     rm -f "$work/gate"
+    program=
 }
 
-# let_through: the batches that wait at the gate now may begin, if a gate is there.
-let_through()
+# finish: the status of the run in the background, let go on to its end, in $status.
+finish()
 {
-    [ ! -e "$work/gate" ] || cat "$work/gate.arrived" > "$work/gate"
+    release
+    status=0
+    wait "$session" || status=$?
+    session=
+}
+
+# drain: finish of a held run that has got a signal. What it computes goes on every half second, so that the signal has many of them to
+# pass from process to process before all is computed.
+drain()
+{
+    until is_over; do
+        cat "$work/gate.arrived" > "$work/gate"
+        sleep 0.5
+    done
+    finish
+}
+
+# is_over: there is a run in the background, and it has ended.
+is_over()
+{
+    [ -n "$session" ] && [ -z "$(processes)" ] && ! grep -q '^State:.[^Z]' "/proc/$session/status" 2>/dev/null
+}
+
+# await WHAT COMMAND...: until the command succeeds; the batches that wait at the gate then may go on, if there is one. WHAT could not be
+# had where the run in the background is over or five minutes have passed.
+await()
+{
+    awaited=$1
+    shift
+    since=$(date +%s) polls=0
+    until "$@"; do
+        polls=$((polls + 1))
+        if [ $((polls % 100)) -eq 0 ]; then
+            ! is_over || "$@" || { cat background >&2; fail "the run is over; there was no $awaited"; }
+            [ $(($(date +%s) - since)) -lt 300 ] || { cat background >&2; fail "no $awaited within 300 s"; }
+        fi
+        [ ! -e "$work/gate" ] || cat "$work/gate.arrived" > "$work/gate"
+        sleep 0.01
+    done
 }
 
 # busy TIME: how many seconds later than TIME, that of a free machine, a small run ends: the pace of this machine, now.
@@ -107,27 +146,18 @@ busy()
     echo $(($(date +%s) - before)) | awk -v free="$1" '{print $1 > free ? $1 - free : 0}'
 }
 
-# wait_segments STUDY COUNT
-wait_segments()
-{
-    polls=0
-    while [ "$(segments "$1")" -lt "$2" ]; do
-        polls=$((polls + 1))
-        [ $polls -lt 6000 ] || fail "no $2 segments in $1"
-        let_through
-        sleep 0.01
-    done
-}
+has_segments() { [ "$(segments "$1")" -ge "$2" ]; }
+has_checkpoints() { [ "$(find "$1/checkpoints" -name '*-?' 2>/dev/null | wc -l)" -ge "$2" ]; }
+has_no_processes() { [ -z "$(processes)" ]; }
 
-# wait_checkpoints STUDY COUNT
-wait_checkpoints()
+# wait_segments STUDY COUNT; wait_checkpoints STUDY COUNT: as many at least.
+wait_segments() { await "$2 segments in $1" has_segments "$@"; }
+wait_checkpoints() { await "$2 checkpoints in $1" has_checkpoints "$@"; }
+
+# wait_gone WHAT: no process of the session is left.
+wait_gone()
 {
-    polls=0
-    while [ "$(find "$1/checkpoints" -name '*-?' 2>/dev/null | wc -l)" -lt "$2" ]; do
-        polls=$((polls + 1))
-        [ $polls -lt 3000 ] || fail "no $2 checkpoints in $1"
-        sleep 0.02
-    done
+    await "end of all processes after $1" has_no_processes
 }
 
 # Every process of the session: parent, starter, ranks, supervisors, servers, children. Words of stat: 3 state, 6 session, 20 threads

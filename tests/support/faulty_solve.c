@@ -17,10 +17,12 @@
  *
  * With FRACAS_TEST_PAUSE=SECONDS each batch begins so much later, for those who watch a run.
  *
- * With FRACAS_TEST_GATE=FILE a batch waits before it begins. It appends a byte to FILE.arrived, n
- * of all, and goes on when FILE has n bytes or more, or is not there: hold of campaigns.sh. */
+ * With FRACAS_TEST_GATE=FILE a batch waits before it begins, and after each of its checkpoints. It
+ * appends a byte to FILE.arrived, n of all, and goes on when FILE has n bytes or more, or is not
+ * there: hold of campaigns.sh. */
 #include "campaigns/scheduler/worker/models.h"
 #include "campaigns/scheduler/worker/solve.h"
+#include "campaigns/store/checkpoint.h"
 #include "tests/support/test.h"
 
 #include <fcntl.h>
@@ -33,6 +35,8 @@ fracas_err __real_fracas_solve(const fracas_computation *computation, const int6
                                size_t count, fracas_record *record);
 fracas_err __wrap_fracas_solve(const fracas_computation *computation, const int64_t *replica,
                                size_t count, fracas_record *record);
+fracas_err __real_fracas_checkpoint_finish(fracas_checkpoint *checkpoint);
+fracas_err __wrap_fracas_checkpoint_finish(fracas_checkpoint *checkpoint);
 fracas_err __real_fracas_models_get(fracas_models *models, fracas_computation *computation);
 fracas_err __wrap_fracas_models_get(fracas_models *models, fracas_computation *computation);
 
@@ -151,6 +155,13 @@ fracas_err __wrap_fracas_solve(const fracas_computation *computation, const int6
     log_batch(computation->lease->point, replica, count);
     TRY(strike_if_asked(computation->lease->point, replica, count));
     return __real_fracas_solve(computation, replica, count, record);
+}
+
+fracas_err __wrap_fracas_checkpoint_finish(fracas_checkpoint *checkpoint)
+{
+    fracas_err err = __real_fracas_checkpoint_finish(checkpoint);
+    wait_at_gate();
+    return err;
 }
 
 fracas_err __wrap_fracas_models_get(fracas_models *models, fracas_computation *computation)
