@@ -68,24 +68,20 @@ begin 3 three
 end_well three 1 # the third may be late on a busy machine
 
 # The first of its processes leads.
-hold
 begin 2 helper-killed
 wait_group 2 helper-killed
 kill -9 "$last"
 end_well helper-killed 0
 [ "$(helped helper-killed 'its process died')" -eq 1 ] || fail "no helper died"
-hold
 begin 2 leader-killed
 wait_group 2 leader-killed
 kill -9 "$first"
 end_well leader-killed 0
 [ "$(helped leader-killed 'is gone')" -eq 1 ] || fail "the helper did not notice"
 
-hold
 begin 2 killed
 wait_group 2 killed
 kill_session
-release
 [ ! -e killed/study.h5 ] || fail "it was over before it was killed"
 expect 0 env FRACAS_TEST_HOST=host-1 "$faulty" run body.yaml --study killed --jobs 1
 same one killed
