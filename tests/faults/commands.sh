@@ -1,3 +1,4 @@
+# ctest-sanitize
 # ctest-labels: ci
 # The commands for studies: reindex, merge, gc, extend, retry, merge-studies. Whatever they do, the study ends as the bytes of an
 # undisturbed run.

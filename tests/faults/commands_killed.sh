@@ -1,5 +1,4 @@
 # The commands for studies, killed at a call that changes a file. Repeated, each ends well.
-# ctest-labels: slow-sanitize
 . tests/support/campaigns.sh
 
 campaign small.yaml 6 '3e4 1/s, 1e5 1/s'

@@ -1,5 +1,4 @@
 # A few calls that fail or kill, one or two of each kind; failing_all.sh has all of them, failing_sampled.sh what only samples can have.
-# ctest-labels: slow-sanitize
 . tests/support/campaigns.sh
 . "$source/tests/support/failing.sh"
 

@@ -1,5 +1,4 @@
 # `gc --merged`, killed at calls that change a file: every realization stays in a segment, and all commands go on from there.
-# ctest-labels: slow-sanitize
 . tests/support/campaigns.sh
 
 campaign small.yaml 3 '3e4 1/s, 1e5 1/s'

@@ -1,3 +1,4 @@
+# ctest-sanitize
 # ctest-labels: ci
 # A study from a stranger (docs/decisions/trust.md): no command waits for a pipe in the place of a file, writes through a
 # symbolic link or takes an empty name for a folder; merge-studies owns the bytes it takes.

@@ -55,15 +55,12 @@ echo '@fracas progress 4 1 0 0 0.5'
 sleep 1000 > /dev/null 2>&1 &
 echo $! > orphan
 END2
-tries=0
-until [ -s orphan/orphan ] && grep -q . orphan/count; do
-    tries=$((tries + 1))
-    [ $tries -lt 3000 ] || fail "orphan: it does not start"
-    sleep 0.01
-done
+has_started() { [ -s orphan/orphan ] && grep -q . orphan/count; }
+has_taken_it() { ! grep -q '^ShdPnd:.*[4-7c-f]...$' "/proc/$run/status"; } # SIGTERM pends no more
+await 'start of orphan' has_started
 run=$(pgrep -P "$(cat orphan/pid)" -f -- '--study study')
 kill -TERM "$run"
-sleep 0.3
+await 'end of the first signal' has_taken_it
 kill -TERM "$run"
 ended orphan 3 1 'stopped at once: what was done is kept'
 kill -0 "$(cat orphan/orphan)" 2> /dev/null && fail "orphan: a process of the run is left"

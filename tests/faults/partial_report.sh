@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # The report of a study that is not complete: while a run goes on, after interruptions, with segments lost, extended, without an index,
 # with nothing done. What it says of points that are complete is, to the last digit, what it says of the complete study.
 . tests/support/campaigns.sh

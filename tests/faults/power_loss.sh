@@ -1,6 +1,5 @@
 # Disk states that a power cut may leave of a tiny run, opened in process: what was done is there. Without one fsync it is not, and
 # this is seen. storm_power_loss.sh has 100 000 states.
-# ctest-labels: slow-sanitize
 . tests/support/campaigns.sh
 . "$source/tests/support/power_loss.sh"
 

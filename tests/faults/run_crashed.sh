@@ -1,3 +1,4 @@
+# ctest-sanitize
 # A realization that crashes costs itself alone: status 1, one FAILED row, every other one as in an undisturbed run.
 . tests/support/campaigns.sh
 

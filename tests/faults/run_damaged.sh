@@ -1,3 +1,4 @@
+# ctest-sanitize
 # A flipped byte in a segment, in study.h5 or in the index of a study that is done, or not: verify names it, and the next run
 # gives what an undisturbed one gives, or says that the index must be made anew. Never a wrong number in study.h5.
 . tests/support/campaigns.sh

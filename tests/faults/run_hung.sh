@@ -1,5 +1,5 @@
 # ctest-serial
-# ctest-mpirun
+# ctest-mpirun: storm
 # A walltime holds, whatever hangs: status 3 before it is over, resumable. A busy machine may be late by its pace.
 . tests/support/campaigns.sh
 

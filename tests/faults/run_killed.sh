@@ -1,4 +1,4 @@
-# ctest-mpirun
+# ctest-mpirun: ci
 # Three times kill -9 of every process of a run (parent, starter, ranks, servers, children) at random times, each
 # after the first and before the last segment; what is resumed to its end is what an undisturbed run gives.
 . tests/support/campaigns.sh

@@ -1,4 +1,4 @@
-# ctest-mpirun: ci
+# ctest-mpirun: storm
 # No run leaves anything in /dev/shm or TMPDIR, however it ended. Open MPI's files there lose their names once the ranks have
 # opened them; those of a run killed before that go with the next run of this user.
 root=-r

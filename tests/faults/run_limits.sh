@@ -1,4 +1,4 @@
-# ctest-mpirun: ci
+# ctest-mpirun: storm
 # Limits of machine and disk: too little space, files or inodes, files too big, too many open, a disk made read-only. Each is said with
 # its remedy and status 6, and when it is gone the same command goes on to what an undisturbed run gives.
 . tests/support/campaigns.sh

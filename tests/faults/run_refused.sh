@@ -1,3 +1,4 @@
+# ctest-sanitize
 # What is not run: a study that is complete, of another campaign, or that cannot be written; a wrong campaign.
 . tests/support/campaigns.sh
 
@@ -89,12 +90,7 @@ printf '#!/bin/sh\n: > "%s/mpirun-began"\nexec sleep 1000\n' "$PWD" > bin/mpirun
 chmod +x bin/mpirun
 FRACAS_MPIRUN=1 PATH=$PWD/bin:$PATH "$fracas" run small.yaml --study silent > said 2>&1 &
 run=$!
-tries=0
-until [ -e mpirun-began ]; do
-    tries=$((tries + 1))
-    [ $tries -lt 10000 ] || { cat said >&2; fail "mpirun is not started"; }
-    sleep 0.01
-done
+await 'start of mpirun' [ -e mpirun-began ]
 kill -TERM $run
 status=0
 wait $run || status=$?

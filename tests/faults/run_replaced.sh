@@ -1,4 +1,4 @@
-# ctest-mpirun: ci
+# ctest-mpirun: storm
 # kill -9 of a server, of its supervisor or of the process of a lease, with a process for each lease and without: nothing is lost, and a
 # server is replaced.
 . tests/support/campaigns.sh

@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # A realization that computes for long goes on from its checkpoint after kill -9, in another batch, to the same bytes; one that is
 # damaged or cannot be written costs time alone. The states themselves: tests/support/lanes.h; the files: unit/checkpoint.
 . tests/support/campaigns.sh

@@ -1,5 +1,5 @@
 # ctest-serial
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # A run with a walltime has stopped before it is over, with everything kept, and goes on from there.
 . tests/support/campaigns.sh
 

@@ -131,7 +131,7 @@ static void test_mutations_of(const unsigned char *example, size_t size, bool of
     const double start = seconds(), most = longer ? strtod(longer, NULL) : 0;
     uint64_t x = longer ? (uint64_t)time(NULL) : 20261121;
     tally count = {0};
-    while (longer ? seconds() - start < most : count.tried < 4000)
+    while (longer ? seconds() - start < most : count.tried < 1500)
         try_mutation(units, example, size, of_strengths, &x, &count);
     fracas_units_destroy(units);
     print_message("%zu mutations, %zu still a campaign, slowest %.1f ms\n", count.tried,

@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: storm
 # ctest-serial
 # ctest-timeout: 1800
 # The shipped plates, smaller: a homogeneous plate ring bursts later and into more pieces than a scattered one; a homogeneous plate

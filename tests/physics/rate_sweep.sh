@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: storm
 # The shipped campaign bar-rate-sweep.yaml: counts, sizes, ledger, elements a fragment, and its processor time.
 . tests/support/campaigns.sh
 

@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # ctest-serial
 # The shipped campaign ring-mott.yaml with 8 replicas a point: collapse on v/R, slope; counts are final, no energy drifts.
 . tests/support/campaigns.sh

@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # A small sphere that bursts at 1e5 /s, over time: counts at set times, dissipated energy, transits and growth anew from break times, and
 # the rule `settled` at a growth of 6 % and 20 transits.
 . tests/support/campaigns.sh

@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: storm
 # ctest-serial
 # ctest-timeout: 900
 # The paper's sphere on coarse meshes: energies and first onsets by closed forms, ledgers that close, hardly any bending, more

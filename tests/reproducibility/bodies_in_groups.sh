@@ -1,6 +1,6 @@
 # One body on several hosts, which are processes of this machine that say so: study.h5 is the same, byte for byte, for groups of one, two
 # and three, after the death of a helper, of the process that leads, or of all, and a resume by others.
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 . tests/support/campaigns.sh
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 

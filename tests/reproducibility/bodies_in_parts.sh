@@ -1,6 +1,5 @@
 # One body on several cores: study.h5 is the same, byte for byte, for parts 1, 2, 3, 4 and 7, lanes 1 and 8, and across a kill and a
 # resume from a checkpoint with other parts. Cracks run through the cuts: invariant/shell_cracks.
-# ctest-labels: slow-sanitize
 . tests/support/campaigns.sh
 
 # bodies PARTS: a sphere's octant of 484 elements, and a plate of linear triangles; 0: the run chooses.

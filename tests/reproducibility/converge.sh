@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # fracas converge from end to end: a coarse mesh is found out and a fine one holds, what is interrupted goes on to the same numbers, more
 # replicas extend all studies, and what cannot be refined is said so.
 . tests/support/campaigns.sh
@@ -122,12 +122,7 @@ bar 1600 '16 mm' 40 > long.yaml
 expect 0 "$fracas" converge long.yaml --study undisturbed --jobs 2
 setsid "$fracas" converge long.yaml --study long --jobs 2 > background 2>&1 &
 session=$!
-tries=0
-until grep -q 'long/step: ' background; do
-    tries=$((tries + 1))
-    [ $tries -lt 6000 ] || { cat background >&2; fail "there is no second study"; }
-    sleep 0.01
-done
+await 'second study' grep -q 'long/step: ' background
 kill -INT "$session"
 status=0
 wait "$session" || status=$?

@@ -1,4 +1,3 @@
-# ctest-labels: slow-sanitize
 # Correlated strength fields of a bar with held ends, one that is closed, one on a perturbed mesh, a ring and a plate: study.h5 is the
 # same, byte for byte, whatever computes it.
 . tests/support/campaigns.sh

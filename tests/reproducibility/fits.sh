@@ -1,4 +1,5 @@
-# ctest-labels: ci slow-sanitize
+# ctest-sanitize
+# ctest-labels: ci
 # fracas fit gives the same bytes with one process and with two, and across kills: what was saved of another state of the study, with other
 # resamples, or damaged, is not used.
 . tests/support/campaigns.sh

@@ -1,4 +1,3 @@
-# ctest-labels: slow-sanitize
 # libfracas, called from Python, gives every byte that `fracas run` stores: bars with a rule for replicas, rings with strengths of a
 # file and a perturbed bar, plates of Gauss points in graded material, shells. It exports nothing but its own functions.
 . tests/support/campaigns.sh

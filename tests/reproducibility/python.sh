@@ -1,4 +1,3 @@
-# ctest-labels: slow-sanitize
 # Python, C and the command line give the same numbers to the last digit, on five campaigns.
 . tests/support/campaigns.sh
 

@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # ctest-timeout: 600
 # A realization computed again has the bytes of the study: finished or not, one round or several, strengths and meshes from files.
 . tests/support/campaigns.sh

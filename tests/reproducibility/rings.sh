@@ -1,4 +1,3 @@
-# ctest-labels: slow-sanitize
 # Rings of both laws, with a zone and without, strengths of a file, and a bar on a perturbed mesh: study.h5 is the same, byte for
 # byte, whatever computes it. Here every realization has a time step of its own, so lanes of one batch end far apart.
 . tests/support/campaigns.sh

@@ -1,3 +1,4 @@
+# ctest-sanitize
 # study.h5 is the same, byte for byte, whatever computes it: workers, lanes, instruction sets, order, compiler,
 # launcher, and whether the campaign was extended on the way.
 . tests/support/campaigns.sh

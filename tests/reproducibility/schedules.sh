@@ -1,6 +1,5 @@
 # The same bytes whatever the number of workers, the order, the size of leases, the isolation and the width of batches; and the same rows
 # FAILED where realizations crash.
-# ctest-labels: slow-sanitize
 . tests/support/campaigns.sh
 
 campaign small.yaml 6 '3e4 1/s, 1e5 1/s'

@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # Replicas decided while the campaign runs: study.h5 is the same, byte for byte, whatever computes it, however often it is killed,
 # and when a weaker rule came first; every decision is what a script of its own makes of study.h5.
 . tests/support/campaigns.sh

@@ -237,11 +237,10 @@ compare_compilers()
     exit 0
 }
 
-# The instruction sets above baseline that this CPU has; what it lacks is said on standard error.
+# The instruction sets above baseline of this CPU and this program; what they lack is said on standard error.
 instruction_sets()
 {
-    for isa in avx2 avx512; do
-        case $isa in avx2) flag=avx2 ;; *) flag=avx512f ;; esac
-        if grep -qw $flag /proc/cpuinfo; then echo $isa; else echo "skipped: this CPU has no $isa" >&2; fi
-    done
+    best=$("$fracas" --version | sed -n 's/^kernels for \([a-z0-9]*\) .*/\1/p')
+    case $best in avx512) echo avx2 avx512 ;; avx2) echo avx2 ;; esac
+    [ "$best" = avx512 ] || echo "skipped: this CPU or this program has no avx512" >&2
 }

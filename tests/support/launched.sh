@@ -21,12 +21,7 @@ ended()
 {
     name=$1 wanted=$2 starts=$3
     shift 3
-    tries=0
-    while [ ! -s "$name/status" ]; do
-        tries=$((tries + 1))
-        [ $tries -lt 12000 ] || { cat "$name/said" >&2; fail "$name: it does not end"; }
-        sleep 0.01
-    done
+    await "end of $name" [ -s "$name/status" ]
     cp "$name/said" said
     [ "$(cat "$name/status")" -eq "$wanted" ] || { cat said >&2; fail "$name: status $(cat "$name/status") instead of $wanted"; }
     [ "$(cat "$name/count")" -eq "$starts" ] || { cat said >&2; fail "$name: mpirun was started $(cat "$name/count") times, not $starts"; }

@@ -1,4 +1,5 @@
 #!/bin/sh
+# ctest-sanitize
 # The command line: what is wrong with it is said in one message, with status 2, and what is asked for is printed.
 set -eu
 

@@ -1,4 +1,3 @@
-# ctest-labels: slow-sanitize
 # fracas compare on two small studies: points and their partners, numbers derived again from study.h5, pairs by common random numbers, statuses.
 . tests/support/campaigns.sh
 

@@ -1,3 +1,4 @@
+# ctest-sanitize
 # `fracas export`: a package that code without ours finds to be what the standard and study.h5 say; its bytes; its folders; what is planted.
 . tests/support/campaigns.sh
 

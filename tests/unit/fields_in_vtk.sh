@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # The fields of a replayed realization of every model, read back by VTK: they are those of the study, and of mechanics.
 . tests/support/campaigns.sh
 

@@ -1,3 +1,4 @@
+# ctest-sanitize
 # Fields that a campaign file asks for: a run writes those of the realizations that it names, with the bytes of a replay, and nothing else.
 . tests/support/campaigns.sh
 

@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # `fracas init` writes a campaign file for each model that runs in seconds and breaks; the keys that it leaves as comments are keys, too.
 . tests/support/campaigns.sh
 

@@ -1,4 +1,3 @@
-# ctest-labels: slow-sanitize
 # cmake --install, the folder moved: its program runs a campaign, and the C example, built by pkg-config from that folder alone,
 # prints the numbers of the study.
 . tests/support/campaigns.sh

@@ -1,5 +1,4 @@
 #!/bin/sh
-# ctest-labels: slow-sanitize
 # No fused multiply-add anywhere in what computes: with one, a realization's bits would depend on the instruction set. That
 # contraction is off does not keep every compiler from it. A build under sanitizers is compiled otherwise.
 set -eu

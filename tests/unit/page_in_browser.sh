@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # The page of a report in headless Chromium (tests/support/check_page.py): a bar at three rates, and rings with their crack patterns
 # and films.
 . tests/support/campaigns.sh

@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # `plan` predicts the bytes of study.h5, of the segments, and of the study while it is merged, to 20 %: of every model, with and
 # without histories and interfaces. Whole chunks of datasets are known to 1 %. Fragments are those of the first eight replicas, whose
 # mean count has a deviation of 5 % at most here: `plan` computes them, since they are cheap (FRACAS_ROWS_BUDGET).

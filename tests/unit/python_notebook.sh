@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # The package of python/ as users install it, in a fresh virtual environment over Debian's packages: its version, its frames, its figures,
 # and the notebook of docs/, cell by cell.
 . tests/support/campaigns.sh

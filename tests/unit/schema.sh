@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # The JSON schema of campaign files takes every file that fracas takes, and refuses typical mistakes at the same line.
 . tests/support/campaigns.sh
 "$fracas" reference --schema > schema.json

@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # Manual pages and completions come from the tables of --help: every command and option that --help has is in all of them, roff finds
 # nothing wrong, and bash completes with them.
 . tests/support/campaigns.sh

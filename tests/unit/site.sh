@@ -1,5 +1,5 @@
 #!/bin/sh
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # tools/site: the pages become a site without a dead link, with their code, tables, lists and search; a planted fault ends it.
 set -eu
 

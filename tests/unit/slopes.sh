@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # Slopes and the crossover of a report are what tests/support/check_report.py has from the replicas, written anew from docs/theory: with three
 # replicas, which share their scatter, with eight, which have their own, and with both in one study; a rate where no bar breaks takes no
 # part, one where all are alike does where scatter is shared.

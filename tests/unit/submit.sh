@@ -1,3 +1,4 @@
+# ctest-sanitize
 # `fracas submit` writes a batch script that says what was asked for, quoted for the shell, and that does the right thing with each
 # end of a run. sbatch, squeue, scontrol are stand-ins here, and so are the runs (tests/faults/slurm.sh has the real ones).
 . tests/support/campaigns.sh
@@ -89,9 +90,9 @@ printf '#!/bin/sh\n:\n' > bin/sleep
 cat > stand-in <<'END'
 #!/bin/bash
 [ "$1" = status ] && { echo '  "done": 5,'; exit 0; }
+trap 'echo drained >> called; exit 3' USR1
 for word; do printf '<%s>' "$word"; done >> called
 echo >> called
-trap 'echo drained >> called; exit 3' USR1
 read -r status < ends
 sed -i 1d ends
 [ "$status" != wait ] || for ((i = 0; i < 600; i++)); do /bin/sleep 0.05; done
@@ -144,13 +145,7 @@ for signals in USR1 TERM 'USR1 USR1 TERM'; do
     echo wait > ends
     SLURM_JOB_ID=7 SLURM_JOB_NODELIST=n bash job.sh > said 2>&1 &
     job=$!
-    tries=0
-    until [ -s called ]; do
-        tries=$((tries + 1))
-        [ $tries -lt 10000 ] || fail "it does not start"
-        /bin/sleep 0.01
-    done
-    /bin/sleep 0.2
+    until [ "$(wc -l 2> /dev/null < called)" -gt 0 ] 2> /dev/null; do /bin/sleep 0.01; done
     for signal in $signals; do kill -$signal $job; done
     status=0
     wait $job || status=$?

@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # docs/tutorial.md keeps its word: its commands, typed one by one, say what it shows, and its pictures are those of its studies.
 . tests/support/campaigns.sh
 

@@ -1,4 +1,4 @@
-# ctest-labels: ci slow-sanitize
+# ctest-labels: ci
 # VTK reads what `fracas picture --vtk` writes, and finds the numbers of the study.
 . tests/support/campaigns.sh
 

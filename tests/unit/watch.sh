@@ -4,7 +4,7 @@ check() { /usr/bin/python3 "$source/tests/support/check_watch.py" "$@" || fail "
 
 campaign small.yaml 8 '6e4 1/s, 1e5 1/s'
 export FRACAS_TEST_PAUSE=0.3 FRACAS_TEST_FAULT=crash:1:5
-program=$faulty
+hold
 start small.yaml --study live --jobs 2 --lanes 1 --lease-time 0 --segment-age 0.3
 unset FRACAS_TEST_PAUSE FRACAS_TEST_FAULT
 wait_segments live 1
@@ -15,9 +15,10 @@ lines=$!
 "$fracas" report live --live --interval 0.5s > pages 2>&1 &
 pages=$!
 check terminal "$fracas" status live --watch --interval 0.2s
-for polls in $(seq 500); do grep -q realizations pages && break; sleep 0.02; done
+until grep -q realizations pages; do sleep 0.01; done
 grep -q 'partial: .*; this page loads itself again every 1 s' live/report/index.html || fail "the page does not say so"
 grep -q '<meta http-equiv="refresh" content="1"/>' live/report/index.html || fail "the page does not load itself again"
+release
 check prometheus live.prom "$fracas" status live --watch --interval 0.2s --json --prometheus live.prom > looks
 for watcher in $lines $pages; do
     status=0
@@ -54,11 +55,12 @@ said ' 4 of 4 realizations done, 0 failed; .*; complete'
 grep -q '^fracas_complete{study="done"} 1$' done.prom || fail "it is not complete"
 
 # Nobody computes it any more.
-program=$faulty
-FRACAS_TEST_PAUSE=5 start small.yaml --study dead --jobs 1 --lanes 1 --lease-time 0
-for polls in $(seq 1000); do [ ! -s dead/lock ] || break; sleep 0.02; done
-for polls in $(seq 1000); do "$fracas" status dead > said 2>&1 && break; sleep 0.02; done
+hold
+start small.yaml --study dead --jobs 1 --lanes 1 --lease-time 0
+has_begun() { [ -s dead/lock ] && "$fracas" status dead > said 2>&1; }
+await 'study that is computed' has_begun
 kill_session
+release
 expect 3 "$fracas" status dead --watch --interval 0.05s
 said 'no run computes dead any more; interrupted: .fracas run dead/campaign.yaml'
 

@@ -1,6 +1,5 @@
 # From the command to the first realization: under 100 ms on one machine, or where that is busy a third of mpirun's time, the best of
 # five starts. Prints both, and the processor time of the whole campaign of two realizations.
-# ctest-labels: slow-sanitize
 # ctest-serial
 . "$(dirname "$0")/../support/campaigns.sh"
 

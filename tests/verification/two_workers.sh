@@ -1,7 +1,7 @@
 # Two workers on 2 cores take at most 0.53 of one worker's time for a campaign of about 40 s of computing, mpirun and merge included.
 # Median of 5 pairs of runs, one after the other, so that a machine that changes its pace changes both. The command writes the report
 # as well, by one process: what that takes is measured by writing it again, and taken off; the ratio with it is printed beside.
-# ctest-labels: storm slow-sanitize
+# ctest-labels: storm
 # ctest-serial
 # ctest-timeout: 3600
 . "$(dirname "$0")/../support/campaigns.sh"
