@@ -72,7 +72,7 @@ static fracas_err check_campaign(const fracas_run_options *run, submission *s)
     TRY(fracas_study_folder(run, campaign, s->study, sizeof s->study));
     TRY(fracas_study_fits(s->study, campaign));
     snprintf(s->name, sizeof s->name, "%s", campaign->name);
-    return fracas_costs_create(campaign, run, &cost, NULL);
+    return fracas_costs_create(campaign, run, stderr, &cost, NULL);
 }
 
 static fracas_err read_job(const fracas_arguments *arguments, submission *s)

@@ -10,6 +10,7 @@
 #include "engine/solver/batch.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -237,14 +238,23 @@ static double mesh_effect_of(const fracas_point *point, const fracas_model *mode
            fracas_strength_mean(strength, extent);
 }
 
-static void describe_file(const fracas_surface *surface, fracas_forecast *forecast)
+/* Keeps the lesser of two groups, of which 0 is none, and its name. */
+static void keep_lesser(const fracas_surface *surface, int32_t number, fracas_surface_group *least)
 {
-    fracas_surface_box(surface, forecast->box);
-    for (size_t b = 0; b < surface->nborders; b++) {
-        const int32_t tag = surface->border[b].tag;
-        if (tag >= FRACAS_EDGES && (!forecast->loose || tag < forecast->loose))
-            forecast->loose = tag;
-    }
+    if (number <= 0 || (least->number > 0 && least->number <= number)) return;
+    *least = (fracas_surface_group){.number = number};
+    for (size_t g = 0; g < surface->ngroups; g++)
+        if (surface->group[g].number == number) *least = surface->group[g];
+}
+
+static fracas_err describe_file(const fracas_surface *surface, fracas_forecast *forecast)
+{
+    for (size_t b = 0; b < surface->nborders; b++)
+        if (surface->border[b].tag >= FRACAS_EDGES)
+            keep_lesser(surface, surface->border[b].tag, &forecast->loose);
+    for (size_t i = 0; i < surface->ninterfaces; i++)
+        keep_lesser(surface, surface->interface[i].tag, &forecast->inner);
+    return fracas_surface_survey_make(surface, &forecast->mesh);
 }
 
 static fracas_err describe(const fracas_point *point, const fracas_model *model, bool estimated,
@@ -268,7 +278,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->coarseness = forecast->element / softening;
     if (point->strength.covariance || point->strength.factor)
         TRY(extent_of_body(model, &forecast->extent));
-    if (fracas_shape_of(spec)->from_file) describe_file(fracas_model_surface(model), forecast);
+    if (fracas_shape_of(spec)->from_file) TRY(describe_file(fracas_model_surface(model), forecast));
     forecast->flat = point->strength.factor && factor.least == factor.most;
     forecast->uniform = factor.least == factor.most && strength_at(point, extent.mean, 0.25) ==
                                                            strength_at(point, extent.mean, 0.75);
@@ -346,15 +356,35 @@ fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point, doubl
     OWN(fracas_model) model = NULL;
     const fracas_err err = fracas_point_model_create(campaign, point, &model);
     if (err) return fracas_fail_within(err, "point %zu", point);
-    return fracas_plan_cost_with(campaign, point, model, cost, bytes);
+    return fracas_plan_cost_with(campaign, point, model, NULL, cost, bytes);
+}
+
+/* True if the point's mesh is that of the point before, whose warnings have been said. */
+static bool is_mesh_of_last(const fracas_campaign *campaign, size_t point)
+{
+    if (point == 0) return false;
+    const fracas_geometry *is = &campaign->point[point].spec.geometry,
+                          *was = &campaign->point[point - 1].spec.geometry;
+    return is->file && was->file && is->unit == was->unit &&
+           !strcmp(is->file->digest, was->file->digest);
+}
+
+static void warn_of(const fracas_campaign *campaign, size_t point, const fracas_forecast *forecast,
+                    FILE *warn)
+{
+    char text[FRACAS_WARNING_TEXT];
+    for (int w = 0; w < FRACAS_RUN_WARNINGS && !is_mesh_of_last(campaign, point); w++)
+        if (fracas_plan_warnings[w](&campaign->point[point], forecast, text, sizeof text) > 0)
+            fprintf(warn, "fracas: warning: point %zu: %s\n", point, text);
 }
 
 fracas_err fracas_plan_cost_with(const fracas_campaign *campaign, size_t point,
-                                 const fracas_model *model, double *cost, double *bytes)
+                                 const fracas_model *model, FILE *warn, double *cost, double *bytes)
 {
     fracas_forecast forecast;
     const fracas_err err = describe(&campaign->point[point], model, false, &forecast);
     if (err) return fracas_fail_within(err, "point %zu", point);
+    if (warn) warn_of(campaign, point, &forecast, warn);
     *cost = (double)forecast.elements * (double)forecast.steps;
     fracas_rows_expect(campaign, &campaign->point[point].spec, &forecast);
     if (bytes) *bytes = fracas_realization_bytes(campaign, &forecast);

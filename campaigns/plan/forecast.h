@@ -4,6 +4,7 @@
 #define FRACAS_CAMPAIGNS_PLAN_FORECAST_H
 
 #include "campaigns/campaign.h"
+#include "engine/mesh/surface/survey.h"
 
 typedef struct {
     int64_t elements, interfaces, steps;
@@ -29,8 +30,9 @@ typedef struct {
     bool repeated;      /* several replicas with strengths from a file: all are equal */
     double mean;        /* strength of an interface [Pa] */
     double element;     /* mean element size [m] */
-    double box[3];      /* sides of a body from a mesh file [m]; 0: of another */
-    int32_t loose;      /* the least physical group of edges without a key; 0: none */
+    fracas_surface_survey mesh; /* a mesh file's; no parts: another body */
+    fracas_surface_group loose; /* the least physical group of edges without a key; 0: none */
+    fracas_surface_group inner; /* the least physical group of edges between elements; 0: none */
     double extent; /* diagonal of the box around all interfaces [m], for correlated strengths */
     bool flat;     /* a factor of the strengths is the same at all interfaces */
     double volume; /* a mean interface has [m3] */
@@ -78,7 +80,8 @@ typedef double fracas_plan_warning(const fracas_point *point, const fracas_forec
  * bend. */
 double fracas_bending_steps(const fracas_spec *spec, double element);
 
-enum { FRACAS_PLAN_WARNINGS = 25 };
+/* A run says the first of them itself before it begins: of meshes that make another body. */
+enum { FRACAS_PLAN_WARNINGS = 30, FRACAS_RUN_WARNINGS = 2, FRACAS_WARNING_TEXT = 400 /* bytes */ };
 extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];
 
 #endif

@@ -161,8 +161,6 @@ static void put_range(text_sheet *sheet, size_t row, size_t column, double least
 
 /* ---- warnings ---- */
 
-enum { WARNING_TEXT = 400 }; /* bytes of a text */
-
 /* Warning `which` of point p, without its number; how bad it is, 0: it does not apply. */
 static double warning_of(const campaign_plan *plan, size_t p, int which, char *text, size_t size)
 {
@@ -231,7 +229,7 @@ static bool any_surface_field(const campaign_plan *plan)
 
 static FRACAS_PRINTF(3, 4) void print_line(int columns, FILE *out, const char *format, ...)
 {
-    char text[2 * WARNING_TEXT];
+    char text[2 * FRACAS_WARNING_TEXT];
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
@@ -245,7 +243,7 @@ static FRACAS_PRINTF(3, 4) void print_line(int columns, FILE *out, const char *f
 static void print_warnings(const campaign_plan *plan, int columns, FILE *out)
 {
     const size_t points = plan->table->npoints;
-    char text[WARNING_TEXT], line[2 * WARNING_TEXT];
+    char text[FRACAS_WARNING_TEXT], line[2 * FRACAS_WARNING_TEXT];
     for (int w = 0; w < FRACAS_PLAN_WARNINGS; w++) {
         size_t count = 0, worst = 0;
         double most = 0;
@@ -267,20 +265,24 @@ static void print_warnings(const campaign_plan *plan, int columns, FILE *out)
 }
 
 /* A line for each mesh file: whoever took its unit for another sees it here. */
-static void print_files(const campaign_plan *plan, FILE *out)
+static void print_files(const campaign_plan *plan, int columns, FILE *out)
 {
     for (size_t p = 0; p < plan->table->npoints; p++) {
         const fracas_geometry *is = &plan->campaign->point[p].spec.geometry;
-        const double *box = plan->forecast[p].box;
-        bool said = !(box[0] > 0);
+        const fracas_surface_survey *mesh = &plan->forecast[p].mesh;
+        char turned[120] = "";
+        bool said = mesh->parts == 0;
         for (size_t q = 0; q < p && !said; q++) {
             const fracas_geometry *was = &plan->campaign->point[q].spec.geometry;
-            said = plan->forecast[q].box[0] > 0 && was->unit == is->unit &&
+            said = plan->forecast[q].mesh.parts > 0 && was->unit == is->unit &&
                    !strcmp(was->file->digest, is->file->digest);
         }
+        if (mesh->turned > 0)
+            snprintf(turned, sizeof turned, "; %zu of its %" PRId64 " elements are turned round",
+                     mesh->turned, plan->forecast[p].elements);
         if (!said)
-            fprintf(out, "Mesh file %s: %.4g by %.4g by %.4g m.\n", is->file->path, box[0], box[1],
-                    box[2]);
+            print_line(columns, out, "Mesh file %s: %.4g by %.4g by %.4g m%s.", is->file->path,
+                       mesh->box[0], mesh->box[1], mesh->box[2], turned);
     }
 }
 
@@ -337,7 +339,7 @@ static void print_notes(const campaign_plan *plan, int columns, FILE *out)
                plan->jobs, plan->jobs == 1 ? "" : "es", plan->slowest);
     print_sizes(plan, columns, out);
     print_fields(plan, columns, out);
-    print_files(plan, out);
+    print_files(plan, columns, out);
     print_memory(plan, columns, out);
     if (plan->most > plan->realizations)
         print_line(columns, out,
@@ -513,7 +515,7 @@ static void print_json(const campaign_plan *plan, FILE *out)
     for (size_t p = 0; p < plan->table->npoints; p++) print_json_point(plan, p, &json);
     fracas_json_close(&json);
     fracas_json_array(&json, "warnings");
-    char text[WARNING_TEXT], whole[WARNING_TEXT + 40];
+    char text[FRACAS_WARNING_TEXT], whole[FRACAS_WARNING_TEXT + 40];
     for (size_t p = 0; p < plan->table->npoints; p++)
         for (int w = 0; w < FRACAS_PLAN_WARNINGS; w++) {
             if (!(warning_of(plan, p, w, text, sizeof text) > 0)) continue;

@@ -13,10 +13,11 @@
  * FRACAS_ENVIRONMENT without memory. Builds the model (about 1 us an element). */
 FRACAS_MUST_USE fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point,
                                             double *cost, double *bytes);
-/* The same with the point's model. */
+/* The same with the point's model. warn: gets the first FRACAS_RUN_WARNINGS of the plan's warnings,
+ * a line each; NULL: none. */
 FRACAS_MUST_USE fracas_err fracas_plan_cost_with(const fracas_campaign *campaign, size_t point,
-                                                 const fracas_model *model, double *cost,
-                                                 double *bytes);
+                                                 const fracas_model *model, FILE *warn,
+                                                 double *cost, double *bytes);
 
 /* Fields that the run writes at its end. */
 typedef struct {

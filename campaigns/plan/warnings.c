@@ -240,16 +240,85 @@ WARNING(warn_undivided, !forecast->estimated && forecast->parts > (int64_t)forec
         forecast->elements, forecast->parts_most, forecast->parts_most == 1 ? "" : "s",
         forecast->parts)
 
-WARNING(
-    warn_loose, forecast->loose, 1,
-    "edges of the mesh file's physical group %" PRId32
-    " are held as geometry.edges says: the keys edge_1 to edge_4 are those of the groups 1 to 4: "
-    "give the group one of these numbers",
-    forecast->loose)
+/* ---- mesh files ---- */
+
+typedef struct {
+    char text[96];
+} group_name;
+
+static group_name name_of(const fracas_surface_group *group)
+{
+    group_name made;
+    const char *quote = *group->name ? "\"" : "";
+    snprintf(made.text, sizeof made.text, "%" PRId32 "%s%s%s%s", group->number,
+             *group->name ? " " : "", quote, group->name, quote);
+    return made;
+}
+
+WARNING(warn_loose, forecast->loose.number, 1,
+        "edges of the mesh file's physical group %s are held as geometry.edges says: the keys "
+        "edge_1 to edge_4 are those of the groups of these numbers or names: give the group one of "
+        "them",
+        name_of(&forecast->loose).text)
+
+WARNING(warn_inner, forecast->inner.number, 1,
+        "lines of the mesh file's physical group %s lie inside the body: their edges are "
+        "interfaces as all others, and the group has no effect: for a notch, double its nodes: "
+        "Gmsh's Plugin(Crack)",
+        name_of(&forecast->inner).text)
+
+typedef struct {
+    char text[200];
+} doubled;
+
+static doubled doubled_of(const fracas_surface_survey *mesh)
+{
+    doubled made = {"if it is to be one body, mesh it as one"};
+    if (mesh->doubled)
+        snprintf(made.text, sizeof made.text,
+                 "%zu node%s of different parts are in one position: " FRACAS_SURFACE_JOIN,
+                 mesh->doubled, mesh->doubled == 1 ? "" : "s");
+    return made;
+}
+
+WARNING(warn_parts, forecast->mesh.parts > 1, (double)forecast->mesh.parts,
+        "the mesh file has %zu parts without a common edge, so the body is in as many pieces "
+        "before anything breaks; %s",
+        forecast->mesh.parts, doubled_of(&forecast->mesh).text)
+
+/* Largest side of a body that may be meant in mm [m]. */
+#define LARGE 0.5
+
+static double largest_side(const fracas_surface_survey *mesh)
+{
+    return fmax(mesh->box[0], fmax(mesh->box[1], mesh->box[2]));
+}
+
+WARNING(warn_unit, !point->spec.geometry.unit && largest_side(&forecast->mesh) >= LARGE,
+        largest_side(&forecast->mesh),
+        "the mesh file makes a body of %.4g by %.4g by %.4g m: is it in mm? Then give "
+        "geometry.unit: mm, else geometry.unit: m",
+        forecast->mesh.box[0], forecast->mesh.box[1], forecast->mesh.box[2])
+
+/* 25 % of the edges of an isotropic mesh lie in three of twelve directions. */
+#define STEERED 0.45
+#define FEW_EDGES 200 /* an isotropic mesh of fewer may have so many in three directions */
+
+WARNING(warn_steered, forecast->mesh.steered > STEERED && forecast->interfaces >= FEW_EDGES,
+        forecast->mesh.steered,
+        "%.0f %% of the length of the mesh file's edges lies in three directions 15 degrees wide: "
+        "cracks will follow them: a mesh by Gmsh's Mesh.Algorithm = 5 has none",
+        100 * forecast->mesh.steered)
+
+WARNING(warn_stretch, forecast->mesh.box[2] > 0 && !forecast->mesh.round, 1,
+        "the load moves each point by its place, along x, y and z, and the mesh file's body is no "
+        "sphere about the origin: of %.3g by %.3g by %.3g m it grows along all three, a cylinder "
+        "along its axis as well",
+        forecast->mesh.box[0], forecast->mesh.box[1], forecast->mesh.box[2])
 
 fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
-    warn_coarse,  warn_uniform,   warn_lines,     warn_weak_load, warn_repeated,
-    warn_folds,   warn_lonely,    warn_step,      warn_turned,    warn_passed,
-    warn_short,   warn_long,      warn_flat,      warn_weakest,   warn_wave,
-    warn_bending, warn_few_steps, warn_never,     warn_shatters,  warn_mesh_effect,
-    warn_open,    warn_heats,     warn_undivided, warn_loose,     warn_fast};
+    warn_parts,     warn_unit,  warn_coarse,   warn_uniform,     warn_lines,   warn_weak_load,
+    warn_repeated,  warn_folds, warn_lonely,   warn_step,        warn_turned,  warn_passed,
+    warn_short,     warn_long,  warn_flat,     warn_weakest,     warn_wave,    warn_bending,
+    warn_few_steps, warn_never, warn_shatters, warn_mesh_effect, warn_open,    warn_heats,
+    warn_undivided, warn_loose, warn_inner,    warn_steered,     warn_stretch, warn_fast};

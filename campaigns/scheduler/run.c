@@ -15,6 +15,7 @@
 #include "campaigns/scheduler/types/transport.h"
 #include "engine/integrator/frequencies.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 
 /* Rank of this process, as a launcher has set it; -1: none. */
@@ -54,7 +55,7 @@ static fracas_err examine(const fracas_run_options *options, const fracas_starte
     if (*settled) return FRACAS_OK;
     TRY(fracas_allocation_jobs(options->jobs, campaign->parallel.parts, jobs));
     TRY(kind->check(*jobs));
-    TRY(fracas_costs_create(campaign, options, &cost, &bytes));
+    TRY(fracas_costs_create(campaign, options, stderr, &cost, &bytes));
     TRY(fracas_space_check(study, campaign, options, bytes));
     OWNED char *frequencies = fracas_frequencies_write(campaign->frequencies);
     if (!frequencies) return fracas_no_memory("the run");

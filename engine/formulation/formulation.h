@@ -92,6 +92,7 @@ typedef struct {
 struct fracas_formulation {
     fracas_kind kind; /* first: a registry entry */
     double safety;    /* largest with which the ledger stays closed for long (balance.md) */
+    bool flat;        /* a surface in a plane z = const */
     /* Fills the model's sizes, mass, table and critical steps from its spec. */
     fracas_err (*model_init)(fracas_model *model);
     /* Checks strengths, positive and finite already [Pa]. */

@@ -207,20 +207,19 @@ static const fracas_param file[] = {
      .optional = true},
     THICKNESS,
     EDGE("edges", 0, "all edges but those of the physical groups below"),
-    EDGE("edge_1", 1, "the edges of the physical group 1"),
-    EDGE("edge_2", 2, "the edges of the physical group 2"),
-    EDGE("edge_3", 3, "the edges of the physical group 3"),
-    EDGE("edge_4", 4, "the edges of the physical group 4"),
+    EDGE("edge_1", 1, "the edges of the physical group 1, or of that of this name"),
+    EDGE("edge_2", 2, "the edges of the physical group 2, or of that of this name"),
+    EDGE("edge_3", 3, "the edges of the physical group 3, or of that of this name"),
+    EDGE("edge_4", 4, "the edges of the physical group 4, or of that of this name"),
 };
 
 static fracas_err make_from_file(const fracas_geometry *geometry,
                                  const fracas_surface_fineness *fineness,
                                  const fracas_surface **surface)
 {
-    (void)fineness;
     const length_unit *unit = geometry->unit ? geometry->unit->traits : unit_m.traits;
     fracas_err err = fracas_surface_read_gmsh(geometry->file->text, geometry->file->size,
-                                              unit->metres, surface);
+                                              unit->metres, fineness->flat, surface);
     return err ? fracas_fail_within(err, "mesh file %s", geometry->file->path) : FRACAS_OK;
 }
 

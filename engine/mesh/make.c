@@ -1,6 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/mesh/make.h"
 
+#include "engine/formulation/formulation.h"
+
+static bool is_flat(const fracas_spec *spec)
+{
+    const fracas_formulation *model = (const fracas_formulation *)(const void *)spec->formulation;
+    return model && model->flat;
+}
+
 fracas_err fracas_mesh_make(const fracas_spec *spec, const fracas_surface **surface)
 {
     const fracas_mesh *mesh = &spec->mesh;
@@ -16,7 +24,8 @@ fracas_err fracas_mesh_make(const fracas_spec *spec, const fracas_surface **surf
         .order = (int)mesh->order,
         .amplitude = mesh->noise ? mesh->amplitude : 0.0,
         .shift = (const double(*)[2])(const void *)mesh->noise,
-        .nshifts = mesh->nnoise / 2};
+        .nshifts = mesh->nnoise / 2,
+        .flat = is_flat(spec)};
     return fracas_shape_of(spec)->make(&spec->geometry, &fineness, surface);
 }
 

@@ -33,7 +33,7 @@ static fracas_err read_mesh(const void *context)
 {
     const gmsh_file *f = context;
     const fracas_surface *s = NULL;
-    const fracas_err err = fracas_surface_read_gmsh(f->bytes, f->size, 1, &s);
+    const fracas_err err = fracas_surface_read_gmsh(f->bytes, f->size, 1, false, &s);
     fracas_surface_destroy(s);
     return err;
 }

@@ -131,10 +131,10 @@ fracas_err __wrap_fracas_space_check(const char *study, const fracas_campaign *c
 }
 
 fracas_err __wrap_fracas_costs_create(const fracas_campaign *campaign,
-                                      const fracas_run_options *options, double **cost,
+                                      const fracas_run_options *options, FILE *warn, double **cost,
                                       double **bytes)
 {
-    (void)options;
+    (void)options, (void)warn;
     *cost = malloc(campaign->npoints * sizeof **cost);
     *bytes = calloc(campaign->npoints, sizeof **bytes);
     if (!*cost || !*bytes) abort();

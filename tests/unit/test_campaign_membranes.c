@@ -93,116 +93,6 @@ static void test_annulus(void **state)
                 0.02); /* of 4 layers: chords cut some 1 % off */
 }
 
-/* Two triangles, the lower of which has an edge in group 2. */
-static const char two_triangles[] =
-    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1e-3 0 0\n3 1e-3 1e-3 0\n4 0 1e-3 "
-    "0\n$EndNodes\n"
-    "$Elements\n4\n1 1 2 2 1 1 2\n2 2 2 9 1 1 2 3\n3 2 2 9 1 1 3 4\n4 1 2 3 1 3 4\n$EndElements\n";
-
-/* Replaces what has another size than the mesh of `path`. */
-static char *file_campaign(const char *path, const char *strength)
-{
-    char geometry[300];
-    snprintf(geometry, sizeof geometry,
-             "geometry: {shape: file, file: %s, thickness: 1 mm, edge_2: held, edge_3: fixed}\n",
-             path);
-    char *text = replace(membrane_campaign,
-                         "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\n", geometry);
-    OWNED char *meshed = replace(text, "  divisions: 4\n", "  spacing: given\n");
-    free(text);
-    text = replace(meshed, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n", strength);
-    return text;
-}
-
-static void test_file(void **state)
-{
-    char path[40];
-    make_path(path);
-    write_bytes(path, two_triangles, strlen(two_triangles));
-    OWNED char *text = file_campaign(path,
-                                     "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n");
-    OWN(fracas_campaign) campaign = read_text(text);
-    const fracas_geometry *geometry = &campaign->point[0].spec.geometry;
-    assert_ptr_equal(geometry->edge[0], &fracas_edge_free);
-    assert_ptr_equal(geometry->edge[2], &fracas_edge_held);
-    assert_ptr_equal(geometry->edge[3], &fracas_edge_fixed);
-    const fracas_hash digest = fracas_hash_of(two_triangles, strlen(two_triangles));
-    assert_string_equal(at(campaign, 0, "geometry.file")->text,
-                        fracas_hash_hex(&digest).text); /* its content names it, not its path */
-    OWN(fracas_model) model = model_of(campaign, 0);
-    assert_int_equal(fracas_model_elements(model), 2);
-    assert_int_equal(fracas_model_interfaces(model), 1);
-    assert_true(fabs(fracas_model_interface_volume(model, 0) - 1e-9 / 3) <
-                1e-24); /* all of the square, 1 mm thick */
-    unlink(path);
-}
-
-/* What docs/formats/campaign-file.md shows of a mesh file, of a plate that Gmsh has meshed. */
-static void test_page_example(void **state)
-{
-    OWNED char *page = whole_file(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md");
-    char *begin = strstr(page, "geometry: {shape: file, file: plate.msh"),
-         *end = begin ? strstr(begin, "```") : NULL;
-    assert_non_null(end);
-    *end = '\0';
-    OWNED char *found = replace(begin, "plate.msh",
-                                FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order2-msh41-text.msh");
-    OWNED char *shown = replace(found, "edge_1: held, edge_2: held", "edges: held");
-    OWNED char *text = replace(
-        membrane_campaign,
-        "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\nmesh:\n  divisions: 4\n",
-        shown);
-    OWN(fracas_campaign) campaign = read_text(text);
-    OWN(fracas_model) model = model_of(campaign, 0);
-    assert_int_equal(fracas_model_surface(model)->order, 2);
-}
-
-/* The plate is 2 by 1 units; its groups 11 and 12 have no key of their own. */
-static void test_unit(void **state)
-{
-    static const char plate[] = FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order1-msh22-text.msh";
-    static const char strength[] = "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n";
-    OWNED char *grouped = file_campaign(plate, strength),
-               *metres = replace(grouped, "edge_2: held, edge_3: fixed", "edges: held"),
-               *microns = replace(metres, "thickness: 1 mm", "unit: um, thickness: 1 mm");
-    OWN(fracas_campaign) in_m = read_text(metres), *in_um = read_text(microns);
-    OWN(fracas_model) large = model_of(in_m, 0), *small = model_of(in_um, 0);
-    /* rounding of 1e-6 and of products */
-    assert_true(fabs(fracas_model_interface_volume(small, 0) /
-                         (1e-12 * fracas_model_interface_volume(large, 0)) -
-                     1) < 1e-14);
-    FAILS(fracas_model_check_strength(large, 300e6), FRACAS_USAGE,
-          "the mesh file makes a body of 2 by 1 by 0 m: geometry.unit: mm is for files in mm");
-    OWNED char *plan = plan_text(in_um, 1, false);
-    assert_non_null(strstr(plan, "msh22-text.msh: 2e-06 by 1e-06 by 0 m.\n"));
-    assert_non_null(strstr(plan, "edges of the mesh file's physical group 11 are held as "
-                                 "geometry.edges says"));
-}
-
-/* A file that is no mesh is found out when it is used: by a plan, or where strengths depend on the
- * volume of an interface. */
-static void test_no_mesh(void **state)
-{
-    char path[40], campaign_path[40];
-    make_path(path);
-    make_path(campaign_path);
-    write_bytes(path, "strengths\n", 10);
-    char *text = file_campaign(path, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n");
-    fracas_campaign *campaign = read_text(text);
-    double cost;
-    FAILS(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE, "point 0: mesh file /tmp/");
-    fracas_campaign_destroy(campaign);
-    free(text);
-    text = file_campaign(path, "strength: {distribution: flaws, flaw_density: 1e11 1/m3, minimum: "
-                               "100 MPa, maximum: 400 MPa, exponent: 2}\n");
-    write_bytes(campaign_path, text, strlen(text));
-    FAILS(fracas_campaign_read(campaign_path, &campaign), FRACAS_USAGE,
-          ":1:1: `mesh`: point 0: mesh file /tmp/");
-    free(text);
-    unlink(path);
-    unlink(campaign_path);
-}
-
 /* The mean strength of flaws is that of the mean volume: thickness (area)/(3 squares) on a plate of
  * squares cut in two. */
 static void test_mean_strength(void **state)
@@ -592,7 +482,7 @@ static void test_bounds_of_others(void **state)
     }
 }
 
-TESTS_ALL(read_file, free_file, test_plate, test_annulus, test_file, test_page_example, test_unit,
-          test_no_mesh, test_mean_strength, test_swept_model, test_inherited, test_perturbed,
-          test_plan, test_plan_of_thick_shells, test_open_ledger, test_plan_of_fields, test_bytes,
-          test_bound, test_steps_that_pass_strengths, test_bounds_of_others)
+TESTS_ALL(read_file, free_file, test_plate, test_annulus, test_mean_strength, test_swept_model,
+          test_inherited, test_perturbed, test_plan, test_plan_of_thick_shells, test_open_ledger,
+          test_plan_of_fields, test_bytes, test_bound, test_steps_that_pass_strengths,
+          test_bounds_of_others)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* engine/mesh/surface/gmsh: files of our own writer and of Gmsh 4.8 itself, refusals, damaged
  * files. */
+#include "engine/mesh/surface/parts.h"
 #include "tests/support/gmsh.h"
 #include "tests/support/surface_measures.h"
 
@@ -41,7 +42,7 @@ static void test_round_trip(void **state)
         for (int order = 1; order <= 2; order++) {
             OWN(a_surface) s = rectangle(3, order), *back = NULL;
             gmsh_file f = variant(s, which);
-            if (fracas_surface_read_gmsh(f.bytes, f.size, 1, &back))
+            if (fracas_surface_read_gmsh(f.bytes, f.size, 1, false, &back))
                 fail_msg("variant %d: %s", which, fracas_message());
             assert_int_equal(back->order, order);
             assert_int_equal(back->nnodes, s->nnodes);
@@ -80,7 +81,7 @@ static void test_plates(void **state)
         size_t size;
         OWNED char *bytes = read_plate(i, &size);
         OWN(a_surface) s = NULL;
-        if (fracas_surface_read_gmsh(bytes, size, 1, &s))
+        if (fracas_surface_read_gmsh(bytes, size, 1, false, &s))
             fail_msg("%s: %s", plates[i], fracas_message());
         check_edges(s);
         assert_int_equal(euler(s), 1);
@@ -114,10 +115,10 @@ static void test_plates_agree(void **state)
         size_t size;
         char *bytes = read_plate(i, &size);
         OWN(a_surface) s = NULL, *first = NULL;
-        OK(fracas_surface_read_gmsh(bytes, size, 1, &s));
+        OK(fracas_surface_read_gmsh(bytes, size, 1, false, &s));
         free(bytes);
         bytes = read_plate(i / 4 * 4, &size);
-        OK(fracas_surface_read_gmsh(bytes, size, 1, &first));
+        OK(fracas_surface_read_gmsh(bytes, size, 1, false, &first));
         free(bytes);
         assert_int_equal(s->nnodes, first->nnodes);
         assert_int_equal(s->nelements, first->nelements);
@@ -160,8 +161,11 @@ static const struct {
      "element 1 names node 9, which the file does not have"},
     {HEAD NODES "$Elements\n2\n1 2 2 0 1 1 2 3\n2 9 2 0 1 1 2 3 1 2 3\n$EndElements\n",
      "element 2 is a 6-node triangle"},
-    {HEAD NODES "$Elements\n2\n5 2 2 0 1 1 2 3\n6 2 2 0 1 2 3 4\n$EndElements\n",
-     "element 5 is inverted"},
+    {HEAD "$Nodes\n5\n1 1 0 0\n2 -0.5 0.9 0.2\n3 -0.5 -0.9 -0.1\n4 1 0.1 0.2\n5 -0.5 0.8 "
+          "-0.4\n$EndNodes\n"
+          "$Elements\n5\n1 2 0 1 2 3\n2 2 0 2 4 3\n3 2 0 3 4 5\n4 2 0 4 1 5\n5 2 0 5 1 2\n"
+          "$EndElements\n",
+     "go round against each other however one turns them: the surface has one side only"},
     {HEAD NODES "$Elements\n2\n5 2 2 0 1 1 2 3\n6 1 2 9 1 2 4\n$EndElements\n",
      "line 6 of the physical group 9 has node 4"},
     {HEAD NODES "$Elements\n3\n5 2 0 1 2 3\n7 2 0 2 4 3\n6 1 2 9 1 1 4\n$EndElements\n",
@@ -189,13 +193,14 @@ static const struct {
      "is no word of a mesh"},
     {HEAD "Nodes\n", "expected a section, which begins with $, not `Nodes`"},
     {HEAD "$Comments\nno end\n", "section $Comments has no $EndComments"},
-    {HEAD_4 "$PartitionedEntities\n", "a mesh in partitions"},
-    {HEAD_4 "$Entities\n0 1 0 0\n3 0 0 0 1 1 1 2 7 8 0\n$EndEntities\n",
-     "curve 3 is in 2 physical groups"},
+    {HEAD_4 "$PartitionedEntities\n2\n0\n0 1 0 0\n3 1 1 1 2 0 0 0 1 1 1 2 1 4 0\n",
+     "curve 3 is in the physical groups 1 and 4"},
+    {HEAD_4 "$Entities\n0 1 0 0\n3 0 0 0 1 1 1 2 1 4 0\n$EndEntities\n",
+     "curve 3 is in the physical groups 1 and 4"},
     {HEAD_4 "$Entities\n0 2 0 0\n3 0 0 0 1 1 1 0 0\n3 0 0 0 1 1 1 0 0\n$EndEntities\n",
      "curve 3 comes twice"},
     {HEAD_4 "$Entities\n0 0 0 0\n$EndEntities\n$Entities\n0 0 0 0\n$EndEntities\n",
-     "a second section $Entities"},
+     "a second section of entities"},
     {HEAD_4 "$Nodes\n1 1 1 1\n4 1 0 1\n1\n0 0 0\n$EndNodes\n",
      "nodes of an entity of 4 dimensions"},
     {HEAD_4 "$Nodes\n1 1 1 1\n2 1 0 2\n1\n0 0 0\n$EndNodes\n",
@@ -208,12 +213,170 @@ static const struct {
      "2 elements in a block, but 1 are left"},
 };
 
+/* The right half of the square 1, 2, 4, 3 is turned as `node` says. */
+static void read_turned(const char *node, double z, bool flat, a_surface **s)
+{
+    char text[400];
+    snprintf(text, sizeof text,
+             HEAD "$Nodes\n4\n1 0 0 0\n2 1 0 %.17g\n3 0 1 0\n4 1 1 0\n$EndNodes\n"
+                  "$Elements\n2\n1 2 2 0 1 1 2 3\n2 2 2 0 1 %s\n$EndElements\n",
+             z, node);
+    OK(fracas_surface_read_gmsh(text, strlen(text), 1, flat, s));
+}
+
+/* Elements that go round against the others are turned; those that agree stay, but in a plane. */
+static void test_turned(void **state)
+{
+    static const struct {
+        const char *node;
+        size_t turned;
+    } other[] = {{"2 4 3", 0}, {"2 3 4", 1}, {"4 2 3", 1}};
+    for (size_t i = 0; i < FRACAS_COUNT(other); i++) {
+        OWN(a_surface) s = NULL;
+        read_turned(other[i].node, 0, true, &s);
+        assert_int_equal(s->turned, other[i].turned);
+        check_edges(s);
+        assert_int_equal(s->ninterfaces, 1);
+        for (size_t e = 0; e < 2; e++) {
+            double normal[3];
+            fracas_surface_normal(fracas_surface_node(s, e, 0), fracas_surface_node(s, e, 1),
+                                  fracas_surface_node(s, e, 2), normal);
+            assert_true(normal[2] > 0);
+        }
+    }
+    /* All clockwise: a shell may have its normal there, a membrane has +z. */
+    static const char clockwise[] = HEAD NODES
+        "$Elements\n2\n1 2 0 1 3 2\n2 2 0 2 3 4\n$EndElements\n";
+    for (int flat = 0; flat <= 1; flat++) {
+        OWN(a_surface) s = NULL;
+        OK(fracas_surface_read_gmsh(clockwise, strlen(clockwise), 1, flat, &s));
+        assert_int_equal(s->turned, flat ? 2 : 0);
+    }
+}
+
+/* Turned at random, of either order, in all formats: the surface is that of the file as it was,
+ * seen from one side. */
+static void test_turned_at_random(void **state)
+{
+    uint64_t x = 20261127;
+    for (int which = 0; which < VARIANTS; which++)
+        for (int order = 1; order <= 2; order++) {
+            OWN(a_surface) s = rectangle(4, order), *back = NULL;
+            uint32_t *element = (uint32_t *)(uintptr_t)s->element; /* the test's own */
+            size_t turned = 0;
+            for (size_t e = 0; e < s->nelements; e++) {
+                uint32_t *node = element + s->corners * e, was = node[1];
+                if (next_share(&x) < 0.4) continue;
+                node[1] = node[2], node[2] = was, was = node[3];
+                if (order == 2) node[3] = node[5], node[5] = was;
+                turned++;
+            }
+            OWN(a_surface) plain = rectangle(4, order);
+            for (size_t b = 0; b < s->nborders; b++) /* lines of the borders as they were */
+                ((fracas_surface_border *)(uintptr_t)s->border)[b].tag = 0;
+            gmsh_file f = variant(s, which);
+            OK(fracas_surface_read_gmsh(f.bytes, f.size, 1, true, &back));
+            assert_int_equal(back->turned, turned);
+            check_edges(back);
+            assert_int_equal(back->ninterfaces, plain->ninterfaces);
+            for (size_t e = 0; e < plain->nelements; e++)
+                assert_true(fabs(plain->area[e] - back->area[place_of(back, gmsh_element(e))]) <
+                            1e-15);
+            free(f.bytes);
+        }
+}
+
+/* Round-off in z is none in a flat body; a hundred times as much bends it. */
+static void test_round_off(void **state)
+{
+    static const double z[] = {3e-19, 1e-9, 1e-7};
+    for (size_t i = 0; i < FRACAS_COUNT(z); i++)
+        for (int flat = 0; flat <= 1; flat++) {
+            OWN(a_surface) s = NULL;
+            double side[3];
+            read_turned("2 4 3", z[i], flat, &s);
+            fracas_surface_box(s, side);
+            assert_true(side[2] == (flat && i < 2 ? 0 : z[i]));
+            assert_true(s->node[0][2] == (flat && i < 2 ? z[i] / 4 : s->node[0][2]));
+        }
+}
+
+/* A plate in two partitions of Gmsh: the lines between them are a piece of the surface, whose
+ * physical group is no edge's. */
+static void test_partitions(void **state)
+{
+    static const char text[] = HEAD_4
+        "$Entities\n0 1 1 0\n4 0 0 0 1 0 0 1 7 0\n1 0 0 0 1 1 0 1 2 0\n$EndEntities\n"
+        "$PartitionedEntities\n2\n1\n9 1\n1 3 0 0\n5 2 1 2 1 2 0 0 0 1 2\n"
+        "11 1 4 1 1 0 0 0 1 0 0 1 7 0\n12 2 1 2 1 2 0 0 0 1 1 0 1 2 0\n13 1 4 1 2 0 1 0 1 1 0 1 7 "
+        "0\n"
+        "$EndPartitionedEntities\n"
+        "$Nodes\n1 4 1 4\n2 1 0 4\n1\n2\n3\n4\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n$EndNodes\n"
+        "$Elements\n5 5 1 5\n1 11 1 1\n1 1 2\n1 12 1 1\n2 2 3\n1 13 1 1\n3 3 4\n"
+        "2 21 2 1\n4 1 2 3\n2 22 2 1\n5 2 4 3\n$EndElements\n";
+    OWN(a_surface) s = NULL;
+    OK(fracas_surface_read_gmsh(text, strlen(text), 1, true, &s));
+    assert_int_equal(s->nelements, 2);
+    assert_int_equal(s->ninterfaces, 1);
+    assert_int_equal(s->interface[0].tag, 0);
+    assert_int_equal(tag_of(s, place_of(s, 4), 0), 7);
+    assert_int_equal(tag_of(s, place_of(s, 5), 1), 7);
+    assert_int_equal(tag_of(s, place_of(s, 5), 0), 0);
+}
+
+/* Programs write more than the mesh; versions before 2.2 are alike. */
+static void test_read_alike(void **state)
+{
+    static const char *const head[] = {"$Comments\nby hand\n$EndComments\n", "\xef\xbb\xbf", "",
+                                       ""};
+    static const char *const version[] = {"2.2", "2.2", "2", "2.1"};
+    for (size_t i = 0; i < FRACAS_COUNT(head); i++) {
+        char text[700];
+        OWN(a_surface) s = NULL;
+        snprintf(text, sizeof text,
+                 "%s$MeshFormat\n%s 0 8\n$EndMeshFormat\n$Comments\nso\n$EndComments\n" NODES
+                 "$Elements\n2\n1 2 0 1 2 3\n2 2 0 2 4 3\n$EndElements\n\n\n"
+                 "$Periodic\n1\n1 1 2\n1\n1 2\n$EndPeriodic\n",
+                 head[i], version[i]);
+        OK(fracas_surface_read_gmsh(text, strlen(text), 1, false, &s));
+        assert_int_equal(s->nelements, 2);
+    }
+}
+
+/* MSH 2 has what is in two physical groups twice. Of a line's the one with a key counts, by its
+ * number or by its name. */
+static void test_groups(void **state)
+{
+    static const struct {
+        const char *names, *groups[2];
+        int32_t tag;
+    } of[] = {{"1\n1 7 \"a wall\"", {"7", "8"}, 7},
+              {"1\n1 8 \"edge_3\"", {"7", "8"}, 3},
+              {"1\n2 7 \"edge_3\"", {"9", "2"}, 2},
+              {"x\ny \"", {"2", "2"}, 2},
+              {"1\n1 1 \"edge_11\"", {"1", "9"}, 1}};
+    for (size_t i = 0; i < FRACAS_COUNT(of); i++) {
+        char text[700];
+        OWN(a_surface) s = NULL;
+        snprintf(text, sizeof text,
+                 HEAD "$PhysicalNames\n%s\n$EndPhysicalNames\n" NODES
+                      "$Elements\n6\n1 1 2 %s 1 1 2\n2 1 2 %s 1 2 1\n3 2 2 1 1 1 2 3\n"
+                      "4 2 2 1 1 2 4 3\n5 2 2 2 1 1 2 3\n6 2 2 2 1 2 4 3\n$EndElements\n",
+                 of[i].names, of[i].groups[0], of[i].groups[1]);
+        OK(fracas_surface_read_gmsh(text, strlen(text), 1, false, &s));
+        assert_int_equal(s->nelements, 2);
+        assert_int_equal(tag_of(s, place_of(s, 3), 0), of[i].tag);
+        if (i < 2) assert_true(s->ngroups == 1 && !strcmp(s->group->name, i ? "edge_3" : "a wall"));
+    }
+}
+
 static void test_refused(void **state)
 {
     for (size_t i = 0; i < FRACAS_COUNT(refused); i++) {
         OWN(a_surface) s = NULL;
-        assert_int_equal(fracas_surface_read_gmsh(refused[i].text, strlen(refused[i].text), 1, &s),
-                         FRACAS_USAGE);
+        assert_int_equal(
+            fracas_surface_read_gmsh(refused[i].text, strlen(refused[i].text), 1, false, &s),
+            FRACAS_USAGE);
         assert_null(s);
         if (!strstr(fracas_message(), refused[i].message))
             fail_msg("expected \"%s\" in \"%s\"", refused[i].message, fracas_message());
@@ -230,7 +393,7 @@ static void test_refused_binary(void **state)
     at += 10;
     while (*at++ != '\n') continue;
     memcpy(at + 4, &(int32_t){1000}, 4); /* type, how many follow, tags */
-    FAILS(fracas_surface_read_gmsh(f.bytes, f.size, 1, &back), FRACAS_USAGE,
+    FAILS(fracas_surface_read_gmsh(f.bytes, f.size, 1, false, &back), FRACAS_USAGE,
           "1000 elements in a block");
     assert_true(strncmp(fracas_message(), "byte ", 5) == 0);
     free(f.bytes);
@@ -242,7 +405,7 @@ static bool survives(const char *bytes, size_t size)
     OWNED char *copy = taken(size + (size == 0));
     memcpy(copy, bytes, size);
     OWN(a_surface) s = NULL;
-    fracas_err err = fracas_surface_read_gmsh(copy, size, 1, &s);
+    fracas_err err = fracas_surface_read_gmsh(copy, size, 1, false, &s);
     if (err ? err != FRACAS_USAGE || s || !*fracas_message() : !s)
         fail_msg("%d: %s", err, fracas_message());
     if (!err) check_edges(s);
@@ -331,5 +494,6 @@ static void test_mutations(void **state)
     fracas_surface_destroy(s[1]);
 }
 
-TESTS(test_round_trip, test_plates, test_plates_agree, test_refused, test_refused_binary, test_cut,
-      test_mutations)
+TESTS(test_round_trip, test_plates, test_plates_agree, test_turned, test_turned_at_random,
+      test_round_off, test_partitions, test_read_alike, test_groups, test_refused,
+      test_refused_binary, test_cut, test_mutations)

@@ -83,9 +83,10 @@ static fracas_err set_up(fracas_director *director, bool *settled, int64_t *fail
         director->ruled[p] = director->setup.campaign->point[p].rule.maximum > 0;
     /* First: an impossible campaign leaves no files behind. */
     OWNED double *bytes = NULL;
-    TRY(fracas_costs_create(director->setup.campaign, director->setup.options, &director->cost,
-                            &bytes));
-    if (!director->setup.channel->launcher) /* a launcher has checked the space before */
+    const bool launched = director->setup.channel->launcher; /* which has looked at all this */
+    TRY(fracas_costs_create(director->setup.campaign, director->setup.options,
+                            launched ? NULL : stderr, &director->cost, &bytes));
+    if (!launched)
         TRY(fracas_space_check(director->setup.study, director->setup.campaign,
                                director->setup.options, bytes));
     return open_study(director, settled, failed);

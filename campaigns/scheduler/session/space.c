@@ -21,23 +21,24 @@ static fracas_err try_batch(const fracas_model *model, const fracas_run_options 
 }
 
 static fracas_err find_cost(const fracas_campaign *campaign, size_t point,
-                            const fracas_run_options *options, double *cost, double *bytes)
+                            const fracas_run_options *options, FILE *warn, double *cost,
+                            double *bytes)
 {
     OWN(fracas_model) model = NULL;
     const fracas_err err = fracas_point_model_create(campaign, point, &model);
     if (err) return fracas_fail_within(err, "point %zu", point);
     if (point == 0) TRY(try_batch(model, options));
-    return fracas_plan_cost_with(campaign, point, model, cost, bytes);
+    return fracas_plan_cost_with(campaign, point, model, warn, cost, bytes);
 }
 
 fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run_options *options,
-                               double **cost, double **bytes)
+                               FILE *warn, double **cost, double **bytes)
 {
     OWNED double *c = malloc(campaign->npoints * sizeof *c);
     OWNED double *b = malloc(campaign->npoints * sizeof *b);
     if (!c || !b) return fracas_no_memory("the plan");
     for (size_t i = 0; i < campaign->npoints; i++)
-        TRY(find_cost(campaign, i, options, &c[i], &b[i]));
+        TRY(find_cost(campaign, i, options, warn, &c[i], &b[i]));
     *cost = c;
     c = NULL;
     if (!bytes) return FRACAS_OK;

@@ -6,12 +6,14 @@
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/types/options.h"
 
+#include <stdio.h>
+
 /* Predicted cost and bytes (NULL: not wanted) of one realization of each point (fracas_plan_cost),
  * freed by the caller. FRACAS_USAGE for conflicting parameters, or for lanes or an instruction set
- * missing on this machine. */
+ * missing on this machine. warn: as fracas_plan_cost_with. */
 FRACAS_MUST_USE fracas_err fracas_costs_create(const fracas_campaign *campaign,
-                                               const fracas_run_options *options, double **cost,
-                                               double **bytes);
+                                               const fracas_run_options *options, FILE *warn,
+                                               double **cost, double **bytes);
 
 /* FRACAS_ENVIRONMENT, naming both numbers, unless the disk of the study has room for the remaining
  * segments and for study.h5, which is written whole beside an older one:

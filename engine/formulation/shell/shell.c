@@ -18,7 +18,8 @@ static fracas_err check_order(const fracas_surface *surface)
     if (surface->order == 2) return FRACAS_OK;
     return fracas_fail(
         FRACAS_USAGE,
-        "a shell's elements bend, which linear triangles cannot: make the mesh of quadratic ones");
+        "a shell's elements bend, which linear triangles cannot: make the mesh of quadratic ones "
+        "(gmsh -order 2)");
 }
 
 /* As thick as its radius of curvature, at the edges of elements, it is no shell. */

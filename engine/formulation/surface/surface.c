@@ -7,6 +7,7 @@
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
+#include "engine/mesh/surface/survey.h"
 
 #include <math.h>
 #include <string.h>
@@ -135,6 +136,7 @@ fracas_err fracas_surface_model_init(fracas_model *model)
                            law->kind.name, law->fields[1], (int)SURFACE_POINT_FIELDS_MOST);
     TRY(check_noise(&model->spec));
     TRY(fracas_mesh_make(&model->spec, &model->surface));
+    TRY(fracas_surface_check_whole(model->surface));
     TRY(body->check_mesh(model->surface));
     TRY(check_beta(model));
     model->elements = model->surface->nelements;
@@ -169,12 +171,12 @@ fracas_err fracas_surface_check_strength(const fracas_model *model, double stren
                         (strength * strength * (law->flux ? law->steepest : 1));
     if (!law->flux || (isfinite(most) && model->longest <= most)) return FRACAS_OK;
     char unit[160] = "";
-    if (fracas_shape_of(spec)->from_file && !spec->geometry.unit && model->longest > 30 * most) {
+    if (fracas_shape_of(spec)->from_file && !spec->geometry.unit) {
         double side[3];
         fracas_surface_box(model->surface, side);
         snprintf(unit, sizeof unit,
-                 "; the mesh file makes a body of %.3g by %.3g by %.3g m: geometry.unit: mm is for "
-                 "files in mm",
+                 "; the mesh file makes a body of %.3g by %.3g by %.3g m: if it is in mm, give "
+                 "geometry.unit: mm",
                  side[0], side[1], side[2]);
     }
     return fracas_fail(FRACAS_USAGE,

@@ -238,8 +238,10 @@ static fracas_err check_edge_tags(const fracas_model *model)
             return fracas_fail(
                 FRACAS_USAGE,
                 "geometry.edge_%d is %s, but the mesh has no edge on its boundary of the physical "
-                "group %d: give the lines that number, or use `edges` for all others",
-                (int)tag, edge->name, (int)tag);
+                "group %d: give the lines that number, or the group the name edge_%d, or use "
+                "`edges` "
+                "for all others",
+                (int)tag, edge->name, (int)tag, (int)tag);
     }
     return FRACAS_OK;
 }

@@ -38,6 +38,7 @@ void fracas_surface_destroy(const fracas_surface *surface)
     free((void *)surface->interface);
     free((void *)surface->border);
     free((void *)surface->given);
+    free((void *)surface->group);
     free((void *)surface->area);
     free((void *)surface);
 }
@@ -113,6 +114,7 @@ static void count(const assembly *work, fracas_surface *made)
     made->corners = (size_t)(3 * arrays->order);
     made->nnodes = arrays->nnodes;
     made->nelements = arrays->nelements;
+    made->turned = arrays->turned;
     for (size_t e = 0; e < arrays->nelements; e++)
         for (int k = 0; k < 3; k++) made->nborders += work->neighbour[e][k] == NONE;
     made->ninterfaces = (3 * made->nelements - made->nborders) / 2;
@@ -187,8 +189,12 @@ static fracas_err fill(const assembly *work, fracas_surface *made)
     made->area = area;
     made->interface = interface;
     made->border = border;
-    if (!node || !element || !given || !area || !interface || !border)
+    fracas_surface_group *group = malloc((work->arrays->ngroups + 1) * sizeof *group);
+    made->group = group;
+    made->ngroups = work->arrays->ngroups;
+    if (!group || !node || !element || !given || !area || !interface || !border)
         return fracas_no_memory("a mesh");
+    if (made->ngroups > 0) memcpy(group, work->arrays->group, made->ngroups * sizeof *group);
     fill_elements(work, made->corners, node, element, given);
     fill_edges(work, interface, border);
     for (size_t e = 0; e < made->nelements; e++) area[e] = fracas_surface_find_area(made, e);

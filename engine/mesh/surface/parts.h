@@ -55,6 +55,12 @@ FRACAS_MUST_USE fracas_err fracas_surface_check_edges(const fracas_surface_array
                                                       const fracas_surface_side *side);
 FRACAS_MUST_USE fracas_err fracas_surface_check_jacobians(const fracas_surface_arrays *arrays);
 
+/* Turns elements, whose nodes are `element`, until neighbours go round alike: in a flat mesh
+ * counter-clockwise seen from +z, else as most of their part do. Elements that do so already stay.
+ * *turned: how many were turned. FRACAS_USAGE for a surface of one side. */
+FRACAS_MUST_USE fracas_err fracas_surface_orient(const fracas_surface_arrays *arrays, bool flat,
+                                                 uint32_t *element, size_t *turned);
+
 /* order[k]: the k-th element in the reverse order of Cuthill and McKee; neighbour[e][k]: the
  * element across edge k, UINT32_MAX for none. */
 FRACAS_MUST_USE fracas_err fracas_surface_order(size_t nelements, const uint32_t (*neighbour)[3],

@@ -12,6 +12,7 @@
 
 #include "base/err.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -31,16 +32,25 @@ typedef struct {
     int32_t tag; /* 0: none given */
 } fracas_surface_border;
 
+/* A physical group of Gmsh's, of curves. */
+typedef struct {
+    int32_t number;
+    char name[64];
+} fracas_surface_group;
+
 typedef struct fracas_surface {
     int order;      /* 1 or 2 */
     size_t corners; /* nodes of an element: 3 or 6 */
     size_t nnodes, nelements, ninterfaces, nborders;
     size_t nvertices;        /* nodes that are a vertex of an element */
+    size_t turned;           /* elements of a file that went round against the others */
     const double (*node)[3]; /* in the order in which elements first name them */
     const uint32_t *element; /* [nelements][corners]: nodes, neighbours close to each other */
     const fracas_surface_interface *interface; /* sorted by their elements */
     const fracas_surface_border *border;       /* sorted by element and edge */
-    const int64_t *given; /* [nelements] number of the element as it was given */
+    size_t ngroups;
+    const fracas_surface_group *group; /* those with names */
+    const int64_t *given;              /* [nelements] number of the element as it was given */
     const double *area; /* [nelements] m2: exact for straight edges in a plane, else by a quadrature
                            whose error falls as h^6 */
 } fracas_surface;
@@ -54,10 +64,11 @@ typedef struct {
 /* A mesh as it comes. */
 typedef struct {
     int order;
-    size_t nnodes, nelements, ntags;
+    size_t nnodes, nelements, ntags, turned, ngroups;
     const double (*node)[3];
     const uint32_t *element; /* [nelements][3 order] */
     const fracas_surface_tag *tag;
+    const fracas_surface_group *group;
     const int64_t *node_number, *element_number; /* for messages; NULL: their index, from 0 */
 } fracas_surface_arrays;
 
@@ -80,6 +91,7 @@ typedef struct {
     double amplitude;         /* perturbation in local edge lengths, to FRACAS_SURFACE_AMPLITUDE */
     const double (*shift)[2]; /* two numbers in [-1, 1] for every vertex; NULL: no perturbation */
     size_t nshifts;           /* as many as `nvertices` of the mesh without perturbation */
+    bool flat;                /* a file is for a body in a plane z = const */
 } fracas_surface_fineness;
 
 /* -width/2 <= x <= width/2, -height/2 <= y <= height/2, normal +z; squares cut in two, diagonals

@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Campaign files with mesh files: keys, units, and what a plan says of the mesh. */
+#include "tests/support/campaign_text.h"
+
+#include "campaigns/plan/plan.h"
+#include "campaigns/plan/point_model.h"
+#include "engine/mesh/body.h"
+#include "tests/support/surface_measures.h"
+
+static char *membrane_campaign; /* tests/data/campaigns/membrane.yaml */
+
+static int read_file(void **state)
+{
+    membrane_campaign = campaign_file("membrane");
+    return 0;
+}
+
+static int free_file(void **state)
+{
+    free(membrane_campaign);
+    return 0;
+}
+
+static fracas_model *model_of(const fracas_campaign *campaign, size_t point)
+{
+    fracas_model *model;
+    OK(fracas_point_model_create(campaign, point, &model));
+    return model;
+}
+
+/* Two triangles, the lower of which has an edge in group 2. */
+static const char two_triangles[] =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1e-3 0 0\n3 1e-3 1e-3 0\n4 0 1e-3 "
+    "0\n$EndNodes\n"
+    "$Elements\n4\n1 1 2 2 1 1 2\n2 2 2 9 1 1 2 3\n3 2 2 9 1 1 3 4\n4 1 2 3 1 3 4\n$EndElements\n";
+
+/* Replaces what has another size than the mesh of `path`. */
+static char *file_campaign(const char *path, const char *strength)
+{
+    char geometry[300];
+    snprintf(geometry, sizeof geometry,
+             "geometry: {shape: file, file: %s, thickness: 1 mm, edge_2: held, edge_3: fixed}\n",
+             path);
+    char *text = replace(membrane_campaign,
+                         "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\n", geometry);
+    OWNED char *meshed = replace(text, "  divisions: 4\n", "  spacing: given\n");
+    free(text);
+    text = replace(meshed, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n", strength);
+    return text;
+}
+
+static void test_file(void **state)
+{
+    char path[40];
+    make_path(path);
+    write_bytes(path, two_triangles, strlen(two_triangles));
+    OWNED char *text = file_campaign(path,
+                                     "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n");
+    OWN(fracas_campaign) campaign = read_text(text);
+    const fracas_geometry *geometry = &campaign->point[0].spec.geometry;
+    assert_ptr_equal(geometry->edge[0], &fracas_edge_free);
+    assert_ptr_equal(geometry->edge[2], &fracas_edge_held);
+    assert_ptr_equal(geometry->edge[3], &fracas_edge_fixed);
+    const fracas_hash digest = fracas_hash_of(two_triangles, strlen(two_triangles));
+    assert_string_equal(at(campaign, 0, "geometry.file")->text,
+                        fracas_hash_hex(&digest).text); /* its content names it, not its path */
+    OWN(fracas_model) model = model_of(campaign, 0);
+    assert_int_equal(fracas_model_elements(model), 2);
+    assert_int_equal(fracas_model_interfaces(model), 1);
+    assert_true(fabs(fracas_model_interface_volume(model, 0) - 1e-9 / 3) <
+                1e-24); /* all of the square, 1 mm thick */
+    unlink(path);
+}
+
+/* What docs/formats/campaign-file.md shows of a mesh file, of a plate that Gmsh has meshed. */
+static void test_page_example(void **state)
+{
+    OWNED char *page = whole_file(FRACAS_SOURCE_DIR "/docs/formats/campaign-file.md");
+    char *begin = strstr(page, "geometry: {shape: file, file: plate.msh"),
+         *end = begin ? strstr(begin, "```") : NULL;
+    assert_non_null(end);
+    *end = '\0';
+    OWNED char *found = replace(begin, "plate.msh",
+                                FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order2-msh41-text.msh");
+    OWNED char *shown = replace(found, "edge_1: held, edge_2: held", "edges: held");
+    OWNED char *text = replace(
+        membrane_campaign,
+        "geometry: {width: 10 mm, height: 5 mm, thickness: 0.1 mm}\nmesh:\n  divisions: 4\n",
+        shown);
+    OWN(fracas_campaign) campaign = read_text(text);
+    OWN(fracas_model) model = model_of(campaign, 0);
+    assert_int_equal(fracas_model_surface(model)->order, 2);
+}
+
+/* The plate is 2 by 1 units; its groups 11 and 12 have no key of their own. */
+static void test_unit(void **state)
+{
+    static const char plate[] = FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order1-msh22-text.msh";
+    static const char strength[] = "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n";
+    OWNED char *grouped = file_campaign(plate, strength),
+               *metres = replace(grouped, "edge_2: held, edge_3: fixed", "edges: held"),
+               *microns = replace(metres, "thickness: 1 mm", "unit: um, thickness: 1 mm");
+    OWN(fracas_campaign) in_m = read_text(metres), *in_um = read_text(microns);
+    OWN(fracas_model) large = model_of(in_m, 0), *small = model_of(in_um, 0);
+    /* rounding of 1e-6 and of products */
+    assert_true(fabs(fracas_model_interface_volume(small, 0) /
+                         (1e-12 * fracas_model_interface_volume(large, 0)) -
+                     1) < 1e-14);
+    FAILS(fracas_model_check_strength(large, 300e6), FRACAS_USAGE,
+          "the mesh file makes a body of 2 by 1 by 0 m: if it is in mm, give geometry.unit: mm");
+    OWNED char *plan = plan_text(in_um, 1, false);
+    assert_non_null(strstr(plan, "msh22-text.msh: 2e-06 by 1e-06 by 0 m.\n"));
+    assert_non_null(strstr(plan, "edges of the mesh file's physical group 11 \"left\" are held as "
+                                 "geometry.edges says"));
+}
+
+/* ---- plans of mesh files ---- */
+
+/* Squares of 0.1 mm cut in two, `nx` by `ny`, each `apart` nodes of its own from column `split` on.
+ */
+static char *grid_file(int nx, int ny, int split, double size, const char *more)
+{
+    char *text = NULL;
+    size_t bytes;
+    FILE *out = open_memstream(&text, &bytes);
+    const int row = nx + 2; /* a column twice */
+    fprintf(out,
+            "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 9 \"notch\"\n"
+            "$EndPhysicalNames\n$Nodes\n%d\n",
+            row * (ny + 1));
+    for (int j = 0; j <= ny; j++)
+        for (int i = 0; i < row; i++)
+            fprintf(out, "%d %.17g %.17g 0\n", row * j + i + 1, size * (i > split ? i - 1 : i),
+                    size * j);
+    fprintf(out, "$EndNodes\n$Elements\n%d\n", 2 * nx * ny + (*more ? 1 : 0));
+    for (int j = 0; j < ny; j++)
+        for (int i = 0; i < nx; i++) {
+            const int a = row * j + i + 1 + (i >= split), b = a + row;
+            fprintf(out, "%d 2 0 %d %d %d\n%d 2 0 %d %d %d\n", 2 * (nx * j + i) + 1, a, a + 1,
+                    b + 1, 2 * (nx * j + i) + 2, a, b + 1, b);
+        }
+    fprintf(out, "%s$EndElements\n", more);
+    fclose(out);
+    return text;
+}
+
+static char *plan_of_mesh(const char *mesh)
+{
+    char path[40];
+    make_path(path);
+    write_bytes(path, mesh, strlen(mesh));
+    OWNED char *grouped = file_campaign(path,
+                                        "strength: {minimum: 26 kPa, scale: 5 kPa, shape: 2}\n"),
+               *text = replace(grouped, "edge_2: held, edge_3: fixed", "edges: free");
+    OWN(fracas_campaign) campaign = read_text(text);
+    char *plan = plan_text(campaign, 1, false);
+    unlink(path);
+    return plan;
+}
+
+static void test_plan_of_parts(void **state)
+{
+    OWNED char *halves = grid_file(4, 3, 2, 1e-4, ""), *one = grid_file(4, 3, 0, 1e-4, "");
+    OWNED char *warned = plan_of_mesh(halves), *silent = plan_of_mesh(one);
+    assert_non_null(strstr(warned, "the mesh file has 2 parts without a common edge"));
+    assert_non_null(strstr(warned, "4 nodes of different parts are in one position"));
+    assert_non_null(strstr(warned, "Coherence Mesh"));
+    assert_null(strstr(silent, "parts"));
+}
+
+/* A body of half a metre or more is asked about, and one of lines inside. */
+static void test_plan_of_file(void **state)
+{
+    OWNED char *large = grid_file(4, 3, 0, 0.125, ""), *small = grid_file(4, 3, 0, 0.12, ""),
+               *notched = grid_file(4, 3, 0, 1e-4, "99 1 2 9 9 9 15\n"),
+               *regular = grid_file(12, 12, 0, 1e-4, "");
+    OWNED char *asked = plan_of_mesh(large), *silent = plan_of_mesh(small),
+               *told = plan_of_mesh(notched), *steered = plan_of_mesh(regular);
+    assert_non_null(strstr(asked, "a body of 0.5 by 0.375 by 0 m: is it in mm?"));
+    assert_null(strstr(silent, "in mm"));
+    assert_null(strstr(silent, "three directions"));
+    assert_non_null(strstr(told, "physical group 9 \"notch\" lie inside the body"));
+    assert_non_null(strstr(steered, "100 % of the length of the mesh file's edges lies in three"));
+}
+
+/* A file that is no mesh is found out when it is used: by a plan, or where strengths depend on the
+ * volume of an interface. */
+static void test_no_mesh(void **state)
+{
+    char path[40], campaign_path[40];
+    make_path(path);
+    make_path(campaign_path);
+    write_bytes(path, "strengths\n", 10);
+    char *text = file_campaign(path, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n");
+    fracas_campaign *campaign = read_text(text);
+    double cost;
+    FAILS(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE, "point 0: mesh file /tmp/");
+    fracas_campaign_destroy(campaign);
+    free(text);
+    text = file_campaign(path, "strength: {distribution: flaws, flaw_density: 1e11 1/m3, minimum: "
+                               "100 MPa, maximum: 400 MPa, exponent: 2}\n");
+    write_bytes(campaign_path, text, strlen(text));
+    FAILS(fracas_campaign_read(campaign_path, &campaign), FRACAS_USAGE,
+          ":1:1: `mesh`: point 0: mesh file /tmp/");
+    free(text);
+    unlink(path);
+    unlink(campaign_path);
+}
+
+/* Triangles with nodes of their own have no interface. */
+static void test_no_interface(void **state)
+{
+    static const char soup[] =
+        "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 1 0 0\n"
+        "5 0 1 0\n6 1 1 0\n$EndNodes\n$Elements\n2\n1 2 0 1 2 3\n2 2 0 4 6 5\n$EndElements\n";
+    char path[40];
+    make_path(path);
+    write_bytes(path, soup, strlen(soup));
+    OWNED char *text = file_campaign(path,
+                                     "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n");
+    OWN(fracas_campaign) campaign = read_text(text);
+    double cost;
+    FAILS(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE,
+          "none of the 2 elements has a neighbour");
+    assert_non_null(strstr(fracas_message(), "2 positions have nodes of several elements"));
+    unlink(path);
+}
+
+/* A plan, and a run before it begins, say what body it is. */
+static void test_warnings_of_a_run(void **state)
+{
+    OWNED char *mesh = grid_file(4, 3, 2, 0.2, "");
+    char path[40], *said = NULL;
+    size_t size;
+    double cost;
+    make_path(path);
+    write_bytes(path, mesh, strlen(mesh));
+    OWNED char *grouped = file_campaign(path,
+                                        "strength: {minimum: 26 kPa, scale: 5 kPa, shape: 2}\n"),
+               *text = replace(grouped, "edge_2: held, edge_3: fixed", "edges: free");
+    OWN(fracas_campaign) campaign = read_text(text);
+    OWN(fracas_model) model = model_of(campaign, 0);
+    FILE *out = open_memstream(&said, &size);
+    OK(fracas_plan_cost_with(campaign, 0, model, out, &cost, NULL));
+    fclose(out);
+    assert_non_null(strstr(said, "warning: point 0: the mesh file has 2 parts"));
+    assert_non_null(strstr(said, "is it in mm?"));
+    free(said);
+    unlink(path);
+}
+
+TESTS_ALL(read_file, free_file, test_file, test_page_example, test_unit, test_no_mesh,
+          test_plan_of_parts, test_plan_of_file, test_no_interface, test_warnings_of_a_run)
