@@ -18,6 +18,15 @@ FRACAS_MUST_USE fracas_err fracas_plan_cost_with(const fracas_campaign *campaign
                                                  const fracas_model *model, double *cost,
                                                  double *bytes);
 
+/* fracas_plan_cost_with; adds to *unbroken a point whose interfaces crack and never break. */
+typedef struct {
+    size_t points;  /* how many there are */
+    char text[440]; /* "point P: ..." of the first */
+} fracas_plan_unbroken;
+FRACAS_MUST_USE fracas_err fracas_plan_cost_of_run(const fracas_campaign *campaign, size_t point,
+                                                   const fracas_model *model, double *cost,
+                                                   double *bytes, fracas_plan_unbroken *unbroken);
+
 /* Fields that the run writes at its end. */
 typedef struct {
     size_t realizations;

@@ -3,6 +3,7 @@
 
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
+#include "campaigns/scheduler/status/channel.h"
 #include "campaigns/store/store.h"
 
 #include <math.h>
@@ -21,13 +22,23 @@ static fracas_err try_batch(const fracas_model *model, const fracas_run_options 
 }
 
 static fracas_err find_cost(const fracas_campaign *campaign, size_t point,
-                            const fracas_run_options *options, double *cost, double *bytes)
+                            const fracas_run_options *options, double *cost, double *bytes,
+                            fracas_plan_unbroken *unbroken)
 {
     OWN(fracas_model) model = NULL;
     const fracas_err err = fracas_point_model_create(campaign, point, &model);
     if (err) return fracas_fail_within(err, "point %zu", point);
     if (point == 0) TRY(try_batch(model, options));
-    return fracas_plan_cost_with(campaign, point, model, cost, bytes);
+    return fracas_plan_cost_of_run(campaign, point, model, cost, bytes, unbroken);
+}
+
+/* Before hours of a run that breaks nothing. */
+static void say_unbroken(const fracas_plan_unbroken *unbroken)
+{
+    if (unbroken->points == 1) fprintf(stderr, "fracas: warning: %s\n", unbroken->text);
+    else if (unbroken->points > 1)
+        fprintf(stderr, "fracas: warning: %zu points break nothing, the first, %s\n",
+                unbroken->points, unbroken->text);
 }
 
 fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run_options *options,
@@ -35,9 +46,11 @@ fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run
 {
     OWNED double *c = malloc(campaign->npoints * sizeof *c);
     OWNED double *b = malloc(campaign->npoints * sizeof *b);
+    fracas_plan_unbroken unbroken = {0};
     if (!c || !b) return fracas_no_memory("the plan");
     for (size_t i = 0; i < campaign->npoints; i++)
-        TRY(find_cost(campaign, i, options, &c[i], &b[i]));
+        TRY(find_cost(campaign, i, options, &c[i], &b[i], &unbroken));
+    if (bytes && !options->quiet && !getenv(FRACAS_LAUNCHER_MARK)) say_unbroken(&unbroken);
     *cost = c;
     c = NULL;
     if (!bytes) return FRACAS_OK;
