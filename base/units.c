@@ -25,6 +25,7 @@ static const struct {
     {"1/m3", "a number per volume", "1/m3 or 1/mm3"},
     {"s", "a time", "s or us"},
     {"1/s", "a rate", "1/s"},
+    {"rad/s", "an angular velocity", "rad/s or rpm"},
     {"kg", "a mass", "kg or g"},
     {"kg/m3", "a density", "kg/m3 or g/cm3"},
     {"m/s", "a velocity", "m/s"},
@@ -224,6 +225,23 @@ static fracas_err parse_unit(ut_system *system, const char *name, ut_unit **foun
     return FRACAS_OK;
 }
 
+/* Events a second or a minute, which UDUNITS-2 takes for radians, and others for revolutions. */
+static const char events[] = "(hz|hertz(es)?|becquerels?|bq)($|[^a-z])|^1 */ *min(utes?)?$|"
+                             "^min(utes?)?\\^?-1$";
+
+/* FRACAS_USAGE for 6 kHz where an angular velocity is expected. As a rate it is 6e3 1/s. */
+static fracas_err check_angular(const char *text, const char *name, const char *si)
+{
+    bool found;
+    if (strcmp(si, "rad/s") != 0) return FRACAS_OK;
+    TRY(match(events, name, &found));
+    if (!found) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "`%s` may mean radians or revolutions; expected an angular velocity, in "
+                       "rad/s or rpm",
+                       text);
+}
+
 /* Factor from the unit written as `name` to `expected`; FRACAS_USAGE names its fault. `text`: the
  * whole value. */
 static fracas_err parse_factor(ut_system *system, const char *text, const char *name,
@@ -240,6 +258,7 @@ static fracas_err parse_factor(ut_system *system, const char *text, const char *
     if (!found)
         return fracas_fail(FRACAS_USAGE, "`%s` has an unknown unit, `%s`; expected %s, in %s", text,
                            name, what, write_in);
+    TRY(check_angular(text, name, si));
     *factor = unit_factor(system, found, expected);
     if (isnan(*factor)) {
         char is[96];

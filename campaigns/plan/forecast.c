@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/plan/forecast.h"
 
+#include "campaigns/plan/bounds.h"
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
 #include "campaigns/plan/size.h"
@@ -100,53 +101,6 @@ static fracas_err check_strengths(const fracas_model *model, const fracas_point 
     return check_strongest(model, point, extent, most);
 }
 
-/* Upper bound of the stress in an uncracked chain until t [Pa]. Radially u'' + w^2 u = a with w =
- * c/R and sigma = E u/R (docs/theory/ring.md):
- *
- *   radial velocity v            min(E v t/R, E v/c)
- *   radial acceleration <= a     min(E a t^2/(2 R), 2 R rho a)
- *   circumferential velocity v   the same with a = v^2/R */
-static double chain_stress_bound(const fracas_spec *spec, double t)
-{
-    const fracas_ring_maxima drive = fracas_loading_traits_of(spec)->ring(spec, t);
-    const double radius = spec->geometry.radius;
-    if (drive.outward == 0 && drive.along == 0) return drive.stress;
-    return drive.stress +
-           fmin(spec->material.young * t * t / (2 * radius), 2 * radius * spec->material.density) *
-               (drive.outward + drive.along * drive.along / radius);
-}
-
-/* True if a plate stretches evenly until relief waves from its free edges arrive: no edge is held
- * against the motion, and no free edge meets a held one, whose corner concentrates stress. */
-static bool is_even(const fracas_spec *spec, const fracas_stretch *stretch)
-{
-    bool held = false, released = false;
-    if (!fracas_shape_of(spec)->even || stretch->shock) return false;
-    for (int tag = 1; tag <= 4; tag++) {
-        const fracas_edge *edge = fracas_edge_of(spec->geometry.edge[tag]);
-        if (edge->held && !(edge->moving && stretch->moving)) return false;
-        held = held || (edge->held && !edge->sliding);
-        released = released || !edge->held;
-    }
-    return !(held && released);
-}
-
-/* Upper bound of the stress in an uncracked plate until t [Pa]. It stretches by (1, ratio) a with
- * a = rate t or w^2 t^2/2; the bound is the larger stress along its sides, E a/(1 - nu) for
- * ratio 1. A free edge only relieves it. In any direction, traction and shear/beta_c together are
- * at most max(1, 1/beta_c) times the bound. INFINITY for shapes, corners and shocks with a
- * concentration of stress. */
-static double surface_stress_bound(const fracas_spec *spec, double t)
-{
-    const fracas_stretch stretch = fracas_loading_traits_of(spec)->surface(spec, t);
-    const double nu = spec->material.poisson, ratio = stretch.ratio;
-    if (!is_even(spec, &stretch)) return INFINITY;
-    const double largest = fmax(fabs(1 + nu * ratio),
-                                fmax(fabs(nu + ratio), fmax(1.0, fabs(ratio)) * (1 - nu * nu)));
-    return spec->material.young * stretch.strain * largest / (1 - nu * nu) *
-           fmax(1.0, 1.0 / spec->cohesive.coupling);
-}
-
 /* Forecasts of rings alone. A compressed ring with next to no bending stiffness folds, starting
  * from round-off; held radial velocities keep it round. */
 static void describe_ring(const fracas_spec *spec, fracas_forecast *forecast)
@@ -161,11 +115,12 @@ static void describe_ring(const fracas_spec *spec, fracas_forecast *forecast)
     forecast->lonely = spec->cohesive.zone > 0.5 * fracas_spec_length(spec);
 }
 
-/* Diagonal of the box around all interfaces [m]. */
-static fracas_err extent_of_body(const fracas_model *model, double *diagonal)
+/* Diagonal of the box around all interfaces, and their largest distance from the z axis [m]. */
+static fracas_err measure_body(const fracas_model *model, double *diagonal, double *reach)
 {
     const size_t n = fracas_model_strengths(model);
     double square = 0;
+    *reach = 0;
     OWNED double(*position)[3] = malloc((n + 1) * sizeof *position);
     if (!position) return fracas_no_memory("the places of interfaces");
     fracas_model_interface_positions(model, position);
@@ -177,23 +132,9 @@ static fracas_err extent_of_body(const fracas_model *model, double *diagonal)
         }
         if (n > 0) square += (most - least) * (most - least);
     }
+    for (size_t i = 0; i < n; i++) *reach = fmax(*reach, hypot(position[i][0], position[i][1]));
     *diagonal = sqrt(square);
     return FRACAS_OK;
-}
-
-/* Largest opening of an interface until time.end t [m]. A crack unloads the body at the wave speed
- * c: under a strain e t its faces part at 2 c e t, by c e t^2 altogether, and at most by the body's
- * extension, e t times its size. Other loads have the final strain in place of e t. */
-static double available_opening(const fracas_spec *spec, const fracas_forecast *forecast)
-{
-    const double t = spec->time.end, E = spec->material.young;
-    double strain = forecast->bound / E, size = fracas_spec_length(spec);
-    if (fracas_spec_is_surface(spec)) {
-        const fracas_stretch stretch = fracas_loading_traits_of(spec)->surface(spec, t);
-        strain = stretch.strain * fmax(1, fabs(stretch.ratio));
-        size = forecast->extent;
-    }
-    return strain * fmin(sqrt(E / spec->material.density) * t, size);
 }
 
 /* Size of fragments at a strength [m], (24 G_c/(rho rate^2))^(1/3): D. E. Grady, J. Appl. Phys. 53,
@@ -205,6 +146,12 @@ static double grady_size(const fracas_spec *spec, double strength)
                 (spec->material.density * rate * rate));
 }
 
+/* delta_c = 2 G_c/sigma_c [m]. */
+static double opening_at(const fracas_spec *spec, double strength)
+{
+    return 2 * fracas_spec_fracture_energy(spec, strength) / strength;
+}
+
 /* k = (t - t_onset) c/L at time.end  (settled.1), t_onset = strength/(E rate). */
 static double transits_of(const fracas_spec *spec, double strength)
 {
@@ -214,14 +161,18 @@ static double transits_of(const fracas_spec *spec, double strength)
            grady_size(spec, strength);
 }
 
-/* Opening and fragments where the factor of the strengths is least; `mean`: strength without it
- * [Pa]. */
-static void describe_weakest(const fracas_spec *spec, double mean, double least,
-                             fracas_forecast *forecast)
+/* Openings of breaks by the least factor of the strengths, and fragments there. By the strongest 1
+ * % of strengths, whose openings are least, it is known that none breaks. `mean`, `strong`:
+ * strength without the factor [Pa]. */
+static void describe_breaks(const fracas_spec *spec, double mean, double strong,
+                            const fracas_factor_range *factor, fracas_forecast *forecast)
 {
-    const double weak = least * mean;
-    forecast->opening = 2 * fracas_spec_fracture_energy(spec, weak) / weak;
-    forecast->available = available_opening(spec, forecast);
+    const double weak = forecast->factor * mean;
+    forecast->opening = opening_at(spec, weak);
+    forecast->available = fracas_opening_bound(spec, forecast->bound, forecast->extent);
+    const bool any = forecast->interfaces > 0;
+    forecast->unbroken = any && opening_at(spec, forecast->factor * strong) > forecast->available;
+    forecast->whole = any && opening_at(spec, factor->most * strong) > forecast->available;
     forecast->pieces = grady_size(spec, weak);
 }
 
@@ -276,8 +227,8 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
                              (mean * mean);
     forecast->element = fracas_model_element_size(model);
     forecast->coarseness = forecast->element / softening;
-    if (point->strength.covariance || point->strength.factor)
-        TRY(extent_of_body(model, &forecast->extent));
+    double reach;
+    TRY(measure_body(model, &forecast->extent, &reach));
     if (fracas_shape_of(spec)->from_file) TRY(describe_file(fracas_model_surface(model), forecast));
     forecast->flat = point->strength.factor && factor.least == factor.most;
     forecast->uniform = factor.least == factor.most && strength_at(point, extent.mean, 0.25) ==
@@ -287,8 +238,8 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->lines = forecast->uniform && fracas_spacing_of(spec)->rows &&
                       spec->mesh.amplitude == 0;
     forecast->mean = mean;
-    forecast->bound = fracas_spec_is_surface(spec) ? surface_stress_bound(spec, spec->time.end)
-                                                   : chain_stress_bound(spec, spec->time.end);
+    forecast->bound = fracas_stress_bound(
+        spec, &(fracas_body_size){forecast->extent, reach, forecast->element});
     forecast->spread = fracas_model_surface(model) && !fracas_law_of(spec)->flux
                            ? factor.most * strength_at(point, extent.mean, 0.99) -
                                  factor.least * strength_at(point, extent.mean, 0.01)
@@ -305,7 +256,8 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->volume = extent.mean.volume;
     forecast->mesh_effect = mesh_effect_of(point, model, extent.mean);
     forecast->factor = fmin(1, factor.least);
-    if (forecast->factor < 1) describe_weakest(spec, mean / factor.mean, factor.least, forecast);
+    describe_breaks(spec, mean / factor.mean, strength_at(point, extent.mean, 0.99), &factor,
+                    forecast);
     forecast->repeated = fracas_strength_is_given(&point->strength) && point->replicas > 1;
     return estimated ? FRACAS_OK : check_strengths(model, point, extent.least, factor.most);
 }
@@ -370,21 +322,25 @@ static bool is_mesh_of_last(const fracas_campaign *campaign, size_t point)
 }
 
 static void warn_of(const fracas_campaign *campaign, size_t point, const fracas_forecast *forecast,
-                    FILE *warn)
+                    fracas_plan_words *words)
 {
     char text[FRACAS_WARNING_TEXT];
+    const fracas_point *of = &campaign->point[point];
     for (int w = 0; w < FRACAS_RUN_WARNINGS && !is_mesh_of_last(campaign, point); w++)
-        if (fracas_plan_warnings[w](&campaign->point[point], forecast, text, sizeof text) > 0)
-            fprintf(warn, "fracas: warning: point %zu: %s\n", point, text);
+        if (fracas_plan_warnings[w](of, forecast, text, sizeof text) > 0)
+            fprintf(words->out, "fracas: warning: point %zu: %s\n", point, text);
+    if (fracas_plan_warn_unbroken(of, forecast, text, sizeof text) > 0 && words->unbroken++ == 0)
+        snprintf(words->first, sizeof words->first, "point %zu: %s", point, text);
 }
 
 fracas_err fracas_plan_cost_with(const fracas_campaign *campaign, size_t point,
-                                 const fracas_model *model, FILE *warn, double *cost, double *bytes)
+                                 const fracas_model *model, fracas_plan_words *words, double *cost,
+                                 double *bytes)
 {
     fracas_forecast forecast;
     const fracas_err err = describe(&campaign->point[point], model, false, &forecast);
     if (err) return fracas_fail_within(err, "point %zu", point);
-    if (warn) warn_of(campaign, point, &forecast, warn);
+    if (words) warn_of(campaign, point, &forecast, words);
     *cost = (double)forecast.elements * (double)forecast.steps;
     fracas_rows_expect(campaign, &campaign->point[point].spec, &forecast);
     if (bytes) *bytes = fracas_realization_bytes(campaign, &forecast);

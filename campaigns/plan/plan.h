@@ -13,11 +13,17 @@
  * FRACAS_ENVIRONMENT without memory. Builds the model (about 1 us an element). */
 FRACAS_MUST_USE fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point,
                                             double *cost, double *bytes);
-/* The same with the point's model. warn: gets the first FRACAS_RUN_WARNINGS of the plan's warnings,
- * a line each; NULL: none. */
+/* What a run says of its points before it begins. */
+typedef struct {
+    FILE *out;       /* gets the first FRACAS_RUN_WARNINGS of the plan's warnings, a line each */
+    size_t unbroken; /* points whose interfaces crack and never break, counted */
+    char first[440]; /* "point P: ..." of the first of these */
+} fracas_plan_words;
+/* fracas_plan_cost with the point's model. words: adds to them; NULL: says nothing. */
 FRACAS_MUST_USE fracas_err fracas_plan_cost_with(const fracas_campaign *campaign, size_t point,
-                                                 const fracas_model *model, FILE *warn,
-                                                 double *cost, double *bytes);
+                                                 const fracas_model *model,
+                                                 fracas_plan_words *words, double *cost,
+                                                 double *bytes);
 
 /* Fields that the run writes at its end. */
 typedef struct {

@@ -162,14 +162,45 @@ WARNING(warn_flat, forecast->flat, 1,
         "along %s: are its coordinates in m?",
         point->strength.factor->path, point->strength.factor_along->name)
 
+/* It cracks, and no strength of the weakest part breaks. */
+static bool never_breaks(const fracas_forecast *forecast)
+{
+    return forecast->unbroken && !(forecast->bound < forecast->mean);
+}
+
 WARNING(
-    warn_never, point->spec.cohesive.fracture_energy > 0 && forecast->opening > forecast->available,
-    forecast->opening / forecast->available,
+    warn_never, never_breaks(forecast) && !forecast->whole, forecast->opening / forecast->available,
     "where strength.factor is %.2g interfaces break at an opening of 2 fracture_energy/strength "
     "= %.2g m, and until time.end the load opens none by more than %.2g m: they crack and never "
     "break: raise the least factor to %.2g, or time.end, or give a smaller fracture_energy",
     forecast->factor, forecast->opening, forecast->available,
     forecast->factor * forecast->opening / forecast->available)
+
+/* The key of a load that says how hard it is: its first number. */
+static const char *load_key(const fracas_spec *spec)
+{
+    const fracas_kind *load = spec->loading.type;
+    size_t k = 0;
+    while (k + 1 < load->nparams && load->params[k].type != FRACAS_REAL) k++;
+    return load->params[k].name;
+}
+
+WARNING(
+    warn_whole, never_breaks(forecast) && forecast->whole, forecast->opening / forecast->available,
+    "interfaces break at an opening of %s = %.2g m, and until time.end the load opens none by more "
+    "than %.2g m: they crack and never break: is %s meant? A bare number is SI; or raise time.end "
+    "or loading.%s",
+    point->spec.cohesive.fracture_energy > 0 ? "2 fracture_energy/strength" : "critical_opening",
+    forecast->opening, forecast->available,
+    point->spec.cohesive.fracture_energy > 0 ? "cohesive.fracture_energy in the unit (J/m2, kJ/m2)"
+                                             : "cohesive.critical_opening in the unit (m, um)",
+    load_key(&point->spec))
+
+double fracas_plan_warn_unbroken(const fracas_point *point, const fracas_forecast *forecast,
+                                 char *text, size_t size)
+{
+    return warn_whole(point, forecast, text, size);
+}
 
 /* Largest size of fragments over an element's at which a weak part breaks everywhere: 45 % of its
  * interfaces at 0.36 (13 % of the others), 10 % at 0.8, on a plate with a strip across. */
@@ -321,4 +352,5 @@ fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
     warn_repeated,  warn_folds, warn_lonely,   warn_step,        warn_turned,  warn_passed,
     warn_short,     warn_long,  warn_flat,     warn_weakest,     warn_wave,    warn_bending,
     warn_few_steps, warn_never, warn_shatters, warn_mesh_effect, warn_open,    warn_heats,
-    warn_undivided, warn_loose, warn_inner,    warn_steered,     warn_stretch, warn_fast};
+    warn_undivided, warn_loose, warn_inner,    warn_steered,     warn_stretch, warn_fast,
+    warn_whole};

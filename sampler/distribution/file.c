@@ -15,16 +15,10 @@ FRACAS_MUST_USE static fracas_err next_strength(fracas_lines *lines, double *val
     *found = fracas_lines_next(lines);
     if (*found) fracas_lines_last_field(lines, field);
     if (*found && lines->first && fracas_lines_is_heading(field)) {
-        lines->columns = memchr(lines->start, ',', (size_t)(lines->stop - lines->start)) != NULL;
+        fracas_lines_name(lines);
         return next_strength(lines, value, found);
     }
-    if (*found && fracas_lines_is_decimal_comma(lines)) {
-        snprintf(field, sizeof field, "%.*s", (int)(lines->stop - lines->start), lines->start);
-        return fracas_lines_refuse(
-            lines, field,
-            "a decimal point, not a comma, in a strength; or, if the comma "
-            "ends a column, their names in a first line (`number,strength`)");
-    }
+    if (*found) TRY(fracas_lines_check_commas(lines, 1, "number,strength"));
     if (!*found || (!fracas_number_read(field, value) && *value > 0.0)) return FRACAS_OK;
     return fracas_lines_refuse(lines, field,
                                "a strength in Pa, a number greater than 0 at the end of the line, "

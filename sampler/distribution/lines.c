@@ -5,6 +5,7 @@
 
 #include <ctype.h>
 #include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 #include <strings.h>
 
@@ -66,18 +67,79 @@ void fracas_lines_field(fracas_lines *lines, char field[FRACAS_FIELD])
     lines->start = stop;
 }
 
-bool fracas_lines_is_decimal_comma(const fracas_lines *lines)
+/* A comma between digits. */
+static bool is_inner(const fracas_lines *lines, const char *c)
 {
-    const size_t length = (size_t)(lines->stop - lines->start);
-    const char *comma = memchr(lines->start, ',', length);
-    if (lines->columns || !comma || comma == lines->start || comma + 1 == lines->stop) return false;
-    if (!isdigit((unsigned char)comma[-1]) || !isdigit((unsigned char)comma[1]) ||
-        memchr(comma + 1, ',', (size_t)(lines->stop - comma - 1)))
-        return false;
-    const char *from = comma, *to = comma;
-    while (from > lines->start && !is_blank(from[-1])) from--;
-    while (to < lines->stop && !is_blank(*to)) to++;
-    return !memchr(from, '.', (size_t)(to - from));
+    return *c == ',' && c > lines->start && c + 1 < lines->stop && isdigit((unsigned char)c[-1]) &&
+           isdigit((unsigned char)c[1]);
+}
+
+/* A part of a line between blanks, semicolons and commas that are not between digits. */
+typedef struct {
+    size_t commas;
+    bool number;  /* it is one, or several with its commas */
+    bool point;   /* it has a decimal point */
+    bool leading; /* a 0 and more digits come after a comma, as in 1,05 */
+} word;
+
+static word next_word(const fracas_lines *lines, const char **at)
+{
+    word of = {.number = true};
+    const char *c = *at, *from = c;
+    for (; c < lines->stop && !is_blank(*c) && *c != ';'; c++) {
+        if (*c != ',') continue;
+        if (!is_inner(lines, c)) break;
+        of.commas++;
+        of.leading = of.leading ||
+                     (c[1] == '0' && c + 2 < lines->stop && isdigit((unsigned char)c[2]));
+    }
+    for (const char *d = from; d < c; d++) {
+        of.point = of.point || *d == '.';
+        of.number = of.number && (isdigit((unsigned char)*d) || memchr(",.+-eE", *d, 6));
+    }
+    while (c < lines->stop && (is_blank(*c) || *c == ';' || *c == ',')) c++;
+    *at = c;
+    return of;
+}
+
+static size_t count_fields(const fracas_lines *lines)
+{
+    fracas_lines ahead = *lines;
+    char field[FRACAS_FIELD];
+    size_t count = 0;
+    for (; ahead.start < ahead.stop; count++) fracas_lines_field(&ahead, field);
+    return count;
+}
+
+bool fracas_lines_is_decimal_comma(const fracas_lines *lines, size_t numbers)
+{
+    size_t words = 0, decimals = 0, readable = 0;
+    bool sure = false, many = false;
+    const bool semicolon = memchr(lines->start, ';', (size_t)(lines->stop - lines->start));
+    if (lines->headings > 0 && count_fields(lines) <= lines->headings) return false;
+    for (const char *at = lines->start; at < lines->stop; words++) {
+        const word of = next_word(lines, &at);
+        const bool decimal = of.number && !of.point && of.commas == 1;
+        sure = sure || (of.number && !of.point && of.leading) || (decimal && semicolon);
+        many = many || (numbers > 1 && of.number && !of.point && of.commas >= numbers);
+        if (words >= numbers && numbers > 1) continue;
+        decimals += decimal;
+        readable += of.number && of.commas <= 1;
+    }
+    return sure || many || (decimals > 0 && (numbers == 1 || readable >= numbers));
+}
+
+fracas_err fracas_lines_check_commas(const fracas_lines *lines, size_t numbers,
+                                     const char *headings)
+{
+    char line[FRACAS_FIELD], expected[200];
+    if (!fracas_lines_is_decimal_comma(lines, numbers)) return FRACAS_OK;
+    snprintf(line, sizeof line, "%.*s", (int)(lines->stop - lines->start), lines->start);
+    snprintf(expected, sizeof expected,
+             "a decimal point, not a comma, in a %s; or, if the comma ends a column, the names of "
+             "all columns in a first line (`%s`)",
+             numbers == 1 ? "strength" : "number", headings);
+    return fracas_lines_refuse(lines, line, expected);
 }
 
 fracas_err fracas_lines_refuse(const fracas_lines *lines, const char *found, const char *expected)
@@ -100,6 +162,12 @@ fracas_err fracas_lines_number(fracas_lines *lines, const char *name, const char
                        *field ? "`" : "", name, form);
 }
 
+void fracas_lines_name(fracas_lines *lines)
+{
+    for (const char *c = lines->start; c < lines->stop; c++) lines->headings += *c == ',';
+    if (lines->headings > 0) lines->headings++;
+}
+
 bool fracas_lines_next_row(fracas_lines *lines)
 {
     char field[FRACAS_FIELD];
@@ -107,7 +175,9 @@ bool fracas_lines_next_row(fracas_lines *lines)
     if (!lines->first) return true;
     fracas_lines ahead = *lines;
     fracas_lines_field(&ahead, field);
-    return !fracas_lines_is_heading(field) || fracas_lines_next(lines);
+    if (!fracas_lines_is_heading(field)) return true;
+    fracas_lines_name(lines);
+    return fracas_lines_next(lines);
 }
 
 bool fracas_lines_is_heading(const char *field)

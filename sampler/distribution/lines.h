@@ -17,23 +17,29 @@ typedef struct {
     const char *start, *stop; /* the line without outer blanks; fracas_lines_field shortens it */
     int64_t line;             /* its number, from 1 */
     bool first;               /* it is the first one: it may be a line of headings */
-    bool columns;             /* a first line of headings has a comma */
+    size_t headings;          /* columns that a first line names between commas; 0: none */
 } fracas_lines;
 
 fracas_lines fracas_lines_begin(const fracas_attachment *file);
 
 /* False at the end of the file. */
 bool fracas_lines_next(fracas_lines *lines);
-/* The same, without a first line whose first field is a heading. */
+/* The line is one of headings: counts those between commas. */
+void fracas_lines_name(fracas_lines *lines);
+/* The next one, without a first line whose first field is a heading. */
 bool fracas_lines_next_row(fracas_lines *lines);
 
 /* The line's last field; the next from its start. Fields end at a comma or a blank. "" if there is
  * none, or if it holds bytes that no text has. */
 void fracas_lines_last_field(const fracas_lines *lines, char field[FRACAS_FIELD]);
 void fracas_lines_field(fracas_lines *lines, char field[FRACAS_FIELD]);
-/* True of a line that may hold a decimal comma: its only comma stands between digits, and next to
- * no decimal point, where no line of headings says that there are columns. */
-bool fracas_lines_is_decimal_comma(const fracas_lines *lines);
+/* True of a line that may hold decimal commas: one stands between digits, next to no decimal point,
+ * and what it parts are `numbers` numbers (1: of which the last one counts) or more; where no line
+ * of headings names as many columns. */
+bool fracas_lines_is_decimal_comma(const fracas_lines *lines, size_t numbers);
+/* FRACAS_USAGE for such a line. */
+FRACAS_MUST_USE fracas_err fracas_lines_check_commas(const fracas_lines *lines, size_t numbers,
+                                                     const char *headings);
 /* FRACAS_USAGE: "FILE:LINE: found `found`; expected ...". */
 FRACAS_MUST_USE fracas_err fracas_lines_refuse(const fracas_lines *lines, const char *found,
                                                const char *expected);

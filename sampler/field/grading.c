@@ -29,6 +29,7 @@ FRACAS_MUST_USE static fracas_err next_place(fracas_lines *lines, place *p, bool
     static const char form[] = "a coordinate [m] and a factor";
     *found = fracas_lines_next_row(lines);
     if (!*found) return FRACAS_OK;
+    TRY(fracas_lines_check_commas(lines, 2, "coordinate,factor"));
     TRY(fracas_lines_number(lines, "coordinate", form, &p->at));
     TRY(fracas_lines_number(lines, "factor", form, &p->factor));
     if (p->factor > 0) return FRACAS_OK;

@@ -73,7 +73,9 @@ static void test_bad_values(void **state)
         {"# a\n\n3\n4,\n", "s.csv:4: found no text there; expected"},
         {"4e8\n3,5e8\n",
          "s.csv:2: found `3,5e8`; expected a decimal point, not a comma, in a strength; or, if "
-         "the comma ends a column, their names in a first line (`number,strength`)"},
+         "the comma ends a column, the names of all columns in a first line (`number,strength`)"},
+        {"0,1 3,5e8\n", "s.csv:1: found `0,1 3,5e8`; expected a decimal point"},
+        {"0,02; 3,5e8\n", "s.csv:1: found `0,02; 3,5e8`; expected a decimal point"},
         {"strength\n3,5\n", "s.csv:2: found `3,5`"},
         {"7 3,5e8\n", "s.csv:1: found `7 3,5e8`"},
         {"3e8x\n", "s.csv:1: found `3e8x`"}, /* no heading: it starts like a number */

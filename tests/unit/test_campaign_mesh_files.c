@@ -241,7 +241,8 @@ static void test_warnings_of_a_run(void **state)
     OWN(fracas_campaign) campaign = read_text(text);
     OWN(fracas_model) model = model_of(campaign, 0);
     FILE *out = open_memstream(&said, &size);
-    OK(fracas_plan_cost_with(campaign, 0, model, out, &cost, NULL));
+    fracas_plan_words words = {.out = out};
+    OK(fracas_plan_cost_with(campaign, 0, model, &words, &cost, NULL));
     fclose(out);
     assert_non_null(strstr(said, "warning: point 0: the mesh file has 2 parts"));
     assert_non_null(strstr(said, "is it in mm?"));

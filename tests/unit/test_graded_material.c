@@ -25,7 +25,8 @@ static double factor_of(const char *text, const fracas_kind *along, const double
 /* Coordinates and factors are such that nothing is rounded. */
 static void factors_are_linear_between_lines(void **state)
 {
-    static const char *const texts[] = {"0,1\n1,2\n1,4\n3,8\n",
+    static const char *const texts[] = {"0,1\n1,2\n1,4\n3,8\n", "0,1,a\n1,2 b\n1,4,c 7\n3.0,8,2\n",
+                                        "x,f,n\n0,1,5\n1,2,5\n1,4,6\n3,8,6\n",
                                         "x, factor\r\n# remark\n\n 0 1 first\r\n1\t2\n1 , 4\n3,8",
                                         "\357\273\2770,1\n0.5,1.5\n1,2\n1,4\n2,6\n3,8\n"};
     static const struct {
@@ -33,7 +34,7 @@ static void factors_are_linear_between_lines(void **state)
     } table[] = {
         {-5, 1}, {0, 1},      {0.25, 1.25}, {0.5, 1.5},  {0.75, 1.75}, {1 - 0x1p-20, 2 - 0x1p-20},
         {1, 4},  {1.25, 4.5}, {2, 6},       {2.75, 7.5}, {3, 8},       {1e9, 8}};
-    for (size_t t = 0; t < 3; t++)
+    for (size_t t = 0; t < FRACAS_COUNT(texts); t++)
         for (size_t i = 0; i < sizeof table / sizeof *table; i++)
             assert_true(factor_of(texts[t], &fracas_along_x, (double[3]){table[i].at, 7, 9}) ==
                         table[i].factor);
@@ -67,6 +68,16 @@ static void what_is_wrong_is_said(void **state)
         {"0,1\n2,1\n1,1\n", "f.csv:3: the coordinate 1 m comes after 2 m; sort the lines"},
         {"0,1\n2,1\n2,3\n2,4\n", "f.csv:4: the coordinate 2 m is given a third time"},
         {"1,1\n1,2\n1,3\n", "f.csv:3: the coordinate 1 m is given a third time"},
+        {"0,02, 1\n0,03, 0,6\n", "f.csv:1: found `0,02, 1`; expected a decimal point, not a comma"},
+        {"0,1\n0,03, 0,6\n", "f.csv:2: found `0,03, 0,6`; expected a decimal point"},
+        {"0,5 1\n", "expected a decimal point"},
+        {"0,5\t1\n", "expected a decimal point"},
+        {"0,03; 0,6\n", "expected a decimal point"},
+        {"x;f\n0,5;1\n", "expected a decimal point"},
+        {"0,02,1\n", "expected a decimal point"},
+        {"1,5,0,6\n", "expected a decimal point"},
+        {"x,f\n0,5, 1\n", "or, if the comma ends a column, the names of all columns in a first "
+                          "line (`coordinate,factor`)"},
         {"x,f\n", "f.csv has no factor; expected lines of a coordinate [m] and a factor"}};
     for (size_t t = 0; t < sizeof table / sizeof *table; t++) {
         const fracas_attachment file = attached("f.csv", table[t].text);
@@ -320,7 +331,72 @@ static void plan_of_weak_strips(void **state)
     }
 }
 
+/* Bodies of four models that crack before time.end. A bar of 50 mm at 1e4 /s for 1 us is stretched
+ * by 0.5 mm, of which waves set 0.1 mm free; a break takes 0.67 mm with 1e5 J/m2 and 300 MPa. With
+ * a thousandth of it all break. The last two loads crack none. */
+static void plan_of_bodies_that_never_break(void **state)
+{
+    static const char bar[] = "model: bar\ngeometry: {ends: periodic, length: 50 mm}\nmesh: "
+                              "{elements: 50}\nloading: {type: imposed-rate, rate: 1e4}\n",
+                      ring[] = "model: ring\ngeometry: {radius: 8 mm}\nmesh: {elements: 50}\n"
+                               "loading: {type: initial-velocity, radial: 80}\n",
+                      plate[] = "model: membrane\ngeometry: {shape: plate, width: 5 mm, height: 5 "
+                                "mm, thickness: 1 mm, left: held, right: held}\nmesh: {divisions: "
+                                "4}\nloading: {type: expansion, rate: 1e4, ratio: 0}\n",
+                      sphere[] = "model: shell\ngeometry: {shape: sphere, radius: 8 mm, "
+                                 "thickness: 0.2 mm}\nmesh: {divisions: 4}\nloading: {type: "
+                                 "expansion, rate: 1e4}\n",
+                      slow[] = "model: shell\ngeometry: {shape: sphere, radius: 8 mm, thickness: "
+                               "0.2 mm}\nmesh: {divisions: 4}\nloading: {type: expansion, rate: "
+                               "10}\n",
+                      spun[] = "model: membrane\ngeometry: {shape: annulus, inner: 5 mm, outer: "
+                               "10 mm, thickness: 1 mm}\nmesh: {size: 2 mm}\nloading: {type: "
+                               "centrifugal, speed: 6000 rad/s}\n";
+    static const struct {
+        const char *body, *law, *said, *key;
+    } table[] = {
+        {bar, "fracture_energy: 100 kJ/m2",
+         "= 0.00067 m, and until time.end the load opens none "
+         "by more than 0.0001 m: they crack and never break: is cohesive.fracture_energy in the "
+         "unit (J/m2, kJ/m2) meant",
+         "or raise time.end or loading.rate"},
+        {bar, "fracture_energy: 100 J/m2", NULL, NULL},
+        {bar, "law: rigid-link, fracture_energy: 100 kJ/m2", "= 0.00067 m", "loading.rate"},
+        {ring, "fracture_energy: 100 kJ/m2", "= 0.00067 m", "loading.radial"},
+        {ring, "law: stershic, critical_opening: 0.67 mm", "of critical_opening = 0.00067 m",
+         "loading.radial"},
+        {ring, "fracture_energy: 100 J/m2", NULL, NULL},
+        {plate, "fracture_energy: 100 kJ/m2", "= 0.00067 m", "loading.rate"},
+        {plate, "critical_opening: 0.67 mm", "of critical_opening = 0.00067 m", "loading.rate"},
+        {plate, "fracture_energy: 100 J/m2", NULL, NULL},
+        {sphere, "fracture_energy: 100 kJ/m2", "= 0.00067 m", "loading.rate"},
+        {sphere, "critical_opening: 0.67 mm", "of critical_opening = 0.00067 m", "loading.rate"},
+        {sphere, "fracture_energy: 100 J/m2", NULL, NULL},
+        {slow, "fracture_energy: 100 J/m2", "the stress stays below ", "load it harder"},
+        {spun, "fracture_energy: 100 J/m2", "the stress stays below ", "load it harder"},
+    };
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
+        char text[1200];
+        const bool surface = strstr(table[i].body, "thickness");
+        snprintf(text, sizeof text,
+                 "name: whole\nseed: 1\n%smaterial: {young: 275 GPa, density: 2750%s}\ncohesive: "
+                 "{%s}\nstrength: {distribution: constant, value: 300 MPa}\ntime: {stop: time, "
+                 "end: 1 us}\nreplicas: 1\n",
+                 table[i].body, surface ? ", poisson: 0.25" : "", table[i].law);
+        OWN(fracas_campaign) campaign = good(text);
+        OWNED char *plan = plan_text(campaign, 1, false);
+        if (table[i].said) {
+            assert_has(plan, table[i].said);
+            assert_has(plan, table[i].key);
+        } else {
+            assert_null(strstr(plan, "never break"));
+            assert_null(strstr(plan, "the stress stays below"));
+        }
+    }
+}
+
 TESTS_ALL(make_folder, remove_folder, factors_are_linear_between_lines, what_is_wrong_is_said,
           a_field_is_the_law_times_the_factor, keys_go_together,
           a_bar_opens_where_its_factor_is_least, a_forecast_knows_the_factor,
-          each_gauss_point_has_its_own, a_forecast_counts_gauss_points, plan_of_weak_strips)
+          each_gauss_point_has_its_own, a_forecast_counts_gauss_points, plan_of_weak_strips,
+          plan_of_bodies_that_never_break)

@@ -3,6 +3,7 @@
 
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
+#include "campaigns/scheduler/status/channel.h"
 #include "campaigns/store/store.h"
 
 #include <math.h>
@@ -21,14 +22,14 @@ static fracas_err try_batch(const fracas_model *model, const fracas_run_options 
 }
 
 static fracas_err find_cost(const fracas_campaign *campaign, size_t point,
-                            const fracas_run_options *options, FILE *warn, double *cost,
-                            double *bytes)
+                            const fracas_run_options *options, fracas_plan_words *words,
+                            double *cost, double *bytes)
 {
     OWN(fracas_model) model = NULL;
     const fracas_err err = fracas_point_model_create(campaign, point, &model);
     if (err) return fracas_fail_within(err, "point %zu", point);
     if (point == 0) TRY(try_batch(model, options));
-    return fracas_plan_cost_with(campaign, point, model, warn, cost, bytes);
+    return fracas_plan_cost_with(campaign, point, model, words, cost, bytes);
 }
 
 fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run_options *options,
@@ -36,9 +37,15 @@ fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run
 {
     OWNED double *c = malloc(campaign->npoints * sizeof *c);
     OWNED double *b = malloc(campaign->npoints * sizeof *b);
+    FILE *out = options->quiet ? NULL : warn;
+    fracas_plan_words words = {.out = out};
     if (!c || !b) return fracas_no_memory("the plan");
     for (size_t i = 0; i < campaign->npoints; i++)
-        TRY(find_cost(campaign, i, options, warn, &c[i], &b[i]));
+        TRY(find_cost(campaign, i, options, out ? &words : NULL, &c[i], &b[i]));
+    if (words.unbroken == 1) fprintf(out, "fracas: warning: %s\n", words.first);
+    if (words.unbroken > 1)
+        fprintf(out, "fracas: warning: %zu points break nothing, the first, %s\n", words.unbroken,
+                words.first);
     *cost = c;
     c = NULL;
     if (!bytes) return FRACAS_OK;
