@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <ftw.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -51,6 +52,25 @@ FILE *fracas_file_stream(int fd, const char *mode)
     if (!stream) close(fd);
     errno = reason;
     return stream;
+}
+
+bool fracas_file_begins(const char *path, const char *text)
+{
+    char start[100] = "";
+    struct stat info;
+    const size_t wanted = strlen(text);
+    if (stat(path, &info) || !S_ISREG(info.st_mode) || info.st_size == 0) return true;
+    FILE *in = fracas_file_stream(fracas_file_open(path), "r");
+    const bool same = in && wanted <= sizeof start && fread(start, 1, wanted, in) == wanted &&
+                      memcmp(start, text, wanted) == 0;
+    if (in) fclose(in);
+    return same;
+}
+
+bool fracas_file_same(const char *one, const char *other)
+{
+    struct stat a, b;
+    return !stat(one, &a) && !stat(other, &b) && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
 bool fracas_file_is_own(const char *path)

@@ -19,6 +19,12 @@ int fracas_file_create(const char *path);
 /* A stream of such a descriptor, which it takes over; NULL and errno, also for -1. */
 FILE *fracas_file_stream(int fd, const char *mode);
 
+/* True of a file that is not there, is empty or begins with `text` (100 bytes at most), and of
+ * anything but a file. */
+bool fracas_file_begins(const char *path, const char *text);
+/* True if both are there and are one file, by whatever names. */
+bool fracas_file_same(const char *one, const char *other);
+
 /* True where a file may be written: nothing is there, or a file and no link. False, and errno.
  */
 bool fracas_file_is_own(const char *path);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/text.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/types.h>
@@ -64,6 +65,49 @@ void fracas_text_show(const char *text, char *shown, size_t size)
         used += more;
     }
     shown[used] = '\0';
+}
+
+/* How a word must be written for a shell. */
+typedef enum { PLAIN, QUOTED, ESCAPED } manner;
+
+static manner manner_of(const char *text)
+{
+    manner found = *text && *text != '~' ? PLAIN : QUOTED;
+    int32_t code;
+    for (; *text; text += fracas_text_character(text, &code)) {
+        fracas_text_character(text, &code);
+        if (fracas_text_is_hidden(code) || code == '\n' || code == '\t') return ESCAPED;
+        if (code < 0x80 && !isalnum(code) && !strchr("_-./:,+@%=~", code)) found = QUOTED;
+        if (code >= 0x80) found = QUOTED; /* blanks of Unicode among them */
+    }
+    return found;
+}
+
+/* The next bytes of a word: at most FRACAS_TEXT_SHOWN. */
+static size_t put_byte(manner how, char byte, char *to)
+{
+    if (how == QUOTED && byte == '\'') return (size_t)sprintf(to, "'\\''");
+    if (how == ESCAPED && (byte == '\'' || byte == '\\')) return (size_t)sprintf(to, "\\%c", byte);
+    if (how == ESCAPED && byte == '\n') return (size_t)sprintf(to, "\\n");
+    if (how == ESCAPED && (byte < 0x20 || byte == 0x7f))
+        return (size_t)sprintf(to, "\\%03o", (unsigned char)byte);
+    return (size_t)sprintf(to, "%c", byte);
+}
+
+fracas_shell_word fracas_shell_path(const char *folder, const char *name)
+{
+    fracas_shell_word word;
+    char path[8192];
+    static const char *const before[] = {"", "'", "$'"}, *const after[] = {"", "'", "'"};
+    const int length = snprintf(path, sizeof path, "%s%s%s%s", *folder == '-' ? "./" : "", folder,
+                                name ? "/" : "", name ? name : "");
+    const manner how = manner_of(path);
+    size_t at = (size_t)sprintf(word.text, "%s", before[how]);
+    for (const char *c = path; *c && at < sizeof word.text - 8; c++)
+        at += put_byte(how, *c, word.text + at);
+    sprintf(word.text + at, "%s", after[how]);
+    if ((size_t)length >= sizeof path || at >= sizeof word.text - 8) *word.text = '\0';
+    return word;
 }
 
 void fracas_text_wrap(const char *text, int indent, int columns, FILE *out)

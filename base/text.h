@@ -30,6 +30,15 @@ void fracas_text_show(const char *text, char *shown, size_t size);
  * no limit). The first begins behind `indent` characters, the others with so many spaces. */
 void fracas_text_wrap(const char *text, int indent, int columns, FILE *out);
 
+/* A path as a word for a shell, to be pasted: FOLDER/NAME, FOLDER alone where `name` is NULL. As it
+ * is where a shell takes it so, else in single quotes; with control characters or bytes outside
+ * UTF-8 as $'...', which bash, zsh and ksh read. Empty if it is too long. */
+enum { FRACAS_SHELL_TEXT = 16400 };
+typedef struct {
+    char text[FRACAS_SHELL_TEXT];
+} fracas_shell_word;
+fracas_shell_word fracas_shell_path(const char *folder, const char *name);
+
 /* Replaces stdout by a stream with the same rule, until fclose(stdout).
  * Without memory stdout stays as it is. */
 void fracas_text_guard_stdout(void);

@@ -100,6 +100,9 @@ FRACAS_MUST_USE fracas_err fracas_campaign_has(const fracas_campaign *campaign, 
  * FRACAS_USAGE, and no change, if a rule decides the replicas of a point. */
 FRACAS_MUST_USE fracas_err fracas_campaign_replicas(fracas_campaign *campaign, int64_t replicas);
 
+/* Begins every file that fracas_campaign_write makes. */
+#define FRACAS_RESOLVED "# A campaign as resolved by fracas: SI units, every default spelled out.\n"
+
 /* Writes the campaign as resolved: in SI, with every default. The result is a campaign file of the
  * same points, hashes and replicas, if its attachments are beside it as attachments/DIGEST. */
 FRACAS_MUST_USE fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out);

@@ -3,9 +3,11 @@
 
 #include "analysis/converge/converge.h"
 #include "base/param.h"
+#include "base/text.h"
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/refine.h"
 #include "campaigns/scheduler/launch/allocation.h"
+#include "campaigns/scheduler/session/keep.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/types/clock.h"
 
@@ -95,6 +97,7 @@ static bool has_more(const char *study, const char *file, fracas_refinement by, 
 static fracas_err check_study(const converging *c, fracas_refinement by)
 {
     int64_t replicas, most = 0;
+    TRY(fracas_study_place(c->study[by]));
     fracas_err err = fracas_study_fits(c->study[by], c->refined[by].campaign);
     if (!err) return FRACAS_OK;
     if (!has_more(c->study[by], c->arguments->operand, by, &replicas))
@@ -204,7 +207,7 @@ static fracas_err run_study(converging *c, fracas_refinement by)
     fracas_arguments given = *c->arguments;
     snprintf(name, sizeof name, "%s.yaml", fracas_refinement_name[by]);
     snprintf(file, sizeof file, "%s/%s", c->folder, name);
-    TRY(fracas_campaign_keep(c->refined[by].campaign, c->folder, name));
+    TRY(fracas_campaign_keep(c->refined[by].campaign, c->folder, name, NULL));
     if (c->walltime > 0) {
         const double rest = c->walltime - (fracas_now() - c->began);
         if (rest < 0.1)
@@ -221,6 +224,18 @@ static fracas_err run_study(converging *c, fracas_refinement by)
         return end ? fracas_fail_within(end, "%s", c->study[by]) : FRACAS_OK;
     c->end = end;
     snprintf(c->failure, sizeof c->failure, "%s: %s", c->study[by], fracas_message());
+    return FRACAS_OK;
+}
+
+/* Before the first run: no campaign file of the folder is a user's own. */
+static fracas_err check_files(const converging *c)
+{
+    for (size_t i = 0; i < FRACAS_COUNT(order); i++) {
+        char name[NAME];
+        snprintf(name, sizeof name, "%s.yaml", fracas_refinement_name[order[i]]);
+        if (c->refined[order[i]].campaign)
+            TRY(fracas_campaign_keeps(c->refined[order[i]].campaign, c->folder, name));
+    }
     return FRACAS_OK;
 }
 
@@ -270,7 +285,7 @@ static fracas_err compare(const converging *c, double tolerance)
     TRY(fracas_convergence_print(convergence, fracas_cli_columns(c->arguments), stdout));
     printf("report: %s/report/index.html; all digits: %s/converge.csv; a study's own report: "
            "fracas report %s\n",
-           c->folder, c->folder, c->study[FRACAS_REFINE_NOTHING]);
+           c->folder, c->folder, fracas_shell_path(c->study[FRACAS_REFINE_NOTHING], NULL).text);
     return FRACAS_OK;
 }
 
@@ -287,6 +302,7 @@ static fracas_err converge_with(converging *c)
     TRY(find_folder(c));
     TRY(make_campaigns(c));
     TRY(print_costs(c));
+    TRY(check_files(c));
     for (size_t i = 0; i < FRACAS_COUNT(order); i++)
         if (c->refined[order[i]].campaign) TRY(run_study(c, order[i]));
     TRY(compare(c, tolerance));

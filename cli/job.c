@@ -83,6 +83,12 @@ static void write_settings(const fracas_job *job, FILE *out)
 static const char seal[] =
     "# Checksum of the lines above, by which `fracas submit` knows its own script: ";
 
+/* The last line of a script whose other lines are these bytes. */
+static void write_seal(const char *text, size_t size, char *line, size_t room)
+{
+    snprintf(line, room, "%s%016" PRIx64 "\n", seal, fracas_checksum_of(text, size));
+}
+
 fracas_err fracas_job_write(const fracas_job *job, FILE *out)
 {
     OWNED char *text = NULL;
@@ -94,7 +100,9 @@ fracas_err fracas_job_write(const fracas_job *job, FILE *out)
     write_settings(job, memory);
     fputs(fracas_job_body, memory);
     const bool whole = !fclose(memory);
-    if (whole) fprintf(out, "%s%s%016" PRIx64 "\n", text, seal, fracas_checksum_of(text, size));
+    char line[sizeof seal + 20];
+    if (whole) write_seal(text, size, line, sizeof line);
+    if (whole) fprintf(out, "%s%s", text, line);
     return whole ? FRACAS_OK : fracas_no_memory("the batch script");
 }
 
@@ -103,10 +111,11 @@ fracas_err fracas_job_is_own(FILE *in, bool *own)
     enum { MOST = 1 << 20 };
     OWNED char *text = malloc(MOST + 1);
     if (!text) return fracas_no_memory("the batch script");
-    text[fread(text, 1, MOST, in)] = '\0';
+    const size_t size = fread(text, 1, MOST, in);
+    text[size] = '\0';
     const char *last = strstr(text, seal);
-    uint64_t checksum = 0;
-    *own = !*text || (last && sscanf(last + sizeof seal - 1, "%16" SCNx64, &checksum) == 1 &&
-                      checksum == fracas_checksum_of(text, (size_t)(last - text)));
+    char line[sizeof seal + 20] = "";
+    if (last) write_seal(text, (size_t)(last - text), line, sizeof line);
+    *own = !size || (last && !strcmp(last, line) && last + strlen(line) == text + size);
     return FRACAS_OK;
 }

@@ -3,6 +3,7 @@
 #include "cli/look.h"
 
 #include "analysis/summary/statistics.h"
+#include "base/text.h"
 #include "campaigns/plan/plan.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/types/clock.h"
@@ -132,8 +133,9 @@ const char *fracas_look_state(const fracas_look *look, char text[FRACAS_STATE_TE
         return "its part is complete: `fracas merge-studies` makes one study of all parts";
     /* not the user's file: the study may have been extended since */
     snprintf(text, FRACAS_STATE_TEXT,
-             "interrupted: `fracas run %.2000s/campaign.yaml --study %.2000s` resumes it",
-             look->study, look->study);
+             "interrupted: `fracas run %.2000s --study %.2000s` resumes it",
+             fracas_shell_path(look->study, "campaign.yaml").text,
+             fracas_shell_path(look->study, NULL).text);
     return text;
 }
 
@@ -189,7 +191,8 @@ static fracas_err end_of(const fracas_look *look)
     if (!failed) return FRACAS_OK;
     return fracas_fail(FRACAS_SOME_FAILED,
                        "%" PRId64 " realization%s of %s FAILED: `fracas status %s` has the reasons",
-                       failed, failed == 1 ? "" : "s", look->study, look->study);
+                       failed, failed == 1 ? "" : "s", look->study,
+                       fracas_shell_path(look->study, NULL).text);
 }
 
 static void wait_for(double seconds)

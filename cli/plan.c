@@ -3,6 +3,7 @@
 
 #include "base/param.h"
 #include "campaigns/campaign.h"
+#include "campaigns/scheduler/launch/allocation.h"
 #include "campaigns/scheduler/written_fields.h"
 
 #include <limits.h>
@@ -23,6 +24,9 @@ static fracas_err plan(const fracas_arguments *arguments)
     TRY(fracas_arguments_integer(arguments, "jobs", 1, INT_MAX, &options.jobs));
     OWN(fracas_campaign) campaign = NULL;
     TRY(fracas_campaign_read(arguments->operand, &campaign));
+    /* as `fracas run` here, which may refuse what another machine is to compute */
+    if (!options.jobs && fracas_allocation_jobs(0, campaign->parallel.parts, &options.jobs))
+        options.jobs = 1;
     if (!options.quick) TRY(fracas_written_fields_size(campaign, &options.fields));
     return fracas_plan_print(campaign, &options, stdout);
 }

@@ -4,6 +4,7 @@
 #include "cli/look.h"
 
 #include "analysis/data/output.h"
+#include "base/file.h"
 #include "base/param.h"
 #include "base/text.h"
 
@@ -146,6 +147,11 @@ fracas_err fracas_look_write_prometheus(const fracas_look *look, const char *pat
     OWNED char *name = strdup(path);
     fracas_output_file output;
     if (!folder || !name) return fracas_no_memory("the name of a file");
+    if (!fracas_file_begins(path, "# HELP fracas_"))
+        return fracas_fail(FRACAS_USAGE,
+                           "status: --prometheus %s is there already, and no `fracas status` wrote "
+                           "it: name another file, or move it away",
+                           path);
     TRY(fracas_output_open(dirname(folder), basename(name), &output));
     put_all(&(metrics){output.file, look});
     return fracas_output_close(&output, FRACAS_OK);

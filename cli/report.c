@@ -6,6 +6,7 @@
 #include "analysis/data/output.h"
 #include "analysis/fit/fits.h"
 #include "base/param.h"
+#include "base/text.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/status/describe.h"
 #include "cli/look.h"
@@ -66,7 +67,8 @@ static fracas_err print_hidden_fits(const fracas_analysis *analysis, const char 
     if (shown.stale > 0)
         printf("fits of %zu point%s in %s/" FRACAS_FITS_FILE
                " are of other realizations and not shown: `fracas fit %s` makes them again\n",
-               shown.stale, shown.stale == 1 ? "" : "s", study, study);
+               shown.stale, shown.stale == 1 ? "" : "s", study,
+               fracas_shell_path(study, NULL).text);
     return FRACAS_OK;
 }
 
@@ -174,6 +176,14 @@ static const fracas_option export_options[] = {
     {"histories", NULL, "energies over time of every realization, too: histories.csv"},
     {0}};
 
+static fracas_err check_free(const char *folder)
+{
+    static const char *const name[] = {"datapackage.json", "points.csv",     "realizations.csv",
+                                       "fragments.csv",    "statistics.csv", "energies.csv",
+                                       "convergence.csv",  "histories.csv"};
+    return fracas_output_free(folder, name, FRACAS_COUNT(name));
+}
+
 static fracas_err export(const fracas_arguments *arguments)
 {
     OWN(fracas_campaign) campaign = NULL;
@@ -182,6 +192,7 @@ static fracas_err export(const fracas_arguments *arguments)
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
     TRY(fracas_output_folder_in(fracas_given(arguments, "to"), arguments->operand, "export",
                                 &folder));
+    if (fracas_given(arguments, "to")) TRY(check_free(folder));
     TRY(fracas_export_write(analysis, folder, fracas_given(arguments, "histories") != NULL));
     printf("export: %s/datapackage.json\n", folder);
     return FRACAS_OK;

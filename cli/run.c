@@ -4,6 +4,7 @@
 
 #include "base/param.h"
 #include "base/terminal.h"
+#include "base/text.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/session/upkeep.h"
@@ -173,7 +174,7 @@ static fracas_err check_growth(const char *study, const fracas_campaign *campaig
                 "extend: a rule decides the replicas of point %zu of %s; to get more, raise "
                 "`maximum` or lower `relative-half-width` of `replicas` in a copy of "
                 "%s/campaign.yaml, put it beside that, and `fracas run` it with --study %s",
-                p, study, study, study);
+                p, study, study, fracas_shell_path(study, NULL).text);
         if (point->replicas > replicas)
             return fracas_fail(FRACAS_USAGE,
                                "extend: --replicas %d: point %zu of %s has %" PRId64

@@ -76,6 +76,39 @@ static fracas_err check_outputs(const fracas_arguments *arguments)
     return FRACAS_OK;
 }
 
+/* FRACAS_USAGE if `path` is one of the files that the strengths come from, or another that is
+ * there and does not begin as those of this program do. */
+static fracas_err check_file(const fracas_arguments *arguments, const fracas_campaign *campaign,
+                             const char *option, const char *begin)
+{
+    const char *path = fracas_given(arguments, option), *input = arguments->operand;
+    if (!path || strcmp(path, "-") == 0) return FRACAS_OK;
+    bool same = fracas_file_same(path, input);
+    for (const fracas_attached *a = campaign->attached; a && !same; a = a->next) {
+        input = a->attachment.path;
+        same = fracas_file_same(path, input);
+    }
+    if (same)
+        return fracas_fail(FRACAS_USAGE,
+                           "sample: --%s %s would replace %s, which is read: name another file",
+                           option, path, input);
+    if (fracas_file_begins(path, begin)) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "sample: --%s %s is there already, and no `fracas sample` wrote it: name "
+                       "another file, or move it away",
+                       option, path);
+}
+
+static fracas_err check_files(const fracas_arguments *arguments, const fracas_campaign *campaign)
+{
+    const char *csv = fracas_given(arguments, "csv"), *vtk = fracas_given(arguments, "vtk");
+    if (csv && vtk && (strcmp(csv, vtk) == 0 || fracas_file_same(csv, vtk)))
+        return fracas_fail(FRACAS_USAGE, "sample: --csv and --vtk are both %s: name two files",
+                           csv);
+    TRY(check_file(arguments, campaign, "csv", FRACAS_SAMPLE_CSV));
+    return check_file(arguments, campaign, "vtk", FRACAS_SAMPLE_VTK);
+}
+
 static fracas_err sample(const fracas_arguments *arguments)
 {
     int point = 0, replica = 0;
@@ -84,6 +117,7 @@ static fracas_err sample(const fracas_arguments *arguments)
     TRY(fracas_arguments_integer(arguments, "replica", 0, INT_MAX, &replica));
     OWN(fracas_campaign) campaign = NULL;
     TRY(fracas_campaign_read(arguments->operand, &campaign));
+    TRY(check_files(arguments, campaign));
     FRACAS_CLEARED(fracas_sample) drawn = {0};
     TRY(fracas_sample_draw(campaign, (size_t)point, replica, &drawn));
     return show(arguments, &drawn);

@@ -4,9 +4,11 @@
 
 #include "base/file.h"
 #include "base/param.h"
+#include "base/text.h"
 #include "campaigns/campaign.h"
-#include "campaigns/scheduler/session/space.h"
+#include "campaigns/scheduler/session/keep.h"
 #include "campaigns/scheduler/session/prepare.h"
+#include "campaigns/scheduler/session/space.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -70,6 +72,7 @@ static fracas_err check_campaign(const fracas_run_options *run, submission *s)
     OWNED double *cost = NULL;
     TRY(fracas_run_campaign(run, &campaign));
     TRY(fracas_study_folder(run, campaign, s->study, sizeof s->study));
+    TRY(fracas_study_place(s->study));
     TRY(fracas_study_fits(s->study, campaign));
     snprintf(s->name, sizeof s->name, "%s", campaign->name);
     return fracas_costs_create(campaign, run, stderr, &cost, NULL);
@@ -169,7 +172,7 @@ static fracas_err hand_in(const submission *s)
         return fracas_fail(FRACAS_ENVIRONMENT,
                            "there is no sbatch here; the script is written: on the cluster's login "
                            "node, sbatch %s",
-                           s->script);
+                           fracas_shell_path(s->script, NULL).text);
     return fracas_fail(FRACAS_ENVIRONMENT, "sbatch refused %s (above: why)", s->script);
 }
 
@@ -182,9 +185,15 @@ static fracas_err prepare(const fracas_arguments *arguments, submission *s)
     if (run.parts > 1 && !fracas_given(arguments, "script")) /* each part has a job of its own */
         snprintf(s->script, sizeof s->script, "%s.part%d.sbatch", arguments->operand, run.part);
     TRY(check_campaign(&run, s));
+    if (fracas_file_same(s->job.output, arguments->operand))
+        return fracas_fail(FRACAS_USAGE,
+                           "submit: --output %s is the campaign file, to which the job would "
+                           "write: name another file",
+                           s->job.output);
     TRY(write_script(s));
     if (fracas_given(arguments, "submit")) return hand_in(s);
-    printf("%s is written; submit it by: sbatch %s\n", s->script, s->script);
+    printf("%s is written; submit it by: sbatch %s\n", s->script,
+           fracas_shell_path(s->script, NULL).text);
     return FRACAS_OK;
 }
 

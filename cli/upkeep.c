@@ -3,6 +3,7 @@
 #include "cli/cli.h"
 
 #include "base/json.h"
+#include "base/text.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/session/upkeep.h"
 
@@ -61,11 +62,12 @@ static void print_counts(const output *out, const fracas_index_counts *end)
 /* In words, which command goes on. */
 static void print_next(const output *out, const fracas_index_counts *end)
 {
+    const fracas_shell_word study = fracas_shell_path(out->study, NULL);
     if (out->json) return;
     if (fracas_index_missing(end))
-        printf("`fracas run %s/campaign.yaml --study %s` computes what is missing\n", out->study,
-               out->study);
-    else printf("`fracas merge %s` writes study.h5\n", out->study);
+        printf("`fracas run %s --study %s` computes what is missing\n",
+               fracas_shell_path(out->study, "campaign.yaml").text, study.text);
+    else printf("`fracas merge %s` writes study.h5\n", study.text);
 }
 
 /* Passes `code` on; after an error the output is ended, too. */

@@ -4,6 +4,7 @@
 #include "analysis/fit/fits.h"
 #include "base/json.h"
 #include "base/param.h"
+#include "base/text.h"
 #include "campaigns/scheduler/types/header.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/session/meshes.h"
@@ -83,8 +84,9 @@ static void verify_campaign(verification *v, const fracas_campaign *campaign)
     } else if (is_growing(v->study)) {
         fprintf(v->notes,
                 "study.h5 is older than campaign.yaml, which asks for more: `fracas run "
-                "%s/campaign.yaml --study %s` goes on%c",
-                v->study, v->study, '\0');
+                "%s --study %s` goes on%c",
+                fracas_shell_path(v->study, "campaign.yaml").text,
+                fracas_shell_path(v->study, NULL).text, '\0');
     } else {
         report(v, "campaign.yaml is not the campaign of study.h5, which is older: run the file it "
                   "was made from");

@@ -226,7 +226,7 @@ static fracas_err put_failures(canvas *on, const fracas_look *look)
         TRY(fracas_index_failures(look->index, &look->campaign->table, put_failure, &f));
     if (f.said > SHOWN) {
         put(on, FRACAS_DIM, "and %" PRId64 " more; `fracas status %s` names all", f.said - SHOWN,
-            look->study);
+            fracas_shell_path(look->study, NULL).text);
         end_line(on);
     }
     return FRACAS_OK;

@@ -4,6 +4,7 @@
 #include "analysis/compare/methods.h"
 #include "analysis/data/room.h"
 #include "base/own.h"
+#include "base/text.h"
 
 #include <gsl/gsl_cdf.h>
 #include <inttypes.h>
@@ -71,8 +72,8 @@ static fracas_err note_study(fracas_convergence *convergence, const char *refine
     TRY(fracas_analysis_warning_lines(analysis, &line, &count));
     if (count == 0) return FRACAS_OK;
     TRY(add_note(convergence, refinement, SIZE_MAX, &note));
-    FRACAS_PRINT(note->text, "its report has %zu warning%s: fracas report %s", count,
-                 count == 1 ? "" : "s", study);
+    FRACAS_PRINT(note->text, "its report has %zu warning%s: fracas report %.390s", count,
+                 count == 1 ? "" : "s", fracas_shell_path(study, NULL).text);
     return FRACAS_OK;
 }
 

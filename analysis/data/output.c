@@ -2,10 +2,12 @@
 #include "analysis/data/output.h"
 
 #include "base/file.h"
+#include "base/own.h"
 
 #include <errno.h>
 #include <stdbool.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -27,6 +29,35 @@ fracas_err fracas_output_folder_in(const char *wanted, const char *study, const 
     if (!wanted && !fracas_folder_is_own(*folder) && errno == ELOOP)
         return fracas_fail_system(errno, "cannot write into %s", *folder);
     return fracas_output_folder(*folder);
+}
+
+/* The first kilobytes of FOLDER/NAME have `text`. */
+static bool has_text(const char *folder, const char *name, const char *text)
+{
+    OWNED char *path = NULL;
+    char start[4096];
+    if (fracas_path(&path, "%s/%s", folder, name)) return false;
+    OWN(FILE) in = fracas_file_stream(fracas_file_open(path), "r");
+    if (!in) return false;
+    start[fread(start, 1, sizeof start - 1, in)] = '\0';
+    return strstr(start, text) != NULL;
+}
+
+fracas_err fracas_output_free(const char *folder, const char *const *name, size_t count)
+{
+    if (has_text(folder, "index.html", " \u00b7 fracas</title>") ||
+        has_text(folder, "datapackage.json", "of a campaign of fracas"))
+        return FRACAS_OK;
+    for (size_t i = 0; i < count; i++) {
+        OWNED char *path = NULL;
+        TRY(fracas_path(&path, "%s/%s", folder, name[i]));
+        if (access(path, F_OK) && fracas_file_is_own(path)) continue;
+        return fracas_fail(FRACAS_USAGE,
+                           "%s is there already, and is of no report or export of fracas: name "
+                           "another folder, or move it away",
+                           path);
+    }
+    return FRACAS_OK;
 }
 
 fracas_err fracas_output_open(const char *folder, const char *name, fracas_output_file *output)

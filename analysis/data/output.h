@@ -22,6 +22,11 @@ FRACAS_MUST_USE fracas_err fracas_output_folder(const char *folder);
 FRACAS_MUST_USE fracas_err fracas_output_folder_in(const char *wanted, const char *study,
                                                    const char *name, char **folder);
 
+/* FRACAS_USAGE if the folder has a file of this name that no report or export wrote: an index.html
+ * or a datapackage.json of fracas beside it tells. */
+FRACAS_MUST_USE fracas_err fracas_output_free(const char *folder, const char *const *name,
+                                              size_t count);
+
 /* Starts folder/name under a temporary name beside it. FRACAS_ENVIRONMENT if it cannot. */
 FRACAS_MUST_USE fracas_err fracas_output_open(const char *folder, const char *name,
                                               fracas_output_file *output);

@@ -204,6 +204,15 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
     return fracas_output_close(&output, FRACAS_OK);
 }
 
+/* A folder that a user named has no files of the user's own. */
+static fracas_err check_free(const char *folder)
+{
+    static const char *const name[] = {"index.html",   "summary.json", "points.csv",
+                                       "slopes.csv",   "energies.csv", "convergence.csv",
+                                       "fragments.csv"};
+    return fracas_output_free(folder, name, FRACAS_COUNT(name));
+}
+
 fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study,
                                const char *wanted, int refresh)
 {
@@ -211,6 +220,7 @@ fracas_err fracas_report_write(const fracas_analysis *analysis, const char *stud
     FRACAS_CLEARED(fracas_shown_fits) shown = {0};
     char lead[512];
     TRY(fracas_output_folder_in(wanted, study, "report", &folder));
+    if (wanted) TRY(check_free(folder));
     TRY(fracas_shown_fits_read(study, analysis, &shown));
     TRY(write_tables(analysis, folder, &shown));
     say_what(analysis, lead, sizeof lead);

@@ -6,6 +6,7 @@
 #include "analysis/report/grids.h"
 #include "analysis/report/page.h"
 #include "base/own.h"
+#include "base/text.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -33,8 +34,9 @@ static fracas_err check_campaign(const making *m)
     return fracas_fail(FRACAS_DAMAGED,
                        "pictures come with the complete study: %s/study.h5 is of another campaign "
                        "than %s/campaign.yaml, from before it was extended; `fracas run "
-                       "%s/campaign.yaml --study %s` completes it",
-                       m->study, m->study, m->study, m->study);
+                       "%s --study %s` completes it",
+                       m->study, m->study, fracas_shell_path(m->study, "campaign.yaml").text,
+                       fracas_shell_path(m->study, NULL).text);
 }
 
 static fracas_err check_point(making *m)

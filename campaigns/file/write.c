@@ -165,8 +165,7 @@ static void write_file(const fracas_catalog *catalog, const bool *base,
     for (size_t p = 1; p < campaign->npoints; p++)
         own_replicas = own_replicas ||
                        !fracas_replicas_same(&campaign->point[p], &campaign->point[0]);
-    fprintf(out, "# A campaign as resolved by fracas: SI units, every default spelled out.\n");
-    fprintf(out, "name: %s\nseed: %" PRIu64 "\n", campaign->name, campaign->seed);
+    fprintf(out, FRACAS_RESOLVED "name: %s\nseed: %" PRIu64 "\n", campaign->name, campaign->seed);
     if (campaign->common_random_numbers) fprintf(out, "random_numbers: common\n");
     for (size_t s = 0; s < catalog->nsections; s++)
         if (catalog->section[s].table->hashed)

@@ -16,7 +16,6 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* A campaign and its predicted costs. */
 typedef struct {
@@ -528,11 +527,8 @@ static void print_json(const campaign_plan *plan, FILE *out)
 fracas_err fracas_plan_print(const fracas_campaign *campaign, const fracas_plan_options *options,
                              FILE *out)
 {
-    long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    int jobs = options->jobs;
-    if (jobs <= 0) jobs = cores > 0 ? (int)cores : 1;
     FRACAS_CLEARED(campaign_plan) plan = {0};
-    TRY(plan_init(campaign, jobs, options->quick, &plan));
+    TRY(plan_init(campaign, options->jobs > 0 ? options->jobs : 1, options->quick, &plan));
     plan.fields = options->fields;
     if (options->json) print_json(&plan, out);
     else TRY(print_text(&plan, options, out));

@@ -32,7 +32,7 @@ typedef struct {
 } fracas_planned_fields;
 
 typedef struct {
-    int jobs;    /* processes of the run; 0: one a core */
+    int jobs;    /* processes of the run; 0: 1 */
     int columns; /* the terminal's; 0: as wide as the table is */
     bool quick, json;
     bool points; /* print every point, however many there are */

@@ -52,7 +52,7 @@ void fracas_sample_clear(fracas_sample *sample)
 
 void fracas_sample_write_csv(const fracas_sample *sample, FILE *out)
 {
-    fprintf(out, "interface,gauss_point,x_m,y_m,z_m,strength_Pa\n");
+    fputs(FRACAS_SAMPLE_CSV, out);
     for (size_t k = 0; k < sample->n; k++) {
         const double *x = sample->position[k];
         fprintf(out, "%zu,%zu,%.12g,%.12g,%.12g,%.17g\n", k / sample->points, k % sample->points,
@@ -101,8 +101,8 @@ void fracas_sample_write_vtk(const fracas_sample *sample, FILE *out)
 {
     const fracas_surface *surface = fracas_model_surface(sample->realizer.model);
     fprintf(out,
-            "# vtk DataFile Version 3.0\nfracas: strengths of %s, point %zu, replica %" PRId64
-            "\nASCII\nDATASET UNSTRUCTURED_GRID\n",
+            FRACAS_SAMPLE_VTK "%s, point %zu, replica %" PRId64
+                              "\nASCII\nDATASET UNSTRUCTURED_GRID\n",
             sample->realizer.campaign->name, sample->realizer.point, sample->replica);
     if (surface && sample->points == 1) write_edges(surface, out);
     else write_vertices(sample, out);

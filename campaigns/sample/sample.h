@@ -24,6 +24,10 @@ FRACAS_MUST_USE fracas_err fracas_sample_draw(const fracas_campaign *campaign, s
                                               int64_t replica, fracas_sample *sample);
 void fracas_sample_clear(fracas_sample *sample); /* all zero is allowed */
 
+/* How the files begin. */
+#define FRACAS_SAMPLE_CSV "interface,gauss_point,x_m,y_m,z_m,strength_Pa\n"
+#define FRACAS_SAMPLE_VTK "# vtk DataFile Version 3.0\nfracas: strengths of "
+
 /* One line a strength: interface, Gauss point, x, y, z [m], strength [Pa] with 17 digits, enough
  * for the same bits. */
 void fracas_sample_write_csv(const fracas_sample *sample, FILE *out);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/replay.h"
 
+#include "base/text.h"
 #include "campaigns/scheduler/types/header.h"
 #include "campaigns/scheduler/worker/models.h"
 #include "campaigns/store/file/difference.h"
@@ -32,12 +33,11 @@ static fracas_err check_version(const char *study, const fracas_campaign *campai
     const fracas_file_header ours = fracas_campaign_header(campaign),
                              *stored = fracas_results_header(results);
     if (!strcmp(ours.version, stored->version)) return FRACAS_OK;
-    return fracas_fail(
-        FRACAS_DAMAGED,
-        "%s was computed by fracas %s, this is %s, whose bits may differ: replay it "
-        "with %s, or compute the campaign anew, `fracas run %s/campaign.yaml --study "
-        "NEW`",
-        study, stored->version, ours.version, stored->version, study);
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s was computed by fracas %s, this is %s, whose bits may differ: replay it "
+                       "with %s, or compute the campaign anew, `fracas run %s --study NEW`",
+                       study, stored->version, ours.version, stored->version,
+                       fracas_shell_path(study, "campaign.yaml").text);
 }
 
 fracas_err fracas_replay_find(const char *study, const fracas_campaign *campaign, size_t point,
@@ -55,14 +55,14 @@ fracas_err fracas_replay_find(const char *study, const fracas_campaign *campaign
                            "realization %zu/%" PRId64
                            " of %s is not computed, or not yet: `fracas status %s` counts those "
                            "that are",
-                           point, replica, study, study);
+                           point, replica, study, fracas_shell_path(study, NULL).text);
     fracas_record_init(&replay->stored);
     TRY(fracas_results_record(results, row, FRACAS_READ_ALL, &point, &replica, &replay->stored));
     if (replay->stored.outcome != FRACAS_FAILED) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "realization %zu/%" PRId64 " of %s FAILED and has no record: `fracas retry "
                        "%s --failed` tries it again",
-                       point, replica, study, study);
+                       point, replica, study, fracas_shell_path(study, NULL).text);
 }
 
 void fracas_replay_clear(fracas_replay *replay)

@@ -218,6 +218,8 @@ FRACAS_OWNER(fracas_index, fracas_index_close)
 
 /* True if STUDY/index.sqlite has tables of ours; a run killed at its start leaves one without. */
 bool fracas_index_exists(const char *study);
+/* True if STUDY/index.sqlite is there, has bytes, and is neither an index nor one begun. */
+bool fracas_index_is_foreign(const char *study);
 
 /* Claims the study for the header's program version, seed, history and interfaces, before anything
  * is computed. FRACAS_DAMAGED names the first value in which the study's beginning differs:

@@ -13,6 +13,17 @@ campaign small.yaml 4 '1e5 1/s'
 expect 0 "$fracas" submit small.yaml --nodes 2 --time 1h30m --study 'my "study"' --replicas 40 --isolation none --signal-lead 90 \
     --partition long --account "group b" --tasks-per-node 16 -- --mem=4G --comment 'for x'
 said 'small.yaml.sbatch is written; submit it by: sbatch small.yaml.sbatch'
+# names FILE: the printed command, pasted, names it.
+names()
+{
+    cp small.yaml "$1"
+    expect 0 "$fracas" submit "$1" --time 1h --output out
+    printf '%s' "$1.sbatch" > wanted
+    bash -c "sbatch() { printf %s \"\$1\"; }; $(sed 's/.*submit it by: //' said)" > got
+    cmp wanted got || { cat said; fail "pasted, it is another file: $1"; }
+    rm "$1" "$1.sbatch"
+}
+for name in 'my bar.yaml' "it's" 'a "b" $(c) `d`' '-x*?[y]' '~home' 'back\slash;&|' 'größe'; do names "./$name"; done
 bash -n small.yaml.sbatch || fail "bash cannot read it"
 for line in '--job-name="small"' '--nodes=2' '--ntasks-per-node=16' '--time=1:30:00' '--signal=B:USR1@90' '--requeue' '--open-mode=append' \
     '--output="small.yaml.%j.out"' '--partition="long"' '--account="group b"' '--mem=4G' '--comment "for x"'; do
@@ -53,6 +64,22 @@ sed -i 's/^heard=0/module load gcc; heard=0/' small.yaml.sbatch
 expect 2 "$fracas" submit small.yaml --time 1h
 said 'small.yaml.sbatch is there already and is not as'
 grep -q 'module load gcc' small.yaml.sbatch || fail "what a hand has changed is gone"
+# edit SED: any other difference is seen, too.
+edit()
+{
+    rm small.yaml.sbatch
+    expect 0 "$fracas" submit small.yaml --time 1h
+    sed -i "$1" small.yaml.sbatch
+    cp small.yaml.sbatch edited.sbatch
+    expect 2 "$fracas" submit small.yaml --time 2h
+    said 'small.yaml.sbatch is there already and is not as'
+    cmp small.yaml.sbatch edited.sbatch || fail "it was written over the edit: $1"
+}
+edit '$a module load openmpi'
+edit '$G'
+edit '$s/$/ # mine/'
+edit '$s/.$//'
+edit '$a # Checksum of the lines above, by which `fracas submit` knows its own script: 0'
 rm small.yaml.sbatch
 expect 0 "$fracas" run small.yaml --study done
 expect 5 "$fracas" submit small.yaml --time 1h --study done --replicas 3

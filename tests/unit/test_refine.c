@@ -3,7 +3,7 @@
 /* Refined campaigns: of every shipped example, and where a refinement cannot be. */
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/refine.h"
-#include "campaigns/scheduler/session/prepare.h"
+#include "campaigns/scheduler/session/keep.h"
 #include "tests/support/campaign_text.h"
 #include "engine/mesh/make.h"
 #define FOLDER "fracas-refine"
@@ -79,7 +79,7 @@ static void check_file(const fracas_campaign *campaign)
 {
     char path[200];
     OWN(fracas_campaign) again;
-    OK(fracas_campaign_keep(campaign, folder, "fine.yaml"));
+    OK(fracas_campaign_keep(campaign, folder, "fine.yaml", NULL));
     snprintf(path, sizeof path, "%s/fine.yaml", folder);
     OK(fracas_campaign_read(path, &again));
     assert_true(fracas_hash_equal(&again->hash, &campaign->hash));
@@ -145,7 +145,7 @@ static void coarsen(const char *file, char path[200])
         campaign->point[p].spec.mesh.divisions /= 10;
         campaign->point[p].spec.cohesive.fracture_energy *= 50; /* which such elements resolve */
     }
-    OK(fracas_campaign_keep(campaign, folder, "coarse.yaml"));
+    OK(fracas_campaign_keep(campaign, folder, "coarse.yaml", NULL));
     snprintf(path, 200, "%s/coarse.yaml", folder);
 }
 

@@ -40,8 +40,16 @@ static int slurm_tasks(void)
 
 int fracas_allocation_cores(void)
 {
-    cpu_set_t set;
-    return sched_getaffinity(0, sizeof set, &set) ? 1 : CPU_COUNT(&set);
+    enum { FIRST = 1024, LAST = 1 << 20 }; /* CPUs that a kernel may have: it refuses a small set */
+    for (int most = FIRST; most <= LAST; most *= 2) {
+        const size_t size = CPU_ALLOC_SIZE(most);
+        cpu_set_t *set = CPU_ALLOC(most);
+        if (!set) return 1;
+        const int count = sched_getaffinity(0, size, set) ? 0 : CPU_COUNT_S(size, set);
+        CPU_FREE(set);
+        if (count) return count;
+    }
+    return 1;
 }
 
 fracas_err fracas_allocation_jobs(int wanted, int64_t parts, int *jobs)

@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "base/text.h"
 #include "campaigns/scheduler/session/failures.h"
 
 #include <stdio.h>
@@ -41,9 +42,10 @@ fracas_err fracas_failure_report(const char *study, fracas_index *index,
                               found.count[i], found.point[i]);
     if (found.points > NAMED)
         snprintf(points + n, sizeof points - n, ", and of %zu points more", found.points - NAMED);
+    const fracas_shell_word word = fracas_shell_path(study, NULL);
     return fracas_fail(FRACAS_SOME_FAILED,
                        "%lld realization%s of %s FAILED: %s (which and why: fracas status %s; to "
                        "try them again: fracas retry %s --failed)",
-                       found.realizations, found.realizations > 1 ? "s" : "", study, points, study,
-                       study);
+                       found.realizations, found.realizations > 1 ? "s" : "", study, points,
+                       word.text, word.text);
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/session/prepare.h"
 
-#include "base/file.h"
+#include "base/text.h"
+#include "campaigns/scheduler/session/keep.h"
 #include "campaigns/scheduler/types/header.h"
 #include "campaigns/scheduler/types/packet.h"
 #include "campaigns/store/checkpoint.h"
@@ -101,7 +102,8 @@ fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
         return fracas_fail_within(err,
                                   "%s has been extended since: `fracas run %s --study %s` goes on "
                                   "with it (or choose another --study)",
-                                  study, path, study);
+                                  study, fracas_shell_path(path, NULL).text,
+                                  fracas_shell_path(study, NULL).text);
     if (err) {
         fracas_trouble trouble; /* a look at the index has words of its own */
         fracas_trouble_take(err, &trouble);
@@ -157,8 +159,9 @@ fracas_err fracas_study_examine(const char *study, const fracas_campaign *campai
     *failed = 0;
     OWNED char *file = NULL;
     TRY(fracas_path(&file, "%s/campaign.yaml", study));
+    TRY(fracas_study_place(study));
     TRY(fracas_study_fits(study, campaign));
-    if (!fracas_index_exists(study)) return FRACAS_OK;
+    if (!fracas_index_exists(study)) return fracas_campaign_keeps(campaign, study, "campaign.yaml");
     int lock;
     TRY(fracas_study_lock_to_look(study, force, &lock));
     fracas_err err = look_at(study, campaign, settled, failed);
@@ -168,122 +171,30 @@ fracas_err fracas_study_examine(const char *study, const fracas_campaign *campai
     return err;
 }
 
-/* Creates a folder and those above it, durable on return. One that is there may be of a run that
- * was killed before its sync; whose folder cannot be opened is not ours, and not new. */
-static fracas_err make_folder(const char *path)
+/* Puts `line` before the text *said, which may be NULL. */
+static fracas_err put_before(const char *line, char **said)
 {
-    OWNED char *part = NULL;
-    TRY(fracas_path(&part, "%s", path));
-    for (char *at = part + 1;; at++) {
-        char here = *at;
-        if (here != '/' && here != '\0') continue;
-        *at = '\0';
-        const bool made = mkdir(part, 0777) == 0;
-        if (!made && errno != EEXIST)
-            return fracas_fail_system(
-                errno, "cannot create the folder %s (or choose another --study)", part);
-        if (fracas_disk_sync_folder(part) && made) return FRACAS_ENVIRONMENT;
-        if (here == '\0') return FRACAS_OK;
-        *at = here;
-    }
-}
-
-/* Writes FOLDER/NAME whole by `write`: under a temporary name, synced, renamed. */
-static fracas_err write_whole(const char *folder, const char *name,
-                              fracas_err (*write)(const void *content, FILE *out),
-                              const void *content)
-{
-    OWNED char *path = NULL, *temporary = NULL;
-    TRY(fracas_path(&path, "%s/%s", folder, name));
-    TRY(fracas_path(&temporary, "%s.tmp", path));
-    FILE *out = fracas_file_stream(fracas_file_create(temporary), "w");
-    fracas_err err = FRACAS_OK;
-    if (out) err = write(content, out);
-    bool good = out && !err && !fflush(out) && !fsync(fileno(out));
-    int reason = errno;
-    if (out && fclose(out) && good) {
-        good = false;
-        reason = errno;
-    }
-    if (good && rename(temporary, path)) {
-        good = false;
-        reason = errno;
-    }
-    if (good) return fracas_disk_sync_folder(path);
-    unlink(temporary);
-    return err ? err : fracas_fail_system(reason, "cannot write %s", path);
-}
-
-static fracas_err campaign_to(const void *campaign, FILE *out)
-{
-    return fracas_campaign_write(campaign, out);
-}
-
-static fracas_err attachment_to(const void *content, FILE *out)
-{
-    const fracas_attachment *attachment = content;
-    errno = 0;
-    if (fwrite(attachment->text, 1, attachment->size, out) == attachment->size) return FRACAS_OK;
-    return fracas_fail_system(errno, "cannot copy %s into the study", attachment->path);
-}
-
-/* True if the study has this content already. */
-static bool is_copied(const char *folder, const fracas_attachment *attachment)
-{
-    OWNED char *path = NULL;
-    char block[1 << 14];
-    size_t at = 0, got;
-    if (fracas_path(&path, "%s/%s", folder, attachment->digest)) return false;
-    OWN(FILE) in = fracas_file_stream(fracas_file_open(path), "rb");
-    if (!in) return false;
-    while ((got = fread(block, 1, sizeof block, in)) > 0 && got <= attachment->size - at &&
-           memcmp(block, attachment->text + at, got) == 0)
-        at += got;
-    return got == 0 && at == attachment->size && !ferror(in);
-}
-
-/* Makes FOLDER/NAME, which may be there, durable on return. */
-static fracas_err make_own_folder(const char *folder, const char *name, char **path)
-{
-    TRY(fracas_path(path, "%s/%s", folder, name));
-    return fracas_folder_create(*path) ? fracas_disk_sync_folder(*path)
-                                       : fracas_fail_system(errno, "cannot create %s", *path);
-}
-
-/* Copies the files named in the campaign into the study, which then does not depend on the
- * originals. */
-static fracas_err copy_attachments(const char *study, const fracas_campaign *campaign)
-{
-    OWNED char *folder = NULL;
-    if (!campaign->attached) return FRACAS_OK;
-    TRY(make_own_folder(study, FRACAS_ATTACHMENTS, &folder));
-    for (const fracas_attached *a = campaign->attached; a; a = a->next)
-        if (!is_copied(folder, &a->attachment))
-            TRY(write_whole(folder, a->attachment.digest, attachment_to, &a->attachment));
+    char *both = NULL;
+    TRY(fracas_path(&both, "%s%s", line, *said ? *said : ""));
+    free(*said);
+    *said = both;
     return FRACAS_OK;
-}
-
-fracas_err fracas_campaign_keep(const fracas_campaign *campaign, const char *folder,
-                                const char *name)
-{
-    TRY(make_folder(folder));
-    TRY(copy_attachments(folder, campaign));
-    return write_whole(folder, name, campaign_to, campaign);
 }
 
 fracas_err fracas_study_plan(const char *study, const fracas_campaign *campaign,
                              fracas_index **index, char **report)
 {
     OWN(fracas_index) made = NULL;
-    OWNED char *said = NULL;
+    OWNED char *said = NULL, *aside = NULL;
     const fracas_file_header header = fracas_campaign_header(campaign);
     *report = NULL;
     *index = NULL;
     TRY(fracas_study_fits(study, campaign));
     TRY(fracas_index_open(study, true, &made));
     TRY(fracas_index_claim(made, &header));
-    TRY(fracas_campaign_keep(campaign, study, "campaign.yaml"));
+    TRY(fracas_campaign_keep(campaign, study, "campaign.yaml", &aside));
     TRY(fracas_study_recover(study, made, &header, &campaign->table, &said));
+    if (aside) TRY(put_before(aside, &said));
     TRY(fracas_index_plan(made, &campaign->table));
     *index = made;
     *report = said;
@@ -305,8 +216,9 @@ fracas_err fracas_study_prepare(const char *study, const fracas_campaign *campai
                                 int *lock, fracas_index **index, char **report)
 {
     OWNED char *segments = NULL;
-    TRY(make_folder(study));
-    TRY(make_own_folder(study, "segments", &segments));
+    TRY(fracas_study_place(study));
+    TRY(fracas_folder_make(study));
+    TRY(fracas_folder_make_own(study, "segments", &segments));
     TRY(fracas_study_lock(study, force, lock));
     fracas_err err = fracas_study_plan(study, campaign, index, report);
     if (!err) err = note_takeover(*index, *lock);

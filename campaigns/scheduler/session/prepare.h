@@ -24,11 +24,6 @@ FRACAS_MUST_USE fracas_err fracas_study_folder(const fracas_run_options *options
                                                const fracas_campaign *campaign, char *study,
                                                size_t size);
 
-/* Writes the resolved campaign as FOLDER/NAME, and copies of its attachments beside it; each whole
- * or not at all. Creates missing folders. */
-FRACAS_MUST_USE fracas_err fracas_campaign_keep(const fracas_campaign *campaign, const char *folder,
-                                                const char *name);
-
 /* FRACAS_OK when there is no study yet, or the campaign extends (or equals) the one in it. Else
  * FRACAS_DAMAGED naming the first difference. Writes nothing. */
 FRACAS_MUST_USE fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign);
@@ -41,6 +36,7 @@ FRACAS_MUST_USE fracas_err fracas_study_settled(const char *study, fracas_index 
 
 /* Examines a study under its lock (`force` as in fracas_study_lock), without changing it; only from
  * a settled one it removes the checkpoints that are left.
+ * FRACAS_USAGE for a folder with files that no run wrote (campaigns/scheduler/session/keep.h),
  * FRACAS_IN_USE when another run has it, FRACAS_DAMAGED when it does not fit, else *settled and
  * *failed as above (false and 0 for a new study). Here a settled study also has all bytes as sealed
  * in the index; a run repairs any other. */

@@ -2,6 +2,7 @@
 #include "campaigns/scheduler/session/upkeep.h"
 
 #include "base/own.h"
+#include "base/text.h"
 #include "campaigns/scheduler/session/meshes.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/session/rounds.h"
@@ -79,9 +80,11 @@ fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaig
     if (missing)
         return fracas_fail(FRACAS_INTERRUPTED,
                            "%" PRId64 " of %" PRId64
-                           " realizations of %s are not computed yet; `fracas run %s/campaign.yaml "
-                           "--study %s` computes them",
-                           missing, end->realizations, study, study, study);
+                           " realizations of %s are not computed yet; `fracas run %s --study %s` "
+                           "computes them",
+                           missing, end->realizations, study,
+                           fracas_shell_path(study, "campaign.yaml").text,
+                           fracas_shell_path(study, NULL).text);
     TRY(fracas_rounds_check(campaign, h.index));
     TRY(fracas_study_settled(study, h.index, campaign, &settled, &failed));
     if (settled) return fracas_failure_report(study, h.index, &campaign->table);
@@ -194,9 +197,10 @@ static fracas_err check_whole(const char *study)
     fracas_err err = fracas_study_check_segments(study, index);
     if (err != FRACAS_DAMAGED) return err;
     return fracas_fail_within(err,
-                              "nothing is taken from a damaged study; `fracas run "
-                              "%s/campaign.yaml --study %s` repairs it",
-                              study, study);
+                              "nothing is taken from a damaged study; `fracas run %s --study %s` "
+                              "repairs it",
+                              fracas_shell_path(study, "campaign.yaml").text,
+                              fracas_shell_path(study, NULL).text);
 }
 
 static fracas_err join(joining *j, fracas_joined *joined, int64_t *both, fracas_index_counts *end)

@@ -451,12 +451,28 @@ static fracas_err open_database(fracas_index *index, const char *study, bool cre
     return FRACAS_OK;
 }
 
+/* The tables of STUDY/index.sqlite; false if it cannot be read. */
+static bool look_at_tables(const char *study, int64_t *all, int64_t *meta)
+{
+    OWN(fracas_index) index = calloc(1, sizeof *index);
+    return index && !fracas_disk_join(study, "index.sqlite", &index->path) &&
+           !connect_to(index, study, false) && !count_tables(index, all, meta);
+}
+
 bool fracas_index_exists(const char *study)
 {
     int64_t all, meta;
-    OWN(fracas_index) index = calloc(1, sizeof *index);
-    return index && !fracas_disk_join(study, "index.sqlite", &index->path) &&
-           !connect_to(index, study, false) && !count_tables(index, &all, &meta) && meta;
+    return look_at_tables(study, &all, &meta) && meta;
+}
+
+bool fracas_index_is_foreign(const char *study)
+{
+    int64_t all, meta;
+    if (look_at_tables(study, &all, &meta)) return all && !meta;
+    OWNED char *path = NULL;
+    struct stat info;
+    return !fracas_disk_join(study, "index.sqlite", &path) && !lstat(path, &info) &&
+           info.st_size > 0;
 }
 
 fracas_err fracas_index_open_as(const char *study, bool create, bool local, fracas_index **index)
