@@ -374,6 +374,12 @@ fracas_err fracas_units_read(const fracas_units *units, const char *text, const 
     size_t length = fracas_number_length(text);
     const char *unit = text + length + strspn(text + length, " ");
     bool apart = unit > text + length || strcmp(unit, "%") == 0;
+    if (length > 0 && *unit == ',' && strchr("0123456789", unit[1]) && unit[1])
+        return fracas_fail(FRACAS_USAGE,
+                           "`%s` is not a number: it has a decimal comma; write a point: %.*s.%s",
+                           text, (int)length, text, unit + 1);
+    if (length > 0 && strncmp(unit, "**", 2) == 0)
+        return fracas_fail(FRACAS_USAGE, "`%s` is not a number: write a power of ten as 1e4", text);
     if (length == 0 || (*unit && !apart))
         return fracas_fail(
             FRACAS_USAGE, "`%s` is not a number; expected %s, in %s%s", text, what, write_in,

@@ -46,9 +46,10 @@ fracas_err fracas_cli_read_campaign(const char *study, fracas_campaign **campaig
     snprintf(file, sizeof file, "%s/campaign.yaml", study);
     fracas_err code = fracas_campaign_read(file, campaign);
     if (code != FRACAS_USAGE) return code;
-    return fracas_fail_within(FRACAS_DAMAGED,
-                              "the study's campaign file is damaged; remove it and run the "
-                              "campaign file it was made from, or restore it");
+    return fracas_fail_within(
+        FRACAS_DAMAGED, "the study's campaign file is damaged, or another version of fracas "
+                        "wrote it, which knows more: use that version, or remove it and run the "
+                        "campaign file it was made from, or restore it");
 }
 
 fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign,

@@ -142,6 +142,7 @@ static void warn_of_convergence(const fracas_point_statistics *statistics, size_
 {
     const fracas_replica_convergence *of = &statistics->convergence;
     if (of->unconverged == 0) return;
+    if (statistics->outcome[FRACAS_INTACT] == statistics->usable) return; /* nothing broke: said */
     const fracas_running *all = &of->row[of->count - 1];
     if (all->replicas < 2) {
         warn(list, p, "single", 1,

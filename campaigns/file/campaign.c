@@ -101,6 +101,7 @@ static fracas_err point_missing(const fracas_campaign *now, const fracas_campaig
                            before->npoints, now->npoints, b);
     for (size_t n = 0; n < now->npoints; n++) {
         const fracas_column *first = NULL;
+        if (find_point(before, &now->point[n].hash, n)) continue; /* it is no change of `b` */
         size_t count = count_differences(&now->table, n, &before->table, b, &first);
         if (count >= least || !first) continue;
         least = count;

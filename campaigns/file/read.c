@@ -54,6 +54,18 @@ static void doubt_key(reading *read, const fracas_node *entry, const char *neare
     if (nearest && strcmp(nearest, "sweep") == 0) fracas_file_doubt_section(file, NULL, true);
 }
 
+/* The name of the section of a key such as `mesh {elements`; NULL: it is no such key. */
+static const char *section_opened(const fracas_catalog *catalog, const char *key)
+{
+    const size_t length = strcspn(key, " {[");
+    if (key[length + strspn(key + length, " ")] != '{') return NULL;
+    for (size_t s = 0; s < catalog->nsections; s++) {
+        const char *name = catalog->section[s].table->name;
+        if (strlen(name) == length && strncmp(name, key, length) == 0) return name;
+    }
+    return NULL;
+}
+
 static fracas_err check_section(reading *read, const fracas_node *entry)
 {
     const fracas_file *file = &read->file;
@@ -68,7 +80,13 @@ static fracas_err check_section(reading *read, const fracas_node *entry)
     if (fracas_catalog_section(catalog, key->text)) return FRACAS_OK;
     for (size_t s = 0; s < catalog->nsections; s++)
         fracas_words_add(&words, catalog->section[s].table->name);
-    doubt_key(read, entry, words.nearest);
+    const char *opened = section_opened(catalog, key->text);
+    doubt_key(read, entry, opened ? opened : words.nearest);
+    if (opened)
+        return fracas_file_error(file, key,
+                                 "unknown key `%s` at the top of the file: a colon is missing; "
+                                 "write `%s: {`",
+                                 key->text, opened);
     if (entry->type == FRACAS_UNREADABLE) return fracas_file_untold(file);
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];

@@ -260,6 +260,11 @@ static fracas_err unknown_key(const fracas_file *file, const fracas_file_section
     if (home) words.nearest = NULL;
     doubt_key(file, section, entry, words.nearest, home != NULL);
     if (entry->type == FRACAS_UNREADABLE) return fracas_file_untold(file);
+    if (*key->text && strchr("0123456789", *key->text) && !*fracas_node_text(entry))
+        return fracas_file_error(file, key,
+                                 "unknown key `%s` in %s: the end of a number with a decimal "
+                                 "comma? Write a decimal point",
+                                 key->text, section->table->name);
     return fracas_file_error(file, key, "unknown key `%s` in %s%s%s%s", key->text,
                              section->table->name, home ? "; it belongs to the section " : "",
                              home ? home : "",

@@ -380,6 +380,20 @@ static void doubt_path(const fracas_file *file, const fracas_file_section *insid
     else fracas_file_doubt_section(file, inside, false);
 }
 
+/* The path of the one parameter with this key, else `other`. */
+static const char *path_of_key(const fracas_catalog *catalog, const char *key, const char *other)
+{
+    const char *path = NULL;
+    size_t found = 0;
+    for (size_t i = 0; i < catalog->nleaves; i++) {
+        const fracas_leaf *leaf = &catalog->leaf[i];
+        if (!leaf->section->table->hashed || strcmp(leaf->key, key) != 0) continue;
+        path = leaf->path;
+        found++;
+    }
+    return found == 1 ? path : other;
+}
+
 static fracas_err unknown_path(const fracas_file *file, const fracas_node *entry,
                                const char *const *also)
 {
@@ -392,6 +406,7 @@ static fracas_err unknown_path(const fracas_file *file, const fracas_node *entry
         if (catalog->leaf[i].section->table->hashed &&
             (!inside || catalog->leaf[i].section == inside))
             fracas_words_add(&words, catalog->leaf[i].path);
+    if (!inside) words.nearest = path_of_key(catalog, key->text, words.nearest);
     doubt_path(file, inside, words.nearest);
     if (!inside) { /* all paths were compared; list the sections */
         words.used = 0;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/words.h"
 
+#include "base/param.h"
+
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -34,6 +36,21 @@ static size_t distance_of(const char *a, const char *b)
     return row[na % 3][nb];
 }
 
+/* Names of the keys in other programs and papers. */
+static const struct {
+    const char *found, *word;
+} other_names[] = {{"E", "young"},         {"Young", "young"},           {"modulus", "young"},
+                   {"modulus", "shape"},   {"weibull_modulus", "shape"}, {"nu", "poisson"},
+                   {"rho", "density"},     {"G_c", "fracture_energy"},   {"Gc", "fracture_energy"},
+                   {"strain_rate", "rate"}};
+
+static bool is_other_name(const char *found, const char *word)
+{
+    for (size_t i = 0; i < FRACAS_COUNT(other_names); i++)
+        if (!strcmp(other_names[i].found, found) && !strcmp(other_names[i].word, word)) return true;
+    return false;
+}
+
 void fracas_words_init(fracas_words *words, const char *found)
 {
     *words = (fracas_words){.found = found};
@@ -41,7 +58,7 @@ void fracas_words_init(fracas_words *words, const char *found)
 
 void fracas_words_add(fracas_words *words, const char *word)
 {
-    size_t distance = distance_of(words->found, word);
+    size_t distance = is_other_name(words->found, word) ? 0 : distance_of(words->found, word);
     if (distance <= 1 + strlen(word) / 4 && distance < strlen(word) &&
         (!words->nearest || distance < words->distance)) {
         words->nearest = word;

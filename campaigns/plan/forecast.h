@@ -33,9 +33,9 @@ typedef struct {
     fracas_surface_survey mesh; /* a mesh file's; no parts: another body */
     fracas_surface_group loose; /* the least physical group of edges without a key; 0: none */
     fracas_surface_group inner; /* the least physical group of edges between elements; 0: none */
-    double extent; /* diagonal of the box around all interfaces [m] */
-    bool flat;     /* a factor of the strengths is the same at all interfaces */
-    double volume; /* a mean interface has [m3] */
+    double extent;              /* diagonal of the box around all interfaces [m] */
+    bool flat;                  /* a factor of the strengths is the same at all interfaces */
+    double volume;              /* a mean interface has [m3] */
     double mesh_effect; /* share of the count that halved elements lose (FRACAS_MESH_EFFECT) */
     double factor;      /* the least of the factors of the strengths; 1: none is below */
     double opening;     /* critical opening there, at the mean strength [m] */
@@ -83,7 +83,7 @@ typedef double fracas_plan_warning(const fracas_point *point, const fracas_forec
 double fracas_bending_steps(const fracas_spec *spec, double element);
 
 /* A run says the first of them itself before it begins: of meshes that make another body. */
-enum { FRACAS_PLAN_WARNINGS = 31, FRACAS_RUN_WARNINGS = 2, FRACAS_WARNING_TEXT = 400 /* bytes */ };
+enum { FRACAS_PLAN_WARNINGS = 32, FRACAS_RUN_WARNINGS = 2, FRACAS_WARNING_TEXT = 400 /* bytes */ };
 extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];
 /* One of them: no realization breaks. */
 fracas_plan_warning fracas_plan_warn_unbroken;

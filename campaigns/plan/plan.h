@@ -13,7 +13,7 @@
  * FRACAS_ENVIRONMENT without memory. Builds the model (about 1 us an element). */
 FRACAS_MUST_USE fracas_err fracas_plan_cost(const fracas_campaign *campaign, size_t point,
                                             double *cost, double *bytes);
-/* What a run says of its points before it begins. */
+/* Words of a run on its points, before it begins. */
 typedef struct {
     FILE *out;       /* gets the first FRACAS_RUN_WARNINGS of the plan's warnings, a line each */
     size_t unbroken; /* points whose interfaces crack and never break, counted */

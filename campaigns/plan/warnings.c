@@ -233,6 +233,13 @@ WARNING(warn_few_steps, forecast->steps < FEW_STEPS, 1 / (1.0 + (double)forecast
         "lengths in the units meant? A bare number is SI",
         point->spec.time.end, forecast->steps, forecast->steps == 1 ? "" : "s", forecast->time_step)
 
+#define MANY_STEPS 100000000
+
+WARNING(warn_many_steps, forecast->steps > MANY_STEPS, (double)forecast->steps,
+        "time.end %g s takes up to %.2g time steps of %.3g s: are time.end, material and lengths "
+        "in the units meant? A bare number is SI",
+        point->spec.time.end, (double)forecast->steps, forecast->time_step)
+
 WARNING(warn_bending, fracas_bending_steps(&point->spec, forecast->element) > 2,
         fracas_bending_steps(&point->spec, forecast->element),
         "elements of %.2g m are small against the thickness of %.2g m, and bending waves limit the "
@@ -348,9 +355,9 @@ WARNING(warn_stretch, forecast->mesh.box[2] > 0 && !forecast->mesh.round, 1,
         forecast->mesh.box[0], forecast->mesh.box[1], forecast->mesh.box[2])
 
 fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
-    warn_parts,     warn_unit,  warn_coarse,   warn_uniform,     warn_lines,   warn_weak_load,
-    warn_repeated,  warn_folds, warn_lonely,   warn_step,        warn_turned,  warn_passed,
-    warn_short,     warn_long,  warn_flat,     warn_weakest,     warn_wave,    warn_bending,
-    warn_few_steps, warn_never, warn_shatters, warn_mesh_effect, warn_open,    warn_heats,
-    warn_undivided, warn_loose, warn_inner,    warn_steered,     warn_stretch, warn_fast,
-    warn_whole};
+    warn_parts,     warn_unit,      warn_coarse,   warn_uniform,     warn_lines,   warn_weak_load,
+    warn_repeated,  warn_folds,     warn_lonely,   warn_step,        warn_turned,  warn_passed,
+    warn_short,     warn_long,      warn_flat,     warn_weakest,     warn_wave,    warn_bending,
+    warn_few_steps, warn_never,     warn_shatters, warn_mesh_effect, warn_open,    warn_heats,
+    warn_undivided, warn_loose,     warn_inner,    warn_steered,     warn_stretch, warn_fast,
+    warn_whole,     warn_many_steps};

@@ -84,6 +84,8 @@ ls failed/index.sqlite.before-* > /dev/null || fail "the damaged index is gone"
 # gc frees what a dry run says, byte for byte, and leaves the rest.
 kept=$(segments failed)
 echo mine > failed/notes.txt
+mkdir -p failed/pictures failed/export
+echo fitted > failed/fits.csv
 echo half > failed/segments/.x.h5.tmp-1
 expect 0 "$fracas" gc failed --dry-run
 said 'would free failed/index.sqlite.before-'
@@ -92,6 +94,8 @@ expect 0 "$fracas" gc failed
 said 'freed failed/index.sqlite.before-'
 said 'freed failed/segments/.x.h5.tmp-1 (5 bytes)'
 said 'left failed/notes.txt'
+! grep -q 'left failed/\(fits\|pictures\|export\)' said || fail "gc does not know what fracas writes"
+rm -r failed/pictures failed/export failed/fits.csv
 [ -e failed/notes.txt ] || fail "gc removed what it does not know"
 [ "$(segments failed)" -eq "$kept" ] || fail "gc removed a segment"
 expect 0 "$fracas" gc failed --json

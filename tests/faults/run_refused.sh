@@ -12,6 +12,11 @@ said 'complete'
 campaign other.yaml 4 '2e5 1/s'
 expect 5 "$fracas" run other.yaml --study done
 said 'loading.rate'
+campaign two.yaml 1 '3e4 1/s, 1e5 1/s'
+expect 0 "$fracas" run two.yaml --study two
+campaign two.yaml 1 '5e4 1/s, 1e5 1/s'
+expect 5 "$fracas" run two.yaml --study two
+said 'loading.rate is 30000 1/s in the study (its point 0), but 50000 1/s in this campaign file'
 campaign other.yaml 3 '1e5 1/s'
 expect 5 "$fracas" run other.yaml --study done
 said 'replicas'
@@ -108,6 +113,13 @@ said 'done/campaign.yaml is not the campaign of done/index.sqlite: .* remove it 
 rm done/campaign.yaml
 expect 0 "$fracas" run small.yaml --study done
 cmp kept.yaml done/campaign.yaml || fail "campaign.yaml is not as it was"
+sed 's/law: nitsche/law: of-tomorrow/' kept.yaml > done/campaign.yaml
+for command in 'run small.yaml --study done' 'verify done' 'report done'; do
+    # shellcheck disable=SC2086 # words
+    expect 5 "$fracas" $command
+    said 'unknown law `of-tomorrow`'
+    said 'another version of fracas'
+done
 cp other.yaml done/campaign.yaml
 echo 'x: [' >> done/campaign.yaml
 expect 5 "$fracas" verify done

@@ -95,3 +95,10 @@ expect 0 "$fracas" report one --x size.mean --output elsewhere
 said '^report: elsewhere/index.html$'
 [ -f elsewhere/count-against-size-mean.svg ] && [ ! -e one/report/count-against-size-mean.svg ] || fail "not there, or in the study's report"
 expect 2 "$fracas" report one -o one/campaign.yaml
+
+# What docs/how-to/open-results-with-python.md shows first prints as it says: a number with its unit, and the point's rate.
+sed -n '/^    import h5py$/,/^$/s/^    //p' "$source/docs/how-to/open-results-with-python.md" | sed 's|STUDY/|one/|' > example.py
+[ "$(wc -l < example.py)" -eq 6 ] || fail "the page's first example has changed"
+/usr/bin/python3 example.py > said
+said '^[0-9.e+-]* m$'
+said '^100000.0$'

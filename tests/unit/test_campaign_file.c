@@ -526,7 +526,7 @@ static void test_extends(void **state)
          {"output.interfaces is false", "but true"}},
         {"rate: [1e3, 1e4]",
          "rate: [1e3, 2e4]",
-         {"loading.rate is 10000 1/s in the study (its point 1)", "but 1000 1/s"}},
+         {"loading.rate is 10000 1/s in the study (its point 1)", "but 20000 1/s"}},
         {"young: 275 GPa",
          "young: 276 GPa",
          {"material.young is 275000000000 Pa", "but 276000000000 Pa"}},

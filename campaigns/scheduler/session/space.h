@@ -10,8 +10,8 @@
 
 /* Predicted cost and bytes (NULL: not wanted) of one realization of each point (fracas_plan_cost),
  * freed by the caller. FRACAS_USAGE for conflicting parameters, or for lanes or an instruction set
- * missing on this machine. warn: where fracas_plan_words are said, before hours of a run that breaks
- * nothing; NULL, or options->quiet: nowhere. */
+ * missing on this machine. warn: where fracas_plan_words are said, before hours of a run that
+ * breaks nothing; NULL, or options->quiet: nowhere. */
 FRACAS_MUST_USE fracas_err fracas_costs_create(const fracas_campaign *campaign,
                                                const fracas_run_options *options, FILE *warn,
                                                double **cost, double **bytes);

@@ -79,10 +79,22 @@ static fate judge_nursery(const collection *c, const char *name, const char **wh
 
 static fate judge_study(const collection *c, const char *name, const char **why)
 {
-    static const char *const ours[] = {
-        "campaign.yaml",        "index.sqlite", "index.sqlite-wal", "index.sqlite-shm",
-        "index.sqlite-journal", "lock",         "study.h5",         "segments",
-        "attachments",          "report",       FRACAS_CHECKPOINTS, "fields"};
+    static const char *const ours[] = {"campaign.yaml",
+                                       "index.sqlite",
+                                       "index.sqlite-wal",
+                                       "index.sqlite-shm",
+                                       "index.sqlite-journal",
+                                       "lock",
+                                       "study.h5",
+                                       "segments",
+                                       "attachments",
+                                       "report",
+                                       FRACAS_CHECKPOINTS,
+                                       "fields",
+                                       "fits.csv",
+                                       "fits.csv.part",
+                                       "export",
+                                       "pictures"};
     (void)c;
     for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)
         if (strcmp(name, ours[i]) == 0) return KEEP;
