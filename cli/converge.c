@@ -231,7 +231,7 @@ static fracas_err run_study(converging *c, fracas_refinement by)
 static fracas_err check_files(const converging *c)
 {
     for (size_t i = 0; i < FRACAS_COUNT(order); i++) {
-        char name[NAME];
+        char name[2 * NAME];
         snprintf(name, sizeof name, "%s.yaml", fracas_refinement_name[order[i]]);
         if (c->refined[order[i]].campaign)
             TRY(fracas_campaign_keeps(c->refined[order[i]].campaign, c->folder, name));

@@ -158,3 +158,4 @@ mkdir -p many
 cp own.yaml many/mesh.yaml
 expect 2 "$fracas" converge small.yaml --study many --jobs 1
 said 'many/mesh.yaml is not as a run writes it'
+[ "$(ls many)" = mesh.yaml ] || fail "a refused converge has written $(ls many)"
