@@ -199,7 +199,8 @@ fracas_err fracas_arguments_integer(const fracas_arguments *arguments, const cha
     char *end;
     errno = 0;
     long number = strtol(text, &end, 10);
-    if (end == text || *end || errno || *text == '+' || *text == ' ' || number < minimum || number > maximum)
+    if (end == text || *end || errno || *text == '+' || *text == ' ' || number < minimum ||
+        number > maximum)
         return fracas_fail(FRACAS_USAGE,
                            "%s: --%s is `%s`; it must be a whole number from %d to %d",
                            arguments->command->name, option, text, minimum, maximum);
