@@ -345,7 +345,7 @@ WARNING(warn_unit, !point->spec.geometry.unit && largest_side(&forecast->mesh) >
 WARNING(warn_steered, forecast->mesh.steered > STEERED && forecast->interfaces >= FEW_EDGES,
         forecast->mesh.steered,
         "%.0f %% of the length of the mesh file's edges lies in three directions 15 degrees wide: "
-        "cracks will follow them: a mesh by Gmsh's Mesh.Algorithm = 5 has none",
+        "cracks will follow them: mesh it anew, by Gmsh's Mesh.Algorithm = 5",
         100 * forecast->mesh.steered)
 
 WARNING(warn_stretch, forecast->mesh.box[2] > 0 && !forecast->mesh.round, 1,

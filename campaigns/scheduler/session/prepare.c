@@ -95,7 +95,7 @@ fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
         return fracas_fail_within(FRACAS_DAMAGED,
                                   "the study's own campaign file is damaged, or another version of "
                                   "fracas wrote it, which knows more: use that version, or another "
-                                  "--study (or remove the file and run again: it is written anew)");
+                                  "--study (or remove it and run again: it is written anew)");
     TRY(err);
     const bool extended = !fracas_campaign_extends(before, campaign);
     err = fracas_campaign_extends(campaign, before);
