@@ -177,24 +177,26 @@ static const fracas_option export_options[] = {
     {"histories", NULL, "energies over time of every realization, too: histories.csv"},
     {0}};
 
-static fracas_err check_free(const char *folder)
+/* A folder that a user named has no files of the user's own where the export writes. */
+static fracas_err check_free(const char *folder, bool histories)
 {
     static const char *const name[] = {"datapackage.json", "points.csv",     "realizations.csv",
                                        "fragments.csv",    "statistics.csv", "energies.csv",
                                        "convergence.csv",  "histories.csv"};
-    return fracas_output_free(folder, name, FRACAS_COUNT(name));
+    return fracas_output_free(folder, name, FRACAS_COUNT(name) - !histories);
 }
 
 static fracas_err export(const fracas_arguments *arguments)
 {
+    const bool histories = fracas_given(arguments, "histories") != NULL;
     OWN(fracas_campaign) campaign = NULL;
     OWN(fracas_analysis) analysis = NULL;
     OWNED char *folder = NULL;
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
     TRY(fracas_output_folder_in(fracas_given(arguments, "to"), arguments->operand, "export",
                                 &folder));
-    if (fracas_given(arguments, "to")) TRY(check_free(folder));
-    TRY(fracas_export_write(analysis, folder, fracas_given(arguments, "histories") != NULL));
+    if (fracas_given(arguments, "to")) TRY(check_free(folder, histories));
+    TRY(fracas_export_write(analysis, folder, histories));
     printf("export: %s/datapackage.json\n", folder);
     return FRACAS_OK;
 }

@@ -38,7 +38,12 @@ expect 2 "$fracas" export one --to file
 said 'file is no folder; move it away or name another'
 expect 6 "$fracas" export one --to none/there
 said 'cannot make the folder none/there'
-mkdir taken taken/points.csv
+mkdir others others/points.csv
+expect 2 "$fracas" export one --to others
+said 'others/points.csv is there already, and is of no report or export of fracas'
+expect 0 "$fracas" export one --to taken
+rm taken/points.csv
+mkdir taken/points.csv
 expect 6 "$fracas" export one --to taken
 said 'cannot rename .* to taken/points.csv'
 [ ! -e taken/datapackage.json ] || fail "a package that is not whole"
