@@ -120,7 +120,7 @@ static size_t merge_lines(const fracas_gmsh_mesh *m, resolved *out)
         uint32_t *node = out->tag[l].node, was = node[0];
         if (was > node[1]) node[0] = node[1], node[1] = was;
     }
-    qsort(out->tag, m->nlines, sizeof *out->tag, compare_tags);
+    if (m->nlines) qsort(out->tag, m->nlines, sizeof *out->tag, compare_tags);
     for (size_t l = 0; l < m->nlines; l++) {
         fracas_surface_tag *last = merged ? &out->tag[merged - 1] : NULL;
         const bool same = last && last->node[0] == out->tag[l].node[0] &&

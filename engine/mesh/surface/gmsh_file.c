@@ -33,14 +33,14 @@ const fracas_gmsh_entry *fracas_gmsh_find(const fracas_gmsh_entry *all, size_t c
                                           int64_t number)
 {
     const fracas_gmsh_entry key = {.number = number};
-    return bsearch(&key, all, count, sizeof *all, compare_entries);
+    return count ? bsearch(&key, all, count, sizeof *all, compare_entries) : NULL;
 }
 
 /* Sorts; FRACAS_USAGE for a number that comes twice. */
 static fracas_err sort(const fracas_gmsh_mesh *m, const char *what, fracas_gmsh_entry *all,
                        size_t count)
 {
-    qsort(all, count, sizeof *all, compare_entries);
+    if (count) qsort(all, count, sizeof *all, compare_entries);
     for (size_t i = 1; i < count; i++)
         if (all[i].number == all[i - 1].number)
             return fracas_gmsh_fail(&m->scan, "%s %" PRId64 " comes twice", what, all[i].number);
