@@ -267,8 +267,8 @@ static void test_turned_at_random(void **state)
             for (size_t e = 0; e < s->nelements; e++) {
                 uint32_t *node = element + s->corners * e, was = node[1];
                 if (next_share(&x) < 0.4) continue;
-                node[1] = node[2], node[2] = was, was = node[3];
-                if (order == 2) node[3] = node[5], node[5] = was;
+                node[1] = node[2], node[2] = was;
+                if (order == 2) was = node[3], node[3] = node[5], node[5] = was;
                 turned++;
             }
             OWN(a_surface) plain = rectangle(4, order);
