@@ -11,7 +11,8 @@ fracas_terminal fracas_terminal_of(int fd)
 {
     struct winsize size;
     const char *term = getenv("TERM"), *refused = getenv("NO_COLOR");
-    if (!isatty(fd)) return (fracas_terminal){0};
+    /* Open MPI gives its ranks a terminal, of which nobody sees the size. */
+    if (!isatty(fd) || getenv("OMPI_COMM_WORLD_RANK")) return (fracas_terminal){0};
     fracas_terminal found = {
         .draws = !term || strcmp(term, "dumb") != 0, .columns = 80, .rows = 24};
     found.colour = found.draws && !(refused && *refused);

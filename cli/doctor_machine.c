@@ -9,6 +9,7 @@
 #include "base/version.h"
 #include "campaigns/plan/plan.h"
 #include "campaigns/scheduler/launch/allocation.h"
+#include "campaigns/scheduler/launch/quota.h"
 #include "campaigns/scheduler/launch/scratch.h"
 #include "campaigns/scheduler/launch/starter.h"
 #include "campaigns/store/store.h"
@@ -77,8 +78,7 @@ static void look_at_pdf(fracas_patient *patient)
 
 /* ---- limits of this process ---- */
 
-/* The least number in FILE of the control groups that this process is in; INFINITY: none. A
- * cpu.max has two, quota and period: their ratio. */
+/* The least number in FILE of the control groups that this process is in; INFINITY: none. */
 static double limit_of_group(const char *file)
 {
     char line[PATH_MAX] = "", group[PATH_MAX] = "", path[2 * PATH_MAX];
@@ -88,11 +88,10 @@ static double limit_of_group(const char *file)
         if (!strncmp(line, "0::", 3)) snprintf(group, sizeof group, "%s", line + 3);
     group[strcspn(group, "\n")] = '\0';
     for (;;) {
-        double quota, period = 1;
+        double limit;
         snprintf(path, sizeof path, "/sys/fs/cgroup%s/%s", group, file);
         OWN(FILE) of = fopen(path, "re");
-        if (of && fscanf(of, "%lf %lf", &quota, &period) >= 1 && period > 0)
-            least = fmin(least, quota / period);
+        if (of && fscanf(of, "%lf", &limit) == 1) least = fmin(least, limit);
         char *slash = strrchr(group, '/');
         if (!slash) return least;
         *slash = '\0';
@@ -103,12 +102,12 @@ static void look_at_cores(fracas_patient *patient)
 {
     const int mine = fracas_allocation_cores();
     const long online = sysconf(_SC_NPROCESSORS_ONLN);
-    const double quota = limit_of_group("cpu.max");
-    if (quota < mine)
-        fracas_patient_say(patient, FRACAS_NOTED,
-                           "%d cores, but the control group gives the time of %.3g: run with "
-                           "--jobs %d",
-                           mine, quota, quota > 1 ? (int)quota : 1);
+    const double quota = fracas_quota_cores(FRACAS_QUOTA_GROUPS, FRACAS_QUOTA_MOUNT);
+    if (quota < INFINITY)
+        fracas_patient_say(patient, FRACAS_SOUND,
+                           "%d of %ld cores for this process, whose control group gives the time "
+                           "of %.3g",
+                           mine, online, quota);
     else
         fracas_patient_say(patient, FRACAS_SOUND, "%d of %ld cores for this process", mine, online);
 }

@@ -3,16 +3,19 @@
 
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/director/director.h"
+#include "campaigns/scheduler/launch/guard.h"
 #include "campaigns/scheduler/launch/scratch.h"
 #include "campaigns/scheduler/launch/signals.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/types/mailbox.h"
 #include "campaigns/scheduler/worker/link.h"
+#include "campaigns/store/file/disk.h"
 #include "engine/integrator/frequencies.h"
 
 #include <signal.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/prctl.h>
 #include <time.h>
 
@@ -228,6 +231,48 @@ static fracas_err set_up(rank_state *rank)
                                    &rank->link.supervisor);
 }
 
+/* Absolute, without links, as far as the folders exist. FRACAS_ENVIRONMENT without memory. */
+static fracas_err absolute(const char *folder, char **path)
+{
+    OWNED char *start = NULL;
+    TRY(fracas_path(&start, "%s%s", *folder == '/' ? "" : "./", folder));
+    for (size_t end = strlen(start); end > 0; end--) {
+        if (start[end] != '/' && start[end]) continue;
+        const char behind = start[end];
+        start[end] = '\0';
+        OWNED char *there = realpath(start, NULL);
+        start[end] = behind;
+        if (there) return fracas_path(path, "%s%s", there, start + end);
+    }
+    return fracas_path(path, "%s", folder);
+}
+
+static fracas_err whereabouts(const char *study, fracas_whereabouts *place)
+{
+    char host[FRACAS_HOST_TEXT], boot[FRACAS_BOOT_TEXT];
+    OWNED char *path = NULL;
+    TRY(absolute(study, &path));
+    fracas_disk_host(host, boot);
+    *place = (fracas_whereabouts){.host = fracas_hash_of(host, strlen(host)),
+                                  .path = fracas_hash_of(path, strlen(path)),
+                                  .given = fracas_hash_of(study, strlen(study))};
+    return FRACAS_OK;
+}
+
+/* All ranks are of one study, or none computes; `err`: the trouble of this rank so far. */
+static fracas_err meet(rank_state *rank, fracas_err err)
+{
+    fracas_whereabouts mine;
+    if (!err) err = whereabouts(rank->study, &mine);
+    const int other = fracas_mailbox_stranger(&rank->box, err ? NULL : &mine);
+    if (err || other < 0) return err;
+    return fracas_fail(FRACAS_USAGE,
+                       "rank %d was given another --study than rank 0, and the ranks of one mpirun "
+                       "compute one study: give all the same, or start a run for each study with "
+                       "OMPI_*, PMIX_* and PMI_* taken out of its environment",
+                       other);
+}
+
 fracas_err fracas_rank_run(const fracas_run_options *options, const fracas_mailbox *box, bool *ran)
 {
     *ran = false;
@@ -244,7 +289,8 @@ fracas_err fracas_rank_run(const fracas_run_options *options, const fracas_mailb
     fracas_trouble trouble;
     fracas_trouble_take(err, &trouble);
     fracas_mailbox_open(&rank.box);
-    err = fracas_trouble_fail(&trouble);
+    fracas_guard_pass();
+    err = meet(&rank, fracas_trouble_fail(&trouble));
     if (rank.box.rank == 0) {
         err = lead_to_end(&rank, err, ran);
     } else if (follow(&rank, err)) {

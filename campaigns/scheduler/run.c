@@ -4,6 +4,7 @@
 #include "base/param.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/launch/allocation.h"
+#include "campaigns/scheduler/launch/guard.h"
 #include "campaigns/scheduler/launch/launcher.h"
 #include "campaigns/scheduler/launch/signals.h"
 #include "campaigns/scheduler/rank.h"
@@ -38,6 +39,12 @@ bool fracas_run_speaks(void)
     return rank < 0 || (rank == 0 && !getenv(FRACAS_LAUNCHER_MARK));
 }
 
+/* A process manager takes this process once as one of its job. */
+static bool is_of_a_job(void)
+{
+    return getenv("PMIX_RANK") || getenv("PMI_RANK");
+}
+
 /* Finds all faults of the campaign and the study before anything is written or started. Leaves the
  * frequencies of its models to the processes of the run. */
 static fracas_err examine(const fracas_run_options *options, const fracas_starter_kind *kind,
@@ -67,7 +74,10 @@ fracas_err fracas_run(const fracas_run_options *options, int argc, char **argv, 
 {
     *ran = false;
     const fracas_mailbox mpi = {.transport = &fracas_transport_mpi};
-    if (fracas_run_is_rank()) return fracas_rank_run(options, &mpi, ran);
+    if (fracas_run_is_rank()) {
+        if (is_of_a_job() && !getenv(FRACAS_LAUNCHER_MARK)) TRY(fracas_guard_begin());
+        return fracas_rank_run(options, &mpi, ran);
+    }
     const double began = fracas_now();
     fracas_signals_catch();
     bool settled = false;

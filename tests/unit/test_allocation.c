@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the parent takes from its surroundings: the size of a Slurm job, and why mpirun says that it
- * ended. */
+/* The parent and its surroundings: the size of a Slurm job, quotas of processor time,
+ * and why mpirun says that it ended. */
+#define FOLDER "fracas-allocation"
 #include "campaigns/scheduler/launch/allocation.h"
 #include "campaigns/scheduler/launch/mpirun.h"
+#include "campaigns/scheduler/launch/quota.h"
+#include "tests/support/folder.h"
 #include "tests/support/test.h"
+
+#include <math.h>
+#include <sys/stat.h>
 
 static void lists_of_slurm(void **state)
 {
@@ -72,6 +78,75 @@ static void a_task_of_srun_without_mpi(void **state)
     unsetenv("SLURM_STEP_NUM_TASKS");
 }
 
+/* A path in the test's folder, of the last two. */
+static const char *in(const char *name)
+{
+    static char path[2][4096];
+    static int last;
+    last = !last;
+    snprintf(path[last], sizeof path[last], "%s/%s", folder, name);
+    return path[last];
+}
+
+static void write_line(const char *group, const char *name, const char *text)
+{
+    char path[4096];
+    for (const char *end = group; end;) { /* makes the groups */
+        end = strchr(end + 1, '/');
+        snprintf(path, sizeof path, "%.*s", end ? (int)(end - group) : 4000, group);
+        mkdir(in(path), 0777);
+    }
+    snprintf(path, sizeof path, "%s/%s/%s", folder, group, name);
+    FILE *out = fopen(path, "w");
+    assert_non_null(out);
+    fputs(text, out);
+    assert_int_equal(fclose(out), 0);
+}
+
+/* The quota of `groups`, lines as of /proc/self/cgroup, of the file systems in the folder `groups`.
+ */
+static double quota_of(const char *groups)
+{
+    write_line("groups", "../mine", groups);
+    return fracas_quota_cores(in("mine"), in("groups"));
+}
+
+static void processor_time_of_control_groups(void **state)
+{
+    assert_true(isinf(fracas_quota_cores(in("no such file"), in("groups"))));
+    assert_true(isinf(quota_of("")));
+    assert_true(isinf(quota_of("nonsense\n:\n::\n")));
+
+    /* Version 2: the least of a group and those above it; `max` is no limit. */
+    write_line("groups/a/b/c", "cpu.max", "max 100000\n");
+    assert_true(isinf(quota_of("0::/a/b/c\n")));
+    write_line("groups/a/b", "cpu.max", "250000 100000\n");
+    assert_float_equal(quota_of("0::/a/b/c\n"), 2.5, 0);
+    write_line("groups/a/b/c", "cpu.max", "300000 100000\n");
+    assert_float_equal(quota_of("0::/a/b/c\n"), 2.5, 0);
+    write_line("groups/a", "cpu.max", "50000 100000\n");
+    assert_float_equal(quota_of("0::/a/b/c\n"), 0.5, 0);
+    assert_true(isinf(quota_of("0::/\n")));
+    /* In a container the group is the root. */
+    write_line("groups", "cpu.max", "150000 50000\n");
+    assert_float_equal(quota_of("0::/\n"), 3, 0);
+    assert_float_equal(quota_of("0::/docker/of the host\n"), 3, 0);
+    write_line("groups", "cpu.max", "max 100000\n");
+
+    /* Version 1, of which the other controllers are nothing to us, and beside version 2. */
+    write_line("groups/cpu,cpuacct/job", "cpu.cfs_quota_us", "-1\n");
+    write_line("groups/cpu,cpuacct/job", "cpu.cfs_period_us", "100000\n");
+    assert_true(isinf(quota_of("4:cpu,cpuacct:/job\n")));
+    write_line("groups/cpu,cpuacct/job", "cpu.cfs_quota_us", "1600000\n");
+    assert_float_equal(quota_of("5:memory:/job\n4:cpu,cpuacct:/job\n0::/\n"), 16, 0);
+    assert_true(isinf(quota_of("4:cpuset,cpuacct:/job\n")));
+    write_line("groups/cpu", "cpu.cfs_quota_us", "200000\n");
+    write_line("groups/cpu", "cpu.cfs_period_us", "100000\n");
+    assert_float_equal(quota_of("1:cpuacct,cpu:/docker/of the host\n"), 2, 0);
+    write_line("groups/unified", "cpu.max", "100000 100000\n");
+    assert_float_equal(quota_of("1:cpu:/\n0::/\n"), 1, 0);
+}
+
 /* As Open MPI 4.1.4 said them. */
 static void the_line_that_tells(void **state)
 {
@@ -108,4 +183,5 @@ static void the_line_that_tells(void **state)
     assert_string_equal(small, "a long line");
 }
 
-TESTS(lists_of_slurm, jobs_of_an_allocation, a_task_of_srun_without_mpi, the_line_that_tells)
+TESTS_ALL(make_folder, remove_folder, lists_of_slurm, jobs_of_an_allocation,
+          a_task_of_srun_without_mpi, processor_time_of_control_groups, the_line_that_tells)

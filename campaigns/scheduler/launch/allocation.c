@@ -2,10 +2,12 @@
 #include "campaigns/scheduler/launch/allocation.h"
 
 #include "base/param.h"
+#include "campaigns/scheduler/launch/quota.h"
 
 #include <ctype.h>
 #include <inttypes.h>
 #include <limits.h>
+#include <math.h>
 #include <sched.h>
 #include <stdlib.h>
 
@@ -38,7 +40,8 @@ static int slurm_tasks(void)
     return cores ? (int)fracas_allocation_sum(cores) : 0;
 }
 
-int fracas_allocation_cores(void)
+/* Cores of the process's affinity mask. */
+static int cores_of_mask(void)
 {
     enum { FIRST = 1024, LAST = 1 << 20 }; /* CPUs that a kernel may have: it refuses a small set */
     for (int most = FIRST; most <= LAST; most *= 2) {
@@ -50,6 +53,13 @@ int fracas_allocation_cores(void)
         if (count) return count;
     }
     return 1;
+}
+
+int fracas_allocation_cores(void)
+{
+    const int mask = cores_of_mask();
+    const double quota = floor(fracas_quota_cores(FRACAS_QUOTA_GROUPS, FRACAS_QUOTA_MOUNT));
+    return quota >= mask ? mask : quota > 1 ? (int)quota : 1;
 }
 
 fracas_err fracas_allocation_jobs(int wanted, int64_t parts, int *jobs)

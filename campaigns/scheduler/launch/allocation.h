@@ -11,7 +11,8 @@
 /* Sum of a list as Slurm writes it, "16(x2),8" = 40; 0 if it is none. */
 long fracas_allocation_sum(const char *list);
 
-/* Cores that this process may use. */
+/* Cores that this process may use: those of its affinity mask, or whole cores of its processor time
+ * (quota.h) where these are fewer; at least 1. */
 int fracas_allocation_cores(void);
 
 /* *jobs = `wanted`; if 0, in a Slurm job its tasks (or cores, if it has no number of tasks), else

@@ -11,13 +11,7 @@
 #define FRACAS_CAMPAIGNS_SCHEDULER_STATUS_CHANNEL_H
 
 #include "campaigns/scheduler/status/progress.h"
-
-/* Set by the launcher in the environment of the ranks. */
-#define FRACAS_LAUNCHER_MARK "FRACAS_LAUNCHER"
-#define FRACAS_DEADLINE "FRACAS_DEADLINE" /* end of --walltime, s since 1970 */
-#define FRACAS_FREQUENCIES \
-    "FRACAS_FREQUENCIES"                    /* fracas_frequencies_write; not on other machines */
-#define FRACAS_RESTARTED "FRACAS_RESTARTED" /* the reason for this restart */
+#include "campaigns/scheduler/types/environment.h"
 
 typedef struct {
     bool launcher; /* one reads stdout */

@@ -8,6 +8,11 @@ void fracas_mailbox_open(fracas_mailbox *box)
     box->transport->open(box);
 }
 
+int fracas_mailbox_stranger(fracas_mailbox *box, const fracas_whereabouts *mine)
+{
+    return box->transport->stranger(box, mine);
+}
+
 void fracas_mailbox_close(fracas_mailbox *box)
 {
     box->transport->close(box);

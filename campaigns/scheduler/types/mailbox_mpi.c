@@ -1,8 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/types/transport.h"
 
+#include "base/param.h"
+#include "campaigns/scheduler/types/environment.h"
+
+#include <errno.h>
 #include <mpi.h>
 #include <poll.h>
+#include <signal.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,13 +30,78 @@ static fracas_err failed(const char *what, int code)
     return fracas_fail(FRACAS_ENVIRONMENT, "MPI cannot %s a message: %s", what, reason);
 }
 
+/* Number of ranks that the launcher has told each of them; 0: unknown. */
+static int ranks_told(void)
+{
+    static const char *const told[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"};
+    for (size_t i = 0; i < FRACAS_COUNT(told); i++)
+        if (getenv(told[i])) return atoi(getenv(told[i]));
+    return 0;
+}
+
+/* Written from a signal handler, which may do no more. */
+static char waits_for[320];
+
+static void say_waiting(int signal)
+{
+    (void)signal;
+    const int saved = errno;
+    const ssize_t written = write(STDERR_FILENO, waits_for, strlen(waits_for));
+    (void)written;
+    errno = saved;
+}
+
+/* Says once, WAIT seconds from now, which processes have not come. */
+static void warn_later(void)
+{
+    enum { WAIT = 5 };
+    const int others = ranks_told() - 1;
+    if (others < 1 || getenv(FRACAS_LAUNCHER_MARK)) return;
+    snprintf(
+        waits_for, sizeof waits_for,
+        "fracas: waits for %d more process%s of the mpirun that started this one; " FRACAS_OTHER_JOB
+        "\n",
+        others, others == 1 ? "" : "es");
+    struct sigaction say = {.sa_handler = say_waiting, .sa_flags = SA_RESTART};
+    sigaction(SIGALRM, &say, NULL);
+    alarm(WAIT);
+}
+
 static void open_box(fracas_mailbox *box)
 {
-    if (!MPI_Init(NULL, NULL) && !MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN) &&
+    struct sigaction before;
+    sigaction(SIGALRM, NULL, &before);
+    warn_later();
+    const int code = MPI_Init(NULL, NULL);
+    alarm(0);
+    sigaction(SIGALRM, &before, NULL);
+    if (!code && !MPI_Comm_set_errhandler(MPI_COMM_WORLD, MPI_ERRORS_RETURN) &&
         !MPI_Comm_rank(MPI_COMM_WORLD, &box->rank) && !MPI_Comm_size(MPI_COMM_WORLD, &box->size))
         return;
     fputs("fracas: MPI does not start\n", stderr);
     _exit(FRACAS_ENVIRONMENT); /* ending with 0, it would leave the others waiting */
+}
+
+static bool is_elsewhere(const fracas_whereabouts *mine, const fracas_whereabouts *lead)
+{
+    const bool one_host = fracas_hash_equal(&mine->host, &lead->host);
+    return !fracas_hash_equal(one_host ? &mine->path : &mine->given,
+                              one_host ? &lead->path : &lead->given);
+}
+
+static int stranger(fracas_mailbox *box, const fracas_whereabouts *mine)
+{
+    struct {
+        fracas_whereabouts place;
+        uint8_t known;
+    } lead = {.known = mine != NULL};
+    if (mine) lead.place = *mine;
+    if (MPI_Bcast(&lead, sizeof lead, MPI_BYTE, 0, MPI_COMM_WORLD)) return -1;
+    const int none = box->size;
+    const int own = mine && lead.known && is_elsewhere(mine, &lead.place) ? box->rank : none;
+    int lowest = none;
+    if (MPI_Allreduce(&own, &lowest, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD)) return -1;
+    return lowest == none ? -1 : lowest;
 }
 
 static void close_box(fracas_mailbox *box)
@@ -107,7 +178,7 @@ static void wait_for_any(fracas_mailbox *box, int fd, int most)
 }
 
 const fracas_transport fracas_transport_mpi = {
-    open_box, close_box, abort_all, post, clear, receive, wait_for_any,
+    open_box, stranger, close_box, abort_all, post, clear, receive, wait_for_any,
 };
 
 void fracas_mailbox_version(char *text, size_t size)

@@ -9,6 +9,7 @@
 /* fracas_mailbox_open and its like, of one transport. */
 struct fracas_transport {
     void (*open)(fracas_mailbox *box);
+    int (*stranger)(fracas_mailbox *box, const fracas_whereabouts *mine);
     void (*close)(fracas_mailbox *box);
     void (*abort)(const fracas_mailbox *box);
     fracas_err (*post)(fracas_mailbox *box, int to, const fracas_packet *message);

@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The guard of a rank that somebody else's mpirun or srun has started: Open MPI ends a process in
+ * which MPI_Init fails, with status 1, which has another meaning here. */
+#ifndef FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_GUARD_H
+#define FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_GUARD_H
+
+#include "base/err.h"
+
+/* Forks. The child returns and is the rank. The parent forwards signals to it and ends as it does;
+ * if the child ends before fracas_guard_pass, the parent says what to do and ends with
+ * FRACAS_ENVIRONMENT. The child dies with the parent. FRACAS_ENVIRONMENT if it cannot be forked. */
+FRACAS_MUST_USE fracas_err fracas_guard_begin(void);
+/* In the rank, when MPI has started. Without fracas_guard_begin it does nothing. */
+void fracas_guard_pass(void);
+
+#endif

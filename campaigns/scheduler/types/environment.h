@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Names of the environment by which the launcher speaks to the ranks. */
+#ifndef FRACAS_CAMPAIGNS_SCHEDULER_TYPES_ENVIRONMENT_H
+#define FRACAS_CAMPAIGNS_SCHEDULER_TYPES_ENVIRONMENT_H
+
+#define FRACAS_LAUNCHER_MARK "FRACAS_LAUNCHER"
+#define FRACAS_DEADLINE "FRACAS_DEADLINE" /* end of --walltime, s since 1970 */
+#define FRACAS_FREQUENCIES \
+    "FRACAS_FREQUENCIES"                    /* fracas_frequencies_write; not on other machines */
+#define FRACAS_RESTARTED "FRACAS_RESTARTED" /* the reason for this restart */
+
+/* The remedy where fracas is started by a process of somebody's MPI job, of which it would be a
+ * rank. */
+#define FRACAS_OTHER_JOB                                                                   \
+    "if a process of an MPI job started fracas, take OMPI_*, PMIX_* and PMI_* out of its " \
+    "environment; see the how-to for clusters"
+
+#endif
