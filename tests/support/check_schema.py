@@ -1,29 +1,36 @@
 #!/usr/bin/env python3
-"""usage: check_schema.py FRACAS SCHEMA FILE...
+"""usage: check_schema.py LIBFRACAS SCHEMA FILE...
 
 Every FILE that fracas reads is valid by the schema: it refuses nothing that the program takes. Typical mistakes are refused by
 both, at the same line."""
+import ctypes
 import itertools
 import json
+import os
 import re
-import subprocess
 import sys
 import tempfile
 
 import jsonschema
 import yaml
 
-fracas, schema_path, *files = sys.argv[1:]
+library_path, schema_path, *files = sys.argv[1:]
+library = ctypes.CDLL(library_path)
+library.fracas_error.restype = ctypes.c_char_p
 schema = json.load(open(schema_path))
 jsonschema.Draft202012Validator.check_schema(schema)
 validator = jsonschema.Draft202012Validator(schema)
 
 
-def plan(path):
-    """The messages of the program about a file, and their lines; "" if it reads it."""
-    done = subprocess.run([fracas, "plan", "--quick", path], capture_output=True, text=True)
-    lines = [int(line) for line in re.findall(r"^fracas: [^\n]*:(\d+):\d+: ", done.stderr, re.M)]
-    return (done.stderr, lines) if done.returncode == 2 and lines else ("", [])
+def read(path):
+    """The messages of the program about a file, by libfracas, and their lines; "" if it reads it."""
+    campaign = ctypes.c_void_p()
+    if not library.fracas_campaign_open(os.fsencode(path), ctypes.byref(campaign)):
+        library.fracas_campaign_close(campaign)
+        return "", []
+    said = library.fracas_error().decode(errors="replace")
+    lines = [int(line) for line in re.findall(r"^[^\n]*:(\d+):\d+: ", said, re.M)]
+    return (said, lines) if lines else ("", [])
 
 
 def line_of(text, path, unknown):
@@ -46,7 +53,7 @@ for path in files:
         document = yaml.safe_load(text)
     except (yaml.YAMLError, UnicodeDecodeError, ValueError):
         continue
-    message, _ = plan(path)
+    message, _ = read(path)
     errors = [error.message for error in validator.iter_errors(document)]
     if not message:
         taken += 1
@@ -101,7 +108,7 @@ def check(file, pairs):
     file.truncate()
     file.write(text)
     file.flush()
-    message, told = plan(file.name)
+    message, told = read(file.name)
     assert message, pairs
     errors = list(validator.iter_errors(yaml.safe_load(text)))
     lines = set()

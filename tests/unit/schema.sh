@@ -3,4 +3,4 @@
 . tests/support/campaigns.sh
 "$fracas" reference --schema > schema.json
 cd "$source"
-/usr/bin/python3 tests/support/check_schema.py "$fracas" "$work/schema.json" campaigns/examples/*.yaml docs/examples/*.yaml tests/fuzz/corpus/campaign_file/*
+/usr/bin/python3 tests/support/check_schema.py "$(dirname "$fracas")/libfracas.so" "$work/schema.json" campaigns/examples/*.yaml docs/examples/*.yaml tests/fuzz/corpus/campaign_file/*
