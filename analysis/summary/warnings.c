@@ -26,9 +26,11 @@ static const double elements_limit = 10;   /* elements of a mean fragment */
 static const double rise_limit = 0.01;     /* part of the dissipated energy */
 static const double zone_limit = 0.25;     /* part of a mean fragment (docs/results/ring.md) */
 
+#define NOTABLE_MEAN 0.005 /* relative difference of mean strengths */
+
 static const double vibration_limit = 0.05; /* |residual| at the end, by the vibrating energy */
 
-enum { WARNINGS_PER_POINT = 22, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
+enum { WARNINGS_PER_POINT = 23, WARNINGS_PER_STUDY = 2 }; /* at most, of a study beside its notes */
 
 typedef struct {
     size_t count;
@@ -258,6 +260,38 @@ static void warn_of_mesh(const fracas_point_table *table, size_t p, warning_list
          100 * effect, 1e9 * volume);
 }
 
+static bool same_strengths(const fracas_point_table *table, size_t p, size_t q)
+{
+    for (size_t c = 0; c < table->ncolumns; c++)
+        if (!strncmp(table->column[c].path, "strength.", strlen("strength.")) &&
+            !fracas_value_same(&table->point[p].value[c], &table->point[q].value[c]))
+            return false;
+    return true;
+}
+
+/* With a size effect the mean strength is that of an interface, and scaling laws go with it. */
+static void warn_of_mean_strength(const fracas_point_table *table, size_t p, warning_list *list)
+{
+    const double own = fracas_columns_real(table, p, "derived.strength_mean");
+    double least = own, most = own;
+    if (!isfinite(fracas_columns_real(table, p, "strength.reference_volume")) &&
+        !isfinite(fracas_columns_real(table, p, "strength.reference_area")))
+        return;
+    for (size_t q = 0; q < table->npoints; q++) {
+        if (!same_strengths(table, p, q)) continue;
+        least = fmin(least, fracas_columns_real(table, q, "derived.strength_mean"));
+        most = fmax(most, fracas_columns_real(table, q, "derived.strength_mean"));
+    }
+    if (!(most > least * (1 + NOTABLE_MEAN))) return;
+    warn(
+        list, p, "strength", fabs(log(own / (least + most) * 2)),
+        "the mean strength is that of an interface, which a finer mesh makes smaller and stronger: "
+        "%s MPa here, %s to %s MPa over points of the same strengths. Scaling laws are drawn with "
+        "it, and not at all for points that differ in it: compare them on elements of one size",
+        fracas_digits(1e-6 * own, 4).text, fracas_digits(1e-6 * least, 4).text,
+        fracas_digits(1e-6 * most, 4).text);
+}
+
 static void warn_of_study(const fracas_analysis *analysis, warning_list *list)
 {
     char text[128];
@@ -313,6 +347,7 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
             warn_of_end(&analysis->point[p].bands,
                         fracas_columns_real(analysis->table, p, "time.end"), p, &list);
         warn_of_mesh(analysis->table, p, &list);
+        warn_of_mean_strength(analysis->table, p, &list);
         const double zones = fracas_columns_real(analysis->table, p, "cohesive.zone") /
                              analysis->point[p].size.mean;
         if (zones > zone_limit)

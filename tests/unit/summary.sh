@@ -102,3 +102,17 @@ sed -n '/^    import h5py$/,/^$/s/^    //p' "$source/docs/how-to/open-results-wi
 /usr/bin/python3 example.py > said
 said '^[0-9.e+-]* m$'
 said '^100000.0$'
+
+# A mean strength that moves with the mesh is said, and one that does not is not.
+campaign meshes.yaml 2 '1e5'
+sed -i -e 's/^strength: .*/strength: {distribution: weibull, scale: 300 MPa, shape: 10, reference_volume: 0.02 mm3}/' \
+    -e 's/^  - loading.rate: .*/  - mesh.elements: [500, 1000]/' meshes.yaml
+expect 0 "$fracas" run meshes.yaml --study meshes
+expect 0 "$fracas" report meshes
+tr -s ' \n' ' ' < said | grep -q 'mean strength is that of an interface, .* 285.4 MPa here, 285.4 to 305.9 MPa over points of the same strengths' ||
+    { cat said; fail "nothing says that the mean strength moves with the mesh"; }
+sed -i 's/ 0.02 mm3/ 0.02 mm3}/; s/, reference_volume: 0.02 mm3}}/}/' meshes.yaml
+expect 0 "$fracas" run meshes.yaml --study meshes-without
+expect 0 "$fracas" report meshes-without
+grep -q 'mean strength is that' said && fail "a mean strength that stays is warned of"
+exit 0
