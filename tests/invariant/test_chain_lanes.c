@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
 /* Bars and rings: a lane's record depends on its own strengths alone, though with Stershic's
  * algorithm each lane has a time step of its own and opens its links one by one. */
 #include "engine/formulation/chain/bar_sweep.h"

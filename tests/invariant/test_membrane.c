@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
 /* Membranes that break: lanes do not depend on each other, momenta are kept, ledgers close, and the
  * numbers of nodes and elements and the directions of axes do not matter. */
 #include "tests/support/lanes.h"
