@@ -227,7 +227,7 @@ static fracas_err run_study(converging *c, fracas_refinement by)
     return FRACAS_OK;
 }
 
-/* Before the first run: no campaign file of the folder is a user's own. */
+/* Before the first run: nothing that will be written is a user's own. */
 static fracas_err check_files(const converging *c)
 {
     for (size_t i = 0; i < FRACAS_COUNT(order); i++) {
@@ -236,7 +236,7 @@ static fracas_err check_files(const converging *c)
         if (c->refined[order[i]].campaign)
             TRY(fracas_campaign_keeps(c->refined[order[i]].campaign, c->folder, name));
     }
-    return FRACAS_OK;
+    return fracas_convergence_keeps(c->folder);
 }
 
 /* ---- the result ---- */

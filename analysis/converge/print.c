@@ -5,8 +5,10 @@
 #include "analysis/data/format.h"
 #include "analysis/data/output.h"
 #include "analysis/export/tables.h"
+#include "base/file.h"
 #include "base/json.h"
 #include "base/own.h"
+#include "base/param.h"
 #include "base/sheet.h"
 #include "base/text.h"
 
@@ -277,6 +279,8 @@ static const fracas_field change_field[] = {
     FIELD("method", TEXT, method),
     FIELD("verdict", TEXT, verdict),
 };
+#define TABLE "converge.csv"
+
 static const fracas_fields place_fields = FRACAS_FIELDS(place_field),
                            label_fields = FRACAS_FIELDS(label_field),
                            change_fields = FRACAS_FIELDS(change_field);
@@ -348,7 +352,7 @@ static void put_name(void *out, const fracas_field *leaf)
 fracas_err fracas_convergence_write_csv(const fracas_convergence *convergence, const char *folder)
 {
     fracas_output_file output;
-    TRY(fracas_output_open(folder, "converge.csv", &output));
+    TRY(fracas_output_open(folder, TABLE, &output));
     fracas_fields_walk(&place_fields, "_", put_name, output.file);
     fracas_fields_walk(&change_fields, "_", put_name, output.file);
     putc('\n', output.file);
@@ -359,4 +363,19 @@ fracas_err fracas_convergence_write_csv(const fracas_convergence *convergence, c
         putc('\n', output.file);
     }
     return fracas_output_close(&output, FRACAS_OK);
+}
+
+fracas_err fracas_convergence_keeps(const char *folder)
+{
+    static const char *const page[] = {"index.html"};
+    OWNED char *table = NULL;
+    OWNED char *report = NULL;
+    TRY(fracas_path(&table, "%s/" TABLE, folder));
+    TRY(fracas_path(&report, "%s/report", folder));
+    if (!fracas_file_begins(table, "refinement,"))
+        return fracas_fail(FRACAS_USAGE,
+                           "%s is there already, and is no table of fracas converge: move it away, "
+                           "or choose another --study",
+                           table);
+    return fracas_output_free(report, page, FRACAS_COUNT(page));
 }

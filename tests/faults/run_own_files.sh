@@ -159,3 +159,13 @@ cp own.yaml many/mesh.yaml
 expect 2 "$fracas" converge small.yaml --study many --jobs 1
 said 'many/mesh.yaml is not as a run writes it'
 [ "$(ls many)" = mesh.yaml ] || fail "a refused converge has written $(ls many)"
+rm -r many
+for name in converge.csv report/index.html; do
+    mkdir -p many/report
+    echo mine > many/$name
+    expect 2 "$fracas" converge small.yaml --study many --jobs 1
+    said "many/$name is there already"
+    [ "$(find many -type f)" = many/$name ] || fail "a refused converge has written $(find many -type f)"
+    [ "$(cat many/$name)" = mine ] || fail "it is replaced: many/$name"
+    rm -r many
+done
