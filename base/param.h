@@ -91,6 +91,11 @@ typedef struct {
     bool hashed;   /* part of a point's identity (output options are not) */
     bool run;      /* for runs alone: in no hash and no resolved file */
     fracas_err (*check)(const void *section); /* checks values against each other; NULL: none */
+    /* Makes *key, unknown to the kind, one that it has and for which an attachment of the section
+     * has the name; leaves it otherwise. FRACAS_USAGE: the name is there and has no key. NULL: no
+     * such names. */
+    fracas_err (*rename)(const fracas_attachment *of, const char **key);
+    const char *renamed; /* a key that stands for all of these; NULL without `rename` */
 } fracas_section;
 
 #define FRACAS_COUNT(array) (sizeof(array) / sizeof *(array))

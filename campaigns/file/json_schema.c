@@ -146,11 +146,27 @@ static bool is_leaf(const fracas_catalog *catalog, const fracas_section *section
     return fracas_catalog_leaf(catalog, section->name) != NULL;
 }
 
+/* Unknown keys are mistakes, unless a file of the section may name them. */
+static void begin_section(fracas_json *json, const fracas_catalog *catalog,
+                          const fracas_file_section *section)
+{
+    const fracas_section *table = section->table;
+    if (!table->rename) {
+        begin_object(json, table->name);
+        return;
+    }
+    fracas_json_object(json, table->name);
+    fracas_json_text(json, "type", "object");
+    write_ref(json, "additionalProperties",
+              fracas_catalog_key(catalog, section, table->renamed)->path);
+    fracas_json_object(json, "properties");
+}
+
 static void write_section(fracas_json *json, const fracas_catalog *catalog,
                           const fracas_file_section *section)
 {
     if (is_leaf(catalog, section->table)) return;
-    begin_object(json, section->table->name);
+    begin_section(json, catalog, section);
     for (size_t i = 0; i < catalog->nleaves; i++)
         if (catalog->leaf[i].section == section)
             write_ref(json, catalog->leaf[i].key, catalog->leaf[i].path);

@@ -285,6 +285,44 @@ static fracas_err no_section(const fracas_file *file, const fracas_file_section 
                              fracas_words_hint(&words, "write its keys below it, indented"));
 }
 
+/* The file that `kind` has in the section `node`; NULL: none that can be read. */
+static const fracas_attachment *attachment_of(const fracas_file *file, const fracas_kind *kind,
+                                              const fracas_node *node)
+{
+    const void *read = NULL;
+    for (size_t p = 0; p < kind->nparams; p++) {
+        const fracas_param *param = &kind->params[p];
+        const fracas_node *path = fracas_node_find(node, param->name);
+        if (param->type == FRACAS_ATTACHMENT && path && path->type == FRACAS_SCALAR &&
+            !fracas_attachment_read(file, param->name, path, &read))
+            return read;
+    }
+    return NULL; /* its error is found again */
+}
+
+/* The leaf of an entry; a key that the kind lacks may be a name in a file of the section. */
+static fracas_err leaf_of(const fracas_file *file, const fracas_file_section *section,
+                          const fracas_node *node, const fracas_node *entry,
+                          const fracas_leaf **leaf)
+{
+    const fracas_section *table = section->table;
+    const char *key = entry->key->text;
+    const fracas_node *selector = table->rename
+                                      ? fracas_node_find(node, fracas_section_selector(table))
+                                      : NULL;
+    for (size_t k = 0; selector && k < table->nkinds; k++) {
+        const fracas_kind *kind = table->kinds[k];
+        if (strcmp(kind->name, fracas_node_text(selector)) || entry == selector ||
+            fracas_section_param(table, kind, NULL, key))
+            continue;
+        const fracas_attachment *of = attachment_of(file, kind, node);
+        if (of && table->rename(of, &key))
+            return fracas_file_error_within(file, entry->key, entry->key->text);
+    }
+    *leaf = fracas_catalog_key(file->catalog, section, key);
+    return *leaf ? FRACAS_OK : unknown_key(file, section, entry);
+}
+
 fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_file_section *section,
                                        const fracas_node *node, fracas_settings *settings)
 {
@@ -293,9 +331,9 @@ fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_fil
         return fracas_settings_doubt(file, section, NULL, node, settings);
     }
     for (const fracas_node *entry = node->first; entry; entry = entry->next) {
-        const fracas_leaf *leaf = fracas_catalog_key(file->catalog, section, entry->key->text);
-        TRY(leaf ? fracas_settings_read(file, leaf, entry, settings)
-                 : fracas_file_note(file, unknown_key(file, section, entry)));
+        const fracas_leaf *leaf = NULL;
+        TRY(fracas_file_note(file, leaf_of(file, section, node, entry, &leaf)));
+        if (leaf) TRY(fracas_settings_read(file, leaf, entry, settings));
     }
     return FRACAS_OK;
 }

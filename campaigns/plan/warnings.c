@@ -293,11 +293,12 @@ static group_name name_of(const fracas_surface_group *group)
     return made;
 }
 
-WARNING(warn_loose, forecast->loose.number, 1,
-        "edges of the mesh file's physical group %s are held as geometry.edges says: the keys "
-        "edge_1 to edge_4 are those of the groups of these numbers or names: give the group one of "
-        "them",
-        name_of(&forecast->loose).text)
+WARNING(
+    warn_loose, forecast->loose.number, 1,
+    "edges of the mesh file's physical group %s are held as geometry.edges says: the keys "
+    "edge_1 to edge_4 are those of the groups 1 to 4: give the group one of these numbers, and its "
+    "name is a key, too",
+    name_of(&forecast->loose).text)
 
 WARNING(warn_inner, forecast->inner.number, 1,
         "lines of the mesh file's physical group %s lie inside the body: their edges are "

@@ -4,6 +4,9 @@
 #include "base/elementary.h"
 #include "engine/formulation/formulation.h"
 #include "engine/mesh/surface/gmsh.h"
+#include "engine/mesh/surface/gmsh_file.h"
+
+#include <inttypes.h>
 
 const fracas_kind fracas_ends_periodic = {
     "periodic", "the bar closes on itself, as the hoop direction of a ring does"};
@@ -207,7 +210,10 @@ static const fracas_param file[] = {
      .optional = true},
     THICKNESS,
     EDGE("edges", 0, "all edges but those of the physical groups below"),
-    EDGE("edge_1", 1, "the edges of the physical group 1, or of that of this name"),
+    EDGE("edge_1", 1,
+         "the edges of the physical group 1, or of that of this name; the name of the group stands "
+         "for "
+         "it"),
     EDGE("edge_2", 2, "the edges of the physical group 2, or of that of this name"),
     EDGE("edge_3", 3, "the edges of the physical group 3, or of that of this name"),
     EDGE("edge_4", 4, "the edges of the physical group 4, or of that of this name"),
@@ -242,6 +248,21 @@ static fracas_err check_geometry(const void *section)
                        geometry->ends->name);
 }
 
+/* The names of a mesh file's physical groups are names of edge_1 to edge_4. */
+static fracas_err name_of_group(const fracas_attachment *mesh, const char **key)
+{
+    static const char *const edge[FRACAS_EDGES] = {NULL, "edge_1", "edge_2", "edge_3", "edge_4"};
+    const int32_t number = fracas_gmsh_group(mesh->text, mesh->size, *key);
+    if (number > 0 && number < FRACAS_EDGES) *key = edge[number];
+    else if (number != 0)
+        return fracas_fail(FRACAS_USAGE,
+                           "the mesh file's physical group of this name has the number %" PRId32
+                           ", and those with keys have 1 to %d: in the .geo file, Physical "
+                           "Curve(\"%s\", 1) gives the first",
+                           number, FRACAS_EDGES - 1, *key);
+    return FRACAS_OK;
+}
+
 const fracas_section fracas_geometry_section = {
     .name = "geometry",
     .doc = "The body",
@@ -251,6 +272,8 @@ const fracas_section fracas_geometry_section = {
     .offset = offsetof(fracas_spec, geometry),
     .hashed = true,
     .check = check_geometry,
+    .rename = name_of_group,
+    .renamed = "edge_1",
 };
 
 #define ELEMENTS                                                                                  \

@@ -93,6 +93,55 @@ static void test_page_example(void **state)
 }
 
 /* The plate is 2 by 1 units; its groups 11 and 12 have no key of their own. */
+/* The name of a group is a key: also one that another shape has, but none of the file's own. */
+static void test_names_of_groups(void **state)
+{
+    static const struct {
+        const char *names, *keys; /* of physical groups, and of the campaign */
+        int held;                 /* group; 0: refused */
+        const char *said;
+    } named[] = {
+        {"1 2 \"lower side\"", "lower side: held", 2, NULL},
+        {"2 3 \"left\"\n1 4 \"right\"\n1 2 \"left\"", "left: held", 2, NULL},
+        {"1 3 \"edge_2\"", "edge_2: held", 2, NULL},
+        {"1 2 \"edges\"", "edges: held", 0, NULL}, /* all others */
+        {"1 9 \"wall\"", "wall: held", 0,
+         "`wall`: the mesh file's physical group of this name has the number 9"},
+        {"1 2 \"wall\"", "wall: held, edge_2: free", 0, "given twice"},
+        {"1 2 \"wall\"", "wall: helt", 0, "did you mean `held`"},
+        {"1 2 \"wall\"", "wal: held", 0, "unknown key `wal`"},
+        {"1 2 \"wall\"", "left: held", 0, "`left` belongs to shape plate"},
+        {"2 2 \"wall\"", "wall: held", 0, "unknown key `wall`"},
+    };
+    char path[40];
+    make_path(path);
+    for (size_t i = 0; i < FRACAS_COUNT(named); i++) {
+        char names[200];
+        snprintf(names, sizeof names, "$EndMeshFormat\n$PhysicalNames\n%d\n%s\n$EndPhysicalNames\n",
+                 i == 1 ? 3 : 1, named[i].names);
+        OWNED char *mesh = replace(two_triangles, "$EndMeshFormat\n", names);
+        write_bytes(path, mesh, strlen(mesh));
+        OWNED char *plain = file_campaign(
+            path, "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n");
+        OWNED char *text = replace(plain, "edge_2: held, edge_3: fixed", named[i].keys);
+        if (named[i].said) {
+            fracas_campaign *none;
+            char file[40];
+            make_path(file);
+            write_bytes(file, text, strlen(text));
+            FAILS(fracas_campaign_read(file, &none), FRACAS_USAGE, named[i].said);
+            unlink(file);
+            continue;
+        }
+        OWN(fracas_campaign) campaign = read_text(text);
+        const fracas_geometry *geometry = &campaign->point[0].spec.geometry;
+        for (int tag = 0; tag < FRACAS_EDGES; tag++)
+            assert_ptr_equal(geometry->edge[tag],
+                             tag == named[i].held ? &fracas_edge_held : &fracas_edge_free);
+    }
+    unlink(path);
+}
+
 static void test_unit(void **state)
 {
     static const char plate[] = FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order1-msh22-text.msh";
@@ -250,5 +299,6 @@ static void test_warnings_of_a_run(void **state)
     unlink(path);
 }
 
-TESTS_ALL(read_file, free_file, test_file, test_page_example, test_unit, test_no_mesh,
-          test_plan_of_parts, test_plan_of_file, test_no_interface, test_warnings_of_a_run)
+TESTS_ALL(read_file, free_file, test_file, test_names_of_groups, test_page_example, test_unit,
+          test_no_mesh, test_plan_of_parts, test_plan_of_file, test_no_interface,
+          test_warnings_of_a_run)

@@ -85,7 +85,40 @@ static int32_t number_of(const fracas_gmsh_mesh *m, int32_t group)
     return number;
 }
 
-/* Their number, then a line each: dimension, number, "name". Other lines are passed over. */
+/* The first curves of a section of names from `at` on: dimension, number, "name"; other lines are
+ * passed over. *at goes behind them; false: none is left before `end`. */
+static bool next_group(const char *text, size_t end, size_t *at, fracas_surface_group *group)
+{
+    while (*at < end) {
+        char line[128];
+        int32_t dimension;
+        const char *stop = memchr(text + *at, '\n', end - *at);
+        const size_t length = stop ? (size_t)(stop - text) - *at : end - *at;
+        snprintf(line, sizeof line, "%.*s", (int)(length < sizeof line ? length : sizeof line),
+                 text + *at);
+        *at += length + 1;
+        if (sscanf(line, "%" SCNd32 " %" SCNd32 " \"%63[^\"]", &dimension, &group->number,
+                   group->name) == 3 &&
+            dimension == 1)
+            return true;
+    }
+    return false;
+}
+
+int32_t fracas_gmsh_group(const char *text, size_t size, const char *name)
+{
+    static const char begin[] = "$PhysicalNames", end[] = "$EndPhysicalNames";
+    const char *from = memmem(text, size, begin, strlen(begin));
+    if (!from) return 0;
+    size_t at = (size_t)(from - text);
+    const char *to = memmem(from, size - at, end, strlen(end));
+    fracas_surface_group group;
+    while (next_group(text, to ? (size_t)(to - text) : size, &at, &group))
+        if (!strcmp(group.name, name)) return group.number;
+    return 0;
+}
+
+/* Their number, then a line each. */
 static fracas_err read_names(fracas_gmsh_mesh *m)
 {
     const size_t begin = m->scan.at;
@@ -95,19 +128,9 @@ static fracas_err read_names(fracas_gmsh_mesh *m)
     for (size_t i = begin; i < m->scan.at; i++) lines += m->scan.text[i] == '\n';
     m->group = malloc((lines + 1) * sizeof *m->group);
     if (!m->group) return fracas_no_memory("the names of a mesh");
-    for (size_t i = begin, next; i < m->scan.at; i = next + 1) {
-        char line[128];
-        int32_t dimension;
-        fracas_surface_group *group = &m->group[m->ngroups];
-        for (next = i; next < m->scan.at && m->scan.text[next] != '\n';) next++;
-        snprintf(line, sizeof line, "%.*s", (int)(next - i < sizeof line ? next - i : sizeof line),
-                 m->scan.text + i);
-        if (m->ngroups < lines &&
-            sscanf(line, "%" SCNd32 " %" SCNd32 " \"%63[^\"]", &dimension, &group->number,
-                   group->name) == 3 &&
-            dimension == 1)
-            m->ngroups++;
-    }
+    for (size_t at = begin; m->ngroups < lines;)
+        if (next_group(m->scan.text, m->scan.at, &at, &m->group[m->ngroups])) m->ngroups++;
+        else break;
     return FRACAS_OK;
 }
 
