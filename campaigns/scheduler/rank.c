@@ -8,6 +8,7 @@
 #include "campaigns/scheduler/launch/signals.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/types/clock.h"
+#include "campaigns/scheduler/types/environment.h"
 #include "campaigns/scheduler/types/mailbox.h"
 #include "campaigns/scheduler/worker/link.h"
 #include "campaigns/store/file/disk.h"
@@ -231,7 +232,29 @@ static fracas_err set_up(rank_state *rank)
                                    &rank->link.supervisor);
 }
 
-/* Absolute, without links, as far as the folders exist. FRACAS_ENVIRONMENT without memory. */
+/* *plain: without what changes nothing: "//", "./", and a slash at the end. FRACAS_ENVIRONMENT
+ * without memory, as the next. */
+static fracas_err simplify(const char *folder, char **plain)
+{
+    TRY(fracas_path(plain, "%s.", folder)); /* room for "." */
+    char *to = *plain;
+    if (*folder == '/') *to++ = '/';
+    for (const char *from = folder; *from;) {
+        const size_t slashes = strspn(from, "/"), length = strcspn(from + slashes, "/");
+        from += slashes;
+        if (length > 0 && !(length == 1 && *from == '.')) {
+            if (to > *plain && to[-1] != '/') *to++ = '/';
+            memcpy(to, from, length);
+            to += length;
+        }
+        from += length;
+    }
+    if (to == *plain) *to++ = '.';
+    *to = '\0';
+    return FRACAS_OK;
+}
+
+/* Absolute, without links, as far as the folders exist. */
 static fracas_err absolute(const char *folder, char **path)
 {
     OWNED char *start = NULL;
@@ -250,12 +273,14 @@ static fracas_err absolute(const char *folder, char **path)
 static fracas_err whereabouts(const char *study, fracas_whereabouts *place)
 {
     char host[FRACAS_HOST_TEXT], boot[FRACAS_BOOT_TEXT];
+    OWNED char *given = NULL;
     OWNED char *path = NULL;
-    TRY(absolute(study, &path));
+    TRY(simplify(study, &given));
+    TRY(absolute(given, &path));
     fracas_disk_host(host, boot);
     *place = (fracas_whereabouts){.host = fracas_hash_of(host, strlen(host)),
                                   .path = fracas_hash_of(path, strlen(path)),
-                                  .given = fracas_hash_of(study, strlen(study))};
+                                  .given = fracas_hash_of(given, strlen(given))};
     return FRACAS_OK;
 }
 
@@ -267,9 +292,10 @@ static fracas_err meet(rank_state *rank, fracas_err err)
     const int other = fracas_mailbox_stranger(&rank->box, err ? NULL : &mine);
     if (err || other < 0) return err;
     return fracas_fail(FRACAS_USAGE,
-                       "rank %d was given another --study than rank 0, and the ranks of one mpirun "
-                       "compute one study: give all the same, or start a run for each study with "
-                       "OMPI_*, PMIX_* and PMI_* taken out of its environment",
+                       "rank %d would compute another study than rank 0, by its --study, campaign "
+                       "or working folder, and the ranks of one mpirun compute one: give all the "
+                       "same, or start a run for each study with " FRACAS_JOB_VARIABLES
+                       " taken out of its environment",
                        other);
 }
 
@@ -288,6 +314,7 @@ fracas_err fracas_rank_run(const fracas_run_options *options, const fracas_mailb
     fracas_err err = set_up(&rank);
     fracas_trouble trouble;
     fracas_trouble_take(err, &trouble);
+    fracas_guard_tell(&trouble);
     fracas_mailbox_open(&rank.box);
     fracas_guard_pass();
     err = meet(&rank, fracas_trouble_fail(&trouble));

@@ -15,22 +15,22 @@ script farm << END
 exec "$fracas" run small.yaml --study farm\$OMPI_COMM_WORLD_RANK
 END
 expect 2 launch -n 2 ./farm
-said '^fracas: rank 1 was given another --study than rank 0, .* give all the same, or start a run for each study'
+said '^fracas: rank 1 would compute another study than rank 0, .* give all the same, or start a run for each study'
 script folders << END
 #!/bin/sh
 mkdir in\$OMPI_COMM_WORLD_RANK && cd in\$OMPI_COMM_WORLD_RANK && exec "$fracas" run ../small.yaml
 END
 expect 2 launch -n 3 ./folders
-said '^fracas: rank 1 was given another --study than rank 0'
+said '^fracas: rank 1 would compute another study than rank 0'
 [ -z "$(ls -d farm[01] in[012]/* 2> /dev/null)" ] || fail "a study was begun: $(ls -d farm[01] in[012]/*)"
 # Two names of one folder are one study.
 ln -s . here
 script names << END
 #!/bin/sh
-case \$OMPI_COMM_WORLD_RANK in 0) study=one ;; *) study=$PWD/here/one ;; esac
+case \$OMPI_COMM_WORLD_RANK in 0) study=one/ ;; 1) study=.//one ;; *) study=$PWD/here/./one ;; esac
 exec "$fracas" run small.yaml --study \$study
 END
-expect 0 launch -n 2 ./names
+expect 0 launch -n 3 ./names
 same undisturbed one
 
 # The other process never comes: it ends when fracas has said that it waits for it.
@@ -52,11 +52,15 @@ script twice << END
 "$fracas" run small.yaml --study first || exit 20
 "$fracas" run small.yaml --study second
 echo "status \$?"
-(unset \$(env | grep -oE '^(OMPI|PMIX|PMI)_\w*'); "$fracas" run small.yaml --study third --jobs 1) || exit 21
+"$fracas" run nothing.yaml --study second
+echo "then status \$?"
+(unset \$(env | grep -oE '^(OMPI|PMIX|PMI|SLURM_STEP)_\w*'); "$fracas" run small.yaml --study third --jobs 1) || exit 21
 END
 expect 0 launch -n 1 ./twice
-said '^fracas: MPI does not start, see above: .* OMPI_\*, PMIX_\* and PMI_\* out of its environment'
+said '^fracas: MPI does not start, see above: .* OMPI_\*, PMIX_\* and PMI_\* .*out of its environment'
 said '^status 6$'
+said '^fracas: .*nothing.yaml' # what is wrong with the run itself comes first
+said '^then status 2$'
 [ ! -e second ] || fail "a study was begun"
 same undisturbed first
 same undisturbed third

@@ -113,6 +113,13 @@ static double quota_of(const char *groups)
 
 static void processor_time_of_control_groups(void **state)
 {
+    assert_int_equal(fracas_allocation_within(8, INFINITY), 8);
+    assert_int_equal(fracas_allocation_within(8, 64), 8);
+    assert_int_equal(fracas_allocation_within(8, 2.5), 2);
+    assert_int_equal(fracas_allocation_within(8, 0.5), 1);
+    assert_int_equal(fracas_allocation_within(1, 0.5), 1);
+    assert_true(fracas_allocation_cores() <=
+                fmax(1, fracas_quota_cores(FRACAS_QUOTA_GROUPS, FRACAS_QUOTA_MOUNT)));
     assert_true(isinf(fracas_quota_cores(in("no such file"), in("groups"))));
     assert_true(isinf(quota_of("")));
     assert_true(isinf(quota_of("nonsense\n:\n::\n")));

@@ -55,11 +55,15 @@ static int cores_of_mask(void)
     return 1;
 }
 
+int fracas_allocation_within(int mask, double quota)
+{
+    return quota >= mask ? mask : quota > 1 ? (int)floor(quota) : 1;
+}
+
 int fracas_allocation_cores(void)
 {
-    const int mask = cores_of_mask();
-    const double quota = floor(fracas_quota_cores(FRACAS_QUOTA_GROUPS, FRACAS_QUOTA_MOUNT));
-    return quota >= mask ? mask : quota > 1 ? (int)quota : 1;
+    return fracas_allocation_within(cores_of_mask(),
+                                    fracas_quota_cores(FRACAS_QUOTA_GROUPS, FRACAS_QUOTA_MOUNT));
 }
 
 fracas_err fracas_allocation_jobs(int wanted, int64_t parts, int *jobs)

@@ -11,8 +11,10 @@
 /* Sum of a list as Slurm writes it, "16(x2),8" = 40; 0 if it is none. */
 long fracas_allocation_sum(const char *list);
 
-/* Cores that this process may use: those of its affinity mask, or whole cores of its processor time
- * (quota.h) where these are fewer; at least 1. */
+/* max(1, min(mask, floor(quota))): whole cores of an affinity mask and of processor time (quota.h)
+ * [cores]. */
+int fracas_allocation_within(int mask, double quota);
+/* The same of this process: the cores that it may use. */
 int fracas_allocation_cores(void);
 
 /* *jobs = `wanted`; if 0, in a Slurm job its tasks (or cores, if it has no number of tasks), else

@@ -11,15 +11,21 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-static int passed = -1; /* the rank's end of a pipe, which tells the guard that MPI has started */
+enum { PASSED = -1 }; /* in the place of a code */
+
+/* The rank's end of a pipe to the guard: its trouble, if any, and PASSED when MPI has started. The
+ * rank's children have it, too: the guard reads what there is. */
+static int to_guard = -1;
 
 /* Ends as the rank did. */
 static _Noreturn void end_as(int status)
 {
     if (WIFSIGNALED(status)) {
+        setrlimit(RLIMIT_CORE, &(struct rlimit){0}); /* the rank has left one */
         signal(WTERMSIG(status), SIG_DFL);
         sigset_t none;
         sigemptyset(&none);
@@ -49,8 +55,17 @@ static _Noreturn void guard(pid_t rank, int from_rank)
         signal = sigwaitinfo(&all, &info);
         if (signal > 0 && signal != SIGCHLD) kill(rank, signal);
     }
-    char byte;
-    if (read(from_rank, &byte, 1) == 1 || !WIFEXITED(status)) end_as(status);
+    fracas_trouble trouble = {0};
+    const ssize_t told = read(from_rank, &trouble, sizeof trouble);
+    if (!WIFEXITED(status) || (told == sizeof trouble && trouble.code == PASSED)) end_as(status);
+    fracas_trouble first = trouble;
+    if (told == sizeof trouble && read(from_rank, &trouble, sizeof trouble) == sizeof trouble &&
+        trouble.code == PASSED)
+        end_as(status);
+    if (told == sizeof first) {
+        fprintf(stderr, "fracas: %s\n", first.text);
+        _exit(first.code);
+    }
     fputs("fracas: MPI does not start, see above: it starts once in each process of "
           "mpirun; " FRACAS_OTHER_JOB "\n",
           stderr);
@@ -81,15 +96,24 @@ fracas_err fracas_guard_begin(void)
     setpgid(0, 0); /* a launcher sends signals to the group or to the guard: each comes once */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != guard_pid) _exit(FRACAS_ENVIRONMENT);
-    passed = fd[1];
+    to_guard = fd[1];
     return FRACAS_OK;
+}
+
+static void tell(const fracas_trouble *trouble)
+{
+    const ssize_t written = to_guard < 0 ? 0 : write(to_guard, trouble, sizeof *trouble);
+    (void)written; /* a pipe has room for both */
+}
+
+void fracas_guard_tell(const fracas_trouble *trouble)
+{
+    if (trouble->code) tell(trouble);
 }
 
 void fracas_guard_pass(void)
 {
-    if (passed < 0) return;
-    const ssize_t written = write(passed, "", 1);
-    (void)written;
-    close(passed);
-    passed = -1;
+    tell(&(fracas_trouble){.code = PASSED});
+    if (to_guard >= 0) close(to_guard);
+    to_guard = -1;
 }

@@ -4,13 +4,16 @@
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_GUARD_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_GUARD_H
 
-#include "base/err.h"
+#include "campaigns/scheduler/types/packet.h"
 
 /* Forks. The child returns and is the rank. The parent forwards signals to it and ends as it does;
  * if the child ends before fracas_guard_pass, the parent says what to do and ends with
  * FRACAS_ENVIRONMENT. The child dies with the parent. FRACAS_ENVIRONMENT if it cannot be forked. */
 FRACAS_MUST_USE fracas_err fracas_guard_begin(void);
-/* In the rank, when MPI has started. Without fracas_guard_begin it does nothing. */
+/* In the rank, before MPI starts: what the guard says, with its code, if MPI does not. FRACAS_OK:
+ * the remedy. */
+void fracas_guard_tell(const fracas_trouble *trouble);
+/* In the rank, when MPI has started. Both do nothing without fracas_guard_begin. */
 void fracas_guard_pass(void);
 
 #endif

@@ -11,8 +11,9 @@
 
 /* The remedy where fracas is started by a process of somebody's MPI job, of which it would be a
  * rank. */
-#define FRACAS_OTHER_JOB                                                                   \
-    "if a process of an MPI job started fracas, take OMPI_*, PMIX_* and PMI_* out of its " \
-    "environment; see the how-to for clusters"
+#define FRACAS_JOB_VARIABLES "OMPI_*, PMIX_* and PMI_* (under srun SLURM_STEP_* as well)"
+#define FRACAS_OTHER_JOB                                                    \
+    "if a process of an MPI job started fracas, take " FRACAS_JOB_VARIABLES \
+    " out of its environment; see the how-to for clusters"
 
 #endif

@@ -40,7 +40,7 @@ static int ranks_told(void)
 }
 
 /* Written from a signal handler, which may do no more. */
-static char waits_for[320];
+static char waits_for[400];
 
 static void say_waiting(int signal)
 {
@@ -51,20 +51,21 @@ static void say_waiting(int signal)
     errno = saved;
 }
 
-/* Says once, WAIT seconds from now, which processes have not come. */
+/* Says once that others have not come; rank 0 first, as all ranks of a slow start would. */
 static void warn_later(void)
 {
-    enum { WAIT = 5 };
-    const int others = ranks_told() - 1;
-    if (others < 1 || getenv(FRACAS_LAUNCHER_MARK)) return;
-    snprintf(
-        waits_for, sizeof waits_for,
-        "fracas: waits for %d more process%s of the mpirun that started this one; " FRACAS_OTHER_JOB
-        "\n",
-        others, others == 1 ? "" : "es");
+    enum { WAIT = 5, WAIT_OF_OTHERS = 30 /* s */ };
+    const int all = ranks_told();
+    const char *rank = getenv("OMPI_COMM_WORLD_RANK");
+    if (all < 2 || getenv(FRACAS_LAUNCHER_MARK)) return;
+    char those[64] = "1 more process";
+    if (all > 2) snprintf(those, sizeof those, "one or more of the %d processes", all);
+    snprintf(waits_for, sizeof waits_for,
+             "fracas: waits for %s of the mpirun that started this one; " FRACAS_OTHER_JOB "\n",
+             those);
     struct sigaction say = {.sa_handler = say_waiting, .sa_flags = SA_RESTART};
     sigaction(SIGALRM, &say, NULL);
-    alarm(WAIT);
+    alarm(rank && strcmp(rank, "0") != 0 ? WAIT_OF_OTHERS : WAIT);
 }
 
 static void open_box(fracas_mailbox *box)
