@@ -3,6 +3,7 @@
 
 #include "analysis/data/format.h"
 #include "base/own.h"
+#include "base/param.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -260,36 +261,70 @@ static void warn_of_mesh(const fracas_point_table *table, size_t p, warning_list
          100 * effect, 1e9 * volume);
 }
 
-static bool same_strengths(const fracas_point_table *table, size_t p, size_t q)
+/* Points of the same strengths, of which `first` is the first. */
+typedef struct {
+    size_t first;
+    double least, most; /* range of their mean strengths [Pa] */
+} alike;
+
+static bool has_size_effect(const fracas_point_table *table, size_t p)
 {
-    for (size_t c = 0; c < table->ncolumns; c++)
-        if (!strncmp(table->column[c].path, "strength.", strlen("strength.")) &&
-            !fracas_value_same(&table->point[p].value[c], &table->point[q].value[c]))
+    static const char *const by[] = {"strength.reference_volume", "strength.reference_area",
+                                     "strength.flaw_density"};
+    for (size_t i = 0; i < FRACAS_COUNT(by); i++)
+        if (isfinite(fracas_columns_real(table, p, by[i]))) return true;
+    return false;
+}
+
+static bool same_strengths(const fracas_point_table *table, const size_t *column, size_t count,
+                           size_t p, size_t q)
+{
+    for (size_t c = 0; c < count; c++)
+        if (!fracas_value_same(&table->point[p].value[column[c]],
+                               &table->point[q].value[column[c]]))
             return false;
     return true;
 }
 
-/* With a size effect the mean strength is that of an interface, and scaling laws go with it. */
-static void warn_of_mean_strength(const fracas_point_table *table, size_t p, warning_list *list)
+/* Adds point p to those of its strengths. */
+static alike *add_alike(const fracas_point_table *table, const size_t *column, size_t count,
+                        size_t p, alike *group, size_t *ngroups)
 {
-    const double own = fracas_columns_real(table, p, "derived.strength_mean");
-    double least = own, most = own;
-    if (!isfinite(fracas_columns_real(table, p, "strength.reference_volume")) &&
-        !isfinite(fracas_columns_real(table, p, "strength.reference_area")))
-        return;
-    for (size_t q = 0; q < table->npoints; q++) {
-        if (!same_strengths(table, p, q)) continue;
-        least = fmin(least, fracas_columns_real(table, q, "derived.strength_mean"));
-        most = fmax(most, fracas_columns_real(table, q, "derived.strength_mean"));
+    const double mean = fracas_columns_real(table, p, "derived.strength_mean");
+    size_t g = 0;
+    while (g < *ngroups && !same_strengths(table, column, count, p, group[g].first)) g++;
+    if (g == *ngroups) group[(*ngroups)++] = (alike){p, mean, mean};
+    group[g].least = fmin(group[g].least, mean);
+    group[g].most = fmax(group[g].most, mean);
+    return &group[g];
+}
+
+/* With a size effect the mean strength is that of an interface, and scaling laws go with it. */
+static fracas_err warn_of_mean_strengths(const fracas_point_table *table, warning_list *list)
+{
+    size_t count = 0, ngroups = 0;
+    OWNED size_t *column = malloc((table->ncolumns + 1) * sizeof *column);
+    OWNED alike *group = malloc((table->npoints + 1) * sizeof *group);
+    OWNED size_t *of = malloc((table->npoints + 1) * sizeof *of);
+    if (!column || !group || !of) return fracas_no_memory("warnings");
+    for (size_t c = 0; c < table->ncolumns; c++)
+        if (!strncmp(table->column[c].path, "strength.", strlen("strength."))) column[count++] = c;
+    for (size_t p = 0; p < table->npoints; p++)
+        if (has_size_effect(table, p))
+            of[p] = (size_t)(add_alike(table, column, count, p, group, &ngroups) - group);
+    for (size_t p = 0; p < table->npoints; p++) {
+        const alike *g = &group[has_size_effect(table, p) ? of[p] : ngroups];
+        if (g == &group[ngroups] || !(g->most > g->least * (1 + NOTABLE_MEAN))) continue;
+        const double own = fracas_columns_real(table, p, "derived.strength_mean");
+        warn(list, p, "strength", fabs(log(2 * own / (g->least + g->most))),
+             "the mean strength is that of an interface, which a finer mesh makes smaller and "
+             "stronger: %s MPa here, %s to %s MPa over points of the same strengths. Scaling laws "
+             "are drawn with it, and not at all for points that differ in it: compare them on "
+             "elements of one size",
+             fracas_digits(1e-6 * own, 4).text, fracas_digits(1e-6 * g->least, 4).text,
+             fracas_digits(1e-6 * g->most, 4).text);
     }
-    if (!(most > least * (1 + NOTABLE_MEAN))) return;
-    warn(
-        list, p, "strength", fabs(log(own / (least + most) * 2)),
-        "the mean strength is that of an interface, which a finer mesh makes smaller and stronger: "
-        "%s MPa here, %s to %s MPa over points of the same strengths. Scaling laws are drawn with "
-        "it, and not at all for points that differ in it: compare them on elements of one size",
-        fracas_digits(1e-6 * own, 4).text, fracas_digits(1e-6 * least, 4).text,
-        fracas_digits(1e-6 * most, 4).text);
+    return FRACAS_OK;
 }
 
 static void warn_of_study(const fracas_analysis *analysis, warning_list *list)
@@ -347,7 +382,6 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
             warn_of_end(&analysis->point[p].bands,
                         fracas_columns_real(analysis->table, p, "time.end"), p, &list);
         warn_of_mesh(analysis->table, p, &list);
-        warn_of_mean_strength(analysis->table, p, &list);
         const double zones = fracas_columns_real(analysis->table, p, "cohesive.zone") /
                              analysis->point[p].size.mean;
         if (zones > zone_limit)
@@ -355,6 +389,11 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
                  "cohesive.zone is %.2g of a mean fragment (more than 0.25): it influences the "
                  "size: shorten it",
                  zones);
+    }
+    const fracas_err err = warn_of_mean_strengths(analysis->table, &list);
+    if (err) {
+        free(list.warning);
+        return err;
     }
     *warning = list.warning;
     *count = list.count;

@@ -111,6 +111,10 @@ expect 0 "$fracas" run meshes.yaml --study meshes
 expect 0 "$fracas" report meshes
 tr -s ' \n' ' ' < said | grep -q 'mean strength is that of an interface, .* 285.4 MPa here, 285.4 to 305.9 MPa over points of the same strengths' ||
     { cat said; fail "nothing says that the mean strength moves with the mesh"; }
+sed 's/^strength: .*/strength: {distribution: flaws, flaw_density: 5e11 1\/m3, minimum: 200 MPa, maximum: 600 MPa, exponent: 3}/' meshes.yaml > flaws.yaml
+expect 0 "$fracas" run flaws.yaml --study flaws
+expect 0 "$fracas" report flaws
+tr -s ' \n' ' ' < said | grep -q 'mean strength is that of an interface' || { cat said; fail "nothing says it of flaws"; }
 sed -i 's/ 0.02 mm3/ 0.02 mm3}/; s/, reference_volume: 0.02 mm3}}/}/' meshes.yaml
 expect 0 "$fracas" run meshes.yaml --study meshes-without
 expect 0 "$fracas" report meshes-without
