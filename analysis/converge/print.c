@@ -8,7 +8,6 @@
 #include "base/file.h"
 #include "base/json.h"
 #include "base/own.h"
-#include "base/param.h"
 #include "base/sheet.h"
 #include "base/text.h"
 
@@ -367,7 +366,6 @@ fracas_err fracas_convergence_write_csv(const fracas_convergence *convergence, c
 
 fracas_err fracas_convergence_keeps(const char *folder)
 {
-    static const char *const page[] = {"index.html"};
     OWNED char *table = NULL;
     OWNED char *report = NULL;
     TRY(fracas_path(&table, "%s/" TABLE, folder));
@@ -377,5 +375,5 @@ fracas_err fracas_convergence_keeps(const char *folder)
                            "%s is there already, and is no table of fracas converge: move it away, "
                            "or choose another --study",
                            table);
-    return fracas_output_free(report, page, FRACAS_COUNT(page));
+    return fracas_output_empty(report);
 }

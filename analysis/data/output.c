@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/own.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -43,11 +44,31 @@ static bool has_text(const char *folder, const char *name, const char *text)
     return strstr(start, text) != NULL;
 }
 
+/* An index.html or a datapackage.json of fracas. */
+static bool is_ours(const char *folder)
+{
+    return has_text(folder, "index.html", " \u00b7 fracas</title>") ||
+           has_text(folder, "datapackage.json", "of a campaign of fracas");
+}
+
+fracas_err fracas_output_empty(const char *folder)
+{
+    DIR *found = opendir(folder);
+    fracas_err err = FRACAS_OK;
+    if (!found) return FRACAS_OK; /* to be made */
+    for (const struct dirent *entry; !err && !is_ours(folder) && (entry = readdir(found));)
+        if (*entry->d_name != '.')
+            err = fracas_fail(FRACAS_USAGE,
+                              "%s/%s is there already, in a folder without a page of fracas: move "
+                              "it away, or name another folder",
+                              folder, entry->d_name);
+    closedir(found);
+    return err;
+}
+
 fracas_err fracas_output_free(const char *folder, const char *const *name, size_t count)
 {
-    if (has_text(folder, "index.html", " \u00b7 fracas</title>") ||
-        has_text(folder, "datapackage.json", "of a campaign of fracas"))
-        return FRACAS_OK;
+    if (is_ours(folder)) return FRACAS_OK;
     for (size_t i = 0; i < count; i++) {
         OWNED char *path = NULL;
         TRY(fracas_path(&path, "%s/%s", folder, name[i]));

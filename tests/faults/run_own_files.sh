@@ -160,7 +160,7 @@ expect 2 "$fracas" converge small.yaml --study many --jobs 1
 said 'many/mesh.yaml is not as a run writes it'
 [ "$(ls many)" = mesh.yaml ] || fail "a refused converge has written $(ls many)"
 rm -r many
-for name in converge.csv report/index.html; do
+for name in converge.csv report/index.html report/converge-size.csv; do
     mkdir -p many/report
     echo mine > many/$name
     expect 2 "$fracas" converge small.yaml --study many --jobs 1
