@@ -146,19 +146,53 @@ static bool is_leaf(const fracas_catalog *catalog, const fracas_section *section
     return fracas_catalog_leaf(catalog, section->name) != NULL;
 }
 
+/* Kinds of a section that have a file, in which there may be names. */
+static bool has_file(const fracas_kind *kind)
+{
+    for (size_t p = 0; p < kind->nparams; p++)
+        if (kind->params[p].type == FRACAS_ATTACHMENT) return true;
+    return false;
+}
+
+/* Other keys are names with the values of one key where the kind has a file, else mistakes. */
+static void write_names_of_file(fracas_json *json, const fracas_catalog *catalog,
+                                const fracas_file_section *section)
+{
+    const fracas_section *table = section->table;
+    const char *selector = fracas_section_selector(table);
+    write_ref(json, "additionalProperties",
+              fracas_catalog_key(catalog, section, table->renamed)->path);
+    fracas_json_object(json, "if");
+    fracas_json_array(json, "required");
+    fracas_json_text(json, NULL, selector);
+    fracas_json_close(json);
+    fracas_json_object(json, "properties");
+    fracas_json_object(json, selector);
+    fracas_json_array(json, "enum");
+    for (size_t k = 0; k < table->nkinds; k++)
+        if (has_file(table->kinds[k])) fracas_json_text(json, NULL, table->kinds[k]->name);
+    fracas_json_close(json);
+    fracas_json_close(json);
+    fracas_json_close(json);
+    fracas_json_close(json);
+    fracas_json_object(json, "else");
+    fracas_json_object(json, "propertyNames");
+    fracas_json_array(json, "enum");
+    for (size_t i = 0; i < catalog->nleaves; i++)
+        if (catalog->leaf[i].section == section) fracas_json_text(json, NULL, catalog->leaf[i].key);
+    fracas_json_close(json);
+    fracas_json_close(json);
+    fracas_json_close(json);
+}
+
 /* Unknown keys are mistakes, unless a file of the section may name them. */
 static void begin_section(fracas_json *json, const fracas_catalog *catalog,
                           const fracas_file_section *section)
 {
-    const fracas_section *table = section->table;
-    if (!table->rename) {
-        begin_object(json, table->name);
-        return;
-    }
-    fracas_json_object(json, table->name);
+    fracas_json_object(json, section->table->name);
     fracas_json_text(json, "type", "object");
-    write_ref(json, "additionalProperties",
-              fracas_catalog_key(catalog, section, table->renamed)->path);
+    if (section->table->rename) write_names_of_file(json, catalog, section);
+    else fracas_json_boolean(json, "additionalProperties", false);
     fracas_json_object(json, "properties");
 }
 

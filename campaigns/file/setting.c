@@ -285,39 +285,44 @@ static fracas_err no_section(const fracas_file *file, const fracas_file_section 
                              fracas_words_hint(&words, "write its keys below it, indented"));
 }
 
-/* The file that `kind` has in the section `node`; NULL: none that can be read. */
-static const fracas_attachment *attachment_of(const fracas_file *file, const fracas_kind *kind,
-                                              const fracas_node *node)
+/* The file, *of, that `kind` has in the section `node`; NULL: none is named. */
+static fracas_err attachment_of(const fracas_file *file, const fracas_kind *kind,
+                                const fracas_node *node, const void **of)
 {
-    const void *read = NULL;
+    *of = NULL;
     for (size_t p = 0; p < kind->nparams; p++) {
         const fracas_param *param = &kind->params[p];
         const fracas_node *path = fracas_node_find(node, param->name);
-        if (param->type == FRACAS_ATTACHMENT && path && path->type == FRACAS_SCALAR &&
-            !fracas_attachment_read(file, param->name, path, &read))
-            return read;
+        if (param->type == FRACAS_ATTACHMENT && path && path->type == FRACAS_SCALAR)
+            return fracas_attachment_read(file, param->name, path, of);
     }
-    return NULL; /* its error is found again */
+    return FRACAS_OK;
 }
 
-/* The leaf of an entry; a key that the kind lacks may be a name in a file of the section. */
+/* The kind that the section `node` names; NULL: none. */
+static const fracas_kind *named_kind(const fracas_section *table, const fracas_node *node)
+{
+    const fracas_node *selector = fracas_node_find(node, fracas_section_selector(table));
+    for (size_t k = 0; selector && k < table->nkinds; k++)
+        if (strcmp(table->kinds[k]->name, fracas_node_text(selector)) == 0) return table->kinds[k];
+    return NULL;
+}
+
+/* The leaf of an entry; a key that the kind lacks may be a name in a file of the section. NULL
+ * where that file cannot be read, which is told of as its key is read. */
 static fracas_err leaf_of(const fracas_file *file, const fracas_file_section *section,
                           const fracas_node *node, const fracas_node *entry,
                           const fracas_leaf **leaf)
 {
     const fracas_section *table = section->table;
     const char *key = entry->key->text;
-    const fracas_node *selector = table->rename
-                                      ? fracas_node_find(node, fracas_section_selector(table))
-                                      : NULL;
-    for (size_t k = 0; selector && k < table->nkinds; k++) {
-        const fracas_kind *kind = table->kinds[k];
-        if (strcmp(kind->name, fracas_node_text(selector)) || entry == selector ||
-            fracas_section_param(table, kind, NULL, key))
-            continue;
-        const fracas_attachment *of = attachment_of(file, kind, node);
-        if (of && table->rename(of, &key))
-            return fracas_file_error_within(file, entry->key, entry->key->text);
+    const fracas_kind *kind = table->rename ? named_kind(table, node) : NULL;
+    const void *of = NULL;
+    if (kind && strcmp(key, fracas_section_selector(table)) != 0 &&
+        !fracas_section_param(table, kind, NULL, key)) {
+        if (attachment_of(file, kind, node, &of)) return FRACAS_OK;
+        const fracas_err err = of ? table->rename(of, &key) : FRACAS_OK;
+        if (err) return err == FRACAS_USAGE ? fracas_file_error_within(file, entry->key, key) : err;
     }
     *leaf = fracas_catalog_key(file->catalog, section, key);
     return *leaf ? FRACAS_OK : unknown_key(file, section, entry);

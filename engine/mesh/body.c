@@ -210,10 +210,7 @@ static const fracas_param file[] = {
      .optional = true},
     THICKNESS,
     EDGE("edges", 0, "all edges but those of the physical groups below"),
-    EDGE("edge_1", 1,
-         "the edges of the physical group 1, or of that of this name; the name of the group stands "
-         "for "
-         "it"),
+    EDGE("edge_1", 1, "the edges of the physical group 1, or of that of this name"),
     EDGE("edge_2", 2, "the edges of the physical group 2, or of that of this name"),
     EDGE("edge_3", 3, "the edges of the physical group 3, or of that of this name"),
     EDGE("edge_4", 4, "the edges of the physical group 4, or of that of this name"),
@@ -252,7 +249,14 @@ static fracas_err check_geometry(const void *section)
 static fracas_err name_of_group(const fracas_attachment *mesh, const char **key)
 {
     static const char *const edge[FRACAS_EDGES] = {NULL, "edge_1", "edge_2", "edge_3", "edge_4"};
-    const int32_t number = fracas_gmsh_group(mesh->text, mesh->size, *key);
+    int32_t number;
+    bool shared;
+    TRY(fracas_gmsh_group(mesh->text, mesh->size, *key, &number, &shared));
+    if (number != 0 && shared)
+        return fracas_fail(FRACAS_USAGE,
+                           "the mesh file has another physical group for edge_%" PRId32
+                           ", by its number or name: give each a number from 1 to %d of its own",
+                           number, FRACAS_EDGES - 1);
     if (number > 0 && number < FRACAS_EDGES) *key = edge[number];
     else if (number != 0)
         return fracas_fail(FRACAS_USAGE,

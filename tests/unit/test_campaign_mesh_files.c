@@ -112,6 +112,9 @@ static void test_names_of_groups(void **state)
         {"1 2 \"wall\"", "wal: held", 0, "unknown key `wal`"},
         {"1 2 \"wall\"", "left: held", 0, "`left` belongs to shape plate"},
         {"2 2 \"wall\"", "wall: held", 0, "unknown key `wall`"},
+        {"1 1 \"edge_2\"\n1 2 \"wall\"", "wall: held", 0, "another physical group for edge_2"},
+        {"1 2 \"wall\"\n1 2 \"edge_3\"", "wall: held", 3, NULL},
+        {"1 9 \"wall\"\n1 2 \"wall\"", "wall: held", 2, NULL},
     };
     char path[40];
     make_path(path);

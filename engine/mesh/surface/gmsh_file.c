@@ -73,16 +73,21 @@ int32_t fracas_gmsh_choose(int32_t a, int32_t b)
 
 /* The number of a group of curves: that of the key of which it has the name. Gmsh turns a curve of
  * a group round by a minus. */
-static int32_t number_of(const fracas_gmsh_mesh *m, int32_t group)
+static int32_t key_of(const fracas_surface_group *named, size_t count, int32_t group)
 {
     const int32_t number = group < 0 && group > INT32_MIN ? -group : group;
-    for (size_t g = 0; g < m->ngroups; g++) {
-        const char *name = m->group[g].name;
-        if (m->group[g].number == number && !strncmp(name, "edge_", 5) && name[5] > '0' &&
+    for (size_t g = 0; g < count; g++) {
+        const char *name = named[g].name;
+        if (named[g].number == number && !strncmp(name, "edge_", 5) && name[5] > '0' &&
             name[5] < '0' + FRACAS_EDGES && !name[6])
             return name[5] - '0';
     }
     return number;
+}
+
+static int32_t number_of(const fracas_gmsh_mesh *m, int32_t group)
+{
+    return key_of(m->group, m->ngroups, group);
 }
 
 /* The first curves of a section of names from `at` on: dimension, number, "name"; other lines are
@@ -105,17 +110,49 @@ static bool next_group(const char *text, size_t end, size_t *at, fracas_surface_
     return false;
 }
 
-int32_t fracas_gmsh_group(const char *text, size_t size, const char *name)
+/* The section of names, outside of comments; NULL: there is none. */
+static const char *find_names(const char *text, size_t size)
 {
-    static const char begin[] = "$PhysicalNames", end[] = "$EndPhysicalNames";
-    const char *from = memmem(text, size, begin, strlen(begin));
-    if (!from) return 0;
-    size_t at = (size_t)(from - text);
+    static const char begin[] = "$PhysicalNames", comments[] = "$Comments", end[] = "$EndComments";
+    const char *from = text;
+    for (;; from++) {
+        const size_t left = size - (size_t)(from - text);
+        const char *names = memmem(from, left, begin, strlen(begin)),
+                   *comment = memmem(from, left, comments, strlen(comments));
+        if (!names) return NULL;
+        const bool commented = comment && comment < names;
+        if (!commented && (names == text || names[-1] == '\n')) return names;
+        from = commented ? memmem(comment, size - (size_t)(comment - text), end, strlen(end))
+                         : names;
+        if (!from) return NULL;
+    }
+}
+
+fracas_err fracas_gmsh_group(const char *text, size_t size, const char *name, int32_t *number,
+                             bool *shared)
+{
+    static const char end[] = "$EndPhysicalNames";
+    *number = 0;
+    *shared = false;
+    const char *from = find_names(text, size);
+    if (!from) return FRACAS_OK;
+    size_t at = (size_t)(from - text), count = 0;
     const char *to = memmem(from, size - at, end, strlen(end));
-    fracas_surface_group group;
-    while (next_group(text, to ? (size_t)(to - text) : size, &at, &group))
-        if (!strcmp(group.name, name)) return group.number;
-    return 0;
+    if (!to) return FRACAS_OK; /* an error of the mesh */
+    const size_t stop = (size_t)(to - text);
+    OWNED fracas_surface_group *group = malloc((stop - at) / 6 * sizeof *group + sizeof *group);
+    if (!group) return fracas_no_memory("the names of a mesh"); /* a line has 6 bytes at least */
+    while (next_group(text, stop, &at, &group[count])) count++;
+    int32_t own = 0;
+    for (size_t g = 0; g < count; g++) {
+        if (strcmp(group[g].name, name) != 0 || has_key(*number)) continue;
+        own = group[g].number;
+        *number = key_of(group, count, own);
+    }
+    for (size_t g = 0; g < count; g++)
+        *shared = *shared ||
+                  (group[g].number != own && key_of(group, count, group[g].number) == *number);
+    return FRACAS_OK;
 }
 
 /* Their number, then a line each. */

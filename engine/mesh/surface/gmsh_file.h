@@ -45,7 +45,9 @@ const fracas_gmsh_entry *fracas_gmsh_find(const fracas_gmsh_entry *all, size_t c
  * where both have one. */
 int32_t fracas_gmsh_choose(int32_t a, int32_t b);
 
-/* Number of the first physical group of curves with this name in the text of a file; 0: none. */
-int32_t fracas_gmsh_group(const char *text, size_t size, const char *name);
+/* *number: that of the key of the physical group of curves with this name, in the text of a file;
+ * 0: there is none. *shared: another group has the same key. FRACAS_ENVIRONMENT without memory. */
+FRACAS_MUST_USE fracas_err fracas_gmsh_group(const char *text, size_t size, const char *name,
+                                             int32_t *number, bool *shared);
 
 #endif
