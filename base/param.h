@@ -91,11 +91,11 @@ typedef struct {
     bool hashed;   /* part of a point's identity (output options are not) */
     bool run;      /* for runs alone: in no hash and no resolved file */
     fracas_err (*check)(const void *section); /* checks values against each other; NULL: none */
-    /* Makes *key, unknown to the kind, one that it has and for which an attachment of the section
-     * has the name; leaves it otherwise. FRACAS_USAGE: the name is there and has no key. NULL: no
-     * such names. */
+    /* An attachment may give keys further names: changes such a name, *key, into its key; leaves
+     * any other text. FRACAS_USAGE for a name without a key. NULL: no attachment of the section
+     * does. */
     fracas_err (*rename)(const fracas_attachment *of, const char **key);
-    const char *renamed; /* a key that stands for all of these; NULL without `rename` */
+    const char *renamed; /* one of these keys: all take its values; NULL without `rename` */
 } fracas_section;
 
 #define FRACAS_COUNT(array) (sizeof(array) / sizeof *(array))

@@ -227,7 +227,7 @@ static fracas_err run_study(converging *c, fracas_refinement by)
     return FRACAS_OK;
 }
 
-/* Before the first run: nothing that will be written is a user's own. */
+/* Before the first run: no output replaces a file of the user's. */
 static fracas_err check_files(const converging *c)
 {
     for (size_t i = 0; i < FRACAS_COUNT(order); i++) {

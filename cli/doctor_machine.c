@@ -78,7 +78,7 @@ static void look_at_pdf(fracas_patient *patient)
 
 /* ---- limits of this process ---- */
 
-/* The least number in FILE of the control groups that this process is in; INFINITY: none. */
+/* The least number in FILE of the control groups of this process; INFINITY: none. */
 static double limit_of_group(const char *file)
 {
     char line[PATH_MAX] = "", group[PATH_MAX] = "", path[2 * PATH_MAX];

@@ -58,7 +58,7 @@ FRACAS_MUST_USE fracas_err fracas_convergence_print(const fracas_convergence *co
 void fracas_convergence_write_json(const fracas_convergence *convergence, FILE *out);
 FRACAS_MUST_USE fracas_err fracas_convergence_write_csv(const fracas_convergence *convergence,
                                                         const char *folder);
-/* FRACAS_USAGE if FOLDER has a converge.csv or a page that no convergence wrote. */
+/* FRACAS_USAGE if FOLDER has a converge.csv or files in report/ of another origin. */
 FRACAS_MUST_USE fracas_err fracas_convergence_keeps(const char *folder);
 
 /* FOLDER/report/: index.html, with a figure a headline number, each also as SVG, PDF and CSV, and

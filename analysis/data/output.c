@@ -53,10 +53,10 @@ static bool is_ours(const char *folder)
 
 fracas_err fracas_output_empty(const char *folder)
 {
-    DIR *found = opendir(folder);
+    DIR *found = is_ours(folder) ? NULL : opendir(folder);
     fracas_err err = FRACAS_OK;
-    if (!found) return FRACAS_OK; /* to be made */
-    for (const struct dirent *entry; !err && !is_ours(folder) && (entry = readdir(found));)
+    if (!found) return FRACAS_OK; /* ours, or to be made */
+    for (const struct dirent *entry; !err && (entry = readdir(found));)
         if (*entry->d_name != '.')
             err = fracas_fail(FRACAS_USAGE,
                               "%s/%s is there already, in a folder without a page of fracas: move "

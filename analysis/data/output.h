@@ -27,7 +27,7 @@ FRACAS_MUST_USE fracas_err fracas_output_folder_in(const char *wanted, const cha
 FRACAS_MUST_USE fracas_err fracas_output_free(const char *folder, const char *const *name,
                                               size_t count);
 
-/* FRACAS_USAGE if the folder has files, and none is an index.html of fracas. */
+/* FRACAS_USAGE if the folder has a file and neither index.html nor datapackage.json of fracas. */
 FRACAS_MUST_USE fracas_err fracas_output_empty(const char *folder);
 
 /* Starts folder/name under a temporary name beside it. FRACAS_ENVIRONMENT if it cannot. */

@@ -227,14 +227,23 @@ static void warn_of_decision(const fracas_decision *last, size_t p, warning_list
          100 * last->relative_half_width);
 }
 
+/* The strength of an interface depends on its extent. */
+static bool has_size_effect(const fracas_point_table *table, size_t p)
+{
+    static const char *const by[] = {"strength.reference_volume", "strength.reference_area",
+                                     "strength.flaw_density"};
+    for (size_t i = 0; i < FRACAS_COUNT(by); i++)
+        if (isfinite(fracas_columns_real(table, p, by[i]))) return true;
+    return false;
+}
+
 /* deviation/mean of the strengths by their columns; NaN: equal, given, measured (`empirical`), with
  * a size effect or correlated. */
 static double scatter_of(const fracas_point_table *table, size_t p)
 {
-    static const char *const without[] = {"strength.reference_volume", "strength.reference_area",
-                                          "strength.flaw_density", "strength.correlation_length"};
-    for (size_t i = 0; i < sizeof without / sizeof *without; i++)
-        if (isfinite(fracas_columns_real(table, p, without[i]))) return NAN;
+    if (has_size_effect(table, p) ||
+        isfinite(fracas_columns_real(table, p, "strength.correlation_length")))
+        return NAN;
     const double mean = fracas_columns_real(table, p, "derived.strength_mean"),
                  deviation = fracas_columns_real(table, p, "strength.deviation"),
                  sigma = fracas_columns_real(table, p, "strength.sigma"),
@@ -261,20 +270,11 @@ static void warn_of_mesh(const fracas_point_table *table, size_t p, warning_list
          100 * effect, 1e9 * volume);
 }
 
-/* Points of the same strengths, of which `first` is the first. */
+/* Points of the same strengths. */
 typedef struct {
-    size_t first;
+    size_t first;       /* point */
     double least, most; /* range of their mean strengths [Pa] */
 } alike;
-
-static bool has_size_effect(const fracas_point_table *table, size_t p)
-{
-    static const char *const by[] = {"strength.reference_volume", "strength.reference_area",
-                                     "strength.flaw_density"};
-    for (size_t i = 0; i < FRACAS_COUNT(by); i++)
-        if (isfinite(fracas_columns_real(table, p, by[i]))) return true;
-    return false;
-}
 
 static bool same_strengths(const fracas_point_table *table, const size_t *column, size_t count,
                            size_t p, size_t q)
@@ -286,8 +286,8 @@ static bool same_strengths(const fracas_point_table *table, const size_t *column
     return true;
 }
 
-/* Adds point p to those of its strengths. */
-static alike *add_alike(const fracas_point_table *table, const size_t *column, size_t count,
+/* Adds point p to the group of its strengths, whose number it returns. */
+static size_t add_alike(const fracas_point_table *table, const size_t *column, size_t count,
                         size_t p, alike *group, size_t *ngroups)
 {
     const double mean = fracas_columns_real(table, p, "derived.strength_mean");
@@ -296,10 +296,10 @@ static alike *add_alike(const fracas_point_table *table, const size_t *column, s
     if (g == *ngroups) group[(*ngroups)++] = (alike){p, mean, mean};
     group[g].least = fmin(group[g].least, mean);
     group[g].most = fmax(group[g].most, mean);
-    return &group[g];
+    return g;
 }
 
-/* With a size effect the mean strength is that of an interface, and scaling laws go with it. */
+/* With a size effect the mean strength is an interface's, and scaling laws go with it. */
 static fracas_err warn_of_mean_strengths(const fracas_point_table *table, warning_list *list)
 {
     size_t count = 0, ngroups = 0;
@@ -310,11 +310,10 @@ static fracas_err warn_of_mean_strengths(const fracas_point_table *table, warnin
     for (size_t c = 0; c < table->ncolumns; c++)
         if (!strncmp(table->column[c].path, "strength.", strlen("strength."))) column[count++] = c;
     for (size_t p = 0; p < table->npoints; p++)
-        if (has_size_effect(table, p))
-            of[p] = (size_t)(add_alike(table, column, count, p, group, &ngroups) - group);
+        of[p] = add_alike(table, column, count, p, group, &ngroups);
     for (size_t p = 0; p < table->npoints; p++) {
-        const alike *g = &group[has_size_effect(table, p) ? of[p] : ngroups];
-        if (g == &group[ngroups] || !(g->most > g->least * (1 + NOTABLE_MEAN))) continue;
+        const alike *g = &group[of[p]];
+        if (!has_size_effect(table, p) || !(g->most > g->least * (1 + NOTABLE_MEAN))) continue;
         const double own = fracas_columns_real(table, p, "derived.strength_mean");
         warn(list, p, "strength", fabs(log(2 * own / (g->least + g->most))),
              "the mean strength is that of an interface, which a finer mesh makes smaller and "

@@ -146,7 +146,7 @@ static bool is_leaf(const fracas_catalog *catalog, const fracas_section *section
     return fracas_catalog_leaf(catalog, section->name) != NULL;
 }
 
-/* Kinds of a section that have a file, in which there may be names. */
+/* The kind has a file, and names may be in it. */
 static bool has_file(const fracas_kind *kind)
 {
     for (size_t p = 0; p < kind->nparams; p++)

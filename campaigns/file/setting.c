@@ -285,7 +285,7 @@ static fracas_err no_section(const fracas_file *file, const fracas_file_section 
                              fracas_words_hint(&words, "write its keys below it, indented"));
 }
 
-/* The file, *of, that `kind` has in the section `node`; NULL: none is named. */
+/* The file of `kind` in the section `node` is *of; NULL: none is named. */
 static fracas_err attachment_of(const fracas_file *file, const fracas_kind *kind,
                                 const fracas_node *node, const void **of)
 {
@@ -299,7 +299,7 @@ static fracas_err attachment_of(const fracas_file *file, const fracas_kind *kind
     return FRACAS_OK;
 }
 
-/* The kind that the section `node` names; NULL: none. */
+/* The kind named in the section `node`; NULL: none. */
 static const fracas_kind *named_kind(const fracas_section *table, const fracas_node *node)
 {
     const fracas_node *selector = fracas_node_find(node, fracas_section_selector(table));
@@ -308,8 +308,8 @@ static const fracas_kind *named_kind(const fracas_section *table, const fracas_n
     return NULL;
 }
 
-/* The leaf of an entry; a key that the kind lacks may be a name in a file of the section. NULL
- * where that file cannot be read, which is told of as its key is read. */
+/* The leaf of an entry; a key unknown to the kind may be a name in a file of the section. NULL
+ * where the file cannot be read: reading its own key says so. */
 static fracas_err leaf_of(const fracas_file *file, const fracas_file_section *section,
                           const fracas_node *node, const fracas_node *entry,
                           const fracas_leaf **leaf)

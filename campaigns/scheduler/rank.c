@@ -232,8 +232,8 @@ static fracas_err set_up(rank_state *rank)
                                    &rank->link.supervisor);
 }
 
-/* *plain: without what changes nothing: "//", "./", and a slash at the end. FRACAS_ENVIRONMENT
- * without memory, as the next. */
+/* *plain: the same folder without "//", "./" and a slash at the end. FRACAS_ENVIRONMENT without
+ * memory, as the next. */
 static fracas_err simplify(const char *folder, char **plain)
 {
     TRY(fracas_path(plain, "%s.", folder)); /* room for "." */

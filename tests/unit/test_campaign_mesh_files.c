@@ -92,8 +92,7 @@ static void test_page_example(void **state)
     assert_int_equal(fracas_model_surface(model)->order, 2);
 }
 
-/* The plate is 2 by 1 units; its groups 11 and 12 have no key of their own. */
-/* The name of a group is a key: also one that another shape has, but none of the file's own. */
+/* The name of a group is a key, even a key of another shape; the file's own keys come first. */
 static void test_names_of_groups(void **state)
 {
     static const struct {
@@ -145,6 +144,7 @@ static void test_names_of_groups(void **state)
     unlink(path);
 }
 
+/* The plate is 2 by 1 units; its groups 11 and 12 have no key of their own. */
 static void test_unit(void **state)
 {
     static const char plate[] = FRACAS_SOURCE_DIR "/tests/data/gmsh/plate-order1-msh22-text.msh";

@@ -14,7 +14,7 @@ long fracas_allocation_sum(const char *list);
 /* max(1, min(mask, floor(quota))): whole cores of an affinity mask and of processor time (quota.h)
  * [cores]. */
 int fracas_allocation_within(int mask, double quota);
-/* The same of this process: the cores that it may use. */
+/* The same of this process. */
 int fracas_allocation_cores(void);
 
 /* *jobs = `wanted`; if 0, in a Slurm job its tasks (or cores, if it has no number of tasks), else

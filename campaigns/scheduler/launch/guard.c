@@ -18,7 +18,7 @@
 enum { PASSED = -1 }; /* in the place of a code */
 
 /* The rank's end of a pipe to the guard: its trouble, if any, and PASSED when MPI has started. The
- * rank's children have it, too: the guard reads what there is. */
+ * rank's children have it, too, and it never ends for the guard: reads do not wait. */
 static int to_guard = -1;
 
 /* Ends as the rank did. */
@@ -35,7 +35,7 @@ static _Noreturn void end_as(int status)
     _exit(WIFEXITED(status) ? WEXITSTATUS(status) : FRACAS_ENVIRONMENT);
 }
 
-/* All but those of a process's own faults. */
+/* Every signal but a process's own faults. */
 static sigset_t forwarded(void)
 {
     static const int own[] = {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGSYS, SIGTRAP};
@@ -45,7 +45,7 @@ static sigset_t forwarded(void)
     return all;
 }
 
-/* The guard's life; the signals that it forwards are blocked. */
+/* The guard's life; the forwarded signals are blocked. */
 static _Noreturn void guard(pid_t rank, int from_rank)
 {
     const sigset_t all = forwarded();
@@ -55,16 +55,13 @@ static _Noreturn void guard(pid_t rank, int from_rank)
         signal = sigwaitinfo(&all, &info);
         if (signal > 0 && signal != SIGCHLD) kill(rank, signal);
     }
-    fracas_trouble trouble = {0};
-    const ssize_t told = read(from_rank, &trouble, sizeof trouble);
-    if (!WIFEXITED(status) || (told == sizeof trouble && trouble.code == PASSED)) end_as(status);
-    fracas_trouble first = trouble;
-    if (told == sizeof trouble && read(from_rank, &trouble, sizeof trouble) == sizeof trouble &&
-        trouble.code == PASSED)
-        end_as(status);
-    if (told == sizeof first) {
-        fprintf(stderr, "fracas: %s\n", first.text);
-        _exit(first.code);
+    fracas_trouble heard[2] = {{0}}; /* trouble, PASSED, both or none */
+    const ssize_t bytes = read(from_rank, heard, sizeof heard);
+    const size_t count = bytes > 0 ? (size_t)bytes / sizeof *heard : 0;
+    if (!WIFEXITED(status) || (count > 0 && heard[count - 1].code == PASSED)) end_as(status);
+    if (count > 0) {
+        fprintf(stderr, "fracas: %s\n", heard[0].text);
+        _exit(heard[0].code);
     }
     fputs("fracas: MPI does not start, see above: it starts once in each process of "
           "mpirun; " FRACAS_OTHER_JOB "\n",

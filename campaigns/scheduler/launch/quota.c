@@ -37,9 +37,8 @@ static double quota_of(const char *group)
     return INFINITY;
 }
 
-/* The least quota of group `path` below `mount`/`controllers` and of all above it. In a container
- * the path may be that of the host, of which the file system here shows the last part as its root.
- */
+/* The least quota of group `path` below `mount`/`controllers` and of all groups above it. A
+ * container may name the host's path and mount its own group as the root: the walk ends there. */
 static double least_above(const char *mount, const char *controllers, const char *path)
 {
     double least = INFINITY;

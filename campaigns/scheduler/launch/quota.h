@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Processor time that the control groups of this process allow it, as `docker run --cpus 2` or a
+/* Processor time allowed by the control groups of this process, as `docker run --cpus 2` or a
  * batch system sets it. */
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_QUOTA_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_LAUNCH_QUOTA_H

@@ -9,8 +9,8 @@
     "FRACAS_FREQUENCIES"                    /* fracas_frequencies_write; not on other machines */
 #define FRACAS_RESTARTED "FRACAS_RESTARTED" /* the reason for this restart */
 
-/* The remedy where fracas is started by a process of somebody's MPI job, of which it would be a
- * rank. */
+/* The remedy where a process of somebody's MPI job starts fracas, which becomes a rank by mistake.
+ */
 #define FRACAS_JOB_VARIABLES "OMPI_*, PMIX_* and PMI_* (under srun SLURM_STEP_* as well)"
 #define FRACAS_OTHER_JOB                                                    \
     "if a process of an MPI job started fracas, take " FRACAS_JOB_VARIABLES \

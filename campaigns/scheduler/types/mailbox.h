@@ -20,14 +20,14 @@ typedef struct {
     int pause;                         /* MPI is polled [ms] */
 } fracas_mailbox;
 
-/* Where a rank would put its study: hashes of the host's name, of the folder's absolute path
- * without links, and of the folder as it was given. */
+/* Place of a rank's study, as hashes: the host's name, the folder's absolute path without links,
+ * the folder as given. */
 typedef struct {
     fracas_hash host, path, given;
 } fracas_whereabouts;
 
 /* Joins the other ranks; a process in which MPI does not start ends with FRACAS_ENVIRONMENT. Once.
- * It says what it waits for when the others have not come after some seconds. */
+ * Without the others it says so after some seconds. */
 void fracas_mailbox_open(fracas_mailbox *box);
 /* The lowest rank with another study than rank 0, the same for all ranks, each of which calls this
  * once; -1: none. On one host paths are compared, across hosts the folders as given: a disk may

@@ -30,7 +30,7 @@ static fracas_err failed(const char *what, int code)
     return fracas_fail(FRACAS_ENVIRONMENT, "MPI cannot %s a message: %s", what, reason);
 }
 
-/* Number of ranks that the launcher has told each of them; 0: unknown. */
+/* Number of ranks by the launcher's variables; 0: unknown. */
 static int ranks_told(void)
 {
     static const char *const told[] = {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"};
@@ -51,18 +51,19 @@ static void say_waiting(int signal)
     errno = saved;
 }
 
-/* Says once that others have not come; rank 0 first, as all ranks of a slow start would. */
+/* Later, says once: others have not come. Rank 0 is the first, lest all ranks of a slow start do.
+ */
 static void warn_later(void)
 {
     enum { WAIT = 5, WAIT_OF_OTHERS = 30 /* s */ };
     const int all = ranks_told();
     const char *rank = getenv("OMPI_COMM_WORLD_RANK");
     if (all < 2 || getenv(FRACAS_LAUNCHER_MARK)) return;
-    char those[64] = "1 more process";
-    if (all > 2) snprintf(those, sizeof those, "one or more of the %d processes", all);
+    char missing[64] = "1 more process";
+    if (all > 2) snprintf(missing, sizeof missing, "one or more of the %d processes", all);
     snprintf(waits_for, sizeof waits_for,
              "fracas: waits for %s of the mpirun that started this one; " FRACAS_OTHER_JOB "\n",
-             those);
+             missing);
     struct sigaction say = {.sa_handler = say_waiting, .sa_flags = SA_RESTART};
     sigaction(SIGALRM, &say, NULL);
     alarm(rank && strcmp(rank, "0") != 0 ? WAIT_OF_OTHERS : WAIT);

@@ -45,8 +45,8 @@ const fracas_gmsh_entry *fracas_gmsh_find(const fracas_gmsh_entry *all, size_t c
  * where both have one. */
 int32_t fracas_gmsh_choose(int32_t a, int32_t b);
 
-/* *number: that of the key of the physical group of curves with this name, in the text of a file;
- * 0: there is none. *shared: another group has the same key. FRACAS_ENVIRONMENT without memory. */
+/* *number: edge_N's N of the physical group of curves with this name in the text of a file; 0: no
+ * such group. *shared: another group has the same key. FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_gmsh_group(const char *text, size_t size, const char *name,
                                              int32_t *number, bool *shared);
 
