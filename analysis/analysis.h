@@ -30,6 +30,11 @@ FRACAS_OWNER(fracas_analysis, fracas_analysis_destroy)
 FRACAS_MUST_USE fracas_err fracas_analysis_axes(fracas_analysis *analysis, const char *x,
                                                 const char *series);
 
+/* Draws these statistics, "aspect,fragment.mass_mean", beside mean size and count; NULL: those that
+ * every report draws, where they make few drawings. FRACAS_USAGE, with the part that is wrong, for
+ * anything else. */
+FRACAS_MUST_USE fracas_err fracas_analysis_ordinates(fracas_analysis *analysis, const char *list);
+
 /* Points with figures of their own: "3,17,200-210", or "all"; else all of few points, of many a
  * choice. FRACAS_USAGE, with the part that is wrong, for anything else. */
 FRACAS_MUST_USE fracas_err fracas_analysis_points(fracas_analysis *analysis, const char *list);

@@ -136,11 +136,11 @@ FRACAS_MUST_USE fracas_err fracas_cli_analyse(const char *study, struct fracas_c
                                               struct fracas_analysis **analysis);
 
 typedef struct {
-    bool json, quiet;       /* the statistics as JSON, or nothing, in the place of the table */
-    const char *output;     /* folder; NULL: STUDY/report */
-    int columns;            /* for the table; 0: no limit */
-    const char *x, *series; /* keys of the figures; NULL: the campaign's */
-    const char *points;     /* points with figures of their own; NULL: chosen */
+    bool json, quiet;           /* the statistics as JSON, or nothing, in the place of the table */
+    const char *output;         /* folder; NULL: STUDY/report */
+    int columns;                /* for the table; 0: no limit */
+    const char *x, *series, *y; /* keys of the figures; NULL: the campaign's */
+    const char *points;         /* points with figures of their own; NULL: chosen */
 } fracas_report_view;
 
 /* Prints the result table and writes the report of all realizations done by now: the last step of

@@ -21,6 +21,7 @@ static const fracas_option report_options[] = {
     {"x", "KEY",
      "draw mean counts and sizes against this parameter or statistic (the strain rate)"},
     {"series", "KEY", "draw a series for each value of this parameter"},
+    {"y", "KEYS", "draw these statistics, too, as aspect,onset_time (dissipated)"},
     {"points", "LIST", "draw figures of these points, as 3,17,20-25 or all (all of 16, 6 of more)"},
     {"output", "FOLDER", "where to; also -o FOLDER (STUDY/report)", 'o'},
     {"json", NULL, "print the statistics as JSON"},
@@ -77,8 +78,11 @@ static fracas_err print_hidden_fits(const fracas_analysis *analysis, const char 
 static fracas_err set_axes(fracas_analysis *analysis, const fracas_campaign *campaign,
                            const fracas_report_view *view)
 {
-    const char *x = view->x ? view->x : campaign->report.x,
-               *series = view->series ? view->series : campaign->report.series;
+    const fracas_report_keys none = {0}, *keys = campaign ? &campaign->report : &none;
+    const char *x = view->x ? view->x : keys->x,
+               *series = view->series ? view->series : keys->series,
+               *y = view->y ? view->y : keys->y;
+    if (y) TRY(fracas_analysis_ordinates(analysis, y));
     if (view->points) TRY(fracas_analysis_points(analysis, view->points));
     return x || series ? fracas_analysis_axes(analysis, x, series) : FRACAS_OK;
 }
@@ -149,6 +153,7 @@ static fracas_err report(const fracas_arguments *arguments)
                                      .columns = fracas_cli_columns(arguments),
                                      .x = fracas_given(arguments, "x"),
                                      .series = fracas_given(arguments, "series"),
+                                     .y = fracas_given(arguments, "y"),
                                      .points = fracas_given(arguments, "points"),
                                      .output = fracas_given(arguments, "output")};
     TRY(fracas_watch_interval(arguments, "live", &interval));

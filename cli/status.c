@@ -145,7 +145,7 @@ static const fracas_table_column point_columns[] = {
     {"done", "", FRACAS_CELL_INTEGER, AT(counts.done)},
     {"failed", "", FRACAS_CELL_INTEGER, AT(counts.failed)},
     {"fragments", "", FRACAS_CELL_ESTIMATE, AT(count)},
-    {"size", "m", FRACAS_CELL_ESTIMATE, AT(size), .prefixed = 1},
+    {"size", "m", FRACAS_CELL_ESTIMATE, AT(size), .prefixed = true},
 #undef AT
 };
 

@@ -15,10 +15,6 @@
  * permutation, of which there are no more than SUMS at a time. */
 enum { CUTS = 256, LEAST_CUTS = 16, SUMS = 200000 };
 
-#define QUANTITY(key, unit, doc) {#key, unit, doc, offsetof(fracas_replica_values, key)},
-const fracas_compared_quantity fracas_compared_quantities[FRACAS_COMPARED_VALUES] = {
-    FRACAS_COMPARED_NUMBERS(QUANTITY)};
-
 /* The compared realizations of both points, those of A first. */
 typedef struct {
     size_t na, nb;
@@ -87,7 +83,7 @@ static fracas_err gather(const fracas_ensemble *a, const fracas_ensemble *b, boo
         const char *value = (const char *)&(i < of->na ? a : b)->value[of->index[i]];
         for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++)
             memcpy(&of->value[i * FRACAS_COMPARED_VALUES + v],
-                   value + fracas_compared_quantities[v].offset, sizeof *of->value);
+                   value + fracas_realization_numbers[v].value, sizeof *of->value);
     }
     forget_rounding(of, paired);
     return FRACAS_OK;

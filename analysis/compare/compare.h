@@ -9,13 +9,7 @@
 #include "analysis/data/numbers.h"
 #include "analysis/data/text.h"
 
-#define FRACAS_ONE_MORE(key, unit, doc) +1
-enum {
-    FRACAS_COMPARED_VALUES = FRACAS_COMPARED_NUMBERS(FRACAS_ONE_MORE),
-    FRACAS_FIRST_VALUES = FRACAS_FIRST_NUMBERS(FRACAS_ONE_MORE), /* the first of these */
-    FRACAS_COMPARE_PERMUTATIONS = 9999
-};
-#undef FRACAS_ONE_MORE
+enum { FRACAS_COMPARE_PERMUTATIONS = 9999 };
 
 typedef struct {
     const char *by;       /* "loading.rate,strength.shape"; NULL: see fracas_match_points */
@@ -23,13 +17,6 @@ typedef struct {
     int64_t permutations; /* 0: FRACAS_COMPARE_PERMUTATIONS */
     uint64_t seed;        /* equal seeds give equal p */
 } fracas_compare_options;
-
-/* A mean over realizations, under its key in the JSON summary without ".mean". */
-typedef struct {
-    const char *key, *unit, *doc;
-    size_t offset; /* in fracas_replica_values */
-} fracas_compared_quantity;
-extern const fracas_compared_quantity fracas_compared_quantities[FRACAS_COMPARED_VALUES];
 
 /* B - A of one number at one pair of points. */
 typedef struct {
@@ -47,7 +34,9 @@ typedef struct {
     char differs[512];      /* "mesh.elements 2500 | 5000": other differences; "": none */
     bool paired;            /* realizations have the same random numbers, replica by replica */
     int64_t used_a, used_b; /* realizations compared */
-    fracas_compared_value value[FRACAS_COMPARED_VALUES]; /* a.n = b.n = 0: no such number */
+    fracas_compared_value
+        value[FRACAS_COMPARED_VALUES]; /* in the order of fracas_realization_numbers; a.n = b.n = 0:
+                                          none */
     double distance;  /* distance of the distributions of fragment sizes (Kolmogorov and Smirnov) */
     double p, p_holm; /* p of the distance */
     int64_t permutations; /* assignments looked at, the observed one among them */

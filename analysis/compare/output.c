@@ -33,9 +33,8 @@ static void format_difference(double value, double low, double high, double fact
              strcmp(number, "-") ? unit : "");
 }
 
-static void paint_value(const fracas_compared_value *value,
-                        const fracas_compared_quantity *quantity, fracas_result_table *table,
-                        size_t row)
+static void paint_value(const fracas_compared_value *value, const fracas_number *quantity,
+                        fracas_result_table *table, size_t row)
 {
     char *cell[NCOLUMNS], unit[32] = "";
     const double means[] = {fabs(value->a.mean), fabs(value->b.mean)};
@@ -79,7 +78,7 @@ static fracas_err print_point(const fracas_compared_point *point, int columns, F
         const fracas_compared_value *value = &point->value[v];
         const bool nothing = value->a.n == 0 && value->b.n == 0,
                    zero = value->a.mean == 0 && value->b.mean == 0 && value->difference == 0;
-        if (!nothing && !zero) paint_value(value, &fracas_compared_quantities[v], &table, rows++);
+        if (!nothing && !zero) paint_value(value, &fracas_realization_numbers[v], &table, rows++);
     }
     snprintf(fracas_result_table_cell(&table, rows, WHAT), FRACAS_CELL, "distribution of sizes");
     fracas_format_digits(point->distance, 2, fracas_result_table_cell(&table, rows, DIFFERENCE),
@@ -181,8 +180,8 @@ static void write_point(fracas_json *json, const fracas_compared_point *point)
     fracas_json_object(json, "values");
     for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++) {
         if (point->value[v].a.n == 0 && point->value[v].b.n == 0) continue;
-        fracas_json_object(json, fracas_compared_quantities[v].key);
-        fracas_json_text(json, "unit", fracas_compared_quantities[v].unit);
+        fracas_json_object(json, fracas_realization_numbers[v].key);
+        fracas_json_text(json, "unit", fracas_realization_numbers[v].unit);
         fracas_fields_json(json, &value_fields, &point->value[v]);
         fracas_json_close(json);
     }

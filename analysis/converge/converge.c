@@ -111,10 +111,9 @@ void fracas_convergence_destroy(fracas_convergence *convergence)
 
 /* ---- rows ---- */
 
-static double value_of(const fracas_ensemble *ensemble, size_t i,
-                       const fracas_compared_quantity *number)
+static double value_of(const fracas_ensemble *ensemble, size_t i, const fracas_number *number)
 {
-    return *(const double *)(const void *)((const char *)&ensemble->value[i] + number->offset);
+    return *(const double *)(const void *)((const char *)&ensemble->value[i] + number->value);
 }
 
 /* The same number of two points, realization by realization: only complete pairs, or all. */
@@ -124,7 +123,7 @@ typedef struct {
 } two_samples;
 
 static void gather(const fracas_ensemble *before, const fracas_ensemble *after,
-                   const fracas_compared_quantity *number, bool paired, two_samples *to)
+                   const fracas_number *number, bool paired, two_samples *to)
 {
     to->n[0] = to->n[1] = 0;
     for (size_t i = 0, k = 0; i < before->nrealizations; i++) {
@@ -159,15 +158,6 @@ static void put_parts(fracas_compared_value *value)
 
 enum { ALIKE_LEAST = 8 }; /* two equal chances agree in all once in 128 times */
 
-/* Onset times and the part of bending are not alike by chance; the others may be multiples of one
- * break. */
-static int64_t least_alike(const fracas_compared_quantity *number)
-{
-    const bool continuous = number->offset == offsetof(fracas_replica_values, onset_time) ||
-                            number->offset == offsetof(fracas_replica_values, dissipated_bending);
-    return continuous ? 2 : ALIKE_LEAST;
-}
-
 /* Two-sided, by Student's law: the intervals are of the same  (convergence.3) */
 static double student(const fracas_compared_value *value)
 {
@@ -193,7 +183,7 @@ static bool is_idle(const fracas_convergence_row *row, bool lost)
                zero_b = is_zero(&value->b);
     if (lost)
         return (!a || zero_a) && (!b || zero_b) &&
-               row->number->offset != offsetof(fracas_replica_values, count);
+               row->number != &fracas_realization_numbers[FRACAS_NUMBER_count];
     return !a || !b || (zero_a && zero_b);
 }
 
@@ -226,7 +216,7 @@ fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t p,
     for (size_t v = 0; v < FRACAS_FIRST_VALUES; v++) {
         fracas_convergence_row row = {.refinement = map->name,
                                       .point = p,
-                                      .number = &fracas_compared_quantities[v],
+                                      .number = &fracas_realization_numbers[v],
                                       .paired = map->paired};
         gather(before, after, row.number, paired, &samples);
         if (paired)
@@ -236,11 +226,10 @@ fracas_err fracas_convergence_compare(fracas_convergence *convergence, size_t p,
             fracas_difference_of(samples.value[0], samples.n[0], samples.value[1], samples.n[1], 1,
                                  &row.value);
         put_parts(&row.value);
-        const bool counted = row.number->offset == offsetof(fracas_replica_values, count_large) &&
+        const bool counted = v == FRACAS_NUMBER_count_large &&
                              is_same(row.value.a.mean, count[0]) &&
                              is_same(row.value.b.mean, count[1]);
-        if (row.number->offset == offsetof(fracas_replica_values, count))
-            count[0] = row.value.a.mean, count[1] = row.value.b.mean;
+        if (v == FRACAS_NUMBER_count) count[0] = row.value.a.mean, count[1] = row.value.b.mean;
         row.value.p = student(&row.value);
         if (!counted && !is_idle(&row, lost)) TRY(add_row(convergence, &row));
     }
@@ -307,7 +296,7 @@ static fracas_number_verdict judge(const fracas_convergence_row *row, double tol
     const double level = 0.05;
     if (!isfinite(value->low)) return FRACAS_NUMBER_UNKNOWN;
     if (is_alike(value)) {
-        const int64_t least = least_alike(row->number);
+        const int64_t least = row->number->continuous ? 2 : ALIKE_LEAST;
         const bool many = value->a.n >= least && value->b.n >= least;
         return many && value->difference == 0 ? FRACAS_NUMBER_HOLDS : FRACAS_NUMBER_UNCLEAR;
     }

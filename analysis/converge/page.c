@@ -24,7 +24,7 @@ static bool has_change(const fracas_convergence_row *row)
 }
 
 /* Number of rows with a change. */
-static size_t rows_of(const fracas_convergence *convergence, const fracas_compared_quantity *number)
+static size_t rows_of(const fracas_convergence *convergence, const fracas_number *number)
 {
     size_t count = 0;
     for (size_t i = 0; i < convergence->nrows; i++)
@@ -52,13 +52,12 @@ static double place_of(const fracas_convergence *convergence, const fracas_conve
  * are in the number's unit. */
 typedef struct {
     const fracas_convergence *convergence;
-    const fracas_compared_quantity *number;
+    const fracas_number *number;
     bool relative;
     fracas_prefix prefix;
 } subject;
 
-static subject subject_of(const fracas_convergence *convergence,
-                          const fracas_compared_quantity *number)
+static subject subject_of(const fracas_convergence *convergence, const fracas_number *number)
 {
     subject of = {convergence, number, true, {1, "", ""}};
     double most = 0;
@@ -181,8 +180,8 @@ static void put_words(const subject *what, bool tolerance, fracas_chart *chart)
 /* The figure of one number: its change at each refinement, a mark a row, filled if it differs, with
  * its interval; behind it a box, the interval of the number as it is. No panel if there is no row.
  */
-static fracas_err draw_figure(const fracas_convergence *convergence,
-                              const fracas_compared_quantity *number, fracas_chart *chart)
+static fracas_err draw_figure(const fracas_convergence *convergence, const fracas_number *number,
+                              fracas_chart *chart)
 {
     const size_t npoints = convergence->study->table->npoints;
     const subject what = subject_of(convergence, number);
@@ -229,7 +228,7 @@ static fracas_err put_figures(fracas_page *page)
     fracas_page_grid(page, "wide");
     for (size_t v = 0; v < FRACAS_COMPARED_VALUES; v++)
         TRY(fracas_page_chart(page, &chart,
-                              draw_figure(page->of, &fracas_compared_quantities[v], &chart)));
+                              draw_figure(page->of, &fracas_realization_numbers[v], &chart)));
     fracas_page_grid_end(page);
     return FRACAS_OK;
 }

@@ -30,8 +30,7 @@ static void note_line(const fracas_convergence *convergence, const fracas_conver
 }
 
 /* One prefix for all values of a number. */
-static fracas_prefix prefix_of(const fracas_convergence *convergence,
-                               const fracas_compared_quantity *number)
+static fracas_prefix prefix_of(const fracas_convergence *convergence, const fracas_number *number)
 {
     double ends[2] = {INFINITY, 0};
     for (size_t i = 0; i < convergence->nrows; i++) {

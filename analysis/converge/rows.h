@@ -21,7 +21,7 @@ extern const char *const fracas_number_verdict_name[FRACAS_NUMBER_VERDICTS]; /* 
 typedef struct {
     const char *refinement;
     size_t point; /* for the study as it is */
-    const fracas_compared_quantity *number;
+    const fracas_number *number;
     bool paired;
     fracas_compared_value value; /* its p: Student's, of the difference */
     fracas_number_verdict verdict;

@@ -15,7 +15,7 @@
 /* The numbers of one usable realization. Every member is double: fracas_estimate_of strides over
  * them. */
 typedef struct {
-#define FRACAS_MEMBER(key, unit, doc) double key; /* NaN: the realization has none */
+#define FRACAS_MEMBER(key, unit, doc, ...) double key; /* NaN: the realization has none */
     FRACAS_REALIZATION_NUMBERS(FRACAS_MEMBER)
 #undef FRACAS_MEMBER
 } fracas_replica_values;

@@ -55,7 +55,7 @@ typedef enum {
 } fracas_axes;
 
 typedef struct {
-    char file[64]; /* name of the SVG, PDF and CSV files without their endings */
+    char file[96]; /* name of the SVG, PDF and CSV files without their endings */
     char title[256];
     char caption[1024]; /* sentences: subject, n, meaning of the bars */
     unsigned offers;    /* FRACAS_AXES_SEMILOG | FRACAS_AXES_LINEAR as far as sensible; 0: none */

@@ -86,7 +86,7 @@ void fracas_table_fill(const fracas_result_table *table, size_t at,
         const fracas_table_column *of = &column[c], *like = of;
         fracas_prefix prefix = {1, "", ""};
         if (of->prefixed) {
-            for (like = column; like->prefixed != of->prefixed;) like++;
+            for (like = column; !like->prefixed || strcmp(like->unit, of->unit) != 0;) like++;
             prefix = prefix_of(like, rows);
         }
         snprintf(fracas_result_table_cell(table, 0, at + c), FRACAS_CELL, "%s", of->name);

@@ -94,7 +94,7 @@ static void series_text(const fracas_analysis *analysis, size_t index, const voi
 static const fracas_table_column crossover_column[] = {
     {"crossover", "[1/s]", FRACAS_CELL_INTERVAL, AT(rate)},
     {"crossover", edot0, FRACAS_CELL_INTERVAL, AT(rate_normalised)},
-    {"s_q", "m", FRACAS_CELL_INTERVAL, AT(size), .prefixed = 1},
+    {"s_q", "m", FRACAS_CELL_INTERVAL, AT(size), .prefixed = true},
     {"s_q", "/s\u2080", FRACAS_CELL_INTERVAL, AT(size_normalised)},
     {"exponent", "", FRACAS_CELL_INTERVAL, AT(exponent)},
     {"points", "", FRACAS_CELL_INTEGER, AT(n)},
@@ -114,7 +114,7 @@ static const fracas_table_column motion_column[] = {
     {"outward", "[m/s]", FRACAS_CELL_ESTIMATE, AT(radial_velocity)},
     {"scatter", "[m/s]", FRACAS_CELL_ESTIMATE, AT(radial_scatter)},
     {"along", "[m/s]", FRACAS_CELL_ESTIMATE, AT(circumferential_velocity)},
-    {"spin", "rad/s", FRACAS_CELL_ESTIMATE, AT(angular_velocity), .prefixed = 1},
+    {"spin", "rad/s", FRACAS_CELL_ESTIMATE, AT(angular_velocity), .prefixed = true},
     {"point", "", FRACAS_CELL_FORMAT, .format = fracas_cell_label},
 };
 #undef AT

@@ -2,6 +2,7 @@
 #include "analysis/export/tables.h"
 
 #include "analysis/data/format.h"
+#include "analysis/summary/numbers.h"
 #include "base/own.h"
 #include "base/sheet.h"
 #include "base/text.h"
@@ -12,51 +13,21 @@
 #include <stdio.h>
 #include <string.h>
 
-/* clang-format off */
-#define OF_SURFACES \
-    "Of a surface: no dust: count without pieces of one or two elements; size: of the square root of a " \
-    "fragment's area. bending: its part", \
-    "of dissipated. rotation: mean kinetic energy of the spins of fragments, as part of that of their " \
-    "centres of mass. Of an octant", \
-    "(geometry.part) all this is the octant's own, an eighth of the sphere."
-#define OF_ALL \
-    "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half " \
-    "width of its 95 %"
-#define OF_LEDGER \
-    "resid., created: largest over replicas of |ledger residual| and of created energy, as parts of " \
-    "the dissipated.", \
-    "resid./total, on the page: the residual by the largest total energy: kinetic, stored and lost."
-/* clang-format on */
-
-enum { LINES_OF_SURFACES = 3 };
-
-static const char *const legend[] = {
-    OF_SURFACES,
-    OF_ALL,
-    "interval over replicas (Student's t), - where one replica has none. count: fragments, dust "
-    "included. size: mean over",
-    "replicas of length/count. ZMR, Grady, GC (Glenn-Chudnovsky), Mott (of strengths with a "
-    "Weibull modulus): scaling laws with the",
-    "point's material and mean strength; size/ZMR: ratio to ZMR, to the digits that the interval "
-    "of the size supports.",
-    OF_LEDGER,
-    NULL,
-};
-/* For studies of surfaces only. */
-static const char *const surface_legend[] = {
-    OF_SURFACES,
-    OF_ALL,
-    "interval over replicas (Student's t), - where one replica has none. count: fragments, dust "
-    "included.",
-    OF_LEDGER,
-    NULL,
-};
-
-const char *const *fracas_result_table_legend(const fracas_analysis *analysis)
-{
-    if (fracas_analysis_all_surfaces(analysis)) return surface_legend;
-    return fracas_analysis_any_surface(analysis) ? legend : legend + LINES_OF_SURFACES;
-}
+static const char of_all[] =
+    "n: realizations used (FRAGMENTED, INTACT, TIME_LIMIT); fail: all others. After the mean: half "
+    "width of its 95 % interval over replicas (Student's t), - where one replica has none. Dust: "
+    "pieces of one element, of surfaces those of one or two.";
+static const char of_chains[] =
+    "ZMR, Grady, GC (Glenn-Chudnovsky), Mott (of strengths with a Weibull modulus): scaling laws "
+    "with the point's material and mean strength; size/ZMR: ratio to ZMR, to the digits that the "
+    "interval of the size supports.";
+static const char of_surfaces[] =
+    "rotation: mean kinetic energy of the spins of fragments, as part of that of their centres of "
+    "mass. Of an octant (geometry.part) all this is the octant's own, an eighth of the sphere.";
+static const char of_ledger[] =
+    "resid., created: largest over replicas of |ledger residual| and of created energy, as parts "
+    "of the dissipated. resid./total, on the page: the residual by the largest total energy: "
+    "kinetic, stored and lost.";
 
 bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, size_t size)
 {
@@ -67,10 +38,14 @@ bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, siz
     return *paths != '\0';
 }
 
-static bool any_bending(const fracas_analysis *analysis)
+/* True for a number with a column in this table. */
+static bool has_column(const fracas_number *number, const fracas_analysis *analysis)
 {
+    if (!number->column) return false;
+    if (number->where == FRACAS_WITH_SURFACES) return fracas_analysis_any_surface(analysis);
+    if (number->where == FRACAS_ALWAYS) return true;
     for (size_t p = 0; p < analysis->table->npoints; p++)
-        if (analysis->point[p].dissipated_bending.mean > 0) return true;
+        if (fracas_number_mean(number, &analysis->point[p])->mean > 0) return true;
     return false;
 }
 
@@ -102,40 +77,45 @@ static void outcomes_text(const fracas_analysis *analysis, size_t p, const void 
     if (!*text) snprintf(text, FRACAS_CELL, "-");
 }
 
-#define PLACE(member) offsetof(fracas_point_statistics, member)
-enum { LENGTH = 1, ENERGY }; /* groups of columns with one prefix */
+void fracas_result_table_legend(const fracas_analysis *analysis, fracas_legend *legend)
+{
+    const char **line = legend->line;
+    *legend = (fracas_legend){.numbers = ""};
+    for (size_t i = 0; i < FRACAS_NNUMBERS; i++)
+        if (has_column(&fracas_realization_numbers[i], analysis))
+            fracas_append(legend->numbers, sizeof legend->numbers, "; ", "%s: %s",
+                          fracas_realization_numbers[i].column, fracas_realization_numbers[i].doc);
+    fracas_append(legend->numbers, sizeof legend->numbers, "", ".");
+    *line++ = legend->numbers;
+    *line++ = of_all;
+    if (any_chain(analysis)) *line++ = of_chains;
+    if (fracas_analysis_any_surface(analysis)) *line++ = of_surfaces;
+    *line++ = of_ledger;
+}
 
-/* Columns after the parameters; `shown`: NULL, always; `page`: not on a terminal, for want of room.
- */
+#define PLACE(member) offsetof(fracas_point_statistics, member)
+
+/* Columns beside the numbers, of which `leading` stand before these; `shown`: NULL, always;
+ * `page`: not on a terminal, for want of room. */
 static const struct {
     fracas_table_column column;
     bool (*shown)(const fracas_analysis *analysis);
-    bool law, page;
+    bool leading, law, page;
 } columns[] = {
-    {{"n", "", FRACAS_CELL_INTEGER, PLACE(usable)}},
-    {{"fail", "", FRACAS_CELL_INTEGER, PLACE(unusable)}},
-    {{"count", "", FRACAS_CELL_ESTIMATE, PLACE(count)}},
-    {{"no dust", "", FRACAS_CELL_ESTIMATE, PLACE(count_large)}, fracas_analysis_any_surface},
-    {{"size", "m", FRACAS_CELL_ESTIMATE, PLACE(size), .prefixed = LENGTH}},
-    {{"dissipated", "J", FRACAS_CELL_ESTIMATE, PLACE(dissipated), .prefixed = ENERGY}},
-    {{"bending", "J", FRACAS_CELL_ESTIMATE, PLACE(dissipated_bending), .prefixed = ENERGY},
-     any_bending},
-    {{"ZMR", "m", FRACAS_CELL_NUMBER, PLACE(law[FRACAS_LAW_ZMR]), 4, .prefixed = LENGTH},
-     any_chain,
-     true},
-    {{"Grady", "m", FRACAS_CELL_NUMBER, PLACE(law[FRACAS_LAW_GRADY]), 4, .prefixed = LENGTH},
-     any_chain,
-     true},
-    {{"GC", "m", FRACAS_CELL_NUMBER, PLACE(law[FRACAS_LAW_GLENN_CHUDNOVSKY]), 4,
-      .prefixed = LENGTH},
-     any_chain,
-     true},
-    {{"Mott", "m", FRACAS_CELL_NUMBER, PLACE(law[FRACAS_LAW_MOTT]), 4, .prefixed = LENGTH},
-     any_mott,
-     true},
+    {{"n", "", FRACAS_CELL_INTEGER, PLACE(usable)}, .leading = true},
+    {{"fail", "", FRACAS_CELL_INTEGER, PLACE(unusable)}, .leading = true},
+#define LAW(name, id)                                                                   \
+    {                                                                                   \
+        name, "m", FRACAS_CELL_NUMBER, PLACE(law[FRACAS_LAW_##id]), 4, .prefixed = true \
+    }
+    {LAW("ZMR", ZMR), any_chain, .law = true},
+    {LAW("Grady", GRADY), any_chain, .law = true},
+    {LAW("GC", GLENN_CHUDNOVSKY), any_chain, .law = true},
+    {LAW("Mott", MOTT), any_mott, .law = true},
+#undef LAW
     {{"size", "/ZMR", FRACAS_CELL_MEAN, PLACE(size), 0, PLACE(law[FRACAS_LAW_ZMR])},
      any_chain,
-     true},
+     .law = true},
     {{"resid.", "/diss.", FRACAS_CELL_NUMBER, PLACE(residual), 2}},
     {{"resid.", "/total", FRACAS_CELL_NUMBER, PLACE(residual_total), 2}, .page = true},
     {{"created", "/diss.", FRACAS_CELL_NUMBER, PLACE(created), 2}},
@@ -144,6 +124,35 @@ static const struct {
     {{"outcomes", "", FRACAS_CELL_FORMAT, .format = outcomes_text}},
 };
 enum { NCOLUMNS = sizeof columns / sizeof *columns, MOST_KEYS = 3 };
+
+/* The columns of this table, without its parameters. */
+typedef struct {
+    size_t count, laws, first_law;
+    fracas_table_column column[NCOLUMNS + FRACAS_NNUMBERS];
+} chosen_columns;
+
+static void add_numbers(const fracas_analysis *analysis, chosen_columns *to)
+{
+    for (size_t i = 0; i < FRACAS_NNUMBERS; i++) {
+        const fracas_number *number = &fracas_realization_numbers[i];
+        const bool pure = !strcmp(number->unit, "1");
+        if (has_column(number, analysis))
+            to->column[to->count++] = (fracas_table_column){
+                number->column, pure ? "" : number->unit, FRACAS_CELL_ESTIMATE, number->mean,
+                .prefixed = !pure};
+    }
+}
+
+static void choose_columns(const fracas_analysis *analysis, bool page, chosen_columns *to)
+{
+    for (size_t c = 0; c < NCOLUMNS; c++) {
+        if (c > 0 && columns[c - 1].leading && !columns[c].leading) add_numbers(analysis, to);
+        if (columns[c].shown && !columns[c].shown(analysis)) continue;
+        if (columns[c].page && !page) continue;
+        if (columns[c].law && to->laws++ == 0) to->first_law = to->count;
+        to->column[to->count++] = columns[c].column;
+    }
+}
 
 /* Lengths among the parameters have a prefix of their own, which avoids radii in exponents. */
 static fracas_prefix parameter_prefix(const fracas_point_table *points, size_t column)
@@ -181,23 +190,17 @@ fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unic
                                       fracas_result_table *table)
 {
     FRACAS_CLEARED(fracas_columns) first = {0};
-    fracas_table_column shown[NCOLUMNS];
-    size_t count = 0, laws = 0, first_law = 0;
+    chosen_columns shown = {0};
     TRY(fracas_columns_with_rate(analysis->table, &analysis->shown, &first));
-    for (size_t c = 0; c < NCOLUMNS; c++) {
-        if (columns[c].shown && !columns[c].shown(analysis)) continue;
-        if (columns[c].page && !unicode) continue;
-        if (columns[c].law && laws++ == 0) first_law = first.count + count;
-        shown[count++] = columns[c].column;
-    }
+    choose_columns(analysis, unicode, &shown);
     const fracas_table_rows rows = {analysis->point, analysis->table->npoints,
                                     sizeof *analysis->point, analysis, NULL};
-    TRY(fracas_table_empty(rows.count, first.count + count, NULL, table));
+    TRY(fracas_table_empty(rows.count, first.count + shown.count, NULL, table));
     fill_parameters(analysis->table, &first, unicode, table);
-    fracas_table_fill(table, first.count, shown, count, &rows, unicode);
+    fracas_table_fill(table, first.count, shown.column, shown.count, &rows, unicode);
     table->keys = first.count <= MOST_KEYS ? first.count : 1;
-    table->laws = laws;
-    table->first_law = first_law;
+    table->laws = shown.laws;
+    table->first_law = first.count + shown.first_law;
     return FRACAS_OK;
 }
 
@@ -240,7 +243,9 @@ void fracas_analysis_print_table(const fracas_analysis *analysis, int width, FIL
     fracas_table_print(&table, "", 1U << (table.columns - 1), true, width, out);
     fracas_result_table_clear(&table);
     putc('\n', out);
-    fracas_sheet_legend(fracas_result_table_legend(analysis), width, out);
+    fracas_legend legend;
+    fracas_result_table_legend(analysis, &legend);
+    fracas_sheet_legend(legend.line, width ? width : 120, out);
     char beside[768];
     if (fracas_result_table_beside(analysis, beside, sizeof beside))
         print_line(width, out, "%s", beside);

@@ -41,8 +41,8 @@ typedef struct fracas_table_column {
     fracas_cell_kind kind;
     size_t offset; /* in the struct of a row [bytes] */
     int digits;
-    size_t other; /* place of a divisor of the number, or of a half width; 0: none */
-    int prefixed; /* columns of one group > 0 share the prefix of the first of them */
+    size_t other;  /* place of a divisor of the number, or of a half width; 0: none */
+    bool prefixed; /* such columns of one unit share the prefix of the first of them */
     void (*format)(const fracas_analysis *analysis, size_t index, const void *row, char *text);
 } fracas_table_column;
 
@@ -85,8 +85,13 @@ void fracas_cell_label(const fracas_analysis *analysis, size_t point, const void
 FRACAS_MUST_USE fracas_err fracas_result_table_create(const fracas_analysis *analysis, bool unicode,
                                                       fracas_result_table *table);
 
-/* Meaning of the columns of the study's table, a line each; ends with NULL. */
-const char *const *fracas_result_table_legend(const fracas_analysis *analysis);
+/* Meaning of the columns of the study's table. */
+enum { FRACAS_LEGEND_LINES = 6 };
+typedef struct {
+    const char *line[FRACAS_LEGEND_LINES + 1]; /* paragraphs; ends with NULL */
+    char numbers[1024];                        /* the first of them */
+} fracas_legend;
+void fracas_result_table_legend(const fracas_analysis *analysis, fracas_legend *legend);
 
 /* "Points differ in material.young, too: points.csv has ...": parameters missing in the table;
  * false if there are none. */

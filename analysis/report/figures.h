@@ -22,7 +22,8 @@ void fracas_charts_clear(fracas_charts *charts);
 typedef enum {
     FRACAS_MEANS_SIZE,       /* mean fragment size in metres */
     FRACAS_MEANS_NORMALISED, /* s/s0 against edot/edot0; none against anything else */
-    FRACAS_MEANS_COUNT       /* mean number of fragments, with and without dust */
+    FRACAS_MEANS_COUNT,      /* mean number of fragments, with and without dust */
+    FRACAS_MEANS_OTHER       /* for fracas_figure_ordinate */
 } fracas_means;
 
 /* Means with their 95 % intervals against the abscissa of analysis->axes, in its series and
@@ -30,6 +31,11 @@ typedef enum {
  * without an abscissa. Cleared by the caller, after an error too. */
 FRACAS_MUST_USE fracas_err fracas_figure_means(const fracas_analysis *analysis, fracas_means of,
                                                fracas_charts *charts);
+
+/* The same of a statistic, without laws and powers. No chart where it is a number nowhere. */
+FRACAS_MUST_USE fracas_err fracas_figure_ordinate(const fracas_analysis *analysis,
+                                                  const fracas_ordinate *ordinate,
+                                                  fracas_charts *charts);
 
 /* A figure of one point; or a drawing of a figure of the study, of this number in place of the
  * point, without a panel after the last one. */

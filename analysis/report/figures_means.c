@@ -6,6 +6,7 @@
 #include "analysis/data/format.h"
 #include "base/own.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,7 +28,8 @@ typedef struct {
     const fracas_analysis *analysis;
     const fracas_means_axes *axes;
     fracas_means of;
-    double size_factor;
+    fracas_ordinate ordinate;
+    double factor;     /* from the SI value to the axis */
     size_t n, nseries; /* nseries: for the whole figure */
     mean_mark *mark;
     double x[2]; /* least and greatest of the whole figure */
@@ -54,30 +56,31 @@ static const fracas_point_statistics *statistics_of(const means_plot *plot, size
     return &plot->analysis->point[plot->mark[mark].point];
 }
 
-static bool has_mean(const fracas_analysis *analysis, size_t point)
+static bool has_mean(const means_plot *plot, size_t point)
 {
-    const double x = analysis->axes.value[point];
-    return isfinite(x) && (!analysis->axes.log || x > 0) &&
-           isfinite(analysis->point[point].size.mean);
+    const double x = plot->analysis->axes.value[point];
+    double low, high;
+    return isfinite(x) && (!plot->analysis->axes.log || x > 0) &&
+           isfinite(
+               fracas_ordinate_at(&plot->ordinate, &plot->analysis->point[point], &low, &high));
 }
 
-static bool has_scales(const fracas_analysis *analysis, size_t point)
+static bool has_scales(const means_plot *plot, size_t point)
 {
-    const fracas_point_statistics *statistics = &analysis->point[point];
-    return has_mean(analysis, point) && !statistics->surface && isfinite(statistics->scales.size) &&
+    const fracas_point_statistics *statistics = &plot->analysis->point[point];
+    return has_mean(plot, point) && !statistics->surface && isfinite(statistics->scales.size) &&
            isfinite(statistics->scales.rate);
 }
 
 static bool mark_has_scales(const means_plot *plot, size_t mark)
 {
-    return has_scales(plot->analysis, plot->mark[mark].point);
+    return has_scales(plot, plot->mark[mark].point);
 }
 
 /* Rate and size that are 1 on the axes. */
 static fracas_scales units_of(const means_plot *plot, const fracas_scales *scales)
 {
-    return is_normalised(plot) ? *scales
-                               : (fracas_scales){.rate = 1, .size = 1 / plot->size_factor};
+    return is_normalised(plot) ? *scales : (fracas_scales){.rate = 1, .size = 1 / plot->factor};
 }
 
 static double x_of(const means_plot *plot, size_t point)
@@ -92,8 +95,7 @@ static void number_marks(const size_t *series, const size_t *drawing, means_plot
 {
     const size_t nchunks = (plot->nseries + FRACAS_MEANS_SERIES - 1) / FRACAS_MEANS_SERIES;
     for (size_t p = 0; p < plot->analysis->table->npoints; p++) {
-        if (is_normalised(plot) ? !has_scales(plot->analysis, p) : !has_mean(plot->analysis, p))
-            continue;
+        if (is_normalised(plot) ? !has_scales(plot, p) : !has_mean(plot, p)) continue;
         const double x = x_of(plot, p);
         plot->x[0] = plot->n ? fmin(plot->x[0], x) : x;
         plot->x[1] = plot->n ? fmax(plot->x[1], x) : x;
@@ -138,7 +140,7 @@ static fracas_err find_marks(means_plot *plot, size_t *ndrawings)
 static fracas_err find_fits(means_plot *plot)
 {
     FRACAS_CLEARED(fracas_columns) rates = {0};
-    if (!plot->axes->rate) return FRACAS_OK;
+    if (!plot->axes->rate || plot->of == FRACAS_MEANS_OTHER) return FRACAS_OK;
     TRY(fracas_columns_without_rate(plot->analysis->table, &plot->analysis->shown, &rates));
     for (size_t m = 0; m < plot->n; m++)
         fracas_columns_label(plot->analysis->table, &rates, plot->mark[m].point, plot->mark[m].name,
@@ -159,38 +161,45 @@ static size_t first_of(const means_plot *plot, size_t series)
 
 /* ---- marks ---- */
 
-/* The marks of a series. quantity: place of the mean in a point's statistics. */
-static fracas_err add_means(const means_plot *plot, size_t quantity, size_t number,
+/* The marks of a series. */
+static fracas_err add_means(const means_plot *plot, const fracas_ordinate *ordinate, size_t number,
                             fracas_panel *panel)
 {
     fracas_series *series;
     TRY(fracas_panel_add(panel, FRACAS_MARKS, (unsigned)number, plot->n, &series));
-    FRACAS_PRINT(series->name, "mean, 95 %% interval");
+    FRACAS_PRINT(series->name, ordinate->over ? "mean, 95 %% interval" : "95 %% interval");
     series->n = 0;
     for (size_t m = 0; m < plot->n; m++) {
         if (plot->mark[m].series != number) continue;
         const fracas_point_statistics *statistics = statistics_of(plot, m);
-        const fracas_estimate *mean = (const void *)((const char *)statistics + quantity);
+        double low, high;
+        const double value = fracas_ordinate_at(ordinate, statistics, &low, &high);
         const double unit = units_of(plot, &statistics->scales).size;
         const size_t i = series->n++;
         if (i == 0 && plot->axes->series.count > 0)
             fracas_columns_label(plot->analysis->table, &plot->axes->series, plot->mark[m].point,
                                  series->name, sizeof series->name);
         series->x[i] = x_of(plot, plot->mark[m].point);
-        series->y[i] = mean->mean / unit;
-        series->low[i] = (mean->mean - mean->half_width) / unit;
-        series->high[i] = (mean->mean + mean->half_width) / unit;
+        series->y[i] = value / unit;
+        series->low[i] = low / unit;
+        series->high[i] = high / unit;
     }
     return FRACAS_OK;
 }
 
-/* A line from mark to mark for the eye; none against the rate, where laws and powers are, against a
- * text, and where two marks have one abscissa. */
+/* Lines from mark to mark for the eye; none where laws and powers of the rate are, nor against a
+ * text. */
+static bool has_lines(const means_plot *plot)
+{
+    return !plot->axes->nnames && (!plot->axes->rate || plot->of == FRACAS_MEANS_OTHER);
+}
+
+/* None where two marks have one abscissa. */
 static fracas_err join_means(const means_plot *plot, fracas_panel *panel)
 {
     const size_t marks = panel->nseries - 1;
     fracas_series *line;
-    if (plot->axes->rate || plot->axes->nnames) return FRACAS_OK;
+    if (!has_lines(plot)) return FRACAS_OK;
     const size_t n = panel->series[marks].n;
     TRY(fracas_panel_add(panel, FRACAS_CURVE, panel->series[marks].look, n, &line));
     const fracas_series *of = &panel->series[marks];
@@ -232,7 +241,7 @@ static fracas_err add_law(const means_plot *plot, fracas_scaling_law_id law,
     for (size_t i = 0; i < LAW_VALUES; i++)
         series->y[i] = is_normalised(plot)
                            ? fracas_scaling_laws[law].normalised(series->x[i], scales->modulus)
-                           : fracas_scaling_law_at(law, scales, series->x[i]) * plot->size_factor;
+                           : fracas_scaling_law_at(law, scales, series->x[i]) * plot->factor;
     return FRACAS_OK;
 }
 
@@ -317,7 +326,7 @@ static fracas_err add_slopes(const means_plot *plot, fracas_panel *panel)
         if (!beside_laws && series_has_scales(plot, number)) continue;
         TRY(add_curve(plot, number + 2 * FRACAS_CHART_COLOURS, panel, &series));
         for (size_t v = 0; v < LAW_VALUES; v++)
-            series->y[v] = fracas_slope_at(&of->slope, series->x[v]) * plot->size_factor;
+            series->y[v] = fracas_slope_at(&of->slope, series->x[v]) * plot->factor;
         if (only)
             FRACAS_PRINT(series->name, "fitted: power %s", fracas_slope_text(&of->slope).text);
     }
@@ -346,12 +355,13 @@ static fracas_err add_crossovers(const means_plot *plot, fracas_panel *panel)
 
 /* ---- words ---- */
 
-static fracas_number_text replicas_text(const fracas_analysis *analysis)
+static fracas_number_text replicas_text(const means_plot *plot)
 {
+    const fracas_analysis *analysis = plot->analysis;
     size_t least = SIZE_MAX, most = 0; /* replicas a mark */
     for (size_t p = 0; p < analysis->table->npoints; p++) {
         const size_t n = (size_t)analysis->point[p].size.n;
-        if (!has_mean(analysis, p)) continue;
+        if (!has_mean(plot, p)) continue;
         least = n < least ? n : least;
         most = n > most ? n : most;
     }
@@ -360,12 +370,12 @@ static fracas_number_text replicas_text(const fracas_analysis *analysis)
 
 static const char *lines_of(const means_plot *plot)
 {
-    return plot->axes->rate || plot->axes->nnames ? "" : " Lines join the marks of a series.";
+    return has_lines(plot) ? " Lines join the marks of a series." : "";
 }
 
 static void caption_of_size(const means_plot *plot, fracas_chart *chart)
 {
-    const fracas_number_text n = replicas_text(plot->analysis);
+    const fracas_number_text n = replicas_text(plot);
     const bool rate = plot->axes->rate, normalised = is_normalised(plot);
     if (fracas_analysis_all_surfaces(plot->analysis)) {
         FRACAS_PRINT(chart->caption,
@@ -411,12 +421,25 @@ static void caption_of_count(const means_plot *plot, fracas_chart *chart)
         chart->caption,
         "Mean over replicas (n = %s) of the number of fragments of a body, dust "
         "included%s; bars: 95 %% interval of the mean (Student\u2019s t over replicas).%s%s",
-        replicas_text(plot->analysis).text,
+        replicas_text(plot).text,
         fracas_analysis_much_dust(plot->analysis) ? ", and without it (open marks)" : "",
         lines_of(plot),
         plot->axes->rate
             ? " Lines: powers of the rate fitted to the filled marks of the same colour."
             : "");
+}
+
+static void caption_of_other(const means_plot *plot, fracas_chart *chart)
+{
+    const fracas_ordinate *of = &plot->ordinate;
+    const bool interval = of->half_width != SIZE_MAX || of->low != SIZE_MAX;
+    FRACAS_PRINT(chart->caption, "%s %.180s (n = %s)%s.%s",
+                 of->over ? "Mean over replicas of the" : "From all usable replicas together: the",
+                 of->words, replicas_text(plot).text,
+                 of->over   ? "; bars: 95 % interval of the mean (Student\u2019s t over replicas)"
+                 : interval ? "; bars: 95 % interval by resampling replicas"
+                            : "",
+                 lines_of(plot));
 }
 
 static const struct {
@@ -431,8 +454,10 @@ static const struct {
 /* "count-against-strength-shape-2" */
 static void name_file(const means_plot *plot, size_t drawing, fracas_chart *chart)
 {
-    FRACAS_PRINT(chart->file, "%s-against-%.38s%s", texts[plot->of].file,
-                 plot->axes->rate ? "rate" : plot->axes->key, texts[plot->of].suffix);
+    const bool other = plot->of == FRACAS_MEANS_OTHER;
+    FRACAS_PRINT(chart->file, "%.24s-against-%.38s%s",
+                 other ? plot->ordinate.key : texts[plot->of].file,
+                 plot->axes->rate ? "rate" : plot->axes->key, other ? "" : texts[plot->of].suffix);
     for (char *dot = chart->file; (dot = strpbrk(dot, "._"));) *dot = '-';
     if (drawing > 0) fracas_append(chart->file, sizeof chart->file, "-", "%zu", drawing + 1);
 }
@@ -444,9 +469,12 @@ static void name_chart(const means_plot *plot, size_t drawing, fracas_chart *cha
     if (plot->axes->drawings.count > 0 && plot->n > 0)
         fracas_columns_label(plot->analysis->table, &plot->axes->drawings, plot->mark->point, label,
                              sizeof label);
-    FRACAS_PRINT(chart->title, "%s against %s%s%s", texts[plot->of].title, plot->axes->words,
-                 *label ? ", " : "", label);
-    if (plot->of == FRACAS_MEANS_COUNT) caption_of_count(plot, chart);
+    FRACAS_PRINT(chart->title, "%.120s against %s%s%s",
+                 plot->of == FRACAS_MEANS_OTHER ? plot->ordinate.words : texts[plot->of].title,
+                 plot->axes->words, *label ? ", " : "", label);
+    chart->title[0] = (char)toupper((unsigned char)chart->title[0]);
+    if (plot->of == FRACAS_MEANS_OTHER) caption_of_other(plot, chart);
+    else if (plot->of == FRACAS_MEANS_COUNT) caption_of_count(plot, chart);
     else caption_of_size(plot, chart);
 }
 
@@ -461,22 +489,31 @@ static void leave_room(const double range[2], fracas_axis *axis)
     axis->show[1] = axis->log ? range[1] * pow(range[1] / range[0], part) : range[1] + part * apart;
 }
 
+static void label_other(const means_plot *plot, const char *sign, fracas_axis *axis)
+{
+    const fracas_ordinate *of = &plot->ordinate;
+    const bool pure = !*of->unit || !strcmp(of->unit, "1");
+    const size_t room = pure ? 44 : 36; /* characters beside a panel */
+    FRACAS_PRINT(axis->label, "%.44s", strlen(of->words) <= room ? of->words : of->key);
+    if (!pure) fracas_append(axis->label, sizeof axis->label, " ", "[%s%s]", sign, of->unit);
+}
+
 /* Sizes and counts go with powers of the rate; against anything else an axis is logarithmic if its
  * values are of several decades. */
 static void set_axes(const means_plot *plot, const char *sign, fracas_chart *chart)
 {
     fracas_panel *panel = chart->panel;
-    double least = INFINITY, most = 0;
-    const char *y = texts[plot->of].y;
+    const bool other = plot->of == FRACAS_MEANS_OTHER;
+    double least = INFINITY, most = -INFINITY;
     for (size_t m = 0; m < plot->n; m++) {
-        const fracas_point_statistics *statistics = statistics_of(plot, m);
-        const double mean = plot->of == FRACAS_MEANS_COUNT ? statistics->count.mean
-                                                           : statistics->size.mean;
+        double low, high;
+        const double mean = fracas_ordinate_at(&plot->ordinate, statistics_of(plot, m), &low,
+                                               &high);
         least = fmin(least, mean);
         most = fmax(most, mean);
     }
     panel->x.log = plot->axes->log;
-    panel->y.log = plot->axes->rate || (least > 0 && most >= 10 * least);
+    panel->y.log = (plot->axes->rate && !other) || (least > 0 && most >= 10 * least);
     panel->x.nnames = plot->axes->nnames;
     panel->x.name = plot->axes->name;
     leave_room(plot->x, &panel->x);
@@ -484,9 +521,12 @@ static void set_axes(const means_plot *plot, const char *sign, fracas_chart *cha
     if (is_normalised(plot))
         FRACAS_PRINT(panel->x.label, "strain rate \u03b5\u0307/\u03b5\u0307\u2080");
     else FRACAS_PRINT(panel->x.label, "%s", plot->axes->label);
-    if (plot->of == FRACAS_MEANS_SIZE)
+    const double factor = plot->factor, range[] = {least * factor, most * factor};
+    if (other && !panel->y.log) leave_room(range, &panel->y);
+    if (other) label_other(plot, sign, &panel->y);
+    else if (plot->of == FRACAS_MEANS_SIZE)
         FRACAS_PRINT(panel->y.label, "mean fragment size [%sm]", sign);
-    else FRACAS_PRINT(panel->y.label, "%s", y);
+    else FRACAS_PRINT(panel->y.label, "%s", texts[plot->of].y);
 }
 
 /* ---- charts ---- */
@@ -495,12 +535,14 @@ static void set_axes(const means_plot *plot, const char *sign, fracas_chart *cha
 static fracas_err add_counts(const means_plot *plot, size_t series, fracas_panel *panel)
 {
     if (fracas_analysis_much_dust(plot->analysis)) {
-        TRY(add_means(plot, offsetof(fracas_point_statistics, count_large), series, panel));
+        const fracas_ordinate large_count = fracas_ordinate_of(
+            &fracas_realization_numbers[FRACAS_NUMBER_count_large]);
+        TRY(add_means(plot, &large_count, series, panel));
         fracas_series *large = &panel->series[panel->nseries - 1];
         large->open = true;
         fracas_append(large->name, sizeof large->name, ", ", "without dust");
     }
-    TRY(add_means(plot, offsetof(fracas_point_statistics, count), series, panel));
+    TRY(add_means(plot, &plot->ordinate, series, panel));
     return join_means(plot, panel);
 }
 
@@ -513,8 +555,8 @@ static fracas_err add_series(const means_plot *plot, fracas_panel *panel)
             TRY(add_counts(plot, s, panel));
             continue;
         }
-        TRY(add_laws(plot, s, &drawn, panel));
-        TRY(add_means(plot, offsetof(fracas_point_statistics, size), s, panel));
+        if (plot->of != FRACAS_MEANS_OTHER) TRY(add_laws(plot, s, &drawn, panel));
+        TRY(add_means(plot, &plot->ordinate, s, panel));
         TRY(join_means(plot, panel));
     }
     TRY(add_slopes(plot, panel));
@@ -546,29 +588,65 @@ void fracas_charts_clear(fracas_charts *charts)
     *charts = (fracas_charts){0};
 }
 
-fracas_err fracas_figure_means(const fracas_analysis *analysis, fracas_means of,
-                               fracas_charts *charts)
+static fracas_err make_charts(means_plot *plot, const char *sign, fracas_charts *charts)
 {
-    const bool normalised = of == FRACAS_MEANS_NORMALISED;
-    fracas_prefix prefix = {1, "", ""};
     size_t ndrawings = 0;
-    *charts = (fracas_charts){0};
-    if (of != FRACAS_MEANS_COUNT)
-        prefix = fracas_prefix_over(&analysis->point->size.mean, sizeof *analysis->point,
-                                    analysis->table->npoints);
-    FRACAS_CLEARED(means_plot)
-    plot = {.analysis = analysis, .axes = &analysis->axes, .of = of, .size_factor = prefix.factor};
-    if (!*analysis->axes.key || (normalised && !analysis->axes.rate)) return FRACAS_OK;
-    TRY(find_marks(&plot, &ndrawings));
-    TRY(find_fits(&plot));
+    TRY(find_marks(plot, &ndrawings));
+    TRY(find_fits(plot));
     charts->left_out = ndrawings > FRACAS_MOST_DRAWINGS ? ndrawings - FRACAS_MOST_DRAWINGS : 0;
     ndrawings -= charts->left_out;
     charts->chart = calloc(ndrawings + 1, sizeof *charts->chart);
     if (!charts->chart) return fracas_no_memory("a figure");
     for (size_t d = 0; d < ndrawings; d++) {
         fracas_chart_init(&charts->chart[charts->count++]);
-        TRY(draw(&plot, d, prefix.sign, &charts->chart[d]));
+        TRY(draw(plot, d, sign, &charts->chart[d]));
     }
     if (ndrawings > 1) fracas_charts_align(charts->chart, ndrawings);
     return FRACAS_OK;
+}
+
+/* A prefix for all values of the ordinate. */
+static fracas_err prefix_of(const fracas_analysis *analysis, const fracas_ordinate *ordinate,
+                            fracas_prefix *prefix)
+{
+    const size_t npoints = analysis->table->npoints;
+    double low, high;
+    OWNED double *value = calloc(npoints + 1, sizeof *value);
+    if (!value) return fracas_no_memory("a figure");
+    for (size_t p = 0; p < npoints; p++)
+        value[p] = fracas_ordinate_at(ordinate, &analysis->point[p], &low, &high);
+    *prefix = fracas_prefix_in(ordinate->unit, value, npoints);
+    return FRACAS_OK;
+}
+
+static fracas_err figure(const fracas_analysis *analysis, fracas_means of,
+                         const fracas_ordinate *ordinate, fracas_charts *charts)
+{
+    fracas_prefix prefix;
+    *charts = (fracas_charts){0};
+    TRY(prefix_of(analysis, ordinate, &prefix));
+    FRACAS_CLEARED(means_plot)
+    plot = {.analysis = analysis,
+            .axes = &analysis->axes,
+            .of = of,
+            .ordinate = *ordinate,
+            .factor = prefix.factor};
+    if (!*analysis->axes.key || (of == FRACAS_MEANS_NORMALISED && !analysis->axes.rate))
+        return FRACAS_OK;
+    return make_charts(&plot, prefix.sign, charts);
+}
+
+fracas_err fracas_figure_means(const fracas_analysis *analysis, fracas_means of,
+                               fracas_charts *charts)
+{
+    const fracas_ordinate ordinate = fracas_ordinate_of(
+        &fracas_realization_numbers[of == FRACAS_MEANS_COUNT ? FRACAS_NUMBER_count
+                                                             : FRACAS_NUMBER_size]);
+    return figure(analysis, of, &ordinate, charts);
+}
+
+fracas_err fracas_figure_ordinate(const fracas_analysis *analysis, const fracas_ordinate *ordinate,
+                                  fracas_charts *charts)
+{
+    return figure(analysis, FRACAS_MEANS_OTHER, ordinate, charts);
 }

@@ -16,7 +16,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-enum { FRACAS_DRAWING = 72 };
+enum { FRACAS_DRAWING = 104 };
 
 typedef struct {
     const fracas_analysis *analysis;

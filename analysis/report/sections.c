@@ -71,6 +71,19 @@ fracas_err fracas_section_figures(fracas_page *page, const char *section)
     return FRACAS_OK;
 }
 
+enum { FEW_DRAWINGS = 4 }; /* at most, where nobody asked for the statistic */
+
+static fracas_err put_ordinate(fracas_page *page, const fracas_ordinate *ordinate, size_t *left_out)
+{
+    FRACAS_CLEARED(fracas_charts) charts = {0};
+    TRY(fracas_figure_ordinate(page->analysis, ordinate, &charts));
+    if (!page->analysis->asked && charts.count > FEW_DRAWINGS) return FRACAS_OK;
+    for (size_t i = 0; i < charts.count; i++)
+        TRY(fracas_page_chart(page, &charts.chart[i], FRACAS_OK));
+    *left_out = charts.left_out > *left_out ? charts.left_out : *left_out;
+    return FRACAS_OK;
+}
+
 static fracas_err put_means(fracas_page *page, fracas_means of, size_t *left_out)
 {
     FRACAS_CLEARED(fracas_charts) charts = {0};
@@ -92,6 +105,8 @@ fracas_err fracas_section_means(fracas_page *page)
     TRY(put_means(page, FRACAS_MEANS_SIZE, &left_out));
     TRY(put_means(page, FRACAS_MEANS_NORMALISED, &left_out));
     TRY(put_means(page, FRACAS_MEANS_COUNT, &left_out));
+    for (size_t i = 0; i < page->analysis->nordinates; i++)
+        TRY(put_ordinate(page, &page->analysis->ordinate[i], &left_out));
     fracas_page_grid_end(page);
     if (left_out > 0)
         fprintf(page->out,
@@ -218,10 +233,12 @@ static void put_decisions(const fracas_page *page)
 fracas_err fracas_section_results(fracas_page *page)
 {
     char beside[768];
+    fracas_legend legend;
     fracas_result_table table = {0};
     const fracas_err built = fracas_result_table_create(page->analysis, true, &table);
-    TRY(fracas_page_table(page, "results", "Results, a line a point", true, &table,
-                          fracas_result_table_legend(page->analysis), built));
+    fracas_result_table_legend(page->analysis, &legend);
+    TRY(fracas_page_table(page, "results", "Results, a line a point", true, &table, legend.line,
+                          built));
     if (fracas_result_table_beside(page->analysis, beside, sizeof beside))
         fracas_markup(page->out, "<p id=\"beside\">%s</p>\n", beside);
     put_decisions(page);

@@ -143,7 +143,7 @@ static fracas_err make_headlines(const fracas_analysis *analysis, fracas_result_
         {"point", "", FRACAS_CELL_FORMAT, .format = point_text},
         {"n", "", FRACAS_CELL_INTEGER, AT(usable)},
         {"fragments", "", FRACAS_CELL_ESTIMATE, AT(count)},
-        {"mean size", "m", FRACAS_CELL_ESTIMATE, AT(size), .prefixed = 1},
+        {"mean size", "m", FRACAS_CELL_ESTIMATE, AT(size), .prefixed = true},
         [RATIO] = {"size", "/ZMR", FRACAS_CELL_ESTIMATE, AT(size), 0, AT(law[FRACAS_LAW_ZMR])},
     };
 #undef AT

@@ -117,7 +117,8 @@ static fracas_err analyse(const char *study, const fracas_hash *campaign,
     for (size_t p = 0; p < npoints; p++) TRY(fracas_point_statistics_finish(&analysis->point[p]));
     TRY(read_histories(analysis));
     TRY(fracas_analysis_choose_points(analysis));
-    return fracas_means_axes_create(analysis, NULL, NULL, &analysis->axes);
+    TRY(fracas_means_axes_create(analysis, NULL, NULL, &analysis->axes));
+    return fracas_analysis_ordinates(analysis, NULL);
 }
 
 fracas_err fracas_analysis_create(const char *study, const fracas_hash *campaign,
@@ -152,6 +153,12 @@ fracas_err fracas_analysis_axes(fracas_analysis *analysis, const char *x, const 
 {
     fracas_means_axes_clear(&analysis->axes);
     return fracas_means_axes_create(analysis, x, series, &analysis->axes);
+}
+
+fracas_err fracas_analysis_ordinates(fracas_analysis *analysis, const char *list)
+{
+    analysis->asked = list != NULL;
+    return fracas_ordinates_find(analysis, list, analysis->ordinate, &analysis->nordinates);
 }
 
 /* ---- how far it is ---- */

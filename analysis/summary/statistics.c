@@ -2,7 +2,7 @@
 #include "analysis/summary/statistics.h"
 
 #include "analysis/data/columns.h"
-#include "analysis/data/ring.h"
+#include "analysis/summary/numbers.h"
 
 #include <gsl/gsl_sort.h>
 #include <math.h>
@@ -17,7 +17,7 @@
     FRACAS_FIELD(fracas_point_statistics, INTEGER, key, "1", doc, member)
 #define INTERVAL(key, unit, doc, member) \
     FRACAS_FIELD_OF(fracas_point_statistics, fracas_interval_fields, key, unit, doc, member)
-#define ESTIMATE(key, unit, doc) \
+#define ESTIMATE(key, unit, doc, ...) \
     {#key, FRACAS_FIELD_OBJECT, unit, doc, PLACE(key), &fracas_estimate_fields},
 #define CONVERGED(name, key, unit)                      \
     {"converged." key, FRACAS_FIELD_INTEGER, "1",       \
@@ -175,51 +175,6 @@ double fracas_point_statistics_size(const fracas_point_statistics *statistics, i
     return statistics->surface ? mean : statistics->length / (double)fragments;
 }
 
-/* Kinetic energy of the centres of mass [J]  (estimators.12) */
-static double translation_of(const fracas_record *record)
-{
-    double sum = 0;
-    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment; f++)
-        for (int i = 0; i < 3; i++) sum += 0.5 * f->mass * f->velocity[i] * f->velocity[i];
-    return sum;
-}
-
-/* Kinetic energy of the spins [J]  (estimators.13) */
-static double rotation_of(const fracas_record *record)
-{
-    double sum = 0;
-    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment; f++)
-        for (int i = 0; i < 3; i++) sum += 0.5 * f->angular_momentum[i] * f->spin[i];
-    return sum;
-}
-
-/* Mean of s_1/s_2 of the fragments without dust; NaN without any  (fragments.7) */
-static double aspect_of(const fracas_record *record)
-{
-    double sum = 0;
-    size_t count = 0;
-    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment;
-         f++) {
-        if (f->dust) continue;
-        sum += f->semi_axis[0] / f->semi_axis[1];
-        count++;
-    }
-    return count ? sum / (double)count : NAN;
-}
-
-/* The fragment of most mass, the first of several; NULL without any. */
-static const fracas_fragment *largest_of(const fracas_record *record, double *mass)
-{
-    const fracas_fragment *largest = record->fragment;
-    *mass = 0;
-    for (const fracas_fragment *f = record->fragment; f < record->fragment + record->nfragment;
-         f++) {
-        if (f->mass > largest->mass) largest = f;
-        *mass += f->mass;
-    }
-    return record->nfragment ? largest : NULL;
-}
-
 /* Against the largest energy of any kind at the end. */
 static void add_balance(fracas_point_statistics *statistics, const fracas_record *record)
 {
@@ -255,31 +210,7 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
         statistics->kept_at[0] = fmin(statistics->kept_at[0], record->end_time);
         statistics->kept_at[1] = fmax(statistics->kept_at[1], record->end_time);
     }
-    const fracas_ring_motion still = {NAN, NAN, NAN, NAN},
-                             motion = statistics->radius > 0
-                                          ? fracas_ring_motion_of(record, statistics->radius)
-                                          : still;
-    const bool flies = statistics->surface && record->nfragment > 1;
-    double mass;
-    const fracas_fragment *largest = largest_of(record, &mass);
-    const fracas_replica_values value = {
-        .count = (double)record->fragments,
-        .count_large = (double)(record->fragments - record->fragments_dust),
-        .size = fracas_point_statistics_size(statistics, record->fragments,
-                                             fracas_record_mean_size(record)),
-        .dissipated = record->dissipated,
-        .dissipated_bending = record->dissipated_bending,
-        .onset_time = record->onset_time,
-        .radial_velocity = motion.radial,
-        .radial_scatter = motion.scatter,
-        .circumferential_velocity = motion.circumferential,
-        .angular_velocity = motion.spin,
-        .translation = flies ? translation_of(record) : NAN,
-        .rotation = flies ? rotation_of(record) : NAN,
-        .largest_size = largest ? largest->size : NAN,
-        .largest_share = largest ? largest->mass / mass : NAN,
-        .aspect = aspect_of(record),
-    };
+    const fracas_replica_values value = fracas_numbers_of(statistics, record);
     TRY(fracas_ensemble_add(&statistics->ensemble, row, replica, &value, record));
     add_balance(statistics, record);
     fracas_final_add(&statistics->final, record);
@@ -351,7 +282,7 @@ fracas_err fracas_point_statistics_finish(fracas_point_statistics *statistics)
     const fracas_replica_values nothing = {0};
     const fracas_replica_values *first = ensemble->nrealizations ? ensemble->value : &nothing;
     const size_t n = ensemble->nrealizations, stride = FRACAS_REPLICA_STRIDE;
-#define MEAN(key, unit, doc) statistics->key = fracas_estimate_of(&first->key, stride, n);
+#define MEAN(key, unit, doc, ...) statistics->key = fracas_estimate_of(&first->key, stride, n);
     FRACAS_REALIZATION_NUMBERS(MEAN)
     double nearest = INFINITY;
     for (size_t i = 0; i < n; i++) {

@@ -38,7 +38,9 @@ typedef struct {
      * something. */
     int64_t realizations, usable, unusable;
     int64_t outcome[FRACAS_NOUTCOMES];
-#define FRACAS_MEMBER(key, unit, doc) fracas_estimate key; /* mean over usable realizations */
+#define FRACAS_MEMBER(key, unit, doc, ...)                \
+    fracas_estimate key; /* mean over usable realizations \
+                          */
     FRACAS_REALIZATION_NUMBERS(FRACAS_MEMBER)
 #undef FRACAS_MEMBER
     int64_t kept;      /* TIME_LIMIT before time.end: they lost their energy balance later ... */

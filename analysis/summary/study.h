@@ -7,6 +7,7 @@
 #include "analysis/data/columns.h"
 #include "analysis/data/text.h"
 #include "analysis/summary/axes.h"
+#include "analysis/summary/ordinates.h"
 #include "analysis/summary/statistics.h"
 #include "campaigns/store/results.h"
 
@@ -14,8 +15,11 @@ struct fracas_analysis {
     char *name; /* for the study's folder */
     fracas_file_header header;
     const fracas_point_table *table;
-    fracas_columns shown;           /* columns by which the points differ */
-    fracas_means_axes axes;         /* for the figures of means */
+    fracas_columns shown;   /* columns by which the points differ */
+    fracas_means_axes axes; /* for the figures of means */
+    bool asked;             /* for the ordinates, by a user */
+    size_t nordinates;      /* statistics drawn against them, beside size and count */
+    fracas_ordinate ordinate[FRACAS_MOST_ORDINATES];
     bool *drawn;                    /* points with figures of their own; NULL: all */
     fracas_point_statistics *point; /* table->npoints of them */
     fracas_decision *decision; /* last of each point; replicas 0: they were given, NULL: all were */

@@ -361,6 +361,15 @@ static void write_report(fracas_json *json)
     begin_object(json, "report");
     write_type(json, "x", "string");
     write_type(json, "series", "string");
+    fracas_json_object(json, "y");
+    fracas_json_array(json, "anyOf");
+    write_type(json, NULL, "string");
+    fracas_json_object(json, NULL);
+    fracas_json_text(json, "type", "array");
+    write_type(json, "items", "string");
+    fracas_json_close(json);
+    fracas_json_close(json);
+    fracas_json_close(json);
     fracas_json_close(json);
     fracas_json_text(json, "description", "keys of the figures of means in the report; in no hash");
     fracas_json_close(json);

@@ -5,7 +5,12 @@
 
 #include <string.h>
 
-static const char *const key_names[] = {"x", "series", NULL};
+static const char *const key_names[] = {"x", "series", "y", NULL};
+
+static bool is_key(const char *text)
+{
+    return *text && !text[strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789_.")];
+}
 
 static fracas_err read_key(const fracas_file *file, const fracas_node *node, const char *key,
                            const char **value)
@@ -13,11 +18,33 @@ static fracas_err read_key(const fracas_file *file, const fracas_node *node, con
     const fracas_node *found = fracas_node_find(node, key);
     if (!found) return FRACAS_OK;
     const char *text = fracas_node_text(found);
-    if (!*text || text[strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789_.")])
+    if (!is_key(text))
         return fracas_file_expected(file, found, key,
                                     "the path of a parameter, as strength.shape, or of `x` the key "
                                     "of a statistic, as size.mean");
     *value = text;
+    return FRACAS_OK;
+}
+
+/* A key, or a list of them, as "a,b". */
+static fracas_err read_statistics(const fracas_file *file, const fracas_node *node,
+                                  const char **value)
+{
+    const fracas_node *found = fracas_node_find(node, "y");
+    size_t size = 1;
+    if (!found) return FRACAS_OK;
+    const fracas_node *first = found->type == FRACAS_LIST ? found->first : found;
+    for (const fracas_node *one = first; one; one = one == found ? NULL : one->next) {
+        if (!is_key(fracas_node_text(one)))
+            return fracas_file_expected(
+                file, one, "y", "the key of a statistic, as aspect, or [aspect, onset_time]");
+        size += strlen(one->text) + 1;
+    }
+    char *text = fracas_memory_take(file->memory, size, 1);
+    if (!text) return fracas_no_memory("the campaign file");
+    if (first) *value = text;
+    for (const fracas_node *one = first; one; one = one == found ? NULL : one->next)
+        text += sprintf(text, "%s%s", one == first ? "" : ",", one->text);
     return FRACAS_OK;
 }
 
@@ -30,7 +57,8 @@ fracas_err fracas_report_keys_read(const fracas_file *file, const fracas_node *n
     bool unknown;
     TRY(fracas_file_check_keys(file, node, key_names, "`report`", &unknown));
     TRY(fracas_file_note(file, read_key(file, node, "x", &keys->x)));
-    return read_key(file, node, "series", &keys->series);
+    TRY(fracas_file_note(file, read_key(file, node, "series", &keys->series)));
+    return read_statistics(file, node, &keys->y);
 }
 
 /* True of "strength.shape", a key of a section. */
@@ -72,8 +100,12 @@ fracas_err fracas_report_keys_check(const fracas_file *file, const fracas_report
 
 void fracas_report_keys_write(const fracas_report_keys *keys, FILE *out)
 {
-    if (!keys->x && !keys->series) return;
-    fprintf(out, "report: {%s%s%s%s%s}\n", keys->x ? "x: " : "", keys->x ? keys->x : "",
-            keys->x && keys->series ? ", " : "", keys->series ? "series: " : "",
-            keys->series ? keys->series : "");
+    const char *between = "report: {";
+    if (keys->x) fprintf(out, "%sx: %s", between, keys->x), between = ", ";
+    if (keys->series) fprintf(out, "%sseries: %s", between, keys->series), between = ", ";
+    for (const char *y = keys->y; y; y = strchr(y, ',') ? strchr(y, ',') + 1 : NULL) {
+        fprintf(out, "%s%s%.*s", y == keys->y ? between : ", ", y == keys->y ? "y: [" : "",
+                (int)strcspn(y, ","), y);
+    }
+    if (keys->x || keys->series || keys->y) fputs(keys->y ? "]}\n" : "}\n", out);
 }

@@ -145,6 +145,107 @@ static void other_parameters_make_small_multiples(void **state)
     clear(&of);
 }
 
+/* The value of a statistic, and the ends of its interval, at point 0. */
+static void assert_ordinate(const made *of, size_t number, const char *key, const char *words,
+                            double value, double low, double high)
+{
+    const fracas_ordinate *ordinate = &of->analysis.ordinate[number];
+    double from, to;
+    assert_string_equal(ordinate->key, key);
+    assert_string_equal(ordinate->words, words);
+    assert_true(fracas_ordinate_at(ordinate, of->point, &from, &to) == value);
+    assert_true(from == low || (isnan(from) && isnan(low)));
+    assert_true(to == high || (isnan(to) && isnan(high)));
+}
+
+/* Means of numbers, intervals of pooled fragments, and plain statistics, real and whole. */
+static void statistics_are_ordinates(void **state)
+{
+    static made of;
+    make(2, 3, 1, &of);
+    of.point->aspect = (fracas_estimate){4, 1.5, 0.1, 0.25};
+    of.point->pooled.all.mass_mean = (fracas_interval){2e-3, 1e-3, 4e-3, 0};
+    of.point->dust_share = 0.125;
+    of.point->usable = 7;
+    OK(fracas_analysis_ordinates(&of.analysis, "aspect,fragment.mass_mean,dust_share,usable"));
+    assert_int_equal(of.analysis.nordinates, 4);
+    assert_ordinate(&of, 0, "aspect", "aspect ratio of the fragments without dust", 1.5, 1.25,
+                    1.75);
+    assert_ordinate(&of, 1, "fragment.mass_mean", "mean size, weighed by mass, of all fragments",
+                    2e-3, 1e-3, 4e-3);
+    assert_ordinate(&of, 2, "dust_share", "dust fragments / all fragments", 0.125, NAN, NAN);
+    assert_ordinate(&of, 3, "usable", "realizations that ended FRAGMENTED, INTACT or TIME_LIMIT", 7,
+                    NAN, NAN);
+    assert_true(of.analysis.ordinate[0].over && !of.analysis.ordinate[1].over);
+    OK(fracas_analysis_ordinates(&of.analysis, "aspect.mean,fragment.mass_mean.value"));
+    assert_ordinate(&of, 0, "aspect", "aspect ratio of the fragments without dust", 1.5, 1.25,
+                    1.75);
+    assert_ordinate(&of, 1, "fragment.mass_mean", "mean size, weighed by mass, of all fragments",
+                    2e-3, 1e-3, 4e-3);
+    OK(fracas_analysis_ordinates(&of.analysis, NULL)); /* nothing was dissipated */
+    assert_int_equal(of.analysis.nordinates, 0);
+    of.point[5].dissipated = (fracas_estimate){4, 1e-3, 1e-5, 1e-5};
+    OK(fracas_analysis_ordinates(&of.analysis, NULL));
+    assert_int_equal(of.analysis.nordinates, 1);
+    assert_string_equal(of.analysis.ordinate->key, "dissipated");
+    clear(&of);
+}
+
+static void wrong_ordinates_are_refused(void **state)
+{
+    static made of;
+    make(2, 3, 1, &of);
+    fracas_analysis *analysis = &of.analysis;
+    FAILS(fracas_analysis_ordinates(analysis, "aspect,aspct"), FRACAS_USAGE,
+          "y of the figures, `aspect,aspct`: `aspct` is no statistic; summary.json has them");
+    FAILS(fracas_analysis_ordinates(analysis, "aspect,"), FRACAS_USAGE, "`` is no statistic");
+    FAILS(fracas_analysis_ordinates(analysis, "fragment"), FRACAS_USAGE, "is no statistic");
+    FAILS(fracas_analysis_ordinates(analysis, "strength.shape"), FRACAS_USAGE, "is no statistic");
+    FAILS(fracas_analysis_ordinates(analysis, "size.mean"), FRACAS_USAGE,
+          "every report draws `size`; leave it out");
+    FAILS(fracas_analysis_ordinates(analysis,
+                                    "drift,drift,drift,drift,drift,drift,drift,drift,drift,drift,"
+                                    "drift,drift,drift"),
+          FRACAS_USAGE, "at most 12 statistics");
+    clear(&of);
+}
+
+/* Marks with their intervals, joined by a line also against the rate; points without the number
+ * have no mark; no mark lies on the frame. */
+static void ordinates_have_figures(void **state)
+{
+    static made of;
+    FRACAS_CLEARED(fracas_charts) charts = {0};
+    make(2, 3, 1, &of);
+    for (size_t p = 0; p < 6; p++)
+        of.point[p].onset_time = (fracas_estimate){4, 1e-6 * (double)(p + 1), 1e-7, 1e-7};
+    of.point[4].onset_time.mean = NAN;
+    assert_axes(&of, NULL, NULL, "derived.strain_rate by strength.shape");
+    OK(fracas_analysis_ordinates(&of.analysis, "onset_time"));
+    OK(fracas_figure_ordinate(&of.analysis, of.analysis.ordinate, &charts));
+    assert_int_equal(charts.count, 1);
+    const fracas_chart *chart = charts.chart;
+    assert_string_equal(chart->title, "Time of first onset against strain rate");
+    assert_string_equal(chart->file, "onset-time-against-rate");
+    assert_string_equal(chart->panel->y.label, "time of first onset [\u00b5s]");
+    assert_true(strstr(chart->caption, "Mean over replicas of the time of first onset (n = 4)"));
+    assert_true(chart->panel->x.log && !chart->panel->y.log);
+    assert_true(chart->panel->y.show[0] < 1 && chart->panel->y.show[1] > 6);
+    assert_int_equal(chart->panel->nseries, 6);
+    for (size_t s = 0; s < 3; s++) {
+        const fracas_series *marks = &chart->panel->series[2 * s], *line = marks + 1;
+        assert_true(marks->kind == FRACAS_MARKS && line->kind == FRACAS_CURVE);
+        assert_int_equal(marks->n, s == 1 ? 1 : 2);
+        for (size_t i = 0; i < marks->n; i++) {
+            const double value = (double)(s + 3 * i + 1); /* us; three roundings */
+            assert_true(fabs(marks->y[i] - value) < 1e-14 * value);
+            assert_true(fabs(marks->low[i] - (value - 0.1)) < 1e-14 * value);
+            assert_true(fabs(marks->high[i] - (value + 0.1)) < 1e-14 * value);
+        }
+    }
+    clear(&of);
+}
+
 /* Eight moduli against the rate: six series in one drawing, two in the next, each in its own
  * colour. */
 static void six_series_are_the_most(void **state)
@@ -194,4 +295,5 @@ static void every_parameter_has_words(void **state)
 }
 
 TESTS(axes_are_chosen_by_what_varies, wrong_keys_name_those_that_vary,
-      other_parameters_make_small_multiples, six_series_are_the_most, every_parameter_has_words)
+      other_parameters_make_small_multiples, statistics_are_ordinates, wrong_ordinates_are_refused,
+      ordinates_have_figures, six_series_are_the_most, every_parameter_has_words)

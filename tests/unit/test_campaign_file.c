@@ -491,6 +491,16 @@ static void test_report_keys(void **state)
     assert_null(strstr(bare, "report"));
     OWN(fracas_campaign) back = read_text(text);
     assert_string_equal(back->report.series, "loading.rate");
+    assert_null(back->report.y);
+    snprintf(put, sizeof put, "%sreport: {x: size.mean, y: [aspect, onset_time]}\n", sweep);
+    OWN(fracas_campaign) list = read_replaced("", put);
+    assert_string_equal(list->report.y, "aspect,onset_time");
+    OWNED char *listed = write_text(list);
+    assert_has(listed, "\nreport: {x: size.mean, y: [aspect, onset_time]}\n");
+    snprintf(put, sizeof put, "%sreport: {y: aspect}\n", sweep);
+    OWN(fracas_campaign) one = read_replaced("", put);
+    OWNED char *alone = write_text(one);
+    assert_has(alone, "\nreport: {y: [aspect]}\n");
 }
 
 /* A file that cannot be written is said. */
