@@ -129,8 +129,12 @@ FRACAS_MUST_USE fracas_err fracas_cli_check_study(const char *study);
 FRACAS_MUST_USE fracas_err fracas_cli_read_campaign(const char *study,
                                                     struct fracas_campaign **campaign);
 
-/* The analysis of a study by its campaign, partial or not; the campaign must outlive it. Both are
- * destroyed by the caller, after an error too. */
+/* True of a folder with a study.h5 that is read as it is: there is no campaign.yaml, or the file is
+ * of an earlier format version, and this program may understand its campaign file otherwise. */
+bool fracas_cli_alone(const char *study);
+
+/* The analysis of a study by its campaign, partial or not; the campaign must outlive it, and is
+ * NULL of a study.h5 alone. Both are destroyed by the caller, after an error too. */
 struct fracas_analysis;
 FRACAS_MUST_USE fracas_err fracas_cli_analyse(const char *study, struct fracas_campaign **campaign,
                                               struct fracas_analysis **analysis);

@@ -17,6 +17,8 @@ static const fracas_option options[] = {
 static fracas_err read_common(const char *study, bool *common)
 {
     OWN(fracas_campaign) campaign = NULL;
+    *common = false;
+    if (fracas_cli_alone(study)) return FRACAS_OK;
     TRY(fracas_cli_read_campaign(study, &campaign));
     *common = campaign->common_random_numbers;
     return FRACAS_OK;
@@ -44,7 +46,7 @@ static fracas_err compare(const fracas_arguments *arguments)
     OWN(fracas_campaign) of_b = NULL;
     OWN(fracas_analysis) a = NULL;
     OWN(fracas_analysis) b = NULL;
-    TRY(fracas_cli_check_study(arguments->second));
+    if (!fracas_cli_alone(arguments->second)) TRY(fracas_cli_check_study(arguments->second));
     TRY(fracas_cli_analyse(arguments->operand, &of_a, &a));
     TRY(fracas_cli_analyse(arguments->second, &of_b, &b));
     return print(arguments, a, b);

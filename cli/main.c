@@ -15,6 +15,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 const fracas_command *const fracas_commands[] = {
@@ -83,12 +84,34 @@ static fracas_err run(const fracas_arguments *arguments)
     return arguments->command->run_on(arguments, campaign);
 }
 
+/* The folder of FOLDER/study.h5, where an operand names the file in place of the study; freed by
+ * the caller. */
+static fracas_err take_folder(const char **operand, char **folder)
+{
+    static const char name[] = "study.h5";
+    struct stat status;
+    *folder = NULL;
+    if (!*operand || stat(*operand, &status) || !S_ISREG(status.st_mode)) return FRACAS_OK;
+    const char *base = strrchr(*operand, '/'), *file = base ? base + 1 : *operand;
+    if (strcmp(file, name) != 0) return FRACAS_OK;
+    *folder = base == *operand ? strdup("/")
+              : base           ? strndup(*operand, (size_t)(base - *operand))
+                               : strdup(".");
+    *operand = *folder;
+    return *folder ? FRACAS_OK : fracas_no_memory("the name of a folder");
+}
+
 static fracas_err run_command(int argc, char **argv)
 {
+    OWNED char *first = NULL, *second = NULL;
     const fracas_command *command;
     fracas_arguments arguments;
     TRY(fracas_command_find(argv[1], &command));
     TRY(fracas_arguments_read(command, argc, argv, &arguments));
+    if (command->operand && (command->second || !strcmp(command->operand, "STUDY"))) {
+        TRY(take_folder(&arguments.operand, &first));
+        TRY(take_folder(&arguments.second, &second));
+    }
     if (!arguments.help) return run(&arguments);
     print_help(command);
     return FRACAS_OK;

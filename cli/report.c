@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/status/describe.h"
+#include "campaigns/store/store.h"
 #include "cli/look.h"
 
 #include <errno.h>
@@ -53,9 +54,21 @@ fracas_err fracas_cli_read_campaign(const char *study, fracas_campaign **campaig
                         "campaign file it was made from, or restore it");
 }
 
+bool fracas_cli_alone(const char *study)
+{
+    char file[PATH_MAX], campaign[PATH_MAX];
+    uint64_t version;
+    snprintf(file, sizeof file, "%s/study.h5", study);
+    snprintf(campaign, sizeof campaign, "%s/campaign.yaml", study);
+    if (access(file, F_OK)) return false;
+    if (access(campaign, F_OK) && errno == ENOENT) return true;
+    return !fracas_file_version(file, &version) && version < FRACAS_FORMAT_VERSION;
+}
+
 fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign,
                               fracas_analysis **analysis)
 {
+    if (fracas_cli_alone(study)) return fracas_analysis_create(study, NULL, NULL, analysis);
     TRY(fracas_cli_read_campaign(study, campaign));
     return fracas_analysis_create(study, &(*campaign)->hash, &(*campaign)->table, analysis);
 }

@@ -17,8 +17,9 @@ typedef struct fracas_results fracas_results;
  * - study.h5 of this campaign beside a lost or damaged index: fracas_results_note says so.
  * FRACAS_INTERRUPTED if no realization is done yet. FRACAS_IN_USE if the index cannot be read while
  * a run has it (network filesystems). FRACAS_DAMAGED, saying how to go on, if there is neither a
- * study.h5 of this campaign nor an index. Both NULL: study.h5 as it is, whatever the index says;
- * FRACAS_DAMAGED if it is not there.
+ * study.h5 of this campaign nor an index. Both NULL: study.h5 as it is, whatever the index says,
+ * also of format versions from FRACAS_FORMAT_OLDEST on, with a note; FRACAS_DAMAGED if it is not
+ * there.
  */
 FRACAS_MUST_USE fracas_err fracas_results_open(const char *study, const fracas_hash *campaign,
                                                const fracas_point_table *table,

@@ -25,6 +25,7 @@
 /* ---- one HDF5 file: a segment or a study, same schema (docs/formats/study.md) ---- */
 
 #define FRACAS_FORMAT_VERSION 5 /* 4 had no shapes of fragments, 3 no damped, 2 no friction */
+#define FRACAS_FORMAT_OLDEST 3  /* the first that fracas_reader_open_old reads */
 
 typedef struct {
     fracas_hash campaign; /* campaign hash */
@@ -32,6 +33,7 @@ typedef struct {
     int64_t history;  /* as the campaign's output options say: equal intervals of time.end, */
     bool interfaces;  /* and whether the file has an /interface group */
     char version[32]; /* program version */
+    int64_t format;   /* format version of a file that was read; a writer has its own */
     bool complete;    /* every realization of every point in the file is present */
 } fracas_file_header;
 
@@ -108,6 +110,9 @@ FRACAS_OWNER(fracas_writer, fracas_writer_abandon)
 FRACAS_MUST_USE fracas_err fracas_file_version(const char *path, uint64_t *version);
 /* FRACAS_DAMAGED if it is not a fracas file of a known format version, naming the file. */
 FRACAS_MUST_USE fracas_err fracas_reader_open(const char *path, fracas_reader **reader);
+/* The same, also of format versions from FRACAS_FORMAT_OLDEST on, to look at and not to go on with:
+ * what these had not yet is NaN, or 0 of whole numbers (fracas_store_column, `since`). */
+FRACAS_MUST_USE fracas_err fracas_reader_open_old(const char *path, fracas_reader **reader);
 /* The same for records with these parts at most (FRACAS_READ_...), in half the time or less: the
  * table of points has hashes and replicas but no columns, and there are no decisions or meshes. */
 FRACAS_MUST_USE fracas_err fracas_reader_open_records(const char *path, unsigned parts,

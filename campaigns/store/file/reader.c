@@ -62,17 +62,27 @@ fracas_err fracas_file_version(const char *path, uint64_t *version)
     return err;
 }
 
+/* Format versions from `oldest` on. */
+static fracas_err read_version(fracas_reader *reader, uint64_t oldest)
+{
+    uint64_t version;
+    char from[24] = "";
+    TRY(fracas_h5_get_integer(&reader->h5, "/", "format_version", H5T_STD_I32LE, &version));
+    if (oldest < FRACAS_FORMAT_VERSION) snprintf(from, sizeof from, "%d to ", (int)oldest);
+    if (version < oldest || version > FRACAS_FORMAT_VERSION)
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s has format version %llu; this program reads %s%d: use the program "
+                           "version that wrote it, or compute the study again in another folder",
+                           reader->path, (unsigned long long)version, from, FRACAS_FORMAT_VERSION);
+    reader->header.format = (int64_t)version;
+    return FRACAS_OK;
+}
+
 static fracas_err read_header(fracas_reader *reader)
 {
-    uint64_t version, history;
+    uint64_t history;
     char hex[FRACAS_HASH_HEX];
     fracas_file_header *header = &reader->header;
-    TRY(fracas_h5_get_integer(&reader->h5, "/", "format_version", H5T_STD_I32LE, &version));
-    if (version != FRACAS_FORMAT_VERSION)
-        return fracas_fail(FRACAS_DAMAGED,
-                           "%s has format version %llu; this program reads %d: use the program "
-                           "version that wrote it, or compute the study again in another folder",
-                           reader->path, (unsigned long long)version, FRACAS_FORMAT_VERSION);
     TRY(read_text_attribute(reader, "campaign", sizeof hex, hex));
     if (!fracas_hash_parse(hex, &header->campaign))
         return damaged(reader, "campaign", "it is no hash");
@@ -85,12 +95,19 @@ static fracas_err read_header(fracas_reader *reader)
     return read_truth(reader, "complete", &header->complete);
 }
 
+/* True of a column that files of its format version have not. */
+static bool lacks(const fracas_reader *reader, const fracas_store_column *column)
+{
+    return column->since > reader->header.format;
+}
+
 static fracas_err open_set(fracas_reader *reader, int s)
 {
     const fracas_store_set *schema = &fracas_store_sets[s];
     set_reader *set = &reader->set[s];
     for (size_t c = 0; c < schema->ncolumns; c++) {
         uint64_t rows;
+        if (lacks(reader, &schema->column[c])) continue;
         TRY(fracas_h5_open_column(&reader->h5, &schema->column[c], schema->chunk, &set->dataset[c],
                                   &rows));
         if (c > 0 && rows != set->rows)
@@ -164,7 +181,8 @@ static fracas_err open_rest(fracas_reader *reader)
     return open_meshes(reader);
 }
 
-static fracas_err open_file(const char *path, unsigned parts, bool all, fracas_reader **reader)
+static fracas_err open_file(const char *path, unsigned parts, bool all, int oldest,
+                            fracas_reader **reader)
 {
     OWN(fracas_reader) new = calloc(1, sizeof *new);
     *reader = NULL;
@@ -173,6 +191,7 @@ static fracas_err open_file(const char *path, unsigned parts, bool all, fracas_r
     new->path = strdup(path);
     if (!new->path) return fracas_no_memory("a file");
     TRY(fracas_h5_open(&new->h5, new->path));
+    TRY(read_version(new, (uint64_t)oldest));
     TRY(read_header(new));
     TRY(all ? fracas_table_read(&new->h5, &new->points)
             : fracas_table_read_points(&new->h5, &new->points));
@@ -185,12 +204,17 @@ static fracas_err open_file(const char *path, unsigned parts, bool all, fracas_r
 
 fracas_err fracas_reader_open(const char *path, fracas_reader **reader)
 {
-    return open_file(path, FRACAS_READ_ALL, true, reader);
+    return open_file(path, FRACAS_READ_ALL, true, FRACAS_FORMAT_VERSION, reader);
+}
+
+fracas_err fracas_reader_open_old(const char *path, fracas_reader **reader)
+{
+    return open_file(path, FRACAS_READ_ALL, true, FRACAS_FORMAT_OLDEST, reader);
 }
 
 fracas_err fracas_reader_open_records(const char *path, unsigned parts, fracas_reader **reader)
 {
-    return open_file(path, parts, false, reader);
+    return open_file(path, parts, false, FRACAS_FORMAT_VERSION, reader);
 }
 
 void fracas_reader_close(fracas_reader *reader)
@@ -236,6 +260,7 @@ static fracas_err read_block(fracas_reader *reader, int s, uint64_t row)
     set->count = 0;
     for (size_t c = 0; c < schema->ncolumns; c++) {
         const fracas_store_column *column = &schema->column[c];
+        if (lacks(reader, column)) continue;
         if (!set->stored[c]) set->stored[c] = malloc(block * fracas_stored_size(column));
         if (!set->stored[c]) return fracas_no_memory("the columns of a file");
         TRY(fracas_h5_read_rows(&reader->h5, column, set->dataset[c], first, count,
@@ -259,8 +284,10 @@ static fracas_err load_rows(fracas_reader *reader, int s, uint64_t first, size_t
         size_t take = count < there ? count : there;
         for (size_t c = 0; c < schema->ncolumns; c++) {
             const fracas_store_column *column = &schema->column[c];
-            fracas_rows_load(column, set->stored[c] + at * fracas_stored_size(column), take, to,
-                             schema->row_size);
+            if (lacks(reader, column)) fracas_rows_lack(column, take, to, schema->row_size);
+            else
+                fracas_rows_load(column, set->stored[c] + at * fracas_stored_size(column), take, to,
+                                 schema->row_size);
         }
         first += take;
         count -= take;

@@ -4,41 +4,47 @@
 #include "base/param.h"
 #include "campaigns/store/store.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
 /* A column; its values in memory, of 8 bytes each, are a member of the row's struct. */
-#define COLUMN(group, name, type, unit, meaning, row, member)                                 \
+#define COLUMN(group, name, type, unit, meaning, row, member, since)                          \
     {                                                                                         \
         "/" group "/" #name, FRACAS_##type, sizeof(((row *)NULL)->member) / 8, unit, meaning, \
-            offsetof(row, member)                                                             \
+            offsetof(row, member), since                                                      \
     }
 #define REALIZATION(name, type, unit, meaning) \
-    COLUMN("realization", name, type, unit, meaning, fracas_stored_realization, name)
-#define RECORD(name, type, unit, meaning) \
-    COLUMN("realization", name, type, unit, meaning, fracas_stored_realization, record.name)
-#define FRAGMENT(name, type, unit, meaning) \
-    COLUMN("fragment", name, type, unit, meaning, fracas_fragment, name)
+    COLUMN("realization", name, type, unit, meaning, fracas_stored_realization, name, 0)
+#define RECORD_SINCE(since, name, type, unit, meaning) \
+    COLUMN("realization", name, type, unit, meaning, fracas_stored_realization, record.name, since)
+#define RECORD(name, type, unit, meaning) RECORD_SINCE(0, name, type, unit, meaning)
+#define FRAGMENT_SINCE(since, name, type, unit, meaning) \
+    COLUMN("fragment", name, type, unit, meaning, fracas_fragment, name, since)
+#define FRAGMENT(name, type, unit, meaning) FRAGMENT_SINCE(0, name, type, unit, meaning)
 #define SEMI_AXIS(number, meaning)                                                       \
     COLUMN("fragment", semi_axis_##number, FLOAT64, "m", meaning " semi-axis" ELLIPSOID, \
-           fracas_fragment, semi_axis[number - 1])
+           fracas_fragment, semi_axis[number - 1], SHAPES)
 #define AXIS(number, meaning)                                                                      \
     COLUMN("fragment", axis_##number, FLOAT64, "1",                                                \
            "direction (x, y, z) of semi_axis_" #number ", a unit vector" meaning, fracas_fragment, \
-           axis[number - 1])
+           axis[number - 1], SHAPES)
 #define ELLIPSOID " of the homogeneous ellipsoid with its second moments at end_time"
-#define HISTORY(name, type, unit, meaning) \
-    COLUMN("history", name, type, unit, meaning, fracas_history_row, name)
+#define HISTORY_SINCE(since, name, type, unit, meaning) \
+    COLUMN("history", name, type, unit, meaning, fracas_history_row, name, since)
+#define HISTORY(name, type, unit, meaning) HISTORY_SINCE(0, name, type, unit, meaning)
 #define INTERFACE(name, type, unit, meaning) \
-    COLUMN("interface", name, type, unit, meaning, fracas_interface_row, name)
+    COLUMN("interface", name, type, unit, meaning, fracas_interface_row, name, 0)
 #define DECISION(name, type, stored, meaning) \
-    COLUMN("decision", name, stored, "1", meaning, fracas_decision, name),
+    COLUMN("decision", name, stored, "1", meaning, fracas_decision, name, 0),
 #define MESH(of, name, type, unit, meaning) \
-    COLUMN("mesh", of##_##name, type, unit, meaning, fracas_stored_##of, name)
+    COLUMN("mesh", of##_##name, type, unit, meaning, fracas_stored_##of, name, 0)
 
 /* The columns of an energy, in /realization and in /history. */
-#define AT_END(key, role, unit, meaning) RECORD(key, FLOAT64, unit, meaning AT_END_##role),
-#define SO_FAR(key, role, unit, meaning) HISTORY(key, FLOAT64, unit, meaning SO_FAR_##role),
+#define AT_END(key, role, unit, meaning) \
+    RECORD_SINCE(SINCE_##role, key, FLOAT64, unit, meaning AT_END_##role),
+#define SO_FAR(key, role, unit, meaning) \
+    HISTORY_SINCE(SINCE_##role, key, FLOAT64, unit, meaning SO_FAR_##role),
 #define AT_END_KINETIC " at end_time"
 #define AT_END_STORED " at end_time"
 #define AT_END_SINK " until end_time"
@@ -53,6 +59,16 @@
 #define SO_FAR_DAMPING " so far"
 #define SO_FAR_SOURCE " so far"
 #define SO_FAR_LOAD " so far"
+#define SINCE_KINETIC 0
+#define SINCE_STORED 0
+#define SINCE_SINK 0
+#define SINCE_PART 0
+#define SINCE_DAMPING SETTLED
+#define SINCE_SOURCE 0
+#define SINCE_LOAD 0
+
+/* Format versions that brought columns. */
+enum { SETTLED = 4, SHAPES = 5 };
 
 static const fracas_store_column realization[] = {
     REALIZATION(point, INT32, "1", "row of the realization's point in /point"),
@@ -63,8 +79,9 @@ static const fracas_store_column realization[] = {
            "counts 0)"),
     RECORD(fragments, INT64, "1", "fragments, dust included"),
     RECORD(fragments_dust, INT64, "1", "of those, dust"),
-    RECORD(fragments_held, INT64, "1",
-           "of those, pieces on an edge that moves with the load: these never stop breaking off"),
+    RECORD_SINCE(
+        SETTLED, fragments_held, INT64, "1",
+        "of those, pieces on an edge that moves with the load: these never stop breaking off"),
     RECORD(broken, INT64, "1", "interfaces opened to delta_c at every Gauss point"),
     RECORD(cracked, INT64, "1", "interfaces past onset, broken ones included"),
     RECORD(steps, INT64, "1", "time steps taken"),
@@ -75,18 +92,18 @@ static const fracas_store_column realization[] = {
     FRACAS_EACH_ENERGY(AT_END) RECORD(
         residual, FLOAT64, "J", "largest absolute value over the run of " FRACAS_ENERGY_BALANCE),
     RECORD(residual_end, FLOAT64, "J", "the same sum, signed, at end_time"),
-    RECORD(vibrating, FLOAT64, "J",
-           "elastic + cohesive + kinetic energy beside the rigid motion of each fragment, at "
-           "end_time"),
-    RECORD(transits, FLOAT64, "1",
-           "transits k of a mean fragment by a longitudinal wave since the first onset; of "
-           "fragments that are not held, as all of these"),
-    RECORD(growth, FLOAT64, "1",
-           "share Delta of the fragments that the last half of that time has added"),
-    RECORD(rest, FLOAT64, "1",
-           "breaks R still expected from the energies of the fragments; NaN of surfaces"),
-    RECORD(rest_variance, FLOAT64, "1", "variance of that number"),
-    RECORD(rest_bound, FLOAT64, "1", "breaks B that those energies can pay for"),
+    RECORD_SINCE(SETTLED, vibrating, FLOAT64, "J",
+                 "elastic + cohesive + kinetic energy beside the rigid motion of each fragment, at "
+                 "end_time"),
+    RECORD_SINCE(SETTLED, transits, FLOAT64, "1",
+                 "transits k of a mean fragment by a longitudinal wave since the first onset; of "
+                 "fragments that are not held, as all of these"),
+    RECORD_SINCE(SETTLED, growth, FLOAT64, "1",
+                 "share Delta of the fragments that the last half of that time has added"),
+    RECORD_SINCE(SETTLED, rest, FLOAT64, "1",
+                 "breaks R still expected from the energies of the fragments; NaN of surfaces"),
+    RECORD_SINCE(SETTLED, rest_variance, FLOAT64, "1", "variance of that number"),
+    RECORD_SINCE(SETTLED, rest_bound, FLOAT64, "1", "breaks B that those energies can pay for"),
     RECORD(momentum, FLOAT64, "kg m/s",
            "linear momentum (x, y, z) of the motion beside an imposed rate, half a time step after "
            "end_time"),
@@ -123,17 +140,19 @@ static const fracas_store_column fragment[] = {
     FRAGMENT(spin, FLOAT64, "rad/s",
              "angular velocity (x, y, z) of the rigid body of the same inertia with that angular "
              "momentum; 0 about an axis without inertia, and in a bar"),
-    FRAGMENT(volume, FLOAT64, "m3", "volume, before any motion"),
+    FRAGMENT_SINCE(SHAPES, volume, FLOAT64, "m3", "volume, before any motion"),
     SEMI_AXIS(1, "largest"),
     SEMI_AXIS(2, "middle"),
     SEMI_AXIS(3, "smallest"),
     AXIS(1, "; its largest component is positive"),
     AXIS(2, "; its largest component is positive"),
     AXIS(3, ", axis_1 x axis_2"),
-    FRAGMENT(extent, FLOAT64, "m", "largest distance of two of its nodes at end_time"),
-    FRAGMENT(crack_area, FLOAT64, "m2",
-             "area of its faces on broken interfaces, before any motion; of surfaces: their length "
-             "times the thickness"),
+    FRAGMENT_SINCE(SHAPES, extent, FLOAT64, "m",
+                   "largest distance of two of its nodes at end_time"),
+    FRAGMENT_SINCE(
+        SHAPES, crack_area, FLOAT64, "m2",
+        "area of its faces on broken interfaces, before any motion; of surfaces: their length "
+        "times the thickness"),
 };
 
 static const fracas_store_column history[] = {
@@ -311,6 +330,30 @@ void fracas_rows_load(const fracas_store_column *column, const void *stored, siz
             memcpy(row + 8 * w, &bits, 8);
         }
     }
+}
+
+void fracas_rows_lack(const fracas_store_column *column, size_t count, void *rows, size_t row_size)
+{
+    static const double nan = NAN;
+    static const int64_t zero = 0;
+    const void *none = column->type == FRACAS_FLOAT64 ? (const void *)&nan : &zero;
+    for (size_t r = 0; r < count; r++)
+        for (size_t w = 0; w < column->width; w++)
+            memcpy((char *)rows + r * row_size + column->offset + 8 * w, none, 8);
+}
+
+void fracas_store_lacks(int64_t format, char *text, size_t size)
+{
+    static const fracas_set_name sets[] = {FRACAS_SET_REALIZATION, FRACAS_SET_FRAGMENT};
+    size_t used = 0;
+    *text = '\0';
+    for (size_t i = 0; i < FRACAS_COUNT(sets); i++)
+        for (size_t c = 0; c < fracas_store_sets[sets[i]].ncolumns && used < size; c++) {
+            const fracas_store_column *column = &fracas_store_sets[sets[i]].column[c];
+            if (column->since > format)
+                used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
+                                         strrchr(column->path, '/') + 1);
+        }
 }
 
 static void reference_row(FILE *out, const fracas_store_column *column, size_t chunk)

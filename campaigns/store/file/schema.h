@@ -31,6 +31,7 @@ typedef struct {
     const char *unit; /* as UDUNITS-2 reads it; "" for text */
     const char *description;
     size_t offset; /* in memory: of the first value in the row's struct */
+    int since;     /* format version that brought it; 0: all have it */
 } fracas_store_column;
 
 /* A set of datasets, which grow together, row by row. */
@@ -111,6 +112,12 @@ size_t fracas_rows_store(const fracas_store_column *column, const void *rows, si
 /* The inverse. */
 void fracas_rows_load(const fracas_store_column *column, const void *stored, size_t count,
                       void *rows, size_t row_size);
+/* The same of a column that the file has not: NaN, or 0 of integers. */
+void fracas_rows_lack(const fracas_store_column *column, size_t count, void *rows, size_t row_size);
+
+/* Names of the columns of realizations and fragments that files of this format version have not,
+ * "damped, volume"; cut to `size`. */
+void fracas_store_lacks(int64_t format, char *text, size_t size);
 
 /* Bytes of a row of the set, and about those of a file with so many rows of each set (0: without
  * it) and the points of the table. A file has whole chunks: the smallest has a third of a megabyte.

@@ -2,6 +2,7 @@
 #include "campaigns/store/results.h"
 
 #include "campaigns/store/file/disk.h"
+#include "campaigns/store/file/schema.h"
 #include "campaigns/store/study/segments.h"
 
 #include <errno.h>
@@ -54,13 +55,26 @@ FRACAS_PRINTF(2, 3) static fracas_err take_note(fracas_results *results, const c
 
 /* ---- study.h5 ---- */
 
-static fracas_err open_file(const char *study, fracas_reader **reader)
+static fracas_err open_file(const char *study, bool old, fracas_reader **reader)
 {
     OWNED char *path = NULL;
     TRY(fracas_disk_join(study, "study.h5", &path));
     if (access(path, F_OK) && errno == ENOENT)
         return fracas_fail(FRACAS_DAMAGED, "%s is not there; `fracas run` makes it", path);
-    return fracas_reader_open(path, reader);
+    return old ? fracas_reader_open_old(path, reader) : fracas_reader_open(path, reader);
+}
+
+/* Names the columns of later format versions. */
+static fracas_err note_format(fracas_results *results)
+{
+    const fracas_file_header *header = fracas_reader_header(results->reader);
+    char lacking[512] = "";
+    if (header->format == FRACAS_FORMAT_VERSION) return FRACAS_OK;
+    fracas_store_lacks(header->format, lacking, sizeof lacking);
+    return take_note(results,
+                     "study.h5 is of fracas %s, format version %" PRId64
+                     ", which had no %s: what needs these is missing",
+                     header->version, header->format, lacking);
 }
 
 /* Takes study.h5 if it has every realization of the index; else leaves results->reader NULL. */
@@ -74,7 +88,7 @@ static fracas_err take_file(const char *study, fracas_index *index, const fracas
     if (!sealed) return FRACAS_OK;
     TRY(fracas_index_count(index, &counts));
     if (counts.planned || counts.leased) return FRACAS_OK;
-    TRY(open_file(study, &reader));
+    TRY(open_file(study, false, &reader));
     if (!fracas_hash_equal(&fracas_reader_header(reader)->campaign, campaign) ||
         (int64_t)fracas_reader_realizations(reader) != counts.realizations)
         return FRACAS_OK;
@@ -93,7 +107,7 @@ static fracas_err take_file_alone(const char *study, const fracas_hash *campaign
     TRY(fracas_disk_join(study, "study.h5", &path));
     if (access(path, F_OK) && errno == ENOENT)
         return fracas_fail(FRACAS_DAMAGED, "%s; and there is no %s/study.h5", why, study);
-    TRY(open_file(study, &results->reader));
+    TRY(open_file(study, false, &results->reader));
     if (!fracas_hash_equal(&fracas_reader_header(results->reader)->campaign, campaign))
         return fracas_fail(FRACAS_DAMAGED,
                            "%s; and %s/study.h5 is of another campaign than %s/campaign.yaml, from "
@@ -260,7 +274,8 @@ fracas_err fracas_results_open(const char *study, const fracas_hash *campaign,
         TRY(copy_table(table, new));
         TRY(open_by_index(study, campaign, new));
     } else {
-        TRY(open_file(study, &new->reader));
+        TRY(open_file(study, true, &new->reader));
+        TRY(note_format(new));
     }
     if (new->reader) TRY(read_facts(new));
     *results = new;

@@ -1,0 +1,113 @@
+# Studies of format versions 3 and 4 are read by every command that only looks at a study, with a note that names what they have not:
+# all other numbers are those of the same study in this version's format. No command goes on with one.
+. tests/support/campaigns.sh
+
+/usr/bin/python3 -c 'import h5py' 2>/dev/null || { echo "skipped: python3-h5py is not installed"; exit 0; }
+
+campaign small.yaml 3 '1e5, 2e5'
+expect 0 "$fracas" run small.yaml --study now --jobs 2
+
+# age STUDY VERSION: as that format version had it, without its index and segments, and with a campaign file that this version refuses.
+age()
+{
+    cp -r now "$1"
+    rm -r "$1"/segments "$1"/index.sqlite* "$1"/report
+    /usr/bin/python3 - "$1/study.h5" "$2" <<'END'
+import h5py, sys
+study, version = h5py.File(sys.argv[1], "r+"), int(sys.argv[2])
+study.attrs.modify("format_version", version)
+later = {5: ["fragment/volume", "fragment/extent", "fragment/crack_area"] + ["fragment/%s_%d" % (kind, i) for kind in ("axis", "semi_axis") for i in (1, 2, 3)],
+         4: ["realization/" + key for key in "damped vibrating transits growth rest rest_variance rest_bound fragments_held".split()] + ["history/damped"]}
+for since, columns in later.items():
+    for column in columns if version < since else []:
+        del study[column]
+END
+    sed -i 's/law: nitsche/law: forgotten/' "$1/campaign.yaml"
+}
+
+expect 0 "$fracas" report now --json
+mv said now.json
+for version in 3 4; do
+    old=of-$version
+    age $old $version
+    expect 0 "$fracas" report $old --json
+    mv said $old.json
+    /usr/bin/python3 - now.json $old.json $version <<'END'
+import json, sys
+now, old, version = json.load(open(sys.argv[1])), json.load(open(sys.argv[2])), int(sys.argv[3])
+lost = {"aspect"} if version == 4 else {"aspect", "final", "heated"}
+found = set()
+for a, b in zip(now["points"], old["points"], strict=True):
+    assert a["parameters"] == b["parameters"] and a["statistics"].keys() == b["statistics"].keys()
+    for key, value in a["statistics"].items():
+        if b["statistics"][key] != value:
+            found.add(key.split(".")[0])
+            assert b["statistics"][key] in (None, 0), (key, value, b["statistics"][key]) # never another number
+    for energies in (a["energies"], b["energies"]):
+        energies["end"].pop("damped")
+    assert a["energies"] == b["energies"]
+assert found == lost, found
+notes = [w["text"] for w in old["warnings"] if "format version %d" % version in w["text"]]
+assert len(notes) == 1 and ("which had no volume, " if version == 4 else "which had no fragments_held, damped, ") in notes[0], old["warnings"]
+END
+    expect 0 "$fracas" report $old
+    said "format version $version, which had no"
+    expect 0 "$fracas" report $old --y dissipated,aspect --quiet
+    expect 0 "$fracas" export $old
+    cut -d, -f1-9 $old/export/realizations.csv > columns
+    expect 0 "$fracas" export now
+    cut -d, -f1-9 now/export/realizations.csv | cmp - columns || fail "a realization is another in $old"
+    expect 0 "$fracas" picture $old
+    expect 0 "$fracas" compare now $old
+    said 'count .* 0 +- 0'
+    expect 0 "$fracas" verify $old
+    said "$old is sound"
+    said "format version $version: index and segments are not looked at"
+    cp $old/study.h5 kept.h5
+    for command in "run $old/campaign.yaml --study $old" "retry $old --failed" "merge $old" "reindex $old" "replay $old 0/0" "status $old"; do
+        status=0
+        # shellcheck disable=SC2086
+        "$fracas" $command > said 2>&1 || status=$?
+        case $status in 2 | 5) ;; *) cat said >&2; fail "status $status: $command" ;; esac
+    done
+    cmp kept.h5 $old/study.h5 || fail "$old was changed"
+done
+
+# A damaged one is found, one too old or too new is refused.
+/usr/bin/python3 - of-4/study.h5 <<'END'
+import h5py, sys
+with h5py.File(sys.argv[1], "r") as study:
+    at = study["fragment/mass"].id.get_chunk_info(0).byte_offset
+with open(sys.argv[1], "r+b") as file:
+    file.seek(at + 5)
+    byte = file.read(1)
+    file.seek(at + 5)
+    file.write(bytes([byte[0] ^ 1]))
+END
+expect 5 "$fracas" verify of-4
+said '/fragment/mass'
+for version in 2 6; do
+    /usr/bin/python3 -c 'import h5py, sys; h5py.File(sys.argv[1], "r+").attrs.modify("format_version", int(sys.argv[2]))' of-3/study.h5 $version
+    rm -rf of-3/report
+    expect 5 "$fracas" report of-3
+done
+# A study.h5 alone is looked at like a study, by its folder or by its name; nothing goes on with it.
+mkdir alone
+cp now/study.h5 alone
+for name in alone alone/study.h5; do
+    expect 0 "$fracas" report $name --json
+    grep -v '^  "name":' said > alone.json
+    grep -v '^  "name":' now.json | cmp - alone.json || fail "the numbers of $name differ"
+    expect 0 "$fracas" verify $name
+    said 'there is no campaign.yaml: study.h5 is read as it is'
+    expect 0 "$fracas" export $name --to tables
+    cmp tables/fragments.csv now/export/fragments.csv
+    expect 0 "$fracas" picture $name
+    expect 0 "$fracas" compare now $name
+    said 'count .* 0 +- 0'
+    expect 0 "$fracas" compare $name now
+done
+(cd alone && expect 0 "$fracas" report study.h5 --quiet)
+expect 5 "$fracas" status alone
+said 'alone is no study: alone/campaign.yaml: No such file'
+echo "versions 3 and 4 read, damage found"
