@@ -78,6 +78,8 @@ struct fracas_kind {
     const void *traits; /* a struct of the section's own: answers to all who would ask which kind */
 };
 
+enum { FRACAS_RENAMED = 64 }; /* characters of a name that an attachment gives to a key, with NUL */
+
 typedef struct {
     const char *name; /* key of the section at the top of the file */
     const char *doc;
@@ -95,6 +97,8 @@ typedef struct {
      * any other text. FRACAS_USAGE for a name without a key. NULL: no attachment of the section
      * does. */
     fracas_err (*rename)(const fracas_attachment *of, const char **key);
+    /* Name number i, from 0, of those: false after the last. */
+    bool (*renames)(const fracas_attachment *of, size_t i, char name[FRACAS_RENAMED]);
     const char *renamed; /* one of these keys: all take its values; NULL without `rename` */
 } fracas_section;
 

@@ -244,11 +244,13 @@ static void doubt_key(const fracas_file *file, const fracas_file_section *sectio
     if (kind || (!nearest && !elsewhere)) fracas_file_doubt_section(file, section, kind);
 }
 
+/* `of`: a file of the section, whose names stand for keys; NULL: none. */
 static fracas_err unknown_key(const fracas_file *file, const fracas_file_section *section,
-                              const fracas_node *entry)
+                              const fracas_node *entry, const fracas_attachment *of)
 {
     const fracas_catalog *catalog = file->catalog;
     const fracas_node *key = entry->key;
+    char name[16][FRACAS_RENAMED]; /* as long as `words` */
     fracas_words words;
     fracas_words_init(&words, key->text);
     const char *home = NULL; /* another section with this key */
@@ -257,8 +259,12 @@ static fracas_err unknown_key(const fracas_file *file, const fracas_file_section
         else if (strcmp(catalog->leaf[i].key, key->text) == 0)
             home = catalog->leaf[i].section->table->name;
     }
-    if (home) words.nearest = NULL;
-    doubt_key(file, section, entry, words.nearest, home != NULL);
+    const char *nearest = words.nearest;
+    for (size_t i = 0; of && i < FRACAS_COUNT(name) && section->table->renames(of, i, name[i]); i++)
+        fracas_words_add(&words, name[i]);
+    if (words.nearest != nearest) nearest = NULL; /* a name, of any key */
+    if (home) words.nearest = nearest = NULL;
+    doubt_key(file, section, entry, nearest, home != NULL);
     if (entry->type == FRACAS_UNREADABLE) return fracas_file_untold(file);
     if (*key->text && strchr("0123456789", *key->text) && !*fracas_node_text(entry))
         return fracas_file_error(file, key,
@@ -325,7 +331,7 @@ static fracas_err leaf_of(const fracas_file *file, const fracas_file_section *se
         if (err) return err == FRACAS_USAGE ? fracas_file_error_within(file, entry->key, key) : err;
     }
     *leaf = fracas_catalog_key(file->catalog, section, key);
-    return *leaf ? FRACAS_OK : unknown_key(file, section, entry);
+    return *leaf ? FRACAS_OK : unknown_key(file, section, entry, of);
 }
 
 fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_file_section *section,

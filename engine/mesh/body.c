@@ -267,6 +267,11 @@ static fracas_err name_of_group(const fracas_attachment *mesh, const char **key)
     return FRACAS_OK;
 }
 
+static bool group_name(const fracas_attachment *mesh, size_t i, char name[FRACAS_RENAMED])
+{
+    return fracas_gmsh_group_name(mesh->text, mesh->size, i, name);
+}
+
 const fracas_section fracas_geometry_section = {
     .name = "geometry",
     .doc = "The body",
@@ -277,6 +282,7 @@ const fracas_section fracas_geometry_section = {
     .hashed = true,
     .check = check_geometry,
     .rename = name_of_group,
+    .renames = group_name,
     .renamed = "edge_1",
 };
 

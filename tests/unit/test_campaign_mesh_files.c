@@ -108,7 +108,7 @@ static void test_names_of_groups(void **state)
          "`wall`: the mesh file's physical group of this name has the number 9"},
         {"1 2 \"wall\"", "wall: held, edge_2: free", 0, "given twice"},
         {"1 2 \"wall\"", "wall: helt", 0, "did you mean `held`"},
-        {"1 2 \"wall\"", "wal: held", 0, "unknown key `wal`"},
+        {"1 2 \"wall\"", "wal: held", 0, "unknown key `wal` in geometry; did you mean `wall`?"},
         {"1 2 \"wall\"", "left: held", 0, "`left` belongs to shape plate"},
         {"2 2 \"wall\"", "wall: held", 0, "unknown key `wall`"},
         {"1 1 \"edge_2\"\n1 2 \"wall\"", "wall: held", 0, "another physical group for edge_2"},

@@ -128,6 +128,22 @@ static const char *find_names(const char *text, size_t size)
     }
 }
 
+bool fracas_gmsh_group_name(const char *text, size_t size, size_t i, char name[64])
+{
+    static const char end[] = "$EndPhysicalNames";
+    const char *from = find_names(text, size);
+    if (!from) return false;
+    size_t at = (size_t)(from - text);
+    const char *to = memmem(from, size - at, end, strlen(end));
+    fracas_surface_group group;
+    for (size_t g = 0; to && next_group(text, (size_t)(to - text), &at, &group); g++) {
+        if (g < i) continue;
+        memcpy(name, group.name, sizeof group.name);
+        return true;
+    }
+    return false;
+}
+
 fracas_err fracas_gmsh_group(const char *text, size_t size, const char *name, int32_t *number,
                              bool *shared)
 {

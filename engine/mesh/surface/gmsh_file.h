@@ -45,6 +45,10 @@ const fracas_gmsh_entry *fracas_gmsh_find(const fracas_gmsh_entry *all, size_t c
  * where both have one. */
 int32_t fracas_gmsh_choose(int32_t a, int32_t b);
 
+/* Name number i, from 0, of the physical groups of curves in the text of a file; false after the
+ * last. */
+bool fracas_gmsh_group_name(const char *text, size_t size, size_t i, char name[64]);
+
 /* *number: edge_N's N of the physical group of curves with this name in the text of a file; 0: no
  * such group. *shared: another group has the same key. FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_gmsh_group(const char *text, size_t size, const char *name,
