@@ -37,6 +37,9 @@ extern const fracas_csv_table fracas_csv_table_points, fracas_csv_table_realizat
  * through all points of a series, or window, between two rates. */
 extern const fracas_csv_table fracas_csv_table_energies, fracas_csv_table_convergence,
     fracas_csv_table_slopes;
+/* A line a change of means from one value of a parameter to the next: in all settings of the
+ * others, and in each. */
+extern const fracas_csv_table fracas_csv_table_effects;
 
 /* Every column. */
 void fracas_csv_fields(const fracas_csv_table *table, const fracas_analysis *analysis,

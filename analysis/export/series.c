@@ -3,6 +3,7 @@
 #include "analysis/export/csv.h"
 
 #include "analysis/scaling/scaling.h"
+#include "analysis/summary/effects.h"
 #include "base/own.h"
 
 #include <inttypes.h>
@@ -164,4 +165,31 @@ const fracas_csv_table fracas_csv_table_slopes = {
     .key = {"series", "kind", "from_rate"},
     .columns = {&slope},
     .rows = slope_rows,
+};
+
+/* ---- effects ---- */
+
+static fracas_err effect_rows(const fracas_csv_table *table, const fracas_analysis *analysis,
+                              FILE *out)
+{
+    OWNED fracas_effect *effect = NULL;
+    size_t count;
+    (void)table;
+    TRY(fracas_effects(analysis, &effect, &count));
+    for (size_t i = 0; i < count; i++) {
+        const fracas_field *first = fracas_effect_fields.field;
+        const fracas_fields rest = {first + 1, fracas_effect_fields.count - 1};
+        fracas_field_csv(first, &effect[i], out);
+        fracas_fields_csv(&rest, &effect[i], out);
+        putc('\n', out);
+    }
+    return FRACAS_OK;
+}
+
+const fracas_csv_table fracas_csv_table_effects = {
+    .name = "effects",
+    .doc = "A line a change of mean count and size from one value of a parameter to the next",
+    .key = {"parameter", "from", "at"},
+    .columns = {&fracas_effect_fields},
+    .rows = effect_rows,
 };

@@ -2,6 +2,7 @@
 #include "analysis/data/format.h"
 #include "analysis/export/tables.h"
 #include "analysis/scaling/scaling.h"
+#include "analysis/summary/effects.h"
 #include "base/param.h"
 #include "base/own.h"
 
@@ -48,6 +49,16 @@ static const char *const motion_legend[] = {
     "deviation over fragments.",
     "along: root mean square of the velocity along the ring. spin: mean |angular velocity| about "
     "the centre of mass, with the moment of inertia of an arc.",
+    NULL,
+};
+
+static const char *const effect_legend[] = {
+    "From one value of a parameter to the next, with all other parameters the same: change of the "
+    "mean number of fragments and of the mean size, with 95 % intervals: the geometric mean of the "
+    "ratios in all settings of the others (Student's t, degrees of freedom by Welch and "
+    "Satterthwaite). least to most: in single settings, which effects.csv has.",
+    "An interval without 0 shows an effect; where least and most are far apart, it depends on the "
+    "other parameters. With common random numbers the intervals are too wide.",
     NULL,
 };
 
@@ -119,6 +130,53 @@ static const fracas_table_column motion_column[] = {
 };
 #undef AT
 
+/* "-3.9 % (-6.8 to -0.9)" */
+static void change_text(const fracas_change *change, char *text)
+{
+    if (isnan(change->value)) snprintf(text, FRACAS_CELL, "-");
+    else if (isnan(change->low)) snprintf(text, FRACAS_CELL, "%+.1f %%", 100 * change->value);
+    else
+        snprintf(text, FRACAS_CELL, "%+.1f %% (%+.1f to %+.1f)", 100 * change->value,
+                 100 * change->low, 100 * change->high);
+}
+
+static void range_text(const fracas_change *change, int64_t settings, char *text)
+{
+    if (settings < 2 || isnan(change->least)) snprintf(text, FRACAS_CELL, "-");
+    else snprintf(text, FRACAS_CELL, "%+.1f to %+.1f %%", 100 * change->least, 100 * change->most);
+}
+
+#define EFFECT_TEXT(name, print)                                                                 \
+    static void name(const fracas_analysis *analysis, size_t index, const void *row, char *text) \
+    {                                                                                            \
+        const fracas_effect *of = row;                                                           \
+        (void)analysis, (void)index;                                                             \
+        print;                                                                                   \
+    }
+EFFECT_TEXT(count_text, change_text(&of->count, text))
+EFFECT_TEXT(count_range, range_text(&of->count, of->settings, text))
+EFFECT_TEXT(size_text, change_text(&of->size, text))
+EFFECT_TEXT(size_range, range_text(&of->size, of->settings, text))
+
+/* Rows of single settings are in effects.csv. */
+static bool is_whole(const void *row)
+{
+    return !*((const fracas_effect *)row)->at;
+}
+
+#define AT(member) offsetof(fracas_effect, member)
+static const fracas_table_column effect_column[] = {
+    {"parameter", "", FRACAS_CELL_TEXT, AT(words)},
+    {"from", "", FRACAS_CELL_TEXT, AT(from)},
+    {"to", "", FRACAS_CELL_TEXT, AT(to)},
+    {"settings", "", FRACAS_CELL_INTEGER, AT(settings)},
+    {"count", "", FRACAS_CELL_FORMAT, .format = count_text},
+    {"least to most", "", FRACAS_CELL_FORMAT, .format = count_range},
+    {"size", "", FRACAS_CELL_FORMAT, .format = size_text},
+    {"least to most", "", FRACAS_CELL_FORMAT, .format = size_range},
+};
+#undef AT
+
 /* A function of scaling.h as the `list` of a table. */
 #define LIST(name, type, made)                                                                 \
     static fracas_err list_##name(const fracas_analysis *analysis, void **rows, size_t *count) \
@@ -133,6 +191,7 @@ LIST(count_slopes, fracas_size_slope, fracas_count_slopes(analysis, true, &list,
 LIST(count_large_slopes, fracas_size_slope, fracas_count_slopes(analysis, false, &list, count))
 LIST(windows, fracas_size_window, fracas_size_windows(analysis, &list, count))
 LIST(crossovers, fracas_size_crossover, fracas_size_crossovers(analysis, true, &list, count))
+LIST(effects, fracas_effect, fracas_effects(analysis, &list, count))
 
 #define COLUMNS(name) name##_legend, name##_column, FRACAS_COUNT(name##_column)
 const fracas_side_table fracas_side_tables[FRACAS_SIDE_TABLES] = {
@@ -151,6 +210,8 @@ const fracas_side_table fracas_side_tables[FRACAS_SIDE_TABLES] = {
      sizeof(fracas_size_crossover), has_rates, list_crossovers},
     {"motion", "Velocities of the fragments of rings at the end", COLUMNS(motion),
      sizeof(fracas_point_statistics), is_ring, NULL},
+    {"effects", "Change of the means with each parameter", COLUMNS(effect), sizeof(fracas_effect),
+     is_whole, list_effects},
 };
 
 fracas_err fracas_side_table_create(const fracas_analysis *analysis, fracas_side_table_name name,

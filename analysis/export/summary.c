@@ -3,6 +3,7 @@
 #include "analysis/export/csv.h"
 #include "analysis/export/tables.h"
 #include "analysis/scaling/scaling.h"
+#include "analysis/summary/effects.h"
 #include "base/own.h"
 #include "base/param.h"
 
@@ -332,6 +333,19 @@ static void write_list(fracas_json *json, const char *key, const fracas_fields *
     if (!made) free(list);
 }
 
+/* Without rows of single settings, which effects.csv has. */
+static void write_effects(fracas_json *json, const fracas_analysis *analysis)
+{
+    OWNED fracas_effect *effect = NULL;
+    size_t count = 0;
+    fracas_json_array(json, "effects");
+    if (fracas_effects(analysis, &effect, &count)) fracas_json_text(json, NULL, fracas_message());
+    for (size_t i = 0; i < count; i++)
+        if (!*effect[i].at)
+            fracas_fields_json_object(json, NULL, &fracas_effect_fields, &effect[i]);
+    fracas_json_close(json);
+}
+
 static void write_lists(fracas_json *json, const fracas_analysis *analysis)
 {
     fracas_size_slope *slope;
@@ -350,6 +364,7 @@ static void write_lists(fracas_json *json, const fracas_analysis *analysis)
     made = fracas_size_crossovers(analysis, true, &crossover, &count);
     write_list(json, "crossovers", &fracas_crossover_fields, made, crossover, count,
                sizeof *crossover);
+    write_effects(json, analysis);
     made = fracas_analysis_warnings(analysis, &warning, &count);
     write_list(json, "warnings", &fracas_warning_fields, made, warning, count, sizeof *warning);
 }
@@ -367,6 +382,7 @@ void fracas_analysis_reference(FILE *out)
         {"A row of `slopes`, `count_slopes` and `count_large_slopes`", &fracas_slope_fields},
         {"A row of `windows`", &fracas_window_fields},
         {"A row of `crossovers`", &fracas_crossover_fields},
+        {"A row of `effects`", &fracas_effect_fields},
         {"A row of `warnings`", &fracas_warning_fields},
         {"`statistics`", &fracas_statistics},
     };

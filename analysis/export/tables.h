@@ -99,8 +99,8 @@ bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, siz
 
 /* Tables beside the headline one. A row for each series with a slope and for all points, of the
  * size and of the count; a row for every two neighbouring rates of a series; a row a series: its
- * crossover, or why there is none; a row a ring: velocities of its fragments. A table without rows
- * has only its head. */
+ * crossover, or why there is none; a row a ring: velocities of its fragments; a row for every two
+ * neighbouring values of a parameter. A table without rows has only its head. */
 typedef enum {
     FRACAS_SLOPES,
     FRACAS_COUNT_SLOPES,
@@ -108,6 +108,7 @@ typedef enum {
     FRACAS_WINDOWS,
     FRACAS_CROSSOVERS,
     FRACAS_MOTION,
+    FRACAS_EFFECTS,
     FRACAS_SIDE_TABLES
 } fracas_side_table_name;
 

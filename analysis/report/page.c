@@ -163,6 +163,7 @@ static const fracas_page_entry sections[] = {
     {"convergence", "Convergence with replicas", NULL},
     {"table-of-results", "Results", fracas_section_results},
     {"table-of-slopes", "Slopes", fracas_section_slopes},
+    {"table-of-effects", "Effects of parameters", fracas_section_effects},
     {"table-of-motion", "Expansion", fracas_section_motion},
     {"files", "Files", fracas_section_files},
 };
@@ -194,8 +195,8 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
                                const fracas_shown_fits *shown)
 {
     static const fracas_csv_table *const table[] = {
-        &fracas_csv_table_points, &fracas_csv_table_slopes, &fracas_csv_table_energies,
-        &fracas_csv_table_convergence, &fracas_csv_table_fragments};
+        &fracas_csv_table_points,      &fracas_csv_table_slopes,    &fracas_csv_table_energies,
+        &fracas_csv_table_convergence, &fracas_csv_table_fragments, &fracas_csv_table_effects};
     fracas_output_file output;
     for (size_t i = 0; i < FRACAS_COUNT(table); i++)
         TRY(fracas_csv_file(table[i], analysis, folder));
@@ -207,9 +208,9 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
 /* A folder that a user named has no files of the user's own. */
 static fracas_err check_free(const char *folder)
 {
-    static const char *const name[] = {"index.html",   "summary.json", "points.csv",
-                                       "slopes.csv",   "energies.csv", "convergence.csv",
-                                       "fragments.csv"};
+    static const char *const name[] = {"index.html",    "summary.json", "points.csv",
+                                       "slopes.csv",    "energies.csv", "convergence.csv",
+                                       "fragments.csv", "effects.csv"};
     return fracas_output_free(folder, name, FRACAS_COUNT(name));
 }
 

@@ -81,7 +81,7 @@ FRACAS_MUST_USE fracas_err fracas_page_table(fracas_page *page, const char *id, 
 
 fracas_page_section fracas_section_summary; /* summary.c */
 fracas_page_section fracas_section_means, fracas_section_patterns, fracas_section_fits,
-    fracas_section_results, fracas_section_slopes, fracas_section_motion,
+    fracas_section_results, fracas_section_slopes, fracas_section_effects, fracas_section_motion,
     fracas_section_files; /* sections.c */
 /* The figures of a section: of the study, then point by point. */
 FRACAS_MUST_USE fracas_err fracas_section_figures(fracas_page *page, const char *section);

@@ -262,6 +262,13 @@ fracas_err fracas_section_slopes(fracas_page *page)
     return put_side_table(page, FRACAS_CROSSOVERS);
 }
 
+/* Against the strain rate alone slopes say more. */
+fracas_err fracas_section_effects(fracas_page *page)
+{
+    const bool rate_alone = page->analysis->axes.rate && page->analysis->shown.count < 2;
+    return rate_alone ? FRACAS_OK : put_side_table(page, FRACAS_EFFECTS);
+}
+
 fracas_err fracas_section_motion(fracas_page *page)
 {
     return put_side_table(page, FRACAS_MOTION);
@@ -271,7 +278,9 @@ fracas_err fracas_section_files(fracas_page *page)
 {
     fputs("<p>In SI units: <a href=\"points.csv\">points.csv</a>, every parameter and statistic of "
           "every point; <a href=\"fragments.csv\">fragments.csv</a>, every fragment; <a "
-          "href=\"slopes.csv\">slopes.csv</a>; <a href=\"energies.csv\">energies.csv</a>, mean and "
+          "href=\"slopes.csv\">slopes.csv</a>; <a href=\"effects.csv\">effects.csv</a>, changes "
+          "with each "
+          "parameter; <a href=\"energies.csv\">energies.csv</a>, mean and "
           "band at each time; <a href=\"convergence.csv\">convergence.csv</a>, the headline "
           "numbers from the first replicas; <a href=\"summary.json\">summary.json</a>, all "
           "numbers, and fits, for programs. Below each figure are its drawing and its data, in the "

@@ -43,6 +43,57 @@ assert written == summary and len(rows) == len(summary["points"])
 for point in summary["points"]:
     assert (point["statistics"]["law.mott"] is None) == ("law.mott" in point["reasons"])
 
+# Effects of parameters, from (estimators.29) and (estimators.30): rows of all settings, and of each where there are several.
+def student_of(freedom):
+    """The 0.975 quantile for any number of degrees of freedom, by x = sqrt(f) tan(a) and Simpson's rule."""
+    whole = math.sqrt(math.pi) * math.gamma(freedom / 2) / (2 * math.gamma((freedom + 1) / 2)) if freedom < 300 else None
+    if whole is None:  # Cornish and Fisher, to 1e-9
+        z = 1.959963984540054
+        return z + (z**3 + z) / (4 * freedom) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * freedom**2) + (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / (384 * freedom**3)
+    low, high = 0.0, math.pi / 2
+    for _ in range(60):
+        middle = (low + high) / 2
+        y = np.cos(np.linspace(0, middle, 2001)) ** (freedom - 1)
+        part = middle / 6000 * (y[0] + y[-1] + 4 * y[1::2].sum() + 2 * y[2:-1:2].sum())
+        low, high = (middle, high) if part < 0.475 * 2 * whole else (low, middle)
+    return math.sqrt(freedom) * math.tan(low)
+
+def effect_of(pairs, key):
+    """Change, low, high, least, most over pairs of points."""
+    of = [(rows[p], rows[q]) for p, q in pairs if rows[p][key + ".mean"] > 0 and rows[q][key + ".mean"] > 0]
+    if not of:
+        return [math.nan] * 5
+    ratio = [b[key + ".mean"] / a[key + ".mean"] for a, b in of]
+    u = [((row[key + ".deviation"] / row[key + ".mean"]) ** 2 / row[key + ".n"], row[key + ".n"]) for pair in of for row in pair]
+    mean, v = sum(map(math.log, ratio)) / len(of), sum(x for x, n in u)
+    freedom = v * v / sum(x * x / (n - 1) for x, n in u) if v > 0 else math.nan
+    half = student_of(freedom) * math.sqrt(v) / len(of) if v > 0 else v
+    return [math.expm1(x) for x in (mean, mean - half, mean + half)] + [min(ratio) - 1, max(ratio) - 1]
+
+with open(os.path.join(report, "effects.csv"), encoding="utf-8") as file:
+    effects = list(csv.DictReader(file))
+place, whole = 0, []
+for path in summary["varying"]:
+    value = [point["parameters"].get(path) for point in summary["points"]]
+    others = [tuple(str(point["parameters"].get(other)) for other in summary["varying"] if other != path) for point in summary["points"]]
+    levels = list(dict.fromkeys(x for x in value if x is not None))
+    levels = levels if isinstance(levels[0], str) else sorted(levels)
+    for a, b in zip(levels, levels[1:]) if len(levels) <= 12 else ():
+        pairs = [(p, q) for p in range(len(rows)) for q in range(len(rows)) if (value[p], value[q]) == (a, b) and others[p] == others[q]]
+        known = [pair for pair in pairs if any(rows[i][key + ".mean"] > 0 for key in ("count", "size") for i in pair[:1]) and
+                 any(rows[pair[0]][key + ".mean"] > 0 and rows[pair[1]][key + ".mean"] > 0 for key in ("count", "size"))]
+        for group in [known] * bool(known) + [[pair] for pair in known] * (len(known) > 1):
+            line = effects[place]
+            place += 1
+            assert line["parameter"] == path and int(line["settings"]) == len(group) and (line["at"] == "") == (group is known or len(known) == 1 and not others[0])
+            whole += [line] * (group is known)
+            for key in ("count", "size"):
+                for name, wanted in zip(("change", "low", "high", "least", "most"), effect_of(group, key)):
+                    found = line[f"{key}.{name}"]
+                    assert (found == "") == math.isnan(wanted) and (found == "" or abs(float(found) - wanted) < 1e-9 * (1 + abs(wanted))), (path, a, b, key, name, found, wanted)
+assert place == len(effects)
+assert [(e["parameter"], e["from"], e["to"], e["settings"]) for e in summary["effects"]] == [(e["parameter"], e["from"], e["to"], int(e["settings"])) for e in whole]
+
 # What the checks below look at.
 with h5py.File(study + "/study.h5", "r") as file:
     realization = {name: column[()] for name, column in file["realization"].items()}
@@ -606,6 +657,8 @@ assert page.rows.pop("windows", 0) == len(summary["windows"])
 assert page.rows.pop("crossovers", 0) == sum(of["points"] > 1 for of in summary["crossovers"])
 if os.path.exists(os.path.join(study, "fits.csv")):
     assert page.rows.pop("fits-table") == sum(row["quantity"] == "rank" for row in fits)
+if page.rows.pop("effects", None) is not None:
+    assert len(whole) > 0 and len(summary["varying"]) > 0
 assert page.rows.pop("motion", 0) == model.count("ring") and not page.rows
 firsts = [np.flatnonzero((realization["point"] == p) & (realization["outcome"] == 0))[0] for p in pictures]
 assert page.bands == sum(realization["fragments"][i] for i in firsts)

@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/summary/effects.h"
+
+#include "analysis/data/words.h"
+#include "base/own.h"
+
+#include <gsl/gsl_cdf.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define CHANGE(key, doc, member) FRACAS_FIELD(fracas_change, NUMBER, key, "1", doc, member)
+static const fracas_field change_field[] = {
+    CHANGE("change", "geometric mean over the settings of %s at `to` / at `from`, less 1", value),
+    CHANGE("low", "lower end of its 95 % interval", low),
+    CHANGE("high", "upper end of its 95 % interval", high),
+    CHANGE("least", "the least change in one setting", least),
+    CHANGE("most", "the greatest change in one setting", most),
+};
+static const fracas_fields change_fields = FRACAS_FIELDS(change_field);
+
+static const fracas_field effect_field[] = {
+    FRACAS_FIELD(fracas_effect, CHARS, "parameter", "", "path of the parameter", key),
+    FRACAS_FIELD(fracas_effect, CHARS, "from", "", "one of its values, with its unit", from),
+    FRACAS_FIELD(fracas_effect, CHARS, "to", "", "the next one", to),
+    FRACAS_FIELD(fracas_effect, CHARS, "at", "",
+                 "setting: values of the other parameters; empty: all settings", at),
+    FRACAS_FIELD(fracas_effect, INTEGER, "settings", "1",
+                 "settings, each a pair of points that differ in nothing else", settings),
+    FRACAS_FIELD_OF(fracas_effect, change_fields, "count", "1", "the mean number of fragments",
+                    count),
+    FRACAS_FIELD_OF(fracas_effect, change_fields, "size", "1", "the mean fragment size", size),
+};
+const fracas_fields fracas_effect_fields = FRACAS_FIELDS(effect_field);
+
+/* A parameter, its values by a point each, and the other parameters. */
+typedef struct {
+    const fracas_analysis *analysis;
+    size_t column;
+    size_t nlevels, level[FRACAS_MOST_LEVELS + 1];
+    fracas_columns others;
+    size_t room, count;
+    fracas_effect *effect;
+} making;
+
+static const fracas_value *value_at(const making *of, size_t point)
+{
+    return &of->analysis->table->point[point].value[of->column];
+}
+
+/* ---- the values of a parameter ---- */
+
+/* Takes the value of a point that no level has, in its place; no more than one above the most. */
+static void take_level(making *of, size_t point)
+{
+    const fracas_value *value = value_at(of, point);
+    size_t at = of->nlevels;
+    if (isnan(value->real) && !*value->text) return;
+    for (size_t i = 0; i < of->nlevels; i++)
+        if (fracas_value_same(value_at(of, of->level[i]), value)) return;
+    if (of->nlevels > FRACAS_MOST_LEVELS) return;
+    for (; at > 0 && value->real < value_at(of, of->level[at - 1])->real; at--)
+        of->level[at] = of->level[at - 1];
+    of->level[at] = point;
+    of->nlevels++;
+}
+
+/* "2.5 mm": the point's label without the name of the parameter. */
+static void value_text(const making *of, size_t point, char *text, size_t size)
+{
+    size_t column = of->column;
+    const fracas_point_table *table = of->analysis->table;
+    const fracas_columns one = {1, &column};
+    char label[160];
+    fracas_columns_label(table, &one, point, label, sizeof label);
+    const size_t name = strlen(fracas_column_words(table, column));
+    snprintf(text, size, "%.63s", strlen(label) > name ? label + name + 1 : label);
+}
+
+/* ---- changes ---- */
+
+/* Sums over settings. */
+typedef struct {
+    int64_t settings;
+    double log, variance, squares; /* sums of L, v, and u^2/(n - 1) */
+    fracas_change change;
+} change_sums;
+
+static const change_sums none = {.change = {NAN, NAN, NAN, NAN, NAN}};
+
+/* Adds the relative variance of a mean. */
+static void add_error(const fracas_estimate *mean, change_sums *sums)
+{
+    const double n = (double)mean->n, relative = mean->deviation / mean->mean,
+                 u = relative * relative / n;
+    sums->variance += u;
+    sums->squares += u * u / (n - 1);
+}
+
+/* (estimators.29) */
+static void add_setting(const fracas_estimate *from, const fracas_estimate *to, change_sums *sums)
+{
+    if (!(from->mean > 0) || !(to->mean > 0)) return;
+    fracas_change *change = &sums->change;
+    const double one = to->mean / from->mean - 1;
+    sums->settings++;
+    sums->log += log1p(one);
+    add_error(from, sums);
+    add_error(to, sums);
+    change->least = fmin(one, change->least); /* not NaN */
+    change->most = fmax(one, change->most);
+}
+
+/* (estimators.30) */
+static fracas_change change_of(const change_sums *sums)
+{
+    fracas_change change = sums->change;
+    const double k = (double)sums->settings, log = sums->log / k,
+                 freedom = sums->variance * sums->variance / sums->squares,
+                 half = !(sums->variance >= 0) ? NAN
+                        : sums->variance == 0  ? 0
+                        : freedom > 0
+                            ? gsl_cdf_tdist_Pinv(0.975, freedom) * sqrt(sums->variance) / k
+                            : NAN;
+    if (sums->settings == 0) return change;
+    change.value = expm1(log);
+    change.low = expm1(log - half);
+    change.high = expm1(log + half);
+    return change;
+}
+
+static fracas_err add_row(making *of, size_t from, size_t to, const char *at,
+                          const change_sums sums[2])
+{
+    if (sums[0].settings == 0 && sums[1].settings == 0) return FRACAS_OK;
+    TRY(fracas_grow(&of->effect, sizeof *of->effect, of->count, &of->room, "the effects"));
+    fracas_effect *row = &of->effect[of->count++];
+    *row = (fracas_effect){.count = change_of(&sums[0]), .size = change_of(&sums[1])};
+    row->settings = sums[0].settings > sums[1].settings ? sums[0].settings : sums[1].settings;
+    FRACAS_PRINT(row->key, "%s", of->analysis->table->column[of->column].path);
+    FRACAS_PRINT(row->words, "%s", fracas_column_words(of->analysis->table, of->column));
+    FRACAS_PRINT(row->at, "%s", at);
+    value_text(of, from, row->from, sizeof row->from);
+    value_text(of, to, row->to, sizeof row->to);
+    return FRACAS_OK;
+}
+
+/* Calls for each pair of points of the two values that are alike in all else: its sums, or those of
+ * all pairs in `whole`. */
+static fracas_err add_pairs(making *of, size_t from, size_t to, change_sums whole[2], bool rows)
+{
+    const fracas_point_table *table = of->analysis->table;
+    for (size_t p = 0; p < table->npoints; p++) {
+        if (!fracas_value_same(value_at(of, p), value_at(of, from))) continue;
+        for (size_t q = 0; q < table->npoints; q++) {
+            if (!fracas_value_same(value_at(of, q), value_at(of, to)) ||
+                !fracas_columns_same(table, &of->others, p, q))
+                continue;
+            const fracas_point_statistics *a = &of->analysis->point[p],
+                                          *b = &of->analysis->point[q];
+            change_sums one[2] = {none, none}, *sums = rows ? one : whole;
+            char at[128];
+            add_setting(&a->count, &b->count, &sums[0]);
+            add_setting(&a->size, &b->size, &sums[1]);
+            if (!rows) continue;
+            fracas_columns_label(table, &of->others, p, at, sizeof at);
+            TRY(add_row(of, from, to, at, one));
+        }
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err add_parameter(making *of)
+{
+    for (size_t p = 0; p < of->analysis->table->npoints; p++) take_level(of, p);
+    for (size_t l = 0; of->nlevels <= FRACAS_MOST_LEVELS && l + 1 < of->nlevels; l++) {
+        change_sums whole[2] = {none, none};
+        TRY(add_pairs(of, of->level[l], of->level[l + 1], whole, false));
+        TRY(add_row(of, of->level[l], of->level[l + 1], "", whole));
+        if (whole[0].settings > 1 || whole[1].settings > 1)
+            TRY(add_pairs(of, of->level[l], of->level[l + 1], whole, true));
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_effects(const fracas_analysis *analysis, fracas_effect **effect, size_t *count)
+{
+    const fracas_columns *shown = &analysis->shown;
+    making of = {.analysis = analysis};
+    OWNED size_t *others = calloc(shown->count + 1, sizeof *others);
+    *effect = NULL;
+    *count = 0;
+    if (!others) return fracas_no_memory("the effects");
+    fracas_err err = FRACAS_OK;
+    for (size_t i = 0; i < shown->count && !err; i++) {
+        of.others = (fracas_columns){0, others};
+        for (size_t j = 0; j < shown->count; j++)
+            if (j != i) others[of.others.count++] = shown->column[j];
+        of.column = shown->column[i];
+        of.nlevels = 0;
+        err = add_parameter(&of);
+    }
+    if (err) free(of.effect);
+    else {
+        *effect = of.effect;
+        *count = of.count;
+    }
+    return err;
+}

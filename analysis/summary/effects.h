@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How much a number changes from one value of a parameter to the next, all else being equal. */
+#ifndef FRACAS_ANALYSIS_SUMMARY_EFFECTS_H
+#define FRACAS_ANALYSIS_SUMMARY_EFFECTS_H
+
+#include "analysis/summary/study.h"
+
+enum { FRACAS_MOST_LEVELS = 12 }; /* a parameter with more values is for a figure */
+
+/* Relative changes; NaN: none. */
+typedef struct {
+    double value;       /* over the settings: geometric mean of to/from, less 1 */
+    double low, high;   /* ends of its 95 % interval */
+    double least, most; /* in one setting */
+} fracas_change;
+
+typedef struct {
+    char key[64];   /* path of the parameter */
+    char words[96]; /* "Weibull modulus" */
+    char from[64], to[64];
+    char at[128];     /* setting: the other parameters in which points differ; "": all of them */
+    int64_t settings; /* pairs of points that differ in nothing else */
+    fracas_change count, size;
+} fracas_effect;
+
+extern const fracas_fields fracas_effect_fields;
+
+/* For each parameter by which the points are named, from each of its values to the next: the row of
+ * all settings, and behind it, where there are several, a row for each. Numbers ascend, texts are
+ * in the order in which they come first; parameters of more than FRACAS_MOST_LEVELS values are left
+ * out, and settings without both means above 0 (estimators.29), (estimators.30). *effect freed by
+ * the caller with free(). */
+FRACAS_MUST_USE fracas_err fracas_effects(const fracas_analysis *analysis, fracas_effect **effect,
+                                          size_t *count);
+
+#endif
