@@ -4,6 +4,8 @@
 #include "engine/cohesive/parameters.h"
 #include "engine/formulation/formulation.h"
 
+#include <string.h>
+
 const fracas_kind fracas_onset_mean = {"mean", "the mean of the stresses on both sides"};
 const fracas_kind fracas_onset_flux = {"flux", "the traction of the discontinuous-Galerkin flux"};
 static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
@@ -11,6 +13,36 @@ static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_fl
 bool fracas_onset_by_mean(const fracas_cohesive *cohesive)
 {
     return cohesive->onset != &fracas_onset_flux;
+}
+
+static const fracas_law *law_of(const fracas_cohesive *cohesive)
+{
+    return (const fracas_law *)(const void *)cohesive->law;
+}
+
+double fracas_law_fullness(const fracas_cohesive *cohesive)
+{
+    const fracas_law *law = law_of(cohesive);
+    return law->fullness ? law->fullness(cohesive) : 0.5;
+}
+
+double fracas_law_steepest(const fracas_cohesive *cohesive)
+{
+    const fracas_law *law = law_of(cohesive);
+    return law->steepest ? law->steepest(cohesive) : 1;
+}
+
+double fracas_law_zone(const fracas_cohesive *cohesive)
+{
+    const fracas_law *law = law_of(cohesive);
+    return law->zone ? law->zone(cohesive) : 0;
+}
+
+void fracas_law_own(const fracas_spec *spec, double own[FRACAS_LAW_OWN])
+{
+    const fracas_law *law = fracas_law_of(spec);
+    memcpy(own, spec->cohesive.own, sizeof spec->cohesive.own);
+    if (law->own) law->own(spec, own);
 }
 
 /* The models with kernels for each law. */

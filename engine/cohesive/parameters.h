@@ -10,11 +10,14 @@
     .number = FRACAS_LAW_##law,           \
     .kind = {.name = name_, .doc = doc_, FRACAS_PARAMS(law##_params), .only = law##_models}
 
-/* A parameter that is the member of that name. */
-#define FRACAS_LAW_REAL(key, si, otherwise, least, most, open, models, text)                      \
-    FRACAS_BRACES(.name = #key, .type = FRACAS_REAL, .unit = si, .doc = text,                     \
+/* A number, by its key and its member: own[...] of a law's own. */
+#define FRACAS_LAW_NUMBER(key, member, si, otherwise, least, most, open, models, text)            \
+    FRACAS_BRACES(.name = key, .type = FRACAS_REAL, .unit = si, .doc = text,                      \
                   .fallback = otherwise, .minimum = least, .maximum = most, .minimum_open = open, \
-                  .offset = offsetof(fracas_cohesive, key), .only = models)
+                  .offset = offsetof(fracas_cohesive, member), .only = models)
+
+/* One whose member has its name. */
+#define FRACAS_LAW_REAL(key, ...) FRACAS_LAW_NUMBER(#key, key, __VA_ARGS__)
 
 /* Parameters of laws for surfaces, whose interfaces slide, too ... */
 #define FRACAS_SURFACE_LAW                                                     \
