@@ -60,6 +60,9 @@ typedef struct {
     void (*own)(const fracas_spec *, double own[FRACAS_LAW_OWN]);
     /* True: it gains or loses energy on mixed paths. The energy guard then ends no run. */
     bool open_ledger;
+    /* True: normal and shear tractions keep their shares of the onset, so that a break on a mixed
+     * path takes less than G_c. */
+    bool shares_of_onset;
     int fields[2]; /* surfaces: values without, with friction, at most SURFACE_POINT_FIELDS_MOST */
     /* Chains. */
     double (*contact)(const fracas_cohesive *); /* stiffness of contact by E/h; NULL: at most 1 */
