@@ -20,21 +20,29 @@
 #define FRACAS_LAW_REAL(key, ...) FRACAS_LAW_NUMBER(#key, key, __VA_ARGS__)
 
 /* Parameters of laws for surfaces, whose interfaces slide, too ... */
-#define FRACAS_SURFACE_LAW                                                     \
-    FRACAS_SURFACE_FRICTIONLESS,                                               \
+#define FRACAS_SURFACE_LAW FRACAS_SURFACE_SHAPED("strength delta_c/2")
+
+/* ... of another G_c by delta_c ... */
+#define FRACAS_SURFACE_SHAPED(energy)                                          \
+    FRACAS_SURFACE_OPENING(energy), FRACAS_SURFACE_INTERFACE,                  \
         FRACAS_LAW_REAL(friction, "1", 0, 0, 10, false, fracas_surface_models, \
                         "Coulomb's coefficient of friction between closed faces, mu_c")
 
 /* ... without friction. */
-#define FRACAS_SURFACE_FRICTIONLESS                                                                \
+#define FRACAS_SURFACE_FRICTIONLESS \
+    FRACAS_SURFACE_OPENING("strength delta_c/2"), FRACAS_SURFACE_INTERFACE
+
+#define FRACAS_SURFACE_OPENING(energy)                                                             \
     FRACAS_LAW_REAL(fracture_energy, "J/m2", 0, 0, INFINITY, false, fracas_surface_models,         \
                     "fracture energy G_c, the same at every interface; or give critical_opening"), \
         FRACAS_LAW_REAL(critical_opening, "m", 0, 0, INFINITY, false, fracas_surface_models,       \
                         "opening delta_c at which an interface is broken, the same at every one: " \
-                        "its G_c is strength delta_c/2; or give fracture_energy"),                 \
-        FRACAS_LAW_REAL(beta, "1", 5, 1.3, 1e4, false, fracas_membrane_models,                     \
-                        "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element " \
-                        "by its edge; 1.3 or more, 2.3 with quadratic triangles"),                 \
+                        "its G_c is " energy "; or give fracture_energy")
+
+#define FRACAS_SURFACE_INTERFACE                                                                   \
+    FRACAS_LAW_REAL(beta, "1", 5, 1.3, 1e4, false, fracas_membrane_models,                         \
+                    "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element "     \
+                    "by its edge; 1.3 or more, 2.3 with quadratic triangles"),                     \
         FRACAS_LAW_REAL(beta, "1", 5, 2.3, 1e4, false, fracas_shell_models,                        \
                         "interface stiffness K = beta E/((1 - nu^2) h), h the area of an element " \
                         "by its edge"),                                                            \
