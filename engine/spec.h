@@ -46,6 +46,16 @@ typedef struct {
     double poisson; /* 1, surfaces */
 } fracas_material;
 
+/* Groups of models, by which parameters and laws name those that have them. */
+enum {
+    FRACAS_GROUP_BAR = 1,
+    FRACAS_GROUP_RING = 2,
+    FRACAS_GROUP_MEMBRANE = 4,
+    FRACAS_GROUP_SHELL = 8,
+    FRACAS_GROUP_CHAINS = FRACAS_GROUP_BAR | FRACAS_GROUP_RING,
+    FRACAS_GROUP_SURFACES = FRACAS_GROUP_MEMBRANE | FRACAS_GROUP_SHELL
+};
+
 enum { FRACAS_LAW_OWN = 4 }; /* numbers of a law's own, at most */
 
 typedef struct {

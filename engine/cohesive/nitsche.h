@@ -6,8 +6,8 @@ FRACAS_LAW(nitsche, FLUX, FLUX, YES, YES)
 
 static const fracas_param nitsche_params[] = {
     FRACAS_LAW_REAL(fracture_energy, "J/m2", FRACAS_REQUIRED, 0, INFINITY, true,
-                    fracas_chain_models, "fracture energy G_c"),
-    FRACAS_LAW_REAL(beta, "1", 4, 1, 1e4, true, fracas_chain_models,
+                    FRACAS_GROUP_CHAINS, "fracture energy G_c"),
+    FRACAS_LAW_REAL(beta, "1", 4, 1, 1e4, true, FRACAS_GROUP_CHAINS,
                     "interface stiffness K = beta E/h; above 1 for a positive operator, 1.5 or "
                     "more in practice"),
     FRACAS_SURFACE_LAW,

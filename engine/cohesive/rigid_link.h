@@ -13,7 +13,7 @@ FRACAS_LAW(rigid_link, RIGID, NO, NO, NO)
 #include "base/elementary.h"
 
 static const fracas_param rigid_link_params[] = {FRACAS_LAW_REAL(
-    fracture_energy, "J/m2", FRACAS_REQUIRED, 0, INFINITY, true, NULL, "fracture energy G_c")};
+    fracture_energy, "J/m2", FRACAS_REQUIRED, 0, INFINITY, true, 0, "fracture energy G_c")};
 /* 4.5 rate^(2/3) E G_c^(2/3) rho^(1/3) [Pa2]  (cohesive.9) */
 static void rigid_link_own(const fracas_spec *spec, double own[FRACAS_LAW_OWN])
 {

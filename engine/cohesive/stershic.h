@@ -22,22 +22,22 @@ const fracas_kind fracas_zone_steep = {
 static const fracas_kind *const zones[] = {&fracas_zone_softening, &fracas_zone_steep};
 
 static const fracas_param stershic_params[] = {
-    FRACAS_LAW_REAL(fracture_energy, "J/m2", 0, 0, INFINITY, false, NULL,
+    FRACAS_LAW_REAL(fracture_energy, "J/m2", 0, 0, INFINITY, false, 0,
                     "fracture energy G_c, the same at every interface; or give critical_opening"),
-    FRACAS_LAW_REAL(critical_opening, "m", 0, 0, INFINITY, false, NULL,
+    FRACAS_LAW_REAL(critical_opening, "m", 0, 0, INFINITY, false, 0,
                     "opening delta_c at which an interface is broken, the same at every one; or "
                     "give fracture_energy"),
-    FRACAS_LAW_NUMBER("penalty", own[STERSHIC_PENALTY], "1", 1, 0, 100, true, NULL,
+    FRACAS_LAW_NUMBER("penalty", own[STERSHIC_PENALTY], "1", 1, 0, 100, true, 0,
                       "stiffness of contact by that of an element, E/h"),
     FRACAS_LAW_NUMBER(
-        "refinement", own[STERSHIC_REFINEMENT], "1", 0.25, 0, 1, true, NULL,
+        "refinement", own[STERSHIC_REFINEMENT], "1", 0.25, 0, 1, true, 0,
         "factor of the time step while an interface is about to open or softens "
         "steeply, and once more while one is in compression; 0.1 to 0.4 in the paper, "
         "1 for none"),
     {FRACAS_ONE_OF("critical_zone", zones, offsetof(fracas_cohesive, own_choice),
                    "which open links refine the time step")},
     FRACAS_LAW_NUMBER(
-        "zone", own[STERSHIC_ZONE], "m", 0, 0, INFINITY, false, NULL,
+        "zone", own[STERSHIC_ZONE], "m", 0, 0, INFINITY, false, 0,
         "once an interface opens, none opens within this distance of it, and elements "
         "between two interfaces so barred suffer damage; 0 for no such zone"),
 };

@@ -20,12 +20,12 @@ enum { TRAPEZOID_PLATEAU, TRAPEZOID_FALL, TRAPEZOID_FULL, TRAPEZOID_SQUARE };
 #if defined FRACAS_LAW_TABLES
 
 static const fracas_param trapezoid_params[] = {
-    FRACAS_LAW_NUMBER("plateau", own[TRAPEZOID_PLATEAU], "1", 0.5, 0, 0.95, false, NULL,
+    FRACAS_LAW_NUMBER("plateau", own[TRAPEZOID_PLATEAU], "1", 0.5, 0, 0.95, false, 0,
                       "opening up to which the strength is held, over the critical opening; 0 for "
                       "linear softening"),
     FRACAS_LAW_REAL(fracture_energy, "J/m2", FRACAS_REQUIRED, 0, INFINITY, true,
-                    fracas_chain_models, "fracture energy G_c"),
-    FRACAS_LAW_REAL(beta, "1", 4, 1, 1e4, true, fracas_chain_models,
+                    FRACAS_GROUP_CHAINS, "fracture energy G_c"),
+    FRACAS_LAW_REAL(beta, "1", 4, 1, 1e4, true, FRACAS_GROUP_CHAINS,
                     "interface stiffness K = beta E/h; above 1 for a positive operator, 1.5 or "
                     "more in practice"),
     FRACAS_SURFACE_SHAPED("strength delta_c (1 + plateau)/2"),

@@ -164,8 +164,5 @@ struct fracas_formulation {
 
 extern const fracas_formulation fracas_formulation_bar, fracas_formulation_ring,
     fracas_formulation_membrane, fracas_formulation_shell;
-/* Models of such bodies, then NULL. */
-extern const fracas_kind *const fracas_chain_models[],
-    *const fracas_surface_models[], *const fracas_membrane_models[], *const fracas_shell_models[];
 
 #endif

@@ -292,6 +292,7 @@ static const fracas_kind *const goes_with[] = {&fracas_shape_bar, &fracas_spacin
                                                &fracas_loading_imposed_rate};
 const fracas_formulation fracas_formulation_bar = {
     .kind = {.name = "bar",
+             .groups = FRACAS_GROUP_BAR,
              .doc = "a bar stretched at a uniform rate: the hoop direction of an expanding ring",
              FRACAS_GOES_WITH(goes_with)},
     .model_init = bar_model_init,

@@ -302,6 +302,7 @@ static const fracas_kind *const goes_with[] = {&fracas_shape_ring,
                                                &fracas_loading_force};
 const fracas_formulation fracas_formulation_ring = {
     .kind = {.name = "ring",
+             .groups = FRACAS_GROUP_RING,
              .doc = "a closed ring in the plane, of springs along its circumference",
              FRACAS_GOES_WITH(goes_with)},
     .model_init = ring_model_init,
