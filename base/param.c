@@ -80,10 +80,19 @@ const char *fracas_param_text(const fracas_param *param, const void *section)
 
 bool fracas_param_is_of(const fracas_param *param, const fracas_kind *model)
 {
-    if (!param->only) return true;
-    for (const fracas_kind *const *only = param->only; *only; only++)
-        if (*only == model) return true;
-    return false;
+    return !param->only || (model && param->only & model->groups);
+}
+
+fracas_err fracas_param_check_either(const char *takes, const char *const key[2],
+                                     const double value[2], const char *example)
+{
+    const bool both = value[0] > 0 && value[1] > 0;
+    if (!both && (value[0] > 0 || value[1] > 0)) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "%s either %s or %s, and %s given: %s%s%s", takes, key[0],
+                       key[1], both ? "both are" : "neither is",
+                       both ? "leave one out, or set it to 0 where a sweep would inherit it"
+                            : "add one, for instance `",
+                       both ? "" : example, both ? "" : "`");
 }
 
 const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_section *section,
@@ -93,7 +102,6 @@ const fracas_kind *fracas_kind_partner(const fracas_kind *kind, const fracas_sec
         for (size_t k = 0; k < section->nkinds; k++)
             if (section->kinds[k] == kind->goes_with[g] && i-- == 0) return section->kinds[k];
     for (size_t k = 0; k < section->nkinds; k++)
-        for (const fracas_kind *const *model = section->kinds[k]->only; model && *model; model++)
-            if (*model == kind && i-- == 0) return section->kinds[k];
+        if (section->kinds[k]->only & kind->groups && i-- == 0) return section->kinds[k];
     return NULL;
 }

@@ -58,7 +58,7 @@ typedef struct {
     size_t offset;                     /* place of the value in the section's struct */
     const fracas_kind *const *choices; /* for FRACAS_CHOICE */
     size_t nchoices;
-    const fracas_kind *const *only; /* models with this parameter, up to a NULL; NULL: all */
+    unsigned only; /* models with this parameter: those of one of these groups, bits; 0: all */
     bool optional; /* no default: without it NaN or NULL; not for FRACAS_INTEGER, FRACAS_BOOLEAN */
 } fracas_param;
 
@@ -72,9 +72,10 @@ struct fracas_kind {
      * it takes every kind. Only `model` restricts. */
     const fracas_kind *const *goes_with;
     size_t ngoes_with;
-    /* The other way round: models that this kind can be combined with, up to a NULL; NULL: it is
-     * for the models to name it. */
-    const fracas_kind *const *only;
+    /* The other way round: models that this kind can be combined with are those of one of these
+     * groups, bits; 0: it is for the models to name it. */
+    unsigned only;
+    unsigned groups;    /* those that a model is in, bits */
     const void *traits; /* a struct of the section's own: answers to all who would ask which kind */
 };
 
@@ -155,6 +156,11 @@ const char *fracas_param_text(const fracas_param *param, const void *section);
 
 /* True if points of this model (NULL: none is chosen) have the parameter. */
 bool fracas_param_is_of(const fracas_param *param, const fracas_kind *model);
+
+/* FRACAS_USAGE unless exactly one of two keys of a section is given: above 0, its default, so that
+ * a sweep can take it back. `takes` is who takes them, with its verb; `example` gives the first. */
+FRACAS_MUST_USE fracas_err fracas_param_check_either(const char *takes, const char *const key[2],
+                                                     const double value[2], const char *example);
 
 /* Kind number i, from 0, of `section` among those `kind` names in goes_with, in that order, and
  * then those that name it in `only`, in the order of the section; NULL after the last. */

@@ -46,19 +46,29 @@ typedef struct {
     double poisson; /* 1, surfaces */
 } fracas_material;
 
+/* Groups of models, by which parameters and laws name those that have them. */
+enum {
+    FRACAS_GROUP_BAR = 1,
+    FRACAS_GROUP_RING = 2,
+    FRACAS_GROUP_MEMBRANE = 4,
+    FRACAS_GROUP_SHELL = 8,
+    FRACAS_GROUP_CHAINS = FRACAS_GROUP_BAR | FRACAS_GROUP_RING,
+    FRACAS_GROUP_SURFACES = FRACAS_GROUP_MEMBRANE | FRACAS_GROUP_SHELL
+};
+
+enum { FRACAS_LAW_OWN = 4 }; /* numbers of a law's own, at most */
+
 typedef struct {
     const fracas_kind *law;
-    double fracture_energy;  /* J/m2; 0 where the critical opening is given */
-    double beta;             /* interface stiffness by E/h; 1 */
-    double critical_opening; /* m; 0 where the fracture energy is given */
-    double penalty;          /* stershic: stiffness of contact / (E/h); 1 */
-    double refinement;       /* stershic: factor xi of the time step for each critical zone; 1 */
-    const fracas_kind *critical_zone; /* stershic: softening, steep: links with finer time steps */
-    double zone;       /* m, stershic: no interface opens so close to an open one; 0: no zone */
-    double beta_shear; /* shells: stiffness against shearing off; 1 */
-    const fracas_kind *onset; /* surfaces: mean, flux; traction compared with the strength */
-    double coupling;          /* surfaces: beta_c, shear strength / normal strength; 1 */
-    double friction;          /* surfaces: mu_c, Coulomb's coefficient; 1 */
+    double fracture_energy;        /* J/m2; 0 where the critical opening is given */
+    double beta;                   /* interface stiffness by E/h; 1 */
+    double critical_opening;       /* m; 0 where the fracture energy is given */
+    double beta_shear;             /* shells: stiffness against shearing off; 1 */
+    const fracas_kind *onset;      /* surfaces: mean, flux; traction compared with the strength */
+    double coupling;               /* surfaces: beta_c, shear strength / normal strength; 1 */
+    double friction;               /* surfaces: mu_c, Coulomb's coefficient; 1 */
+    double own[FRACAS_LAW_OWN];    /* numbers of one law alone: its file names them */
+    const fracas_kind *own_choice; /* a choice of one law alone */
 } fracas_cohesive;
 
 typedef struct {
@@ -111,8 +121,10 @@ double fracas_spec_length(const fracas_spec *spec);
 /* Strain rate at the start [1/s]: imposed, radial velocity / radius, or along x of an expansion;
  * NaN for other loadings. */
 double fracas_spec_strain_rate(const fracas_spec *spec);
-/* G_c [J/m2] of an interface of this strength [Pa]: as given, or sigma_c delta_c/2. */
+/* G_c [J/m2] of an interface of this strength [Pa]: as given, or by delta_c and the law's shape. */
 double fracas_spec_fracture_energy(const fracas_spec *spec, double strength);
+/* Its delta_c [m]: as given, or by G_c and the law's shape. */
+double fracas_spec_critical_opening(const fracas_spec *spec, double strength);
 
 /* Registry of the engine: `model` is the section of that name without parameters of its own, and
  * the others follow in the order of the struct; offsets are into fracas_spec. */

@@ -120,9 +120,8 @@ static fracas_spec stershic(int64_t elements, double rate)
     fracas_spec spec = ring(elements, rate);
     spec.cohesive = (fracas_cohesive){.law = &fracas_law_stershic.kind,
                                       .fracture_energy = 100,
-                                      .penalty = 1,
-                                      .refinement = 0.25,
-                                      .critical_zone = &fracas_zone_steep};
+                                      .own = {1, 0.25}, /* penalty, refinement */
+                                      .own_choice = &fracas_zone_steep};
     return spec;
 }
 

@@ -27,7 +27,7 @@ static void write_limits(const fracas_param *param, FILE *out)
     else fprintf(out, "%s%s, ≤ %s", above, minimum, maximum);
 }
 
-static void write_param(const fracas_param *param, FILE *out)
+static void write_param(const fracas_section *model, const fracas_param *param, FILE *out)
 {
     static const char *const types[] = {"number", "whole number",   "true or false",
                                         "name",   "path of a file", "list of whole numbers"};
@@ -47,17 +47,20 @@ static void write_param(const fracas_param *param, FILE *out)
     for (size_t c = 0; c < param->nchoices; c++)
         fprintf(out, "%s`%s`: %s", c ? "; " : ". ", param->choices[c]->name,
                 param->choices[c]->doc);
-    for (const fracas_kind *const *only = param->only; only && *only; only++)
-        fprintf(out, "%s`%s`", only == param->only ? ". Only with model " : " or ", (*only)->name);
+    for (size_t m = 0, written = 0; param->only && m < model->nkinds; m++)
+        if (fracas_param_is_of(param, model->kinds[m]))
+            fprintf(out, "%s`%s`", written++ ? " or " : ". Only with model ",
+                    model->kinds[m]->name);
     fprintf(out, " |\n");
 }
 
-static void write_params(const fracas_param *params, size_t count, FILE *out)
+static void write_params(const fracas_section *model, const fracas_param *params, size_t count,
+                         FILE *out)
 {
     if (count == 0) return;
     fprintf(out,
             "\n| key | type | SI unit | default | range | meaning |\n|---|---|---|---|---|---|\n");
-    for (size_t p = 0; p < count; p++) write_param(&params[p], out);
+    for (size_t p = 0; p < count; p++) write_param(model, &params[p], out);
 }
 
 /* " (default)", with the models for which it is. */
@@ -118,7 +121,7 @@ static void write_kinds(const fracas_catalog *catalog, const fracas_section *sec
         write_partners(catalog, section->kinds[k], out);
         if (section->kinds[k]->nparams == 0) continue;
         fprintf(out, "\nWith `%s: %s`:\n", selector, section->kinds[k]->name);
-        write_params(section->kinds[k]->params, section->kinds[k]->nparams, out);
+        write_params(model, section->kinds[k]->params, section->kinds[k]->nparams, out);
     }
 }
 
@@ -131,7 +134,7 @@ static void write_section(const fracas_catalog *catalog, const fracas_section *s
         fprintf(
             out,
             "One for the whole campaign: it cannot be swept and is not part of a point's hash.\n");
-    write_params(section->params, section->nparams, out);
+    write_params(catalog->section->table, section->params, section->nparams, out);
     if (section->nkinds > 0) write_kinds(catalog, section, out);
 }
 

@@ -160,8 +160,10 @@ static fracas_err of_other_models(const fracas_file *file, const fracas_setting 
                                   const fracas_setting *chosen)
 {
     homes names = {.used = 0};
-    for (const fracas_kind *const *only = param->only; *only; only++) add_home(&names, *only);
-    return misplaced(file, setting, file->catalog->section->table->name, &names, model, chosen);
+    const fracas_section *models = file->catalog->section->table;
+    for (size_t m = 0; m < models->nkinds; m++)
+        if (fracas_param_is_of(param, models->kinds[m])) add_home(&names, models->kinds[m]);
+    return misplaced(file, setting, models->name, &names, model, chosen);
 }
 
 /* ---- the sections of the file ---- */

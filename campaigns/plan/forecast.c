@@ -112,7 +112,7 @@ static void describe_ring(const fracas_spec *spec, fracas_forecast *forecast)
                       traits->folds(spec, forecast->bound < forecast->mean, forecast->turn);
     if (spec->geometry.direction == &fracas_direction_initial && traits->path)
         forecast->turned = fabs(traits->path(spec, spec->time.end)) / radius;
-    forecast->lonely = spec->cohesive.zone > 0.5 * fracas_spec_length(spec);
+    forecast->lonely = fracas_law_zone(&spec->cohesive) > 0.5 * fracas_spec_length(spec);
 }
 
 /* Diagonal of the box around all interfaces, and their largest distance from the z axis [m]. */
@@ -146,12 +146,6 @@ static double grady_size(const fracas_spec *spec, double strength)
                 (spec->material.density * rate * rate));
 }
 
-/* delta_c = 2 G_c/sigma_c [m]. */
-static double opening_at(const fracas_spec *spec, double strength)
-{
-    return 2 * fracas_spec_fracture_energy(spec, strength) / strength;
-}
-
 /* k = (t - t_onset) c/L at time.end  (settled.1), t_onset = strength/(E rate). */
 static double transits_of(const fracas_spec *spec, double strength)
 {
@@ -168,11 +162,13 @@ static void describe_breaks(const fracas_spec *spec, double mean, double strong,
                             const fracas_factor_range *factor, fracas_forecast *forecast)
 {
     const double weak = forecast->factor * mean;
-    forecast->opening = opening_at(spec, weak);
+    forecast->opening = fracas_spec_critical_opening(spec, weak);
     forecast->available = fracas_opening_bound(spec, forecast->bound, forecast->extent);
     const bool any = forecast->interfaces > 0;
-    forecast->unbroken = any && opening_at(spec, forecast->factor * strong) > forecast->available;
-    forecast->whole = any && opening_at(spec, factor->most * strong) > forecast->available;
+    forecast->unbroken = any && fracas_spec_critical_opening(spec, forecast->factor * strong) >
+                                    forecast->available;
+    forecast->whole = any && fracas_spec_critical_opening(spec, factor->most * strong) >
+                                 forecast->available;
     forecast->pieces = grady_size(spec, weak);
 }
 

@@ -117,7 +117,7 @@ WARNING(
     "%.3g s",
     2 * forecast->turn)
 
-WARNING(warn_lonely, forecast->lonely, point->spec.cohesive.zone,
+WARNING(warn_lonely, forecast->lonely, fracas_law_zone(&point->spec.cohesive),
         "cohesive.zone is longer than half of the ring: once an interface opens, none else can: "
         "shorten it to less than a quarter of a fragment")
 
@@ -168,12 +168,21 @@ static bool never_breaks(const fracas_forecast *forecast)
     return forecast->unbroken && !(forecast->bound < forecast->mean);
 }
 
+/* delta_c in words. */
+static const char *opening_of(const fracas_point *point)
+{
+    if (point->spec.cohesive.critical_opening > 0) return "critical_opening";
+    return fracas_law_fullness(&point->spec.cohesive) == 0.5
+               ? "2 fracture_energy/strength"
+               : "delta_c, by fracture_energy and the law,";
+}
+
 WARNING(
     warn_never, never_breaks(forecast) && !forecast->whole, forecast->opening / forecast->available,
-    "where strength.factor is %.2g interfaces break at an opening of 2 fracture_energy/strength "
+    "where strength.factor is %.2g interfaces break at an opening of %s "
     "= %.2g m, and until time.end the load opens none by more than %.2g m: they crack and never "
     "break: raise the least factor to %.2g, or time.end, or give a smaller fracture_energy",
-    forecast->factor, forecast->opening, forecast->available,
+    forecast->factor, opening_of(point), forecast->opening, forecast->available,
     forecast->factor * forecast->opening / forecast->available)
 
 /* The key of a load that says how hard it is: its first number. */
@@ -190,8 +199,7 @@ WARNING(
     "interfaces break at an opening of %s = %.2g m, and until time.end the load opens none by more "
     "than %.2g m: they crack and never break: is %s meant? A bare number is SI; or raise time.end "
     "or loading.%s",
-    point->spec.cohesive.fracture_energy > 0 ? "2 fracture_energy/strength" : "critical_opening",
-    forecast->opening, forecast->available,
+    opening_of(point), forecast->opening, forecast->available,
     point->spec.cohesive.fracture_energy > 0 ? "cohesive.fracture_energy in the unit (J/m2, kJ/m2)"
                                              : "cohesive.critical_opening in the unit (m, um)",
     load_key(&point->spec))

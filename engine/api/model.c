@@ -11,12 +11,16 @@
 
 #define MOST_STEPS 1e12 /* years of computing, for a bar of two elements */
 
+static double finest_of(const fracas_model *model)
+{
+    const fracas_law *law = fracas_law_of(&model->spec);
+    return law->finest ? law->finest(&model->spec.cohesive) : 1.0;
+}
+
 /* Steps to time.end, at most: a law may refine the time step. */
 static double most_steps(const fracas_model *model)
 {
-    const fracas_law *law = fracas_law_of(&model->spec);
-    const double finest = law->finest ? law->finest(&model->spec.cohesive) : 1.0;
-    return ceil(model->spec.time.end / (finest * model->time_step));
+    return ceil(model->spec.time.end / (finest_of(model) * model->time_step));
 }
 
 static fracas_err check_steps(const fracas_model *model)
@@ -37,9 +41,10 @@ static fracas_err check_steps(const fracas_model *model)
             end, end / step, step, MOST_STEPS);
     if (most_steps(model) <= MOST_STEPS) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
-                       "time.end %g s is %.3g of the finest time steps, refined twice by "
-                       "cohesive.refinement %g; %g are allowed: raise cohesive.refinement",
-                       end, most_steps(model), model->spec.cohesive.refinement, MOST_STEPS);
+                       "time.end %g s is %.3g of the finest time steps, which law %s may refine by "
+                       "%g; %g are allowed: raise cohesive.refinement",
+                       end, most_steps(model), model->spec.cohesive.law->name, finest_of(model),
+                       MOST_STEPS);
 }
 
 /* A formulation asks shape, spacing and loading for traits of its partners alone. */
@@ -67,6 +72,7 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
     model->formulation = (const fracas_formulation *)(const void *)spec->formulation;
     model->strengths = 1;
     model->tolerance = 0.05;
+    fracas_law_own(spec, model->own);
     TRY(model->formulation->model_init(model));
     model->spec.mesh.noise = NULL; /* the caller's, and done with, as is a file */
     model->spec.geometry.file = NULL;

@@ -13,12 +13,6 @@
 static const fracas_kind *const formulations[] = {
     &fracas_formulation_bar.kind, &fracas_formulation_ring.kind, &fracas_formulation_membrane.kind,
     &fracas_formulation_shell.kind};
-const fracas_kind *const fracas_chain_models[] = {&fracas_formulation_bar.kind,
-                                                  &fracas_formulation_ring.kind, NULL};
-const fracas_kind *const fracas_surface_models[] = {&fracas_formulation_membrane.kind,
-                                                    &fracas_formulation_shell.kind, NULL};
-const fracas_kind *const fracas_membrane_models[] = {&fracas_formulation_membrane.kind, NULL};
-const fracas_kind *const fracas_shell_models[] = {&fracas_formulation_shell.kind, NULL};
 static const fracas_section formulation_section = {
     .name = "model",
     .doc = "What is broken up",

@@ -2,8 +2,7 @@
 /* Values that follow from a point's parameters without a model. */
 #include "engine/spec.h"
 
-#define LANES 1 /* plain numbers */
-#include "engine/cohesive/energy.h"
+#include "engine/cohesive/law.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 
@@ -21,6 +20,13 @@ double fracas_spec_strain_rate(const fracas_spec *spec)
 
 double fracas_spec_fracture_energy(const fracas_spec *spec, double strength)
 {
-    return cohesive_energy(spec->cohesive.fracture_energy, spec->cohesive.critical_opening,
-                           strength);
+    const fracas_cohesive *cohesive = &spec->cohesive;
+    return cohesive->fracture_energy +
+           fracas_law_fullness(cohesive) * (cohesive->critical_opening * strength);
+}
+
+double fracas_spec_critical_opening(const fracas_spec *spec, double strength)
+{
+    return fracas_spec_fracture_energy(spec, strength) /
+           (fracas_law_fullness(&spec->cohesive) * strength);
 }

@@ -25,7 +25,7 @@ const fracas_law fracas_law_becker_noels = {
         "linear softening of a shell's stress resultants, normal and shear scaled by those at "
         "onset (Becker and Noels' paper); gains energy on mixed paths, and no ENERGY_DRIFT ends "
         "it: for comparison"),
-    .open_ledger = true, .fields = {RESULTANT_FIELDS, RESULTANT_FIELDS}};
+    .open_ledger = true, .shares_of_onset = true, .fields = {RESULTANT_FIELDS, RESULTANT_FIELDS}};
 
 #else
 

@@ -12,7 +12,7 @@ const fracas_law fracas_law_camacho_ortiz = {
         camacho_ortiz, "camacho-ortiz",
         "the same with normal and shear traction scaled by those at onset (Becker and Noels' "
         "paper); dissipates less than G_c on mixed paths: for comparison"),
-    .fields = {EXTRINSIC_FIELDS, EXTRINSIC_FIELDS_FRICTION}};
+    .shares_of_onset = true, .fields = {EXTRINSIC_FIELDS, EXTRINSIC_FIELDS_FRICTION}};
 
 #else
 

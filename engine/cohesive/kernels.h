@@ -14,6 +14,7 @@ typedef struct {
     vd damage;                /* D before the step, 0 until onset, 1 once broken */
     vd sigma_c, constant;     /* Pa; the law's own (trait `constant`) */
     vd stiffness, compliance; /* K [Pa/m], 1/K */
+    const double *own;        /* the law's own numbers (trait `own`) */
 } line_input;
 
 typedef struct {

@@ -2,7 +2,9 @@
 #include "engine/cohesive/law.h"
 
 #include "engine/cohesive/parameters.h"
-#include "engine/formulation/formulation.h"
+
+#include <stdio.h>
+#include <string.h>
 
 const fracas_kind fracas_onset_mean = {"mean", "the mean of the stresses on both sides"};
 const fracas_kind fracas_onset_flux = {"flux", "the traction of the discontinuous-Galerkin flux"};
@@ -13,13 +15,43 @@ bool fracas_onset_by_mean(const fracas_cohesive *cohesive)
     return cohesive->onset != &fracas_onset_flux;
 }
 
+static const fracas_law *law_of(const fracas_cohesive *cohesive)
+{
+    return (const fracas_law *)(const void *)cohesive->law;
+}
+
+double fracas_law_fullness(const fracas_cohesive *cohesive)
+{
+    const fracas_law *law = law_of(cohesive);
+    return law->fullness ? law->fullness(cohesive) : 0.5;
+}
+
+double fracas_law_steepest(const fracas_cohesive *cohesive)
+{
+    const fracas_law *law = law_of(cohesive);
+    return law->steepest ? law->steepest(cohesive) : 1;
+}
+
+double fracas_law_zone(const fracas_cohesive *cohesive)
+{
+    const fracas_law *law = law_of(cohesive);
+    return law->zone ? law->zone(cohesive) : 0;
+}
+
+void fracas_law_own(const fracas_spec *spec, double own[FRACAS_LAW_OWN])
+{
+    const fracas_law *law = fracas_law_of(spec);
+    memcpy(own, spec->cohesive.own, sizeof spec->cohesive.own);
+    if (law->own) law->own(spec, own);
+}
+
 /* The models with kernels for each law. */
-#define FRACAS_LAW(name, bar, ring, membrane, shell)                      \
-    static const fracas_kind *const name##_models[] = {                   \
-        FRACAS_IF_##bar(&fracas_formulation_bar.kind, )                   \
-            FRACAS_IF_##ring(&fracas_formulation_ring.kind, )             \
-                FRACAS_IF_##membrane(&fracas_formulation_membrane.kind, ) \
-                    FRACAS_IF_##shell(&fracas_formulation_shell.kind, ) NULL};
+#define FRACAS_LAW(name, bar, ring, membrane, shell)                                              \
+    enum {                                                                                        \
+        name##_models = FRACAS_IF_##bar(FRACAS_GROUP_BAR |) FRACAS_IF_##ring(FRACAS_GROUP_RING |) \
+            FRACAS_IF_##membrane(FRACAS_GROUP_MEMBRANE |)                                         \
+                FRACAS_IF_##shell(FRACAS_GROUP_SHELL |) 0                                         \
+    };
 #include "engine/cohesive/laws.list.h"
 #undef FRACAS_LAW
 
@@ -37,13 +69,12 @@ static const fracas_kind *const laws[] = {
 static fracas_err check_cohesive(const void *section)
 {
     const fracas_cohesive *cohesive = section;
-    if ((cohesive->fracture_energy > 0) != (cohesive->critical_opening > 0)) return FRACAS_OK;
-    return fracas_fail(
-        FRACAS_USAGE, "law %s takes either fracture_energy or critical_opening, and %s given: %s",
-        cohesive->law->name, cohesive->fracture_energy > 0 ? "both are" : "neither is",
-        cohesive->fracture_energy > 0
-            ? "leave one out, or set it to 0 where a sweep would inherit it"
-            : "add one, for instance `fracture_energy: 100 J/m2`");
+    char takes[80];
+    snprintf(takes, sizeof takes, "law %s takes", cohesive->law->name);
+    return fracas_param_check_either(
+        takes, (const char *const[]){"fracture_energy", "critical_opening"},
+        (const double[]){cohesive->fracture_energy, cohesive->critical_opening},
+        "fracture_energy: 100 J/m2");
 }
 
 const fracas_section fracas_cohesive_section = {

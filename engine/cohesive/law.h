@@ -17,6 +17,8 @@
  * D is 0 before the onset and exactly 1 once broken; fragments and events compare with 1. The
  * traction is 0 at the break. A law that ends at T_b > 0 there counts the stored energy as
  * dissipated, on chains T_b^2/(2K) of the flux, too: a break's `created` is that of its mean alone.
+ * A parameter of one law alone is a number own[] of the section (FRACAS_LAW_NUMBER), which kernels
+ * read as in->own[] or at->own[]. The trait `own` can compute more from them.
  * Code outside a law's file asks for its traits and never which law it is. */
 #ifndef FRACAS_ENGINE_COHESIVE_LAW_H
 #define FRACAS_ENGINE_COHESIVE_LAW_H
@@ -48,19 +50,30 @@ typedef struct {
     /* True: the flux holds the interface until onset, the opening is in series with it. False: an
      * interface of a chain is rigid until onset, one of a surface leaves the flux there. */
     bool flux;
-    /* Slope of its steepest softening by sigma_c/delta_c; laws with `flux`, whose stiffness must
-     * exceed it. */
-    double steepest;
+    /* G_c over sigma_c delta_c; NULL: 1/2, linear softening. */
+    double (*fullness)(const fracas_cohesive *);
+    /* Slope of its steepest softening over sigma_c^2/(2 G_c); laws with `flux`, whose stiffness
+     * must exceed it. NULL: 1. */
+    double (*steepest)(const fracas_cohesive *);
+    /* Fills the law's own numbers as its kernels read them, from own[] of the section; a body's
+     * lanes and interfaces share them. NULL: as they are. */
+    void (*own)(const fracas_spec *, double own[FRACAS_LAW_OWN]);
     /* True: it gains or loses energy on mixed paths. The energy guard then ends no run. */
     bool open_ledger;
+    /* True: normal and shear tractions keep their shares of the onset, so that a break on a mixed
+     * path takes less than G_c. */
+    bool shares_of_onset;
     int fields[2]; /* surfaces: values without, with friction, at most SURFACE_POINT_FIELDS_MOST */
     /* Chains. */
     double (*contact)(const fracas_cohesive *); /* stiffness of contact by E/h; NULL: at most 1 */
-    bool contact_by_strength; /* contact stiffens with the strength  (cohesive.9) */
-    /* Constant of an interface, of its stiffness K [Pa/m], G_c [J/m2], sigma_c [Pa]; NULL: 0. */
-    double (*constant)(double stiffness, double energy, double strength);
+    /* Stiffness of contact of an interface of this sigma_c [Pa/m]; NULL: by `contact`. */
+    double (*contact_by_strength)(const fracas_spec *, double strength);
+    /* Constant of an interface, of its stiffness K [Pa/m] and sigma_c [Pa]; NULL: 0. */
+    double (*constant)(const fracas_cohesive *, double stiffness, double strength);
     /* Least factor by which the law refines the time step, 0 to 1; NULL: it does not. */
     double (*finest)(const fracas_cohesive *);
+    /* Distance of an open interface within which none opens [m]; NULL: 0. */
+    double (*zone)(const fracas_cohesive *);
 } fracas_law;
 
 #define FRACAS_LAW(name, bar, ring, membrane, shell) extern const fracas_law fracas_law_##name;
@@ -72,10 +85,16 @@ static inline const fracas_law *fracas_law_of(const fracas_spec *spec)
     return (const fracas_law *)(const void *)spec->cohesive.law; /* .kind is its first member */
 }
 
+/* The traits, with what NULL stands for. */
+double fracas_law_fullness(const fracas_cohesive *cohesive);
+double fracas_law_steepest(const fracas_cohesive *cohesive);
+double fracas_law_zone(const fracas_cohesive *cohesive);
+void fracas_law_own(const fracas_spec *spec, double own[FRACAS_LAW_OWN]);
+
 extern const fracas_section fracas_cohesive_section;
 extern const fracas_kind fracas_onset_mean, fracas_onset_flux;
 /* True where the mean of the stresses is held against the strength, not the flux. */
 bool fracas_onset_by_mean(const fracas_cohesive *cohesive);
-extern const fracas_kind fracas_zone_softening, fracas_zone_steep;
+extern const fracas_kind fracas_zone_softening, fracas_zone_steep; /* stershic's own_choice */
 
 #endif

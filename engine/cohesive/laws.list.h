@@ -6,3 +6,4 @@
 #include "engine/cohesive/camacho_ortiz_standard.h"
 #include "engine/cohesive/camacho_ortiz.h"
 #include "engine/cohesive/becker_noels.h"
+#include "engine/cohesive/trapezoid.h"

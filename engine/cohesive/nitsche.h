@@ -6,8 +6,8 @@ FRACAS_LAW(nitsche, FLUX, FLUX, YES, YES)
 
 static const fracas_param nitsche_params[] = {
     FRACAS_LAW_REAL(fracture_energy, "J/m2", FRACAS_REQUIRED, 0, INFINITY, true,
-                    fracas_chain_models, "fracture energy G_c"),
-    FRACAS_LAW_REAL(beta, "1", 4, 1, 1e4, true, fracas_chain_models,
+                    FRACAS_GROUP_CHAINS, "fracture energy G_c"),
+    FRACAS_LAW_REAL(beta, "1", 4, 1, 1e4, true, FRACAS_GROUP_CHAINS,
                     "interface stiffness K = beta E/h; above 1 for a positive operator, 1.5 or "
                     "more in practice"),
     FRACAS_SURFACE_LAW,
@@ -19,19 +19,16 @@ static double nitsche_contact(const fracas_cohesive *cohesive)
 }
 
 /* x = K delta_c - sigma_c [Pa]  (cohesive.2) */
-static double nitsche_constant(double stiffness, double energy, double strength)
+static double nitsche_constant(const fracas_cohesive *cohesive, double stiffness, double strength)
 {
-    return 2 * stiffness * energy / strength - strength;
+    return 2 * stiffness * cohesive->fracture_energy / strength - strength;
 }
 
 const fracas_law fracas_law_nitsche = {
     FRACAS_LAW_HEAD(nitsche, "nitsche",
                     "linear softening, the opening in series with the discontinuous-Galerkin flux"),
-    .flux = true,
-    .steepest = 1,
-    .fields = {SURFACE_POINT_FIELDS, SURFACE_POINT_FIELDS + 2},
-    .contact = nitsche_contact,
-    .constant = nitsche_constant};
+    .flux = true, .fields = {SURFACE_POINT_FIELDS, SURFACE_POINT_FIELDS + 2},
+    .contact = nitsche_contact, .constant = nitsche_constant};
 
 #else
 #include "engine/cohesive/series.h"

@@ -20,9 +20,10 @@ typedef struct {
     vd softness_n, softness_t; /* 1/k_n, 1/k_t [m/Pa] */
     vd beta_c, per_beta_c;     /* 1: beta_c, 1/beta_c */
     vd mu_c;                   /* 1 */
-    vd energy, opening;        /* G_c [J/m2], delta_c [m]: one is given, the other 0 */
+    vd energy, opening;        /* G_c [J/m2], 2 G_c/p [m]: one is given, the other 0 */
     int onset_mean;            /* onset of the mean; else of the flux */
     int friction;              /* mu_c > 0 */
+    const double *own;         /* the law's own numbers (trait `own`) */
     /* A constant of each call. In a calm step the law may take it that there is no friction, onset
      * or break, and that D alone changes: it stores nothing. `cracks`, `breaks` say where it errs.
      */
@@ -106,7 +107,7 @@ LANES_FUNCTION vd plane_energy(const plane_interface *at, vd peak)
     return cohesive_energy(at->energy, at->opening, peak);
 }
 
-/* delta_c of a point with this peak [m]. */
+/* 2 G_c/p of a point with this peak [m]: delta_c of linear softening. */
 LANES_FUNCTION vd plane_critical_opening(const plane_interface *at, vd peak)
 {
     const vd zero = lanes_set(0.0);

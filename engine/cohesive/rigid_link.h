@@ -10,16 +10,38 @@
 #if defined FRACAS_LAW
 FRACAS_LAW(rigid_link, RIGID, NO, NO, NO)
 #elif defined FRACAS_LAW_TABLES
+#include "base/elementary.h"
 
 static const fracas_param rigid_link_params[] = {FRACAS_LAW_REAL(
-    fracture_energy, "J/m2", FRACAS_REQUIRED, 0, INFINITY, true, NULL, "fracture energy G_c")};
+    fracture_energy, "J/m2", FRACAS_REQUIRED, 0, INFINITY, true, 0, "fracture energy G_c")};
+/* 4.5 rate^(2/3) E G_c^(2/3) rho^(1/3) [Pa2]  (cohesive.9) */
+static void rigid_link_own(const fracas_spec *spec, double own[FRACAS_LAW_OWN])
+{
+    own[0] = 4.5 * fracas_pow(spec->loading.rate, 2.0 / 3.0) * spec->material.young *
+             fracas_pow(spec->cohesive.fracture_energy, 2.0 / 3.0) *
+             fracas_pow(spec->material.density, 1.0 / 3.0);
+}
+
+static double rigid_link_contact(const fracas_spec *spec, double strength)
+{
+    double own[FRACAS_LAW_OWN];
+    rigid_link_own(spec, own);
+    return (strength * strength + own[0]) / (4.5 * spec->cohesive.fracture_energy);
+}
+
 const fracas_law fracas_law_rigid_link = {
     FRACAS_LAW_HEAD(rigid_link, "rigid-link",
                     "linear softening of a link that is rigid until its stress has exceeded its "
                     "strength, contact by penalty (the algorithm of the code DynFrag1D)"),
-    .contact_by_strength = true};
+    .own = rigid_link_own, .contact_by_strength = rigid_link_contact};
 
 #else
+
+/* k [Pa/m]  (cohesive.9) */
+LANES_FUNCTION vd rigid_link_penalty(vd sigma_c, const double *own, double energy)
+{
+    return (sigma_c * sigma_c + lanes_set(own[0])) / lanes_set(4.5 * energy);
+}
 
 /* Traction of an open link [Pa]; *damage follows. `penalty` is k [Pa/m]. */
 LANES_FUNCTION vd rigid_link_law(vd q, vd *damage, vd sigma_c, vd delta_c, vd penalty)

@@ -32,6 +32,7 @@ struct fracas_model {
     double critical_step;                     /* s, the smaller of the two */
     double time_step;                         /* s */
     double tolerance;                         /* 1, of the energy guard: 0.05; tests have others */
+    double own[FRACAS_LAW_OWN];               /* the law's own numbers, as its kernels read them */
     fracas_motion idle; /* the whole body's, which load and supports keep from becoming strain */
 };
 
@@ -163,8 +164,5 @@ struct fracas_formulation {
 
 extern const fracas_formulation fracas_formulation_bar, fracas_formulation_ring,
     fracas_formulation_membrane, fracas_formulation_shell;
-/* Models of such bodies, then NULL. */
-extern const fracas_kind *const fracas_chain_models[],
-    *const fracas_surface_models[], *const fracas_membrane_models[], *const fracas_shell_models[];
 
 #endif

@@ -2,7 +2,6 @@
 #include "engine/mesh/body.h"
 
 #include "base/elementary.h"
-#include "engine/formulation/formulation.h"
 #include "engine/mesh/surface/gmsh.h"
 #include "engine/mesh/surface/gmsh_file.h"
 
@@ -353,9 +352,9 @@ static const fracas_param triangles[] = {
      0, 0, 1e4, false, offsetof(fracas_mesh, divisions)},
     {"order", FRACAS_INTEGER, "1",
      "1: linear triangles, 2: quadratic ones, which follow curved edges", 1, 1, 2, false,
-     offsetof(fracas_mesh, order), .only = fracas_membrane_models},
+     offsetof(fracas_mesh, order), .only = FRACAS_GROUP_MEMBRANE},
     {"order", FRACAS_INTEGER, "1", "2: quadratic triangles, which bend", 2, 2, 2, false,
-     offsetof(fracas_mesh, order), .only = fracas_shell_models},
+     offsetof(fracas_mesh, order), .only = FRACAS_GROUP_SHELL},
     {"amplitude", FRACAS_REAL, "1",
      "largest random move of an inner node, in local edge lengths, once a point: regular meshes "
      "lead cracks along their lines",
@@ -371,13 +370,10 @@ const fracas_kind fracas_spacing_given = {"given", "the elements of the mesh fil
 static fracas_err check_mesh(const void *section)
 {
     const fracas_mesh *mesh = section;
-    if (mesh->spacing != &fracas_spacing_triangles || (mesh->size > 0) != (mesh->divisions > 0))
-        return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE, "triangles take either size or divisions, and %s given: %s",
-                       mesh->size > 0 ? "both are" : "neither is",
-                       mesh->size > 0
-                           ? "leave one out, or set it to 0 where a sweep would inherit it"
-                           : "add one, for instance `size: 0.1 mm`");
+    if (mesh->spacing != &fracas_spacing_triangles) return FRACAS_OK;
+    return fracas_param_check_either("triangles take", (const char *const[]){"size", "divisions"},
+                                     (const double[]){mesh->size, (double)mesh->divisions},
+                                     "size: 0.1 mm");
 }
 
 static const fracas_kind *const spacings[] = {&fracas_spacing_uniform, &fracas_spacing_graded,

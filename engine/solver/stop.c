@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/solver/stop.h"
 
-#include "engine/formulation/formulation.h"
 #include "engine/integrator/integrator.h"
 
 /* Traits of a rule that can end a realization before time.end; `time` has none. */
@@ -16,16 +15,16 @@ const fracas_kind fracas_stop_time = {"time", "at the set time `end`"};
 static const fracas_param settled[] = {
     {"transits", FRACAS_REAL, "1",
      "fewest transits of a mean fragment by a longitudinal wave since the first onset", 20, 0,
-     INFINITY, false, offsetof(fracas_time, transits), .only = fracas_chain_models},
+     INFINITY, false, offsetof(fracas_time, transits), .only = FRACAS_GROUP_CHAINS},
     {"transits", FRACAS_REAL, "1",
      "fewest transits of a mean fragment by a longitudinal wave since the first onset", 60, 0,
-     INFINITY, false, offsetof(fracas_time, transits), .only = fracas_surface_models},
+     INFINITY, false, offsetof(fracas_time, transits), .only = FRACAS_GROUP_SURFACES},
     {"growth", FRACAS_REAL, "1",
      "largest share of the fragments that the last half of that time may have added", 0.03, 0, 1,
      false, offsetof(fracas_time, growth)},
     {"rest", FRACAS_REAL, "1",
      "largest share of the fragments that may still come, by the energies of all", 0.02, 0, 1,
-     false, offsetof(fracas_time, rest), .only = fracas_chain_models},
+     false, offsetof(fracas_time, rest), .only = FRACAS_GROUP_CHAINS},
 };
 /* (settled.7) */
 static bool is_settled(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)
@@ -101,19 +100,19 @@ static const fracas_param time_params[] = {
      offsetof(fracas_time, safety)},
     {FRACAS_ONE_OF("integrator", integrators, offsetof(fracas_time, integrator),
                    "scheme of time integration"),
-     .only = fracas_surface_models},
+     .only = FRACAS_GROUP_SURFACES},
     {"spectral_radius", FRACAS_REAL, "1",
      "of hulbert-chung, at its bifurcation: the less, the more it damps high frequencies; "
      "central-difference damps nothing",
-     0.95, 0, 1, false, offsetof(fracas_time, spectral_radius), .only = fracas_surface_models},
+     0.95, 0, 1, false, offsetof(fracas_time, spectral_radius), .only = FRACAS_GROUP_SURFACES},
     {FRACAS_ONE_OF("mass", masses, offsetof(fracas_time, mass), "mass matrix of an element"),
-     .only = fracas_membrane_models},
+     .only = FRACAS_GROUP_MEMBRANE},
     {"rotary_inertia", FRACAS_REAL, "1",
      "share of the thickness's rotary inertia that is counted: 1 allows time steps several times "
      "as "
      "long where elements are smaller than the shell is thick; left out, none is",
-     FRACAS_REQUIRED, 0, 1, true, offsetof(fracas_time, rotary_inertia),
-     .only = fracas_shell_models, .optional = true},
+     FRACAS_REQUIRED, 0, 1, true, offsetof(fracas_time, rotary_inertia), .only = FRACAS_GROUP_SHELL,
+     .optional = true},
 };
 static fracas_err check_time(const void *section)
 {

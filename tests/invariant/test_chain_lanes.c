@@ -59,9 +59,9 @@ static fracas_spec stershic_case(int k, double *unused)
     spec.geometry.radius = 6e-3 / (2 * M_PI);
     spec.loading.radial = 2e4 * spec.geometry.radius;
     spec.loading.circumferential = 20;
-    spec.cohesive.refinement = 0.3;
+    spec.cohesive.own[REFINEMENT] = 0.3;
     spec.time.safety = 0.3;
-    spec.cohesive.zone = zone[k] * 6e-3 / 200;
+    spec.cohesive.own[ZONE] = zone[k] * 6e-3 / 200;
     if (k == 1) {
         spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 2e4};
         until_quiet(&spec, 4e-8, 0.02);

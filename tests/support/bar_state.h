@@ -5,10 +5,10 @@
 
 #include "engine/formulation/chain/bar_sweep.h"
 #include "tests/support/bar.h"
+#include "tests/support/listed_laws.h"
 
 enum { MOST = 2000 }; /* elements */
 
-static const fracas_kind *const laws[] = {&fracas_law_nitsche.kind, &fracas_law_rigid_link.kind};
 static const fracas_kind *const ends[] = {&fracas_ends_periodic, &fracas_ends_held};
 
 /* Ends joined, held, free, free between walls at a gap. */
@@ -34,6 +34,11 @@ static inline fracas_model *model_on(fracas_spec *spec, int mesh)
     if (mesh == 1) bar_grade(spec, 0.01);
     if (mesh == 2) bar_perturb(spec, 0.45, 1, noise);
     return make_model(spec);
+}
+
+static inline bool has_flux(const fracas_spec *spec)
+{
+    return fracas_law_of(spec)->flux;
 }
 
 static inline double length_of(const fracas_model *model, size_t e)

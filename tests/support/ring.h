@@ -24,12 +24,15 @@ static inline fracas_spec ring_reference(int64_t elements, double rate, double e
     return spec;
 }
 
+/* Places of that algorithm's own numbers (engine/cohesive/stershic.h). */
+enum { PENALTY, REFINEMENT, ZONE };
+
 /* The same with Stershic's algorithm: 0.8 h/c, refined by xi = 0.25 a zone. */
 static inline fracas_spec ring_stershic(int64_t elements, double rate, double end)
 {
     fracas_spec spec = ring_reference(elements, rate, end);
     spec.cohesive = (fracas_cohesive){
-        .law = &fracas_law_stershic.kind, .fracture_energy = 100, .penalty = 1, .refinement = 0.25};
+        .law = &fracas_law_stershic.kind, .fracture_energy = 100, .own = {1, 0.25}};
     spec.time.safety = 0.8;
     return spec;
 }

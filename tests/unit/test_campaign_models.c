@@ -27,20 +27,22 @@ static const fracas_kind soft = {.name = "soft", .params = of_soft, .nparams = 2
 static const fracas_kind *const laws[] = {&soft, &hard, &odd};
 static const fracas_kind *const with_rod[] = {&soft, &odd}, *const with_disc[] = {&hard, &odd};
 static const fracas_kind rod = {.name = "rod", .goes_with = with_rod, .ngoes_with = 2},
-                         disc = {.name = "disc", .goes_with = with_disc, .ngoes_with = 2},
-                         cloud = {.name = "cloud"};
+                         disc = {.name = "disc",
+                                 .goes_with = with_disc,
+                                 .ngoes_with = 2,
+                                 .groups = 1},
+                         cloud = {.name = "cloud", .groups = 2};
 static const fracas_kind *const models[] = {&rod, &disc, &cloud};
 static const fracas_section model_section = {
     .name = "model", .kinds = models, .nkinds = 3, .kind_offset = offsetof(body, model)};
 /* Whatever the law, but not at a rod. */
-static const fracas_kind *const but_rods[] = {&disc, &cloud, NULL};
 static const fracas_param of_all[] = {{.name = "grip",
                                        .unit = "1",
                                        .doc = "a number",
                                        .fallback = 9,
                                        .maximum = INFINITY,
                                        .offset = offsetof(body, grip),
-                                       .only = but_rods}};
+                                       .only = 1 | 2}};
 static const fracas_section law_section = {.name = "cohesive",
                                            .selector = "law",
                                            .kinds = laws,

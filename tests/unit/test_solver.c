@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pieces of the solver: stop rules, histories, fragments, what a batch refuses. */
+#include "tests/support/listed_laws.h"
 #include "tests/support/bar.h"
 
 #include "engine/fragments/fragments.h"
@@ -342,11 +343,10 @@ static void a_run_that_gains_energy_ends_as_drift(void **unused)
  * step's end would be a clamped one, and of hundreds hardly any falls there by chance. */
 static void events_are_counted_and_timed_inside_their_steps(void **unused)
 {
-    const fracas_kind *laws[] = {&fracas_law_nitsche.kind, &fracas_law_rigid_link.kind};
-    for (int law = 0; law < 2; law++) {
+    for (int law = 0; law < BAR_LAWS; law++) {
         fracas_spec spec = bar_reference(1000, 1e5, 1.5e-7);
         spec.geometry.length = 1e-2;
-        spec.cohesive.law = laws[law];
+        set_listed_law(&spec, law);
         spec.time.safety = 0.1;
         OWN(fracas_model) model;
         OWN(fracas_batch) batch = batch_of(&spec, 1, (fracas_batch_options){.interfaces = true},

@@ -8,12 +8,12 @@
 static void onset_time_is_strength_over_stress_rate(void **unused)
 {
     const double rates[] = {1e3, 1e4, 1e5, 1e6};
-    for (int law = 0; law < 2; law++)
+    for (int law = 0; law < BAR_LAWS; law++)
         for (int r = 0; r < 4; r++)
             for (int held = 0; held < 2; held++) {
                 double exact = 300e6 / (275e9 * rates[r]);
                 fracas_spec spec = bar_reference(r < 3 ? 800 : 4000, rates[r], 1.5 * exact);
-                spec.cohesive.law = laws[law];
+                set_listed_law(&spec, law);
                 spec.geometry.ends = ends[held];
                 one_run run = make_run(make_model(&spec), 1, 301e6);
                 bar_set_strength(run.batch, 0, 37, 300e6);

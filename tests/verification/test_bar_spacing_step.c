@@ -7,7 +7,7 @@
 
 typedef struct {
     const fracas_model *model;
-    bool ring, held, walls, nitsche, broken;
+    bool ring, held, walls, flux, broken;
     double contact; /* K of a broken interface / mean of both elements' E/h */
     size_t size;
     double *stiffness; /* of all nodes, left and right of each element */
@@ -39,9 +39,9 @@ static void assemble(dense_operator *o)
         const double left = 275e9 / length_of(model, l), right = 275e9 / length_of(model, r),
                      jump[4] = {0, -1, 1, 0};
         const double mean[4] = {-0.5 * left, 0.5 * left, -0.5 * right, 0.5 * right};
-        if (o->broken || o->nitsche)
+        if (o->broken || o->flux)
             add_product(o, at, jump, jump, 0.25 * o->contact * (left + right));
-        if (!o->broken && o->nitsche) add_product(o, at, mean, jump, 1);
+        if (!o->broken && o->flux) add_product(o, at, mean, jump, 1);
     }
     for (size_t i = 0; o->walls && i < 2; i++) {
         const size_t node = i ? o->size - 1 : 0;
@@ -52,7 +52,7 @@ static void assemble(dense_operator *o)
 /* Which degree of freedom a node belongs to: tied ones share one, held ones have none (-1). */
 static size_t number_nodes(const dense_operator *o, int *number)
 {
-    const bool tied = !o->broken && !o->nitsche;
+    const bool tied = !o->broken && !o->flux;
     size_t count = 0;
     for (size_t i = 0; i < o->size; i++) number[i] = -1;
     for (size_t i = 0; i < o->size; i++) {
@@ -74,14 +74,13 @@ static size_t number_nodes(const dense_operator *o, int *number)
 /* 2/omega_max [s] by GSL's QR algorithm, for M^-1/2 K M^-1/2. */
 static double dense_step(const fracas_model *model, bool broken)
 {
-    const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche.kind;
     dense_operator o = {.model = model,
                         .ring = model->interfaces == model->elements,
                         .held = model->spec.geometry.ends == &fracas_ends_held,
                         .walls = fracas_chain_gap(model) >= 0,
-                        .nitsche = nitsche,
+                        .flux = has_flux(&model->spec),
                         .broken = broken,
-                        .contact = nitsche ? model->spec.cohesive.beta : 1.0};
+                        .contact = fracas_chain_contact_factor(&model->spec)};
     assemble(&o);
     int number[2 * MOST];
     const size_t n = number_nodes(&o, number);
@@ -109,14 +108,14 @@ static void critical_step_is_that_of_the_dense_operator(void **unused)
     static const double ratios[] = {1.001, 3, 100, 1e3, 1e-3},
                         amplitudes[] = {0.45, 0.3, 0.1, 0.01, 0.001};
     static const double betas[] = {1.05, 4, 30};
-    double above[2][2] = {{0}}, below = 0, noise[301];
+    double above[BAR_LAWS][2] = {{0}}, below = 0, noise[301];
     for (int i = 0; i < 122; i++) {
         const bool large = i >= 120; /* two of 300 elements */
         const int64_t n = large ? 300 : i % 12 == 0 ? 3 : 20 + (i * 7) % 41;
         fracas_spec spec = bar_reference(n, 1e4, 1e-6);
         spec.geometry.length = (double)n * 2e-5;
         set_ends(&spec, i / 2 % ENDS, 0);
-        spec.cohesive.law = laws[i % 2];
+        set_listed_law(&spec, i);
         spec.cohesive.beta = betas[i / 16 % 3];
         if (i / 8 % 2 && !large) bar_grade(&spec, ratios[i % 5]);
         else bar_perturb(&spec, large ? 0.01 : amplitudes[i % 5], (uint64_t)i, noise);
@@ -124,14 +123,15 @@ static void critical_step_is_that_of_the_dense_operator(void **unused)
         for (int broken = 0; broken < 2; broken++) {
             const double found = broken ? model->critical_cracked : model->critical_closed;
             const double error = found / dense_step(model, broken) - 1;
-            above[i % 2][broken] = fmax(above[i % 2][broken], error);
+            above[i % BAR_LAWS][broken] = fmax(above[i % BAR_LAWS][broken], error);
             below = fmin(below, error);
         }
         assert_true(model->critical_step == fmin(model->critical_closed, model->critical_cracked));
     }
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < 2 * BAR_LAWS; i++) {
         print_message("[  figures ] %s %s: step above the critical one by %.1e at most\n",
-                      laws[i / 2]->name, i % 2 ? "broken" : "uncracked", above[i / 2][i % 2]);
+                      law_of_model(MODEL_BAR, i / 2)->kind.name, i % 2 ? "broken" : "uncracked",
+                      above[i / 2][i % 2]);
         assert_true(above[i / 2][i % 2] < 1e-7);
     }
     assert_true(below > -1e-9);
@@ -143,17 +143,17 @@ static void critical_step_is_that_of_the_dense_operator(void **unused)
 static void press_together(const fracas_model *model, fracas_batch *batch)
 {
     const size_t n = model->elements;
-    const bool nitsche = model->spec.cohesive.law == &fracas_law_nitsche.kind;
+    const bool flux = has_flux(&model->spec);
     const double offset = 4.5 * pow(model->spec.loading.rate, 2.0 / 3) * 275e9 * pow(100, 2.0 / 3) *
                           pow(2750, 1.0 / 3);
     double stiffness[MOST], give = model->spec.geometry.length / 275e9, left = 0;
     for (size_t e = 0; e < model->interfaces; e++) {
         const double mean = 0.5 * 275e9 *
                             (1 / length_of(model, e) + 1 / length_of(model, (e + 1) % n));
-        stiffness[e] = nitsche ? 4 * mean : mean;
+        stiffness[e] = flux ? 4 * mean : mean;
         give += 1 / stiffness[e];
         *field(batch, e, BAR_DAMAGE) = 1;
-        if (nitsche) continue;
+        if (flux) continue;
         *field(batch, e, BAR_STRENGTH) = sqrt(4.5 * 100 * mean - offset);
         *field(batch, e, BAR_LAW) = 2;
     }
@@ -178,7 +178,7 @@ static double march(const fracas_model *model, bool broken, double factor)
     if (broken) press_together(model, batch);
     for (size_t e = 0; e < n; e++) { /* tied nodes start together */
         *field(batch, e, BAR_V_RIGHT) = 1e-9 * random_noise(&seed);
-        *field(batch, (e + 1) % n, BAR_V_LEFT) = model->spec.cohesive.law == laws[0]
+        *field(batch, (e + 1) % n, BAR_V_LEFT) = has_flux(&model->spec)
                                                      ? 1e-9 * random_noise(&seed)
                                                      : *field(batch, e, BAR_V_RIGHT);
     }
@@ -196,17 +196,18 @@ static double march(const fracas_model *model, bool broken, double factor)
  * it, omega dt = 2.02, by e^(2 arcosh 1.01) = 1.33 a step, until interfaces open. */
 static void steps_blow_up_above_the_critical_one_only(void **unused)
 {
-    for (int i = 0; i < 8 * (MESHES + 1); i++) {
+    for (int i = 0; i < 4 * BAR_LAWS * (MESHES + 1); i++) {
         fracas_spec spec = bar_reference(60, 1e4, 1);
         spec.geometry.length = 60 * 2e-5;
-        spec.cohesive.law = laws[i % 2];
-        spec.geometry.ends = ends[i / 2 % 2];
-        OWN(fracas_model) model = model_on(&spec, i / 8);
-        const double stays = march(model, i / 4 % 2, 0.99), grows = march(model, i / 4 % 2, 1.01);
+        set_listed_law(&spec, i);
+        spec.geometry.ends = ends[i / BAR_LAWS % 2];
+        OWN(fracas_model) model = model_on(&spec, i / (4 * BAR_LAWS));
+        const double stays = march(model, i / (2 * BAR_LAWS) % 2, 0.99),
+                     grows = march(model, i / (2 * BAR_LAWS) % 2, 1.01);
         if (!(stays < 1e-7) || !(grows > 1e-5))
-            fail_msg("%s, %s, %s, %s: %g m/s below, %g m/s above", laws[i % 2]->name,
-                     ends[i / 2 % 2]->name, i / 4 % 2 ? "broken" : "uncracked", mesh_name[i / 8],
-                     stays, grows);
+            fail_msg("%s, %s, %s, %s: %g m/s below, %g m/s above", spec.cohesive.law->name,
+                     ends[i / BAR_LAWS % 2]->name, i / (2 * BAR_LAWS) % 2 ? "broken" : "uncracked",
+                     mesh_name[i / (4 * BAR_LAWS)], stays, grows);
     }
 }
 

@@ -37,9 +37,9 @@ static void the_law_at_prescribed_openings(void **unused)
             spec.cohesive.fracture_energy = 0;
             spec.cohesive.critical_opening = delta_c;
         }
-        spec.cohesive.penalty = k & 1 ? 0.75 : 1;
-        const double contact = spec.cohesive.penalty * YOUNG / (RING_CIRCUMFERENCE / N) * delta_c /
-                               sigma_c;
+        spec.cohesive.own[PENALTY] = k & 1 ? 0.75 : 1;
+        const double contact = spec.cohesive.own[PENALTY] * YOUNG / (RING_CIRCUMFERENCE / N) *
+                               delta_c / sigma_c;
         const law_point points[] = {{0, 0, 1, 0},
                                     {0, 0.25, 0.75, 0.25},
                                     {0.25, 0.5, 0.5, 0.5}, /* loading */
@@ -178,7 +178,7 @@ static void critical_zones_refine_the_time_step(void **unused)
             const step_case *it = &step_cases[i];
             const size_t link = around ? N - 1 : LINK;
             fracas_spec spec = at_rest(N);
-            spec.cohesive.refinement = xi;
+            spec.cohesive.own[REFINEMENT] = xi;
             one_run run = make(&spec, 3e9);
             bar_set_strength(run.batch, 0, link, 1e8 * it->strength);
             OK(fracas_batch_begin(run.batch));
@@ -301,7 +301,7 @@ typedef struct {
 static one_run qualify(int64_t n, double zone, const candidate *candidates, size_t count)
 {
     fracas_spec spec = at_rest(n);
-    spec.cohesive.zone = zone;
+    spec.cohesive.own[ZONE] = zone;
     for (int again = 0;; again++) {
         one_run run = begin(&spec, 3e9);
         for (size_t e = 0; e < run.n; e++) set_stress(&run, e, 200e6);
@@ -394,7 +394,7 @@ static void a_zone_is_as_long_as_it_says(void **unused)
             if (k == 1) { /* a zone shorter than an element is refused */
                 fracas_spec spec = at_rest(n);
                 fracas_model *model;
-                spec.cohesive.zone = length * (1 - 1e-9);
+                spec.cohesive.own[ZONE] = length * (1 - 1e-9);
                 assert_int_equal(fracas_model_create(&spec, &model), FRACAS_USAGE);
                 continue;
             }
@@ -483,7 +483,7 @@ static void the_bulk_law_at_prescribed_strains(void **unused)
     for (size_t i = 0; i < FRACAS_COUNT(points); i++) {
         const damage_point *p = &points[i];
         fracas_spec spec = at_rest(N);
-        spec.cohesive.zone = 1.3e-3;
+        spec.cohesive.own[ZONE] = 1.3e-3;
         one_run run = make(&spec, 1e9);
         bar_set_strength(run.batch, 0, AT - 1, 280e6);
         bar_set_strength(run.batch, 0, AT, 320e6);
@@ -521,7 +521,7 @@ static void what_is_barred_beyond_its_yield_is_booked(void **unused)
     double held[2], created[2];
     for (int zone = 0; zone < 2; zone++) {
         fracas_spec spec = at_rest(N);
-        spec.cohesive.zone = zone * 5 * RING_CIRCUMFERENCE / N;
+        spec.cohesive.own[ZONE] = zone * 5 * RING_CIRCUMFERENCE / N;
         one_run run = make(&spec, yield);
         bar_set_strength(run.batch, 0, WEAK, 90e6);
         OK(fracas_batch_begin(run.batch));

@@ -90,7 +90,7 @@ static void one_strength_needs_no_choice_of_parameters(void **unused)
             one_run run[2];
             for (int by_opening = 0; by_opening < 2; by_opening++) {
                 fracas_spec spec = ring_stershic(300, 1e4, 8e-7);
-                spec.cohesive.zone = zone * 3.5 * RING_CIRCUMFERENCE / 300;
+                spec.cohesive.own[ZONE] = zone * 3.5 * RING_CIRCUMFERENCE / 300;
                 if (by_opening) {
                     spec.cohesive.fracture_energy = 0;
                     spec.cohesive.critical_opening = 2.0 * 100 / 300e6;
@@ -114,7 +114,7 @@ static void one_strength_needs_no_choice_of_parameters(void **unused)
 static void the_clock_adds_up(void **unused)
 {
     fracas_spec spec = ring_stershic(1250, 1e4, 6e-7);
-    spec.cohesive.refinement = 0.3;
+    spec.cohesive.own[REFINEMENT] = 0.3;
     one_run run = make(&spec, 300e6);
     bar_draw(run.batch, 0, 1.0 / 300, 0);
     OK(fracas_batch_begin(run.batch));
@@ -211,7 +211,7 @@ static one_run barred_ring(void)
 {
     fracas_spec spec = ring_stershic(N, 1e4, 3e-6);
     spec.loading = (fracas_loading){.type = &fracas_loading_imposed_rate, .rate = 1e4};
-    spec.cohesive.zone = 1;
+    spec.cohesive.own[ZONE] = 1;
     spec.time.safety = 0.1;
     one_run run = make(&spec, 300e6);
     for (size_t i = 0; i < N; i++)
@@ -349,8 +349,8 @@ static void the_energy_guard_ends_what_has_drifted(void **unused)
     double highest = 0;
     for (uint64_t replica = 0; replica < 8; replica++) {
         fracas_spec spec = ring_stershic(400, 1e4, 1.2e-6);
-        spec.cohesive.refinement = 1;
-        spec.cohesive.penalty = 100;
+        spec.cohesive.own[REFINEMENT] = 1;
+        spec.cohesive.own[PENALTY] = 100;
         one_run run = scattered(&spec, 1.0 / 30, replica);
         finish_run(&run);
         assert_int_equal(run.record.outcome, FRACAS_ENERGY_DRIFT);
@@ -358,7 +358,7 @@ static void the_energy_guard_ends_what_has_drifted(void **unused)
         clear_run(&run);
         for (int refined = 0; refined < 2; refined++) {
             fracas_spec coarse = ring_stershic(refined ? 400 : 100, 1e4, 1.2e-6);
-            if (!refined) coarse.cohesive.refinement = 1;
+            if (!refined) coarse.cohesive.own[REFINEMENT] = 1;
             run = scattered(&coarse, 1.0 / 30, replica);
             highest = fmax(highest, residual_of(&run));
             assert_int_equal(run.record.outcome, refined ? FRACAS_FRAGMENTED : FRACAS_ENERGY_DRIFT);
@@ -384,9 +384,9 @@ static void the_papers_time_step_is_too_long_for_some(void **unused)
             spec.geometry.radius = 6e-3 / (2 * PI);
             spec.loading.radial = 2e4 * spec.geometry.radius;
             spec.loading.circumferential = 20;
-            spec.cohesive.refinement = 0.3;
-            spec.cohesive.critical_zone = zones[way];
-            spec.cohesive.zone = i % 2 ? 3.5 * 6e-3 / 200 : 0;
+            spec.cohesive.own[REFINEMENT] = 0.3;
+            spec.cohesive.own_choice = zones[way];
+            spec.cohesive.own[ZONE] = i % 2 ? 3.5 * 6e-3 / 200 : 0;
             spec.time.safety = way == 1 ? 0.2 : 0.8;
             one_run run = scattered(&spec, 0.2, i / 2);
             finish_run(&run);
@@ -410,7 +410,7 @@ static void momentum_is_kept(void **unused)
     for (int k = 0; k < 8; k++) {
         fracas_spec spec = ring_stershic(1250, 1e4, 5e-7);
         if (k & 1) spec.geometry.direction = &fracas_direction_initial;
-        if (k & 2) spec.cohesive.zone = 5.5 * RING_CIRCUMFERENCE / 1250;
+        if (k & 2) spec.cohesive.own[ZONE] = 5.5 * RING_CIRCUMFERENCE / 1250;
         if (k & 4) spec.loading.circumferential = 10;
         one_run run = scattered(&spec, 1.0 / 300, 0);
         finish_run(&run);

@@ -2,7 +2,6 @@
 /* The bar: one coordinate, background motion rate t x taken out (docs/theory/bar.md). */
 #include "engine/formulation/chain/bar_sweep.h"
 
-#include "base/elementary.h"
 #include "engine/cohesive/law.h"
 #include "engine/formulation/chain/chain.h"
 #include "engine/loading/loading.h"
@@ -39,10 +38,7 @@ static fracas_bar_constants constants_of(const fracas_model *model)
                                   .spring = spec->cohesive.beta * young / model->element_size,
                                   .beta = spec->cohesive.beta,
                                   .whole = fracas_chain_whole(spec->cohesive.beta),
-                                  .contact_offset = 4.5 *
-                                                    fracas_pow(spec->loading.rate, 2.0 / 3.0) *
-                                                    young * fracas_pow(energy, 2.0 / 3.0) *
-                                                    fracas_pow(spec->material.density, 1.0 / 3.0),
+                                  .own = model->own,
                                   .size = model->element_size,
                                   .nodal_mass = 0.5 * spec->material.density * model->element_size,
                                   .sizes = model->sizes,
@@ -93,17 +89,17 @@ static fracas_err bar_model_init(fracas_model *model)
 static fracas_err bar_check_strength(const fracas_model *model, double strength)
 {
     TRY(fracas_chain_check_strength(model, strength));
-    if (!fracas_law_of(&model->spec)->contact_by_strength) return FRACAS_OK;
-    const fracas_bar_constants bar = constants_of(model);
-    const double h = model->longest;
-    double penalty = (strength * strength + bar.contact_offset) / (4.5 * bar.fracture_energy);
-    if (penalty > bar.young / h)
+    const fracas_law *law = fracas_law_of(&model->spec);
+    if (!law->contact_by_strength) return FRACAS_OK;
+    const double h = model->longest, young = model->spec.material.young,
+                 penalty = law->contact_by_strength(&model->spec, strength);
+    if (penalty > young / h)
         return fracas_fail(
             FRACAS_USAGE,
             "contact penalty %.4g Pa/m of strength %g Pa exceeds the elements' stiffness %.4g "
             "Pa/m: raise mesh.elements above %.15g",
-            penalty, strength, bar.young / h,
-            ceil(h / model->element_size * model->spec.geometry.length * penalty / bar.young));
+            penalty, strength, young / h,
+            ceil(h / model->element_size * model->spec.geometry.length * penalty / young));
     return FRACAS_OK;
 }
 
@@ -296,6 +292,7 @@ static const fracas_kind *const goes_with[] = {&fracas_shape_bar, &fracas_spacin
                                                &fracas_loading_imposed_rate};
 const fracas_formulation fracas_formulation_bar = {
     .kind = {.name = "bar",
+             .groups = FRACAS_GROUP_BAR,
              .doc = "a bar stretched at a uniform rate: the hoop direction of an expanding ring",
              FRACAS_GOES_WITH(goes_with)},
     .model_init = bar_model_init,

@@ -100,7 +100,8 @@ LANES_FUNCTION bar_link bar_flux(bar_context *c, int uniform, int law, int balan
                            .sigma_c = lanes_load(at + BAR_STRENGTH * LANES),
                            .constant = lanes_load(at + BAR_LAW * LANES),
                            .stiffness = spring,
-                           .compliance = compliance};
+                           .compliance = compliance,
+                           .own = c->bar->own};
     const line_result it = line_law(law, &in);
     lanes_store(at + BAR_DAMAGE * LANES, it.damage);
 
@@ -151,10 +152,9 @@ LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, int uniform, size_t e,
     /* closed 0 -> exceeded 1 -> open 2 */
     lanes_store(at + BAR_LAW * LANES, lanes_select(exceeded, two, lanes_select(cracks, one, zero)));
 
-    vd penalty = (sigma_c * sigma_c + lanes_set(c->bar->contact_offset)) /
-                 lanes_set(4.5 * c->bar->fracture_energy);
     vd damage = before;
-    vd traction = rigid_link_law(q, &damage, sigma_c, delta_c, penalty);
+    vd traction = rigid_link_law(q, &damage, sigma_c, delta_c,
+                                 rigid_link_penalty(sigma_c, c->bar->own, c->bar->fracture_energy));
     damage = lanes_select(open, damage, before);
     traction = lanes_select(open, traction, mean);
     lanes_store(at + BAR_DAMAGE * LANES, damage);

@@ -28,7 +28,7 @@ typedef struct {
     double young;           /* Pa */
     double beta, spring;    /* 1, Pa/m: nitsche, K = beta E/h */
     double whole;           /* 1, (1 - 1/(2 beta))^2, nitsche  (balance.2) */
-    double contact_offset;  /* Pa2: rigid-link, 4.5 rate^(2/3) E G_c^(2/3) rho^(1/3) */
+    const double *own;      /* the law's own numbers (trait `own`) */
     double size;            /* m, h: of every element, where all are alike */
     const double *sizes;    /* m, [elements]; NULL where all are alike */
     double nodal_mass;      /* kg/m2, rho h/2 */

@@ -92,7 +92,7 @@ void fracas_chain_lane_init(const fracas_model *model, const fracas_step *step, 
             if (field != chain->strength) *fracas_chain_field(model, step, e, field, lane) = 0.0;
         if (law->constant && e < model->interfaces)
             *fracas_chain_field(model, step, e, chain->law, lane) = law->constant(
-                stiffness_of(model, e), model->spec.cohesive.fracture_energy, strength);
+                &model->spec.cohesive, stiffness_of(model, e), strength);
     }
 }
 
@@ -104,7 +104,7 @@ fracas_err fracas_chain_check_strength(const fracas_model *model, double strengt
     if (!law->flux) return FRACAS_OK;
     const double young = model->spec.material.young, energy = cohesive->fracture_energy,
                  h = model->longest;
-    const double steep = law->steepest * strength;
+    const double steep = fracas_law_steepest(cohesive) * strength;
     double margin = 2 * (cohesive->beta * young / h) * energy / strength - steep;
     double most = 2 * cohesive->beta * young * energy / (strength * steep);
     if (margin > 0 && isfinite(margin)) return FRACAS_OK;

@@ -61,10 +61,8 @@ static fracas_ring_constants constants_of(const fracas_model *model)
         .fracture_energy = spec->cohesive.fracture_energy,
         .critical_opening = spec->cohesive.critical_opening,
         .area = spec->geometry.area,
-        .refinement = spec->cohesive.refinement,
         .time_step = model->time_step,
-        .zone = spec->cohesive.zone,
-        .steep = spec->cohesive.critical_zone == &fracas_zone_steep,
+        .own = model->own,
         .drive = motion.drive,
         .circumferential = motion.circumferential,
         .level = motion.level * share,
@@ -73,10 +71,10 @@ static fracas_ring_constants constants_of(const fracas_model *model)
 
 static fracas_err ring_model_init(fracas_model *model)
 {
-    const double zone = model->spec.cohesive.zone;
+    const double zone = fracas_law_zone(&model->spec.cohesive);
     TRY(fracas_chain_model_init(model, has_flux(model) ? &flux_chain : &rigid_chain, 3));
     const size_t n = model->elements;
-    if (!has_flux(model) && zone > 0 && zone * (1 + 1e-12) < model->element_size)
+    if (zone > 0 && zone * (1 + 1e-12) < model->element_size)
         return fracas_fail(
             FRACAS_USAGE,
             "cohesive.zone is %.4g m, but elements are %.4g m long, so that it holds no other "
@@ -304,6 +302,7 @@ static const fracas_kind *const goes_with[] = {&fracas_shape_ring,
                                                &fracas_loading_force};
 const fracas_formulation fracas_formulation_ring = {
     .kind = {.name = "ring",
+             .groups = FRACAS_GROUP_RING,
              .doc = "a closed ring in the plane, of springs along its circumference",
              FRACAS_GOES_WITH(goes_with)},
     .model_init = ring_model_init,

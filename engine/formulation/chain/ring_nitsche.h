@@ -72,7 +72,8 @@ LANES_FUNCTION void ring_join(ring_context *c, int law, int balanced, size_t e,
                            .sigma_c = lanes_load(at + RING_STRENGTH * LANES),
                            .constant = lanes_load(at + RING_LAW * LANES),
                            .stiffness = c->spring,
-                           .compliance = c->compliance};
+                           .compliance = c->compliance,
+                           .own = c->ring->own};
     const line_result it = line_law(law, &in);
     lanes_store(at + RING_DAMAGE * LANES, it.damage);
     /* until it breaks the radial jump is restrained by the same stiffness, and the angle between

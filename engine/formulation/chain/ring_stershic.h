@@ -45,7 +45,7 @@ LANES_FUNCTION ring_element stershic_load(const ring_context *c, size_t e)
     const double *at = stershic_at(c, e);
     ring_element element;
     ring_stretch(c, e, ring_difference(at, RING_U_LEFT), &element);
-    if (c->ring->zone > 0) {
+    if (c->ring->own[STERSHIC_ZONE] > 0) {
         vd largest = lanes_load(at + RING_STRAIN * LANES);
         vmask barred = lanes_le(lanes_set(0.0), largest);
         element.stress = lanes_select(
@@ -88,7 +88,8 @@ LANES_FUNCTION void stershic_look(const ring_context *c, size_t e, const ring_el
                                 right->stress * ring_dot(right->tangent, frame.n));
     vd q = ring_dot(ring_jump(at, at_right, RING_U_LEFT), frame.n);
     vd traction = stershic_traction(c, q, &damage, sigma_c, &delta_c);
-    vd watched = c->ring->steep ? zero : before * delta_c; /* least opening to look at */
+    vd watched = c->ring->own[STERSHIC_STEEP] > 0 ? zero
+                                                  : before * delta_c; /* least opening to look at */
     vmask softens = lanes_and(open,
                               lanes_and(lanes_le(watched, q), lanes_lt(c->modulus * q, traction)));
     vmask rises = lanes_and(closed, lanes_le(lanes_set(0.95) * sigma_c, pull));
@@ -153,7 +154,8 @@ __attribute__((noinline, cold)) static void stershic_open_one(const ring_context
 {
     const fracas_ring_constants *ring = c->ring;
     const size_t n = ring->elements,
-                 reach = (size_t)fmin(ring->zone / ring->size * (1 + 1e-12), (double)(n / 2));
+                 reach = (size_t)fmin(ring->own[STERSHIC_ZONE] / ring->size * (1 + 1e-12),
+                                      (double)(n / 2));
     *stershic_value(c, e, RING_LAW, lane) = RING_LINK_OPEN;
     fracas_chain_note_onset(c->step, c->first + lane, e, stershic_onset(c, e, lane));
     for (size_t d = 1; d <= reach; d++) {
@@ -194,7 +196,8 @@ __attribute__((noinline, cold)) static void stershic_open_links(const ring_conte
             double ratio = pull / strength;
             if (*stershic_value(c, e, RING_LAW, lane) != RING_LINK_CLOSED || !(pull >= strength))
                 continue;
-            if (c->ring->zone == 0) stershic_open_one(c, e, lane); /* order does not matter */
+            if (c->ring->own[STERSHIC_ZONE] == 0)
+                stershic_open_one(c, e, lane); /* order does not matter */
             else if (ratio > largest) {
                 largest = ratio;
                 best = e;
@@ -208,7 +211,7 @@ __attribute__((noinline, cold)) static void stershic_open_links(const ring_conte
 /* The next time step: base xi^k, k the number of occupied critical zones  (ring.12). */
 LANES_FUNCTION vd stershic_refine(const ring_context *c, const stershic_watch *watch)
 {
-    const vd xi = lanes_set(c->ring->refinement), one = lanes_set(1.0);
+    const vd xi = lanes_set(c->ring->own[STERSHIC_REFINEMENT]), one = lanes_set(1.0);
     vd next = lanes_set(c->ring->time_step) * lanes_select(watch->opening, xi, one);
     return next * lanes_select(watch->compressed, xi, one);
 }
@@ -287,7 +290,7 @@ LANES_FUNCTION void stershic_finish(ring_context *c, size_t e, const ring_elemen
     ring_vector now_right = ring_add(right_before,
                                      ring_scale(share, ring_subtract(v_right, right_before)));
     ring_add_element(c, element, ring_dot(now_left, now_left), ring_dot(now_right, now_right));
-    if (c->ring->zone > 0) {
+    if (c->ring->own[STERSHIC_ZONE] > 0) {
         const vd zero = lanes_set(0.0), half = lanes_set(0.5), young = lanes_set(c->ring->young);
         vd largest = lanes_load(at + RING_STRAIN * LANES), yield = stershic_yield(c, e);
         vmask grows = lanes_and(lanes_le(zero, largest), lanes_lt(largest, element->strain));

@@ -43,8 +43,8 @@ typedef struct {
     double fracture_energy;  /* J/m2; stershic: 0 where the critical opening is given */
     double critical_opening; /* m, or 0 */
     double area;             /* m2 */
-    double refinement, time_step, zone; /* stershic: xi; s, unrefined; m */
-    int steep; /* stershic: closing links on steep secants refine the time step too */
+    double time_step;        /* s, stershic: unrefined */
+    const double *own;       /* the law's own numbers (trait `own`) */
     fracas_ring_drive drive;
     int circumferential; /* direction of the drive; else radial */
     double level, rate;  /* level + rate t: velocity held [m/s], or force on a node per area [Pa] */

@@ -306,6 +306,7 @@ static const fracas_kind *const goes_with[] = {
     &fracas_spacing_triangles, &fracas_spacing_given, &fracas_loading_expansion};
 const fracas_formulation fracas_formulation_shell = {
     .kind = {.name = "shell",
+             .groups = FRACAS_GROUP_SHELL,
              .doc = "a thin shell or plate that stretches and bends, of triangles in space",
              FRACAS_GOES_WITH(goes_with),
              .traits = &body},

@@ -161,6 +161,7 @@ static const fracas_kind *const goes_with[] = {
     &fracas_loading_centrifugal};
 const fracas_formulation fracas_formulation_membrane = {
     .kind = {.name = "membrane",
+             .groups = FRACAS_GROUP_MEMBRANE,
              .doc = "a plate in plane stress, of triangles in its plane",
              FRACAS_GOES_WITH(goes_with),
              .traits = &body},

@@ -37,7 +37,8 @@ fracas_surface_constants fracas_surface_constants_of(const fracas_model *model)
         .c33 = young / (2 * (1 + nu)),
         .normal = beta_c < 1 ? 1 / (beta_c * beta_c) : 1,
         .energy = spec->cohesive.fracture_energy,
-        .opening = spec->cohesive.critical_opening,
+        .opening = 2 * fracas_law_fullness(&spec->cohesive) * spec->cohesive.critical_opening,
+        .own = model->own,
         .beta_c = beta_c,
         .mu_c = spec->cohesive.friction,
         .onset_mean = fracas_onset_by_mean(&spec->cohesive),
@@ -168,7 +169,7 @@ fracas_err fracas_surface_check_strength(const fracas_model *model, double stren
     const fracas_law *law = fracas_law_of(spec);
     const double most = spec->cohesive.beta * modulus *
                         fracas_spec_fracture_energy(spec, strength) /
-                        (strength * strength * (law->flux ? law->steepest : 1));
+                        (strength * strength * fracas_law_steepest(&spec->cohesive));
     if (!law->flux || (isfinite(most) && model->longest <= most)) return FRACAS_OK;
     char unit[160] = "";
     if (fracas_shape_of(spec)->from_file && !spec->geometry.unit) {

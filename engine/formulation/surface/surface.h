@@ -135,9 +135,10 @@ typedef struct fracas_surface_constants {
     double c11, c12, c33; /* E/(1-nu^2), nu c11, E/(2 + 2 nu) [Pa]; shells: times thickness [N/m] */
     double d11, d12, d33; /* shells: thickness^2/12 of those [N m] */
     double normal, tangential; /* 1: k_n and k_t by K of the interface  (membrane.6) */
-    double energy, opening;    /* G_c [J/m2], or delta_c [m]: the other is 0 */
+    double energy, opening;    /* G_c [J/m2], or 2 G_c/p [m]: the other is 0 */
     double beta_c, mu_c;       /* 1 */
     int law;                   /* its number */
+    const double *own;         /* its own numbers (trait `own`) */
     int onset_mean, friction;
     int fields, point_fields; /* an element's, by its unknowns; an interface's point's */
     int strengths;            /* an interface's: 1, or one for each Gauss point */

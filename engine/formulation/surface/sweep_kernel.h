@@ -45,6 +45,7 @@ LANES_FUNCTION plane_interface surface_interface(const fracas_surface_constants 
                              .mu_c = lanes_set(s->mu_c),
                              .energy = lanes_set(s->energy),
                              .opening = lanes_set(s->opening),
+                             .own = s->own,
                              .onset_mean = s->onset_mean,
                              .friction = calm ? 0 : s->friction,
                              .calm = calm};
