@@ -48,7 +48,7 @@ static part_times time_parts(fracas_bench_body *body, size_t parts)
     fracas_surface_sweep *sweep =
         (*c.tables->body->kernels)[own->isa][1]->sweep[c.law][c.tables->order - 1];
     part_times t = {0};
-    demand(fracas_surface_model_divide(body->model, parts, NULL, &step.division));
+    demand(fracas_surface_model_divide(body->model, parts, &step.division));
     step.state = aligned_alloc(64, (step.division.fields * sizeof(double) + 63) / 64 * 64);
     double *least = malloc(parts * sizeof *least);
     if (!step.state || !least) demand(fracas_no_memory("a benchmark"));
