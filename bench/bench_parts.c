@@ -8,20 +8,17 @@
 #include "bench/bench.h"
 #include "bench/kernels/cases.h"
 
-#include "campaigns/scheduler/worker/group.h"
 #include "engine/formulation/surface/surface.h"
 
 #include <math.h>
 #include <string.h>
-#include <sys/wait.h>
 
-enum { CORES = 32 /* of a node, in the prediction */, ROUNDS = 5 };
+enum { ROUNDS = 5, DOUBLINGS = 6 /* up to 64 parts */ };
 
 typedef struct {
     double rate, ghost; /* element-steps/s; share of an element's time that a ghost takes */
     double meeting;     /* s, of a thread in a meeting */
-    double latency, call, bandwidth; /* s, s of a processor, B/s: an exchange between processes */
-    double front;                    /* ghosts of a part / sqrt(elements) */
+    double front;       /* ghosts of a part / sqrt(elements) */
 } costs;
 
 /* ---- parts ---- */
@@ -51,7 +48,7 @@ static part_times time_parts(fracas_bench_body *body, size_t parts)
     fracas_surface_sweep *sweep =
         (*c.tables->body->kernels)[own->isa][1]->sweep[c.law][c.tables->order - 1];
     part_times t = {0};
-    demand(fracas_surface_model_divide(body->model, parts, NULL, &step.division));
+    demand(fracas_surface_model_divide(body->model, parts, &step.division));
     step.state = aligned_alloc(64, (step.division.fields * sizeof(double) + 63) / 64 * 64);
     double *least = malloc(parts * sizeof *least);
     if (!step.state || !least) demand(fracas_no_memory("a benchmark"));
@@ -74,7 +71,7 @@ static part_times time_parts(fracas_bench_body *body, size_t parts)
     return t;
 }
 
-/* ---- meetings and messages ---- */
+/* ---- meetings ---- */
 
 enum { MEETINGS = 20 };
 
@@ -101,60 +98,12 @@ static double time_meeting(void)
     return round[TIMES / 4] / MEETINGS / 2;
 }
 
-/* Another process of this host in a group with this one, which it leaves with it; 0 in the other.
- */
-static pid_t start_group(fracas_group *group)
-{
-    fracas_meeting meeting = {0};
-    size_t from;
-    fracas_group_init(group);
-    demand(fracas_group_open(group, FRACAS_PEERS_MAX, &meeting));
-    const pid_t pid = fork();
-    if (!pid) {
-        fracas_group_init(group);
-        demand(fracas_group_join(group, &meeting, &from));
-        return 0;
-    }
-    while (!fracas_group_has_come(group)) usleep(1000);
-    demand(fracas_group_start(group, 0));
-    return pid;
-}
-
-/* s of an exchange of `size` bytes each way; *cpu: of this processor. */
-static double time_exchange(size_t size, int times, double *cpu)
-{
-    fracas_group group;
-    const pid_t pid = start_group(&group);
-    const fracas_peers *peers = fracas_group_peers(&group);
-    char *bytes = calloc(2, size);
-    if (!bytes) exit(1);
-    fracas_parcel out[2] = {{0}}, in[2] = {{0}};
-    out[!peers->number] = (fracas_parcel){bytes, size};
-    in[!peers->number] = (fracas_parcel){bytes + size, size};
-    const double began = seconds_of(CLOCK_MONOTONIC),
-                 cpu_began = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
-    for (int i = 0; i < times; i++) demand(peers->exchange(peers->context, out, in));
-    const double seconds = seconds_of(CLOCK_MONOTONIC) - began;
-    *cpu = (seconds_of(CLOCK_PROCESS_CPUTIME_ID) - cpu_began) / times;
-    if (!pid) _exit(0);
-    waitpid(pid, NULL, 0);
-    fracas_group_leave(&group);
-    free(bytes);
-    return seconds / times;
-}
-
 /* ---- the model ---- */
 
-/* s a step of n elements in so many parts, whose sweeps take `sweep`. */
-static double step_of(const costs *k, double n, double parts, double sweep)
+/* s a step in so many parts, whose sweeps take `sweep`. */
+static double step_of(const costs *k, double parts, double sweep)
 {
-    const double threads = fmin(parts, CORES), nodes = ceil(parts / CORES);
-    double seconds = sweep + (parts > 1 ? 3 * k->meeting * threads : 0);
-    if (nodes > 1) /* cuts on both sides, an element's 36 fields, and branches of blocks' sums */
-        seconds += k->latency + (nodes - 2) * k->call +
-                   (k->front * sqrt(n) * 36 + 2 * log2(n / 64) * SURFACE_SUMS * nodes) *
-                       sizeof(double) / k->bandwidth;
-    return seconds;
+    return sweep + (parts > 1 ? 3 * k->meeting * parts : 0);
 }
 
 static double sweep_of(const costs *k, double own, double ghosts)
@@ -170,27 +119,24 @@ int main(int argc, char **argv)
                                       .isa = FRACAS_ISA_BEST,
                                       .cracked = true};
     fracas_bench_body body;
-    double cpu, unused;
     demand(fracas_bench_body_init(&wanted, &body));
     const double n = (double)fracas_model_elements(body.model);
-    costs k = {.meeting = time_meeting(), .latency = time_exchange(64, 2000, &cpu), .call = cpu};
-    k.bandwidth = (4 << 20) / time_exchange(4 << 20, 50, &unused);
-    part_times t[11];
-    for (int i = 0; i <= 10; i++) t[i] = time_parts(&body, (size_t)1 << i);
+    costs k = {.meeting = time_meeting()};
+    part_times t[DOUBLINGS + 1];
+    for (int i = 0; i <= DOUBLINGS; i++) t[i] = time_parts(&body, (size_t)1 << i);
     k.rate = n / t[0].mean;
-    k.ghost = (t[6].mean * k.rate - n / 64) / t[6].ghosts;
-    k.front = t[6].ghosts / sqrt(n);
+    k.ghost = (t[DOUBLINGS].mean * k.rate - n / (1 << DOUBLINGS)) / t[DOUBLINGS].ghosts;
+    k.front = t[DOUBLINGS].ghosts / sqrt(n);
     printf("%.0f elements: %.3g element-steps/s; a ghost takes %.2f of an element; %.2f sqrt(n) "
-           "ghosts a part\nmeeting %.2g s a thread, exchange %.2g s (%.2g s of a processor), %.3g "
-           "B/s\n\nparts  ghosts/part  model ms  measured ms (mean, slowest)  speedup   weak: time "
-           "of 10000 elements a part to one part's\n",
-           n, k.rate, k.ghost, k.front, k.meeting, k.latency, k.call, k.bandwidth);
-    for (int i = 0; i <= 10; i++) {
+           "ghosts a part\nmeeting %.2g s a thread\n\nparts  ghosts/part  model ms  measured ms "
+           "(mean, slowest)  speedup   weak: time of 10000 elements a part to one part's\n",
+           n, k.rate, k.ghost, k.front, k.meeting);
+    for (int i = 0; i <= DOUBLINGS; i++) {
         const double parts = 1 << i, each = 1e4, all = each * parts;
         printf("%5.0f %12.0f %9.3f %12.3f %9.3f %15.1f %9.2f\n", parts, t[i].ghosts,
                1e3 * sweep_of(&k, n / parts, parts > 1 ? k.front * sqrt(n) : 0), 1e3 * t[i].mean,
-               1e3 * t[i].slowest, t[0].mean / step_of(&k, n, parts, t[i].slowest),
-               step_of(&k, all, parts, sweep_of(&k, each, parts > 1 ? k.front * sqrt(all) : 0)) /
+               1e3 * t[i].slowest, t[0].mean / step_of(&k, parts, t[i].slowest),
+               step_of(&k, parts, sweep_of(&k, each, parts > 1 ? k.front * sqrt(all) : 0)) /
                    sweep_of(&k, each, 0));
     }
     fracas_bench_body_clear(&body);

@@ -62,33 +62,12 @@ double fracas_model_period(const fracas_model *model);
  * this mesh (K <= sigma_c/delta_c). */
 FRACAS_MUST_USE fracas_err fracas_model_check_strength(const fracas_model *model, double strength);
 
-/* Bytes for another process, or from it. */
-typedef struct {
-    void *bytes;
-    size_t size;
-} fracas_parcel;
-
-enum { FRACAS_PEERS_MAX = 64 };
-
-/* Processes for the realizations of one batch, each with its own parts of the body. Peer
- * 0 leads: its records are whole. All create the same batch, but for threads and watch, and
- * run it. */
-typedef struct {
-    size_t count, number; /* this process is `number` of `count` */
-    /* Sends out[p] to each other peer p and receives in[p] from it; both know the sizes. Called by
-     * all peers, in one order. An error ends the batch. */
-    fracas_err (*exchange)(void *context, const fracas_parcel *out, const fracas_parcel *in);
-    void *context;
-} fracas_peers;
-
 typedef struct {
     int64_t history; /* history rows, at equal intervals of time.end; 0: only the events */
     bool interfaces; /* keep one row an interface */
     int width;       /* lanes: 1, 4, 8; 0 chooses by the number of realizations */
     fracas_isa isa;  /* FRACAS_ISA_BEST: the best this CPU has */
     int parts;       /* threads for a surface, the same bits; 0: 1 */
-    const fracas_peers
-        *peers; /* for a surface, the same bits; NULL: none; must outlive the batch */
     const struct fracas_batch_watch *watch; /* NULL: nobody; must outlive the batch */
 } fracas_batch_options;
 
@@ -142,7 +121,7 @@ typedef struct fracas_batch_watch {
     /* Then: lanes may be saved, and their fields taken. */
     fracas_err (*pause)(void *context, fracas_batch *batch, const fracas_record *record);
     void *context;
-    int every; /* steps, in the place of 64; 0: 64, as other peers have it */
+    int every; /* steps, in the place of 64; 0: 64 */
     /* Once no lane runs any more; lanes that drifted may then run again from their start. NULL:
      * nothing. */
     fracas_err (*end)(void *context, fracas_batch *batch, const fracas_record *record);

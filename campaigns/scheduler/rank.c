@@ -161,7 +161,6 @@ static fracas_err lead(rank_state *rank, fracas_channel *channel, bool *ran)
                                    .options = rank->options,
                                    .study = rank->study,
                                    .workers = (size_t)rank->box.size,
-                                   .one_host = rank->box.sockets != NULL,
                                    .send = send_worker,
                                    .context = rank,
                                    .channel = channel,

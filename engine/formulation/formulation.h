@@ -46,10 +46,9 @@ typedef struct {
 
 /* How the parts of a body are computed at once: the formulation's own plan. */
 typedef struct {
-    size_t parts;              /* 1: it is not divided */
-    size_t fields;             /* doubles of a lane's memory: its state, then room within a step */
-    void *plan;                /* freed by division_destroy; NULL: none */
-    const fracas_peers *peers; /* other processes with parts of the body; NULL: none */
+    size_t parts;  /* 1: it is not divided */
+    size_t fields; /* doubles of a lane's memory: its state, then room within a step */
+    void *plan;    /* freed by division_destroy; NULL: none */
 } fracas_division;
 
 /* One step of a batch, and the sums of its lanes so far. Arrays are [lane]. */
@@ -108,10 +107,8 @@ struct fracas_formulation {
     size_t (*state_size)(const fracas_model *model);
     /* The most parts into which the body can be divided; NULL: 1. */
     size_t (*parts_most)(const fracas_model *model);
-    /* Divides the body, or the share of this one of its peers, into `parts`, or fewer. NULL: it is
-     * not divided. */
-    fracas_err (*divide)(const fracas_model *model, size_t parts, const fracas_peers *peers,
-                         fracas_division *division);
+    /* Divides the body into `parts`, or fewer. NULL: it is not divided. */
+    fracas_err (*divide)(const fracas_model *model, size_t parts, fracas_division *division);
     void (*division_destroy)(void *plan);
     /* First strength of a lane in the state, and the distance to the next. */
     double *(*strength)(const fracas_model *model, const fracas_step *step, int lane,
@@ -120,12 +117,6 @@ struct fracas_formulation {
     void (*lane_init)(const fracas_model *model, const fracas_step *step, int lane);
     /* Drift, forces, energies, events, kick of all lanes. */
     void (*advance)(const fracas_model *model, fracas_step *step);
-    /* Then, where there are peers: what their next steps need of each other, energies and events.
-     */
-    fracas_err (*share)(const fracas_model *model, fracas_step *step);
-    /* Brings to the leading peer which interfaces of `lane` are broken, or, at -1, the whole state
-     * of all lanes. The other peers have no use for their functions below. */
-    fracas_err (*gather)(const fracas_model *model, fracas_step *step, int lane);
     /* Counts the fragments of a lane after a step. */
     fracas_err (*count)(const fracas_model *model, fracas_step *step, int lane,
                         fracas_census *census);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/solver/batch.h"
 
-#include "engine/solver/peers.h"
 #include "engine/solver/shapes.h"
 
 #include <math.h>
@@ -33,12 +32,11 @@ static void *allocate(size_t doubles)
     return aligned_alloc(64, bytes ? bytes : 64);
 }
 
-static fracas_err divide(const fracas_model *model, int parts, const fracas_peers *peers,
-                         fracas_step *step)
+static fracas_err divide(const fracas_model *model, int parts, fracas_step *step)
 {
     const fracas_formulation *f = model->formulation;
     step->division = (fracas_division){.parts = 1, .fields = f->state_size(model)};
-    if (f->divide) TRY(f->divide(model, parts > 1 ? (size_t)parts : 1, peers, &step->division));
+    if (f->divide) TRY(f->divide(model, parts > 1 ? (size_t)parts : 1, &step->division));
     return fracas_team_create(step->division.parts, &step->team);
 }
 
@@ -57,7 +55,7 @@ fracas_err fracas_batch_create(const fracas_model *model, size_t count,
         .watch = options->watch,
         .step = {.width = width, .lanes = fracas_isa_lanes(isa, width), .isa = isa}};
     const size_t lanes = (size_t)width;
-    TRY(divide(model, options->parts, options->peers, &batch->step));
+    TRY(divide(model, options->parts, &batch->step));
     double **const array[] = {&batch->step.state, &batch->step.onset_time, &batch->step.break_time};
     for (int i = 0; i < (options->interfaces ? 3 : 1); i++) {
         *array[i] = allocate((i ? model->interfaces : batch->step.division.fields) * lanes);
@@ -135,9 +133,7 @@ static fracas_err count_fragments(fracas_batch *batch, size_t l)
     fracas_lane *lane = &batch->lane[l];
     if (lane->counted == batch->step.broken[l]) return FRACAS_OK;
     lane->counted = batch->step.broken[l];
-    TRY(fracas_peers_gather(model, &batch->step, (int)l));
-    TRY(model->formulation->count(model, &batch->step, (int)l, &lane->census));
-    return fracas_peers_tell(batch->step.division.peers, &lane->census, sizeof lane->census);
+    return model->formulation->count(model, &batch->step, (int)l, &lane->census);
 }
 
 /* The numbers of docs/theory/settled.md, of a finished lane with its fragments counted. */
@@ -176,8 +172,6 @@ static fracas_err finish_lane(fracas_batch *batch, size_t l, fracas_outcome outc
     record->mass = batch->model->mass;
     record->residual = ledger->largest_residual;
     record->residual_end = ledger->residual;
-    TRY(fracas_peers_gather(batch->model, &batch->step, -1));
-    if (!fracas_peers_leads(&batch->step)) return FRACAS_OK;
     memcpy(record->energy, ledger->energy, sizeof record->energy);
     TRY(record_settling(batch, l, record));
     TRY(fracas_history_harvest(&lane->history, record));
@@ -298,7 +292,6 @@ fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record, size_t 
         advance_clock(batch, l);
     }
     batch->model->formulation->advance(batch->model, step);
-    if (step->division.peers) TRY(batch->model->formulation->share(batch->model, step));
     *running = 0;
     for (size_t l = 0; l < batch->count; l++) {
         if (batch->lane[l].running) TRY(observe_lane(batch, l, &record[l]));
@@ -308,15 +301,12 @@ fracas_err fracas_batch_step(fracas_batch *batch, fracas_record *record, size_t 
     return FRACAS_OK;
 }
 
-/* The look of whoever watches, for which peers bring all together. */
+/* The look of whoever watches. */
 static fracas_err look(fracas_batch *batch, const fracas_record *record)
 {
     const fracas_batch_watch *watch = batch->watch;
-    bool due = watch && (!watch->due || watch->due(watch->context));
-    TRY(fracas_peers_tell(batch->step.division.peers, &due, sizeof due));
-    if (!due) return FRACAS_OK;
-    TRY(fracas_peers_gather(batch->model, &batch->step, -1));
-    return watch ? watch->pause(watch->context, batch, record) : FRACAS_OK;
+    if (!watch || (watch->due && !watch->due(watch->context))) return FRACAS_OK;
+    return watch->pause(watch->context, batch, record);
 }
 
 /* Computes all lanes until they are over. */
@@ -358,7 +348,6 @@ fracas_err fracas_batch_run(fracas_batch *batch, fracas_record *record)
     TRY(fracas_batch_begin(batch));
     if (batch->watch && batch->watch->begin)
         TRY(batch->watch->begin(batch->watch->context, batch, record));
-    TRY(fracas_peers_begin(batch, record));
     TRY(run_lanes(batch, record));
     return run_again(batch, record);
 }

@@ -23,9 +23,9 @@ typedef struct {
     double pace;   /* s, time step of the last steps ... */
     double since;  /* s, ... since this time ... */
     int64_t paces; /* ... and how many: time = since + paces pace, without the round-off of a sum */
-    double first_break;   /* s, seen at this time; 0: none yet */
-    int64_t counted;      /* breaks when the census was taken; -1: never */
-    fracas_census census; /* the same for all peers */
+    double first_break; /* s, seen at this time; 0: none yet */
+    int64_t counted;    /* breaks when the census was taken; -1: never */
+    fracas_census census;
     bool running;
 } fracas_lane;
 

@@ -12,8 +12,8 @@ typedef struct {
 } fracas_pieces;
 
 /* Labels the partition of a lane and finds the motion of this kind of each fragment
- * (fragments.5): RIGID is that of the laboratory's velocities, others are of those of add_up. For
- * the leading peer, which has all state. Cleared by the caller, also after an error. */
+ * (fragments.5): RIGID is that of the laboratory's velocities, others are of those of add_up.
+ * Cleared by the caller, also after an error. */
 FRACAS_MUST_USE fracas_err fracas_pieces_find(const fracas_model *model, fracas_step *step,
                                               int lane, fracas_motion kind, fracas_pieces *pieces);
 void fracas_pieces_clear(fracas_pieces *pieces);

@@ -26,8 +26,7 @@ void fracas_settling_look(fracas_settling *settling, const fracas_model *model, 
                           const fracas_census *census);
 
 /* Energy of a lane beside the motion of each fragment as a rigid body [J], and the breaks to come,
- * unknown (NaN) before the first. Labels the partition. For the leading peer, which has all state.
- */
+ * unknown (NaN) before the first. Labels the partition. */
 FRACAS_MUST_USE fracas_err fracas_settling_energies(const fracas_model *model, fracas_step *step,
                                                     int lane, const fracas_ledger *ledger,
                                                     double *vibrating, fracas_rest *rest);

@@ -5,8 +5,7 @@
 
 #include "engine/formulation/formulation.h"
 
-/* Gives the fragments of a harvested lane their volume, ellipsoid, extent and crack area. For the
- * leading peer, which has all state. */
+/* Gives the fragments of a harvested lane their volume, ellipsoid, extent and crack area. */
 FRACAS_MUST_USE fracas_err fracas_shapes_take(const fracas_model *model, const fracas_step *step,
                                               int lane, fracas_record *record);
 

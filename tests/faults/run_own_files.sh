@@ -72,6 +72,9 @@ begun 'segments'
 mkdir case/segments
 echo 'host=h pid=1 since=x start=1 boot=b job=- restart=0' > case/lock
 expect 4 "$fracas" run small.yaml --study case --jobs 1
+echo half > case/index.sqlite # which a run is making
+expect 4 "$fracas" run small.yaml --study case --jobs 1
+rm case/index.sqlite
 : > case/lock
 : > case/index.sqlite && begun 'an index of no bytes'
 mkdir case/segments && sqlite3 case/index.sqlite 'PRAGMA journal_mode = WAL; PRAGMA user_version = 0; VACUUM' > /dev/null

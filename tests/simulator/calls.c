@@ -50,18 +50,7 @@ ssize_t __wrap_read(int fd, void *to, size_t size)
         d->at += (size_t)got;
         return got;
     }
-    channel *side = d->channel;
-    for (side->reader = world.current; !channel_readable(side); process_wait(INFINITY))
-        if (channel_is_gone(side)) return 0;
-    return (ssize_t)channel_take(side, to, size);
-}
-
-static ssize_t send_some(channel *side, const void *from, size_t size)
-{
-    for (side->writer = world.current;; process_wait(INFINITY)) {
-        const ssize_t sent = channel_send(side, from, size);
-        if (sent >= 0 || errno != EAGAIN) return sent;
-    }
+    return channel_read(d->channel, to, size);
 }
 
 ssize_t __real_write(int fd, const void *from, size_t size);
@@ -72,7 +61,7 @@ ssize_t __wrap_write(int fd, const void *from, size_t size)
     descriptor *d = descriptor_of(fd);
     errno = EBADF;
     if (!d) return -1;
-    if (d->channel) return send_some(d->channel, from, size);
+    if (d->channel) return channel_write(d->channel, from, size);
     const ssize_t put = disk_write(d->file, d->at, from, size);
     if (put > 0) d->at += (size_t)put;
     return put;
@@ -133,10 +122,9 @@ int __wrap_poll(struct pollfd *from, nfds_t count, int timeout)
         int ready = 0;
         for (nfds_t i = 0; i < count; i++) {
             const descriptor *d = descriptor_of(from[i].fd);
-            from[i].revents = d ? channel_events(d->channel, from[i].events) : 0;
+            from[i].revents = d && channel_is_ready(d->channel) ? POLLIN : 0;
             ready += from[i].revents != 0;
             if (d) d->channel->reader = world.current;
-            if (d && from[i].events & POLLOUT) d->channel->writer = world.current;
         }
         const bool woken = waited && world.current->role == RANK;
         if (ready || timeout == 0 || woken || world.now >= end) return ready;

@@ -2,6 +2,7 @@
 #include "tests/simulator/descriptors.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,13 +41,7 @@ descriptor *descriptor_of(int fd)
     const size_t i = (size_t)(fd - FIRST_FD);
     if (fd < FIRST_FD || i >= nall) return NULL;
     descriptor *d = &all[i];
-    return d->file || d->channel || d->listener || d->socket ? d : NULL;
-}
-
-void descriptor_each(const process *p, void (*visit)(channel *side))
-{
-    for (size_t i = p->descriptors; i; i = all[i].next)
-        if (all[i].channel) visit(all[i].channel);
+    return d->file || d->channel ? d : NULL;
 }
 
 void descriptor_give(int fd, process *to)
@@ -56,11 +51,22 @@ void descriptor_give(int fd, process *to)
     own(i, to);
 }
 
+static void wake(process *p)
+{
+    process_wake(p, 5e-4 * roll(DICE_DELAY));
+}
+
+static void channel_close(channel *side)
+{
+    side->closed = true;
+    wake(side->peer->reader);
+    wake(side->peer->writer);
+}
+
 static void shut(size_t i)
 {
     descriptor *d = &all[i];
     if (d->channel) channel_close(d->channel);
-    if (d->listener) network_shut(d->listener);
     if (d->file && d->file->locked_by == d->owner) d->file->locked_by = NULL;
     disown(i);
     *d = (descriptor){.next = free_ones};
@@ -90,36 +96,13 @@ void channel_pair(channel *side[2], size_t capacity)
     side[1]->peer = side[0];
 }
 
-static double lag(void)
+bool channel_is_ready(const channel *side)
 {
-    return 5e-4 * roll(DICE_DELAY);
-}
-
-void channel_wake(channel *side)
-{
-    process_wake(side->reader, lag());
-    process_wake(side->writer, lag());
-}
-
-void channel_close(channel *side)
-{
-    side->closed = true;
-    channel_wake(side->peer);
-}
-
-size_t channel_readable(const channel *side)
-{
-    return network_is_cut(side) ? side->seen : side->size;
-}
-
-bool channel_is_gone(const channel *side)
-{
-    return side->broken || (side->peer->closed && !network_is_cut(side));
+    return side->size || side->peer->closed;
 }
 
 void channel_fill(channel *to, const void *bytes, size_t size)
 {
-    if (to->stranger) broken("a stranger is told %zu bytes", size);
     if (to->size + size > to->room) {
         to->room = 2 * (to->size + size);
         to->bytes = realloc(to->bytes, to->room);
@@ -127,40 +110,29 @@ void channel_fill(channel *to, const void *bytes, size_t size)
     }
     memcpy(to->bytes + to->size, bytes, size);
     to->size += size;
-    if (network_is_cut(to)) return;
-    to->seen = to->size;
-    process_wake(to->reader, lag());
+    wake(to->reader);
 }
 
-size_t channel_take(channel *side, void *to, size_t size)
+ssize_t channel_read(channel *side, void *to, size_t size)
 {
-    const size_t there = channel_readable(side);
-    if (size > there) size = there;
+    for (side->reader = world.current; !channel_is_ready(side);) process_wait(INFINITY);
+    if (!side->size) return 0;
+    if (size > side->size) size = side->size;
     memcpy(to, side->bytes, size);
     side->size -= size;
-    side->seen -= size < side->seen ? size : side->seen;
     memmove(side->bytes, side->bytes + size, side->size);
-    process_wake(side->peer->writer, lag());
-    return size;
-}
-
-ssize_t channel_send(channel *side, const void *from, size_t size)
-{
-    channel *to = side->peer;
-    errno = EPIPE;
-    if (channel_is_gone(side)) return -1;
-    errno = EAGAIN;
-    if (to->size >= to->capacity) return -1;
-    if (size > to->capacity - to->size) size = to->capacity - to->size;
-    channel_fill(to, from, size);
+    wake(side->peer->writer);
     return (ssize_t)size;
 }
 
-short channel_events(const channel *side, short wanted)
+ssize_t channel_write(channel *side, const void *from, size_t size)
 {
-    const bool gone = channel_is_gone(side);
-    int events = channel_readable(side) || gone ? POLLIN : 0;
-    if (side->peer->size < side->peer->capacity || gone) events |= POLLOUT;
-    if (gone) events |= POLLRDHUP;
-    return (short)((events & wanted) | (side->broken ? POLLERR | POLLHUP : 0));
+    channel *to = side->peer;
+    for (side->writer = world.current; !to->closed && to->size >= to->capacity;)
+        process_wait(INFINITY);
+    errno = EPIPE;
+    if (to->closed) return -1;
+    if (size > to->capacity - to->size) size = to->capacity - to->size;
+    channel_fill(to, from, size);
+    return (ssize_t)size;
 }

@@ -174,16 +174,6 @@ static void freeze_one(void)
     trace("FAULT: %s hangs until %g", process_name(p), p->frozen_until);
 }
 
-/* Others for one body hear a process no more, and it hears none of them. */
-static void cut_one(void)
-{
-    process *p = pick(LEASE_CHILD);
-    if (!p || world.now < p->cut_until || !network_has(p)) return;
-    network_cut(p, chance(DICE_FAULT, 0.2) ? INFINITY
-                                           : world.now + roll_between(DICE_FAULT, 0.1, 200));
-    trace("FAULT: %s is cut off until %g", process_name(p), p->cut_until);
-}
-
 static void jump(void)
 {
     double by = roll_between(DICE_FAULT, 0.1, 20);
@@ -230,7 +220,7 @@ static void befall(void *mean, uint64_t number)
 {
     (void)number;
     if (farm.faults-- <= 0) return;
-    switch (roll_below(DICE_FAULT, 15)) {
+    switch (roll_below(DICE_FAULT, 13)) {
     case 0:
     case 1:
     case 2:
@@ -252,8 +242,6 @@ static void befall(void *mean, uint64_t number)
         break;
     case 10: chance(DICE_FAULT, 0.5) ? jump() : slow_messages(); break;
     case 11: ask_to_end(); break;
-    case 12:
-    case 13: cut_one(); break;
     default: run_another(); break;
     }
     world_at(world.now - *(double *)mean * log(roll(DICE_FAULT)), befall, mean, 0);
@@ -268,12 +256,9 @@ static void draw(int workers)
     farm.kind =
         &farm_campaign[many ? MOST_CAMPAIGNS - 1 : roll_below(DICE_FARM, MOST_CAMPAIGNS - 1)];
     farm.hosts = chance(DICE_FARM, 0.5) ? 2 + (int)roll_below(DICE_FARM, 5) : 1;
-    if (!many && farm.hosts > 1 && chance(DICE_FARM, 0.3))
-        farm.kind = &farm_campaign[MOST_CAMPAIGNS - 2]; /* few: most workers idle */
-    const bool is_long = !many && chance(DICE_FARM, farm.hosts > 1 ? 0.8 : 0.3);
+    const bool is_long = !many && chance(DICE_FARM, 0.3);
     farm.seconds = is_long ? roll_between(DICE_FARM, 2, 60)
                            : roll_between(DICE_FARM, 0.02, many ? 5 : 2);
-    farm.parcel = chance(DICE_FARM, 0.2) ? roll_below(DICE_FARM, 400000) : 0;
     fracas_run_options *o = &farm.options;
     fracas_run_options_init(o);
     o->file = DISK_ROOT "/campaign.yaml";
@@ -285,7 +270,7 @@ static void draw(int workers)
     o->isolation = chance(DICE_FARM, 0.3) ? FRACAS_ISOLATION_NONE : FRACAS_ISOLATION_LEASE;
     o->lease_seconds = roll_between(DICE_FARM, 0.1, 5);
     o->segment_age = roll_between(DICE_FARM, 0.1, 20);
-    o->lease_limit = 450; /* the longest twice, helpers waited for, and a slow disk */
+    o->lease_limit = 450; /* the longest twice, and a slow disk */
     o->checkpoint_seconds = roll_between(DICE_FARM, 0.01, 1) * farm.seconds;
     if (!is_long && farm.kind->cursed == 0 && chance(DICE_FARM, 0.1))
         o->walltime = roll_between(DICE_FARM, 30, 200);

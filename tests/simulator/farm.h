@@ -34,7 +34,6 @@ extern struct farm {
     int64_t faults; /* still to come, at most */
     bool jumped;    /* the clock, far enough to end every lease */
     double jumps;   /* of the clock, together [s] */
-    size_t parcel;  /* bytes that processes for one body exchange beside its cells */
 } farm;
 
 /* The host of a process; 0: that of the user. */

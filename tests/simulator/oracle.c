@@ -2,7 +2,6 @@
 #include "tests/simulator/oracle.h"
 
 #include "tests/simulator/calls.h"
-#include "tests/simulator/descriptors.h"
 #include "tests/simulator/farm.h"
 
 #include "base/version.h"
@@ -142,14 +141,6 @@ static void lease_one(const process *server, const fracas_lease *lease, size_t i
     r->hold[r->next++ % MOST_HOLDS] = (hold){server, lease->id, i, now};
 }
 
-/* A helper is of another host than its leader. */
-static void help_one(const process *helper, const fracas_lease *lease)
-{
-    const process *leader = network_listener(lease->meeting.port);
-    if (leader && farm_host(helper) == farm_host(leader))
-        broken("rank %d is to help rank %d of its host", helper->number, leader->number);
-}
-
 fracas_err __real_fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now,
                                         fracas_lease *lease, bool *given);
 fracas_err __wrap_fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker, double now,
@@ -181,9 +172,7 @@ fracas_err __wrap_fracas_director_post(fracas_director *director, size_t worker,
         trace("  lease %llu: %llu of point %llu from replica %lld", (unsigned long long)lease->id,
               (unsigned long long)lease->count, (unsigned long long)lease->point,
               (long long)lease->replica[0]);
-        if (lease->role == FRACAS_LEASE_HELPS) trace("  to help");
-        if (lease->role == FRACAS_LEASE_HELPS) help_one(servers->started[servers->known], lease);
-        for (size_t i = 0; i < lease->count && lease->role != FRACAS_LEASE_HELPS; i++)
+        for (size_t i = 0; i < lease->count; i++)
             lease_one(servers->started[servers->known], lease, i);
     }
     return __real_fracas_director_post(director, worker, kind, body, size);
@@ -341,16 +330,6 @@ void oracle_begins(uint64_t point, int64_t replica, uint64_t before, uint64_t st
         broken("replica %lld of point %llu begins at step %llu, its checkpoint is of step %llu",
                (long long)replica, (unsigned long long)point, (unsigned long long)steps,
                (unsigned long long)before);
-}
-
-void oracle_interrupts(uint64_t point, int64_t replica, uint64_t steps)
-{
-    const realization *r = of(point, replica);
-    size_t holders = 0;
-    for (size_t h = 0; h < MOST_HOLDS; h++) holders += r->hold[h].server != NULL;
-    if (holders < 2 && oracle_checkpoint(point, replica) != steps)
-        broken("replica %lld of point %llu stops at step %llu without a checkpoint",
-               (long long)replica, (unsigned long long)point, (unsigned long long)steps);
 }
 
 fracas_err __real_fracas_checkpoint_create(const char *study, const fracas_file_header *header,

@@ -5,14 +5,12 @@
  * - a segment in the index is never removed or written over;
  * - a lease goes out: none of its realizations is done, and none is with a living server that
  *   has not given it back, unless it has been there for 10 s (an overdue lease);
- * - a worker is sent to help another: that is one of another host;
  * - a study is opened again: what a commit had returned is still done, every row that is done has
  *   durable bytes, no segment is damaged, and none that is whole is left out; no checkpoint is
  *   damaged or of another version;
  * - a checkpoint is finished: one is there, whole and durable;
  * - a checkpoint is removed: it is of no use, or the record of its realization is durable;
  * - a realization begins: it does so at its checkpoint, if there is one;
- * - others join a lease: a checkpoint has its state of now;
  * - a lease fails: a realization, or a fault, is the reason. */
 #ifndef FRACAS_TESTS_SIMULATOR_ORACLE_H
 #define FRACAS_TESTS_SIMULATOR_ORACLE_H
@@ -28,8 +26,6 @@ void oracle_removes(const char *path, bool replaced);
 uint64_t oracle_checkpoint(uint64_t point, int64_t replica);
 /* It begins at a step; `before`: that of its checkpoint when it was looked for. */
 void oracle_begins(uint64_t point, int64_t replica, uint64_t before, uint64_t steps);
-/* The present process stops there to go on with others. */
-void oracle_interrupts(uint64_t point, int64_t replica, uint64_t steps);
 
 /* Realizations done or failed for good. */
 int64_t oracle_settled(void);

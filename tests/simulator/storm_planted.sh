@@ -14,7 +14,6 @@ store@campaigns/store/file/writer.c@return fracas_disk_sync_folder(writer->path)
 store@campaigns/store/index/index_rows.c@"PRAGMA synchronous = FULL"@"PRAGMA synchronous = NORMAL"@a commit returns before its fsync
 scheduler@campaigns/scheduler/director/director.c@fracas_scheduler_lost(director->scheduler, worker);
     director->phase@director->phase@leases of a dead server are forgotten
-scheduler@campaigns/scheduler/director/help.c@(w == leader || h[w].leader == leader + 1) &&@0 &&@a worker helps another of its host
 scheduler@campaigns/scheduler/lease/scheduler.c@t->returned++;@@two workers take turns with what never ends
 scheduler@campaigns/scheduler/worker/link.c@!link->unknown && @@a new server gets the messages for the former one
 store@campaigns/store/study/checkpoint.c@if (fsync(c->fd) < 0)@if (0)@a checkpoint is renamed before its fsync
@@ -23,10 +22,7 @@ store@campaigns/store/study/checkpoint.c@TRY(fracas_disk_check_own_seal(made->pa
 store@campaigns/store/study/checkpoint.c@strncmp(found->version, wanted->version, sizeof found->version) != 0@0@a checkpoint of another version is loaded
 scheduler@campaigns/scheduler/worker/interim.c@TRY(load(interim, batch, l, &record[l]));@@a realization begins anew beside its checkpoint
 scheduler@campaigns/scheduler/worker/interim.c@interim->replica[lane], &head, &file@interim->replica[0], &head, &file@a lane begins at the checkpoint of another
-scheduler@campaigns/scheduler/director/finish.c@fracas_checkpoints_end(director->setup.study);@@checkpoints of a complete study are left
-scheduler@campaigns/scheduler/worker/interim.c@if (!err) return fracas_fail@if (1) return fracas_fail@others join a lease without a checkpoint
-scheduler@campaigns/scheduler/worker/solve.c@if (fracas_group_peers(group)) fracas_group_leave(group);@if (fracas_group_peers(group)) return false;@a lease ends with its helper
-scheduler@campaigns/scheduler/worker/group.c@who->token == group->token[0] &&@@a stranger joins a lease'
+scheduler@campaigns/scheduler/director/finish.c@fracas_checkpoints_end(director->setup.study);@@checkpoints of a complete study are left'
 
 changed() # FILE FROM TO
 {

@@ -12,7 +12,7 @@
 #include <ucontext.h>
 
 /* Dice of different purposes, so that a change to one leaves the others as they were. */
-typedef enum { DICE_FARM, DICE_FAULT, DICE_DELAY, DICE_DISK, DICE_SQLITE, DICE_NET, NDICE } dice;
+typedef enum { DICE_FARM, DICE_FAULT, DICE_DELAY, DICE_DISK, DICE_SQLITE, NDICE } dice;
 
 enum { MESSAGE = 1024, FIRST_PID = 1000, NENV = 6 };
 
@@ -41,7 +41,6 @@ typedef struct process {
     void *stack;
     uint64_t turn;       /* counts its resumptions: an older one is void */
     double frozen_until; /* it does nothing before */
-    double cut_until;    /* of the process of a lease: no other hears it before */
     int idle_calls;      /* since it slept last */
     bool hurt;           /* by a fault */
     saving saves;

@@ -22,7 +22,7 @@ static struct {
     size_t nleases, flushes, stops;
     int32_t kill; /* of the last STOP */
     struct {
-        uint64_t id, point, count, role;
+        uint64_t id, point, count;
         int64_t replica[64];
     } lease[32]; /* in the order given */
 } worker[WORKERS];
@@ -42,7 +42,6 @@ static inline fracas_err note(void *context, size_t to, const fracas_packet *mes
     worker[to].lease[i].id = lease.id;
     worker[to].lease[i].point = lease.point;
     worker[to].lease[i].count = lease.count;
-    worker[to].lease[i].role = lease.role;
     memcpy(worker[to].lease[i].replica, lease.replica, lease.count * sizeof *lease.replica);
     return FRACAS_OK;
 }
@@ -52,7 +51,6 @@ static inline fracas_err note(void *context, size_t to, const fracas_packet *mes
 static fracas_campaign *campaign;
 static fracas_run_options options;
 static fracas_channel channel;
-static bool one_host; /* of all workers */
 static fracas_director *director;
 
 /* Ends the run prepared last, if any. */
@@ -89,7 +87,6 @@ static inline void begin(double deadline)
                                          .options = &options,
                                          .study = study,
                                          .workers = WORKERS,
-                                         .one_host = one_host,
                                          .send = note,
                                          .channel = &channel,
                                          .now = now,
@@ -108,7 +105,7 @@ static inline void hear(size_t from, fracas_packet_kind kind, const void *body, 
 static inline void ready(void)
 {
     for (size_t w = 0; w < WORKERS; w++)
-        hear(w, FRACAS_PACKET_READY, &(fracas_ready){campaign->hash}, sizeof(fracas_ready));
+        hear(w, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
 }
 
 static inline void begin_ready(double deadline)

@@ -31,6 +31,13 @@ static inline double *surface_point(const fracas_model *model, const fracas_step
     return fracas_surface_field(step, at + (size_t)(p * c.point_fields + field), lane);
 }
 
+/* Breaks an interface of lane 0 at all its points. */
+static inline void break_interface(const fracas_batch *batch, size_t interface)
+{
+    for (size_t p = 0; p < fracas_surface_points(batch->model->plan); p++)
+        *surface_point(batch->model, &batch->step, interface, (int)p, SURFACE_DAMAGE, 0) = 1;
+}
+
 #define PI 3.14159265358979323846
 #define DISTORTION 0.2
 

@@ -111,7 +111,7 @@ static void a_worker_that_does_not_start_is_given_up(void **state)
 {
     prepare("replicas: 8", "");
     begin(0);
-    hear(1, FRACAS_PACKET_READY, &(fracas_ready){campaign->hash}, sizeof(fracas_ready));
+    hear(1, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
     for (size_t i = 0; i < worker[1].nleases; i++) computed(1, i, 1);
     segment(1, 0, worker[1].nleases - 1, 1000);
     say_ended(1);

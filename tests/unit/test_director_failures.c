@@ -16,7 +16,7 @@ static void points_with_failures_are_named(void **state)
     prepare("replicas: 1", "sweep:\n  - loading.rate: [1e3, 1e4, 2e4, 3e4, 4e4, 5e4, 6e4]\n");
     options.width = 1;
     begin(0);
-    hear(1, FRACAS_PACKET_READY, &(fracas_ready){campaign->hash}, sizeof(fracas_ready));
+    hear(1, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
     OK(fracas_failure_report(study, NULL, &campaign->table));
     for (size_t i = 0; i < worker[1].nleases; i++) failed(1, i); /* each three times */
     assert_int_equal(worker[1].nleases, 21);
@@ -124,7 +124,7 @@ static void a_message_that_does_not_fit_ends_the_run(void **state)
         {FRACAS_PACKET_SEGMENT, 2, sizeof body, 0, FRACAS_BUG, "is damaged"},
         {FRACAS_PACKET_SEGMENT, UINT64_MAX, sizeof body, 0, FRACAS_BUG, "is damaged"},
         {FRACAS_PACKET_SEGMENT, 1, sizeof body, 'x', FRACAS_BUG, "is damaged"},
-        {FRACAS_PACKET_READY, 0, sizeof(fracas_ready), 1, FRACAS_ENVIRONMENT,
+        {FRACAS_PACKET_READY, 0, sizeof(fracas_hash), 1, FRACAS_ENVIRONMENT,
          "rank 1 read another campaign"},
     };
     for (size_t i = 0; i < FRACAS_COUNT(wrong); i++) {

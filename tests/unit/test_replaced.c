@@ -40,7 +40,7 @@ static void hear(size_t from, fracas_packet_kind kind, const void *body, size_t 
 
 static void ready(size_t from)
 {
-    hear(from, FRACAS_PACKET_READY, &(fracas_ready){campaign->hash}, sizeof(fracas_ready));
+    hear(from, FRACAS_PACKET_READY, &campaign->hash, sizeof campaign->hash);
 }
 
 /* The `i`-th lease that it was given. */

@@ -4,12 +4,9 @@
 #include "base/param.h"
 #include "campaigns/scheduler/types/packet.h"
 #include "campaigns/scheduler/worker/child.h"
-#include "campaigns/scheduler/worker/group.h"
 #include "campaigns/scheduler/worker/server.h"
-#include "tests/support/campaign_text.h"
 #include "tests/support/test.h"
 
-#include <poll.h>
 #include <signal.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -155,11 +152,11 @@ static void a_server_ends_at_a_message_that_does_not_fit(void **state)
     } wrong[] = {
         {99, NULL, 0, "a compute server got a message of kind 99"},
         {FRACAS_PACKET_STOP, &none, 2, "has 2 bytes, it must have 4"},
-        {FRACAS_PACKET_LEASE, &two, head, "a lease of 152 bytes"},
-        {FRACAS_PACKET_LEASE, &two, head + 8, "a lease of 160 bytes"},
-        {FRACAS_PACKET_LEASE, &none, head + 8, "a lease of 160 bytes"},
-        {FRACAS_PACKET_LEASE, &many, sizeof many, "a lease of 32920 bytes"},
-        {FRACAS_PACKET_LEASE, long_one, sizeof many + 8, "a lease of 32928 bytes"},
+        {FRACAS_PACKET_LEASE, &two, head, "a lease of 48 bytes"},
+        {FRACAS_PACKET_LEASE, &two, head + 8, "a lease of 56 bytes"},
+        {FRACAS_PACKET_LEASE, &none, head + 8, "a lease of 56 bytes"},
+        {FRACAS_PACKET_LEASE, &many, sizeof many, "a lease of 32816 bytes"},
+        {FRACAS_PACKET_LEASE, long_one, sizeof many + 8, "a lease of 32824 bytes"},
     };
     fracas_run_options_init(&options);
     for (size_t i = 0; i < FRACAS_COUNT(wrong); i++) {
@@ -174,50 +171,5 @@ static void a_server_ends_at_a_message_that_does_not_fit(void **state)
     assert_int_equal(answer->kind, FRACAS_PACKET_FLUSHED); /* nothing is in its memory */
 }
 
-/* The next message of a server, which comes within some seconds. */
-static void assert_next(int fd, fracas_packet_kind kind)
-{
-    OWNED fracas_packet *message = NULL;
-    struct pollfd from = {.fd = fd, .events = POLLIN};
-    assert_int_equal(poll(&from, 1, 20000), 1);
-    OK(fracas_packet_read(fd, &message));
-    assert_int_equal(message->kind, kind);
-}
-
-/* Its helping process waits for a leading one, perhaps a stranger. */
-static void a_help_that_has_not_begun_delays_no_drain(void **state)
-{
-    fracas_campaign *plain = read_text(plain_campaign);
-    FRACAS_CLEARED(fracas_group) group;
-    fracas_lease lease = {.count = 1, .parts = 1, .role = FRACAS_LEASE_HELPS};
-    const int32_t kill_it = 0;
-    int pair[2], status;
-    fracas_group_init(&group);
-    OK(fracas_group_open(&group, 2, &lease.meeting));
-    assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, pair), 0);
-    fracas_run_options_init(&options);
-    fflush(NULL);
-    const pid_t pid = fork();
-    if (pid == 0) {
-        close(pair[0]);
-        fracas_server_run(plain, &options, "none", pair[1]);
-    }
-    close(pair[1]);
-    assert_next(pair[0], FRACAS_PACKET_READY);
-    OK(fracas_packet_send(pair[0], FRACAS_PACKET_LEASE, &lease, fracas_lease_bytes(&lease)));
-    for (int tries = 0; group.count < 2 && tries < 1000; tries++) {
-        fracas_group_has_come(&group);
-        poll(NULL, 0, 10);
-    }
-    assert_int_equal(group.count, 2);
-    OK(fracas_packet_send(pair[0], FRACAS_PACKET_STOP, &kill_it, sizeof kill_it));
-    assert_next(pair[0], FRACAS_PACKET_HELPED);
-    assert_next(pair[0], FRACAS_PACKET_ENDED);
-    close(pair[0]);
-    assert_int_equal(waitpid(pid, &status, 0), pid);
-    fracas_campaign_destroy(plain);
-}
-
 TESTS(a_message_is_whole_or_none, wrong_messages_end_the_process_of_a_lease,
-      a_process_that_ends_badly_is_doubted, a_server_ends_at_a_message_that_does_not_fit,
-      a_help_that_has_not_begun_delays_no_drain)
+      a_process_that_ends_badly_is_doubted, a_server_ends_at_a_message_that_does_not_fit)

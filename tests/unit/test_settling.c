@@ -244,12 +244,11 @@ static void pieces_of_a_moving_edge_are_held(void **unused)
         hold_edges(&spec, edges[kind]);
         one_run run = begin_run(make_model(&spec), 1, 300e6);
         const fracas_surface *mesh = run.model->surface;
-        const fracas_surface_constants c = fracas_surface_constants_of(run.model);
         fracas_step *step = &run.batch->step;
         fracas_census census;
         OK(run.model->formulation->count(run.model, step, 0, &census));
         assert_true(census.all == 1 && census.held == 0);
-        for (size_t i = 0; i < run.model->interfaces; i++) fracas_surface_break(&c, step, i, 0);
+        for (size_t i = 0; i < run.model->interfaces; i++) break_interface(run.batch, i);
         step->broken[0] = (int64_t)run.model->interfaces;
         OWNED bool *held = zeroed(mesh->nelements, 1);
         for (size_t b = 0; b < mesh->nborders; b++) {

@@ -130,12 +130,6 @@ static void arcs_of_a_ring(void **unused)
 
 /* ---- surfaces ---- */
 
-static void break_interface(const fracas_batch *batch, size_t i)
-{
-    const fracas_surface_constants c = fracas_surface_constants_of(batch->model);
-    fracas_surface_break(&c, &batch->step, i, 0);
-}
-
 static void check_box(const fracas_fragment *part, const double side[3], double tolerance)
 {
     same(part->volume, side[0] * side[1] * side[2], tolerance);

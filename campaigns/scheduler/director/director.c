@@ -76,7 +76,6 @@ static fracas_err set_up(fracas_director *director, bool *settled, int64_t *fail
     director->flushing = calloc(director->setup.workers, sizeof *director->flushing);
     director->given = calloc(director->setup.campaign->npoints, sizeof *director->given);
     director->ruled = calloc(director->setup.campaign->npoints, sizeof *director->ruled);
-    TRY(fracas_help_create(director->setup.workers, &director->helper));
     if (!director->phase || !director->flushing || !director->given || !director->ruled)
         return fracas_no_memory("the workers");
     for (size_t p = 0; p < director->setup.campaign->npoints; p++)
@@ -137,7 +136,6 @@ void fracas_director_destroy(fracas_director *director)
     free(director->phase);
     free(director->flushing);
     free(director->given);
-    fracas_help_destroy(director->helper, director->setup.workers);
     free(director);
 }
 
@@ -165,11 +163,9 @@ static fracas_err lease_worker(fracas_director *director, size_t worker)
         if (fracas_director_too_late(director, worker, time)) break;
         TRY(fracas_scheduler_next(director->scheduler, worker, time, &lease, &given));
         if (!given) break;
-        if (!fracas_help_may_come(director, worker)) lease.role = FRACAS_LEASE_ALONE;
         TRY(mark_leased(director, &lease));
         TRY(fracas_director_post(director, worker, FRACAS_PACKET_LEASE, &lease,
                                  fracas_lease_bytes(&lease)));
-        TRY(fracas_help_lease(director, worker, &lease));
         director->timings.leases++;
         director->timings.giving += director->setup.now() - time;
     }
@@ -240,10 +236,9 @@ static fracas_err on_ready(fracas_director *director, size_t worker, const fraca
         fracas_director_stop_worker(director, worker);
         return FRACAS_OK;
     }
-    fracas_ready ready;
-    TRY(fracas_packet_body(message, &ready, sizeof ready));
-    fracas_help_ready(director, worker, &ready.host);
-    if (!fracas_hash_equal(&ready.campaign, &director->setup.campaign->hash))
+    fracas_hash campaign;
+    TRY(fracas_packet_body(message, &campaign, sizeof campaign));
+    if (!fracas_hash_equal(&campaign, &director->setup.campaign->hash))
         return fracas_fail(FRACAS_ENVIRONMENT,
                            "rank %zu read another campaign from %s than rank 0: it changed while "
                            "the run started, or is not the same file on all hosts",
@@ -258,7 +253,6 @@ static fracas_err on_computed(fracas_director *director, size_t worker,
     TRY(fracas_packet_body(message, &report, sizeof report));
     TRY(fracas_scheduler_computed(director->scheduler, worker, report.lease, director->setup.now(),
                                   report.seconds));
-    fracas_help_end(director, worker);
     return lease_worker(director, worker);
 }
 
@@ -300,7 +294,6 @@ static fracas_err on_failed(fracas_director *director, size_t worker, const frac
     TRY(fracas_packet_body(message, &failure, sizeof failure));
     TRY(fracas_scheduler_failed(director->scheduler, worker, failure.lease, director->setup.now(),
                                 (size_t)failure.kept, (size_t)failure.count, &lease, &final));
-    fracas_help_end(director, worker);
     TRY(note_failed(director, &lease, final, failure.reason));
     return add_all(director);
 }
@@ -366,8 +359,6 @@ static fracas_err on_replaced(fracas_director *director, size_t worker,
     TRY(fracas_packet_body(message, &trouble, sizeof trouble));
     fracas_scheduler_lost(director->scheduler, worker);
     director->phase[worker] = STARTING;
-    fracas_help_end(director, worker);
-    fracas_help_free(director, worker);
     director->flushing[worker] = false;
     /* First: without it the new server hears nothing, not even STOP after an error below. */
     TRY(fracas_director_post(director, worker, FRACAS_PACKET_FRESH, NULL, 0));
@@ -383,8 +374,6 @@ static fracas_err act(fracas_director *director, size_t worker, const fracas_pac
     case FRACAS_PACKET_FAILED: return on_failed(director, worker, message);
     case FRACAS_PACKET_SEGMENT: return on_segment(director, worker, message);
     case FRACAS_PACKET_FLUSHED: return on_flushed(director, worker);
-    case FRACAS_PACKET_MEETING: return fracas_help_meet(director, worker, message);
-    case FRACAS_PACKET_HELPED: return fracas_help_over(director, worker, message);
     case FRACAS_PACKET_REPLACED: return on_replaced(director, worker, message);
     case FRACAS_PACKET_TROUBLE:
     case FRACAS_PACKET_LOST:
@@ -400,7 +389,6 @@ void fracas_director_receive(fracas_director *director, size_t worker, const fra
     director->timings.messages++;
     fracas_director_check(director, act(director, worker, message));
     fracas_director_check(director, flush_all(director));
-    fracas_director_check(director, fracas_help_offer(director));
     stop_if_durable(director);
     fracas_counts count = fracas_scheduler_count(director->scheduler);
     fracas_channel_progress(director->setup.channel, &count);

@@ -19,7 +19,6 @@ typedef struct {
     const fracas_run_options *options;
     const char *study;
     size_t workers;
-    bool one_host; /* all workers are on it */
     fracas_director_send *send;
     void *context;
     fracas_channel *channel;

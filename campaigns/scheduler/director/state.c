@@ -48,8 +48,6 @@ void fracas_director_end_worker(fracas_director *director, size_t worker)
     director->phase[worker] = ENDED;
     director->nended++;
     fracas_scheduler_lost(director->scheduler, worker); /* nothing, if it ended in order */
-    fracas_help_end(director, worker);
-    fracas_help_free(director, worker);
 }
 
 fracas_err fracas_director_announce(fracas_director *director, const char *kind, const char *text)

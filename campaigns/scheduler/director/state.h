@@ -18,11 +18,9 @@ struct fracas_director {
     bool *ruled;  /* a rule decides the replicas of each point; these points go first */
     fracas_rounds rounds;
     fracas_scheduler *scheduler;
-    worker_phase *phase;          /* one a worker */
-    bool *flushing;               /* each worker was asked to write its segment */
-    int64_t *given;               /* replicas of each point known to the scheduler */
-    struct fracas_helper *helper; /* one a worker: help.c */
-    size_t meetings;              /* leases that others may help with now */
+    worker_phase *phase; /* one a worker */
+    bool *flushing;      /* each worker was asked to write its segment */
+    int64_t *given;      /* replicas of each point known to the scheduler */
     size_t nended;
     bool stopping;          /* STOP was sent to all working */
     bool needless;          /* everything is durable: only duplicates still run */
@@ -52,23 +50,6 @@ void fracas_director_end_worker(fracas_director *director, size_t worker);
 /* Shows a message on the status channel and notes it as an event. */
 FRACAS_MUST_USE fracas_err fracas_director_announce(fracas_director *director, const char *kind,
                                                     const char *text);
-FRACAS_MUST_USE fracas_err fracas_help_create(size_t workers, struct fracas_helper **helper);
-void fracas_help_destroy(struct fracas_helper *helper, size_t workers); /* NULL is allowed */
-/* There is a worker of another host, or one whose host is not known yet. */
-bool fracas_help_may_come(const fracas_director *director, size_t worker);
-/* A worker is ready on this host; it gets a lease; others may come to help with that; it is over;
- * the worker helps no more. */
-void fracas_help_ready(fracas_director *director, size_t worker, const fracas_hash *host);
-FRACAS_MUST_USE fracas_err fracas_help_lease(fracas_director *director, size_t worker,
-                                             const fracas_lease *lease);
-FRACAS_MUST_USE fracas_err fracas_help_meet(fracas_director *director, size_t worker,
-                                            const fracas_packet *message);
-FRACAS_MUST_USE fracas_err fracas_help_over(fracas_director *director, size_t worker,
-                                            const fracas_packet *message);
-void fracas_help_end(fracas_director *director, size_t worker);
-void fracas_help_free(fracas_director *director, size_t worker);
-/* Sends idle workers to leases of other hosts, one of each host to each, each worker once. */
-FRACAS_MUST_USE fracas_err fracas_help_offer(fracas_director *director);
 
 /* Nothing is left to compute, nor will be. */
 bool fracas_director_computed(const fracas_director *director);

@@ -330,14 +330,13 @@ static task *first_overdue(const fracas_scheduler *s, const worker_state *w, dou
 }
 
 /* The formula at fracas_scheduler_next, for a worker that has its lease. */
-static void choose_parts(const fracas_scheduler *s, const task *t, fracas_lease *lease)
+static size_t choose_parts(const fracas_scheduler *s, const task *t)
 {
     const size_t workers = s->options.workers;
     size_t busy = t->attempts ? workers : s->waiting;
+    if (s->options.parts) return s->options.parts;
     for (size_t i = 0; i < workers && busy < workers; i++) busy += s->worker[i].nheld > 0;
-    lease->parts = s->options.parts ? s->options.parts : busy < workers ? workers / busy : 1;
-    lease->role = 2 * busy <= workers && t->held == 1 ? FRACAS_LEASE_LEADS : FRACAS_LEASE_ALONE;
-    lease->meeting = (fracas_meeting){0};
+    return busy < workers ? workers / busy : 1;
 }
 
 static void lease_out(fracas_scheduler *s, worker_state *w, task *t, double now,
@@ -351,7 +350,7 @@ static void lease_out(fracas_scheduler *s, worker_state *w, task *t, double now,
     lease->count = t->count;
     lease->isolated = t->isolated;
     lease->limit = limit_of(s, t);
-    choose_parts(s, t, lease);
+    lease->parts = choose_parts(s, t);
     memcpy(lease->replica, t->replica, t->count * sizeof *t->replica);
 }
 

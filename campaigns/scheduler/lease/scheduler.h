@@ -55,8 +55,7 @@ FRACAS_OWNER(fracas_scheduler, fracas_scheduler_destroy)
  * f workers are free within half the time of a batch. While nothing is measured, one batch.
  * The last leases have lease->parts above 1, where options->parts is 0: the number of workers over
  * that of realizations waiting and workers with a lease, so that no core is idle; but 1 where a
- * realization has failed, as it might have for want of threads or of their memory. The same leases
- * lead, whatever options->parts: workers of other hosts may help.
+ * realization has failed, as it might have for want of threads or of their memory.
  * O(log points) steps, for the last leases O(workers). FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_scheduler_next(fracas_scheduler *scheduler, size_t worker,
                                                  double now, fracas_lease *lease, bool *given);

@@ -235,12 +235,16 @@ fracas_err fracas_campaign_keep(const fracas_campaign *campaign, const char *fol
 
 /* ---- whose the folder of a study is ---- */
 
-/* A regular file, not empty, that begins as every resolved campaign does. */
-static bool is_resolved(const char *path)
+static const char SIGNED[] = "host="; /* a lock that a run has */
+
+/* STUDY/NAME is a regular file, not empty, that begins in this way; true without memory, too. */
+static bool has(const char *study, const char *name, const char *begin)
 {
     struct stat info;
-    return !lstat(path, &info) && S_ISREG(info.st_mode) && info.st_size > 0 &&
-           fracas_file_begins(path, FRACAS_RESOLVED);
+    OWNED char *path = NULL;
+    return fracas_path(&path, "%s/%s", study, name) ||
+           (!lstat(path, &info) && S_ISREG(info.st_mode) && info.st_size > 0 &&
+            fracas_file_begins(path, begin));
 }
 
 static fracas_err note_segment(void *found, const char *path, const char *name)
@@ -254,10 +258,10 @@ static fracas_err note_segment(void *found, const char *path, const char *name)
 /* A run has made it: it has an index, a resolved campaign or a segment. */
 static bool is_study(const char *study)
 {
-    OWNED char *file = NULL, *segments = NULL;
+    OWNED char *segments = NULL;
     bool any = false;
-    if (fracas_path(&file, "%s/campaign.yaml", study) || is_resolved(file)) return true;
-    if (fracas_index_exists(study) || fracas_path(&segments, "%s/segments", study)) return true;
+    if (has(study, "campaign.yaml", FRACAS_RESOLVED) || fracas_index_exists(study)) return true;
+    if (fracas_path(&segments, "%s/segments", study)) return true;
     return fracas_disk_each(segments, note_segment, &any) || any;
 }
 
@@ -280,6 +284,12 @@ static bool is_foreign(const char *path, const char *begin)
     return info.st_size > 0 && !(begin && fracas_file_begins(path, begin));
 }
 
+/* It cannot be read while a run makes it, which has the lock. */
+static bool is_foreign_index(const char *study)
+{
+    return fracas_index_is_foreign(study) && !has(study, "lock", SIGNED);
+}
+
 fracas_err fracas_study_place(const char *study)
 {
     static const struct {
@@ -287,13 +297,14 @@ fracas_err fracas_study_place(const char *study)
     } ours[] = {
         {"campaign.yaml", NULL},    {"study.h5", NULL}, {"index.sqlite", NULL},
         {"segments", NULL},         {"report", NULL},   {"fields", NULL},
-        {FRACAS_CHECKPOINTS, NULL}, {"lock", "host="},  {"campaign.yaml.tmp", FRACAS_RESOLVED}};
+        {FRACAS_CHECKPOINTS, NULL}, {"lock", SIGNED},   {"campaign.yaml.tmp", FRACAS_RESOLVED}};
     if (is_study(study)) return FRACAS_OK;
     for (size_t i = 0; i < FRACAS_COUNT(ours); i++) {
         OWNED char *path = NULL;
         TRY(fracas_path(&path, "%s/%s", study, ours[i].name));
         const bool index = strcmp(ours[i].name, "index.sqlite") == 0;
-        if (index ? fracas_index_is_foreign(study) : is_foreign(path, ours[i].begin))
+        const bool foreign = index ? is_foreign_index(study) : is_foreign(path, ours[i].begin);
+        if (foreign && !is_study(study)) /* a run may have begun since the first look */
             return fracas_fail(FRACAS_USAGE,
                                "%s is there already, and no run of fracas wrote it: choose another "
                                "folder for the study (--study), or move it away",

@@ -12,29 +12,14 @@ enum {
     FRACAS_ATTEMPTS_MAX = 3  /* at one realization alone, before it is FAILED */
 };
 
-enum { FRACAS_MEETING_HOST = 64 /* bytes of a host's name, with its end */ };
-
-/* Where the process of a lease waits for those of other hosts, which compute its bodies with it. */
-typedef struct {
-    uint64_t lease;
-    uint64_t token[2]; /* told by those who come */
-    uint64_t port;
-    char host[FRACAS_MEETING_HOST];
-} fracas_meeting;
-
-/* Its worker computes a lease alone, or with others once they have come, or is one of these. */
-typedef enum { FRACAS_LEASE_ALONE, FRACAS_LEASE_LEADS, FRACAS_LEASE_HELPS } fracas_lease_role;
-
 /* Only the first fracas_lease_bytes are sent. */
 typedef struct {
     uint64_t id;
-    uint64_t point;         /* in the campaign */
-    uint64_t count;         /* replicas, 1 to FRACAS_LEASE_MAX */
-    uint64_t isolated;      /* not 0: a worker died with it, so a process of its own computes it */
-    double limit;           /* longest allowed time [s] */
-    uint64_t parts;         /* threads for a surface */
-    uint64_t role;          /* fracas_lease_role */
-    fracas_meeting meeting; /* to which helpers go */
+    uint64_t point;    /* in the campaign */
+    uint64_t count;    /* replicas, 1 to FRACAS_LEASE_MAX */
+    uint64_t isolated; /* not 0: a worker died with it, so a process of its own computes it */
+    double limit;      /* longest allowed time [s] */
+    uint64_t parts;    /* threads for a surface */
     int64_t replica[FRACAS_LEASE_MAX];
 } fracas_lease;
 

@@ -19,14 +19,12 @@ typedef enum {
     FRACAS_PACKET_QUIT,  /* the run is over: empty; the rank answers with the same */
     FRACAS_PACKET_FRESH, /* answer to REPLACED, later messages are for the new server: empty */
     /* compute server -> rank 0 */
-    FRACAS_PACKET_READY,    /* up: fracas_ready */
+    FRACAS_PACKET_READY,    /* up: fracas_hash, of the campaign that it has read */
     FRACAS_PACKET_COMPUTED, /* fracas_lease_report */
     FRACAS_PACKET_FAILED,   /* fracas_lease_failure */
     FRACAS_PACKET_SEGMENT,  /* fracas_segment_note, its rows, its provenance with the final '\0' */
     FRACAS_PACKET_FLUSHED,  /* answer to FLUSH where all is in segments already: empty */
     FRACAS_PACKET_TROUBLE,  /* this server or rank cannot go on: fracas_trouble */
-    FRACAS_PACKET_MEETING,  /* others may help with a lease: fracas_meeting, of its process */
-    FRACAS_PACKET_HELPED,   /* it helps no more: fracas_trouble, why */
     FRACAS_PACKET_ENDED,    /* answer to STOP, nothing follows: empty */
     /* rank -> rank 0 */
     FRACAS_PACKET_REPLACED, /* its server died, READY of a new one follows: fracas_trouble */
@@ -49,10 +47,6 @@ typedef struct {
     int32_t again; /* not 0: another start of MPI helps */
     char text[1024];
 } fracas_trouble;
-
-typedef struct {
-    fracas_hash campaign, host; /* hashes of the campaign, and of the host's name */
-} fracas_ready;
 
 typedef struct {
     uint64_t lease;

@@ -3,7 +3,6 @@
 
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/types/process.h"
-#include "campaigns/scheduler/worker/group.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -30,54 +29,16 @@ static fracas_err send_all(int fd, fracas_packet **record, size_t count)
     return err;
 }
 
-/* Those of the leading process count. */
-static void drop_all(fracas_packet **record, size_t count)
-{
-    for (size_t i = 0; i < count; i++) free(record[i]);
-}
-
-/* So many processes are of use: a step of the body takes some 0.6 us an element, and each of them 3
- * us to tell the others of it, more in a network. */
-static size_t most_of(const fracas_model *model)
-{
-    return (size_t)sqrt((double)fracas_model_elements(model) / 16);
-}
-
-/* Others may come to this process, or it comes to one; only surfaces are shared. */
-static fracas_err meet(const fracas_computation *computation, size_t *from, int fd)
-{
-    const fracas_lease *lease = computation->lease;
-    fracas_meeting meeting = {.lease = lease->id};
-    if (lease->role == FRACAS_LEASE_HELPS) {
-        TRY(fracas_group_join(computation->group, &lease->meeting, from));
-        return fracas_packet_send(fd, FRACAS_PACKET_MEETING, &lease->meeting, sizeof meeting);
-    }
-    const size_t most = most_of(computation->realizer->model);
-    if (!fracas_model_surface(computation->realizer->model) || most < 2 ||
-        fracas_group_open(computation->group, most, &meeting))
-        return FRACAS_OK; /* alone */
-    return fracas_packet_send(fd, FRACAS_PACKET_MEETING, &meeting, sizeof meeting);
-}
-
 static fracas_err compute(const fracas_computation *computation, fracas_models *models, int fd)
 {
     fracas_computation own = *computation;
-    FRACAS_CLEARED(fracas_group) group;
-    size_t from = 0;
-    fracas_group_init(&group);
     TRY(fracas_models_get(models, &own));
-    if (own.lease->role != FRACAS_LEASE_ALONE) {
-        own.group = &group;
-        TRY(meet(&own, &from, fd));
-    }
-    for (size_t count; from < own.lease->count; from += count) {
+    for (size_t from = 0, count; from < own.lease->count; from += count) {
         fracas_packet *record[FRACAS_LANES_MAX];
         TRY(fracas_compute_batch(&own, from, record, &count));
-        if (own.lease->role == FRACAS_LEASE_HELPS) drop_all(record, count);
-        else TRY(send_all(fd, record, count));
+        TRY(send_all(fd, record, count));
     }
-    return own.lease->role == FRACAS_LEASE_HELPS ? fracas_fail(FRACAS_INTERRUPTED, "to the end")
-                                                 : FRACAS_OK;
+    return FRACAS_OK;
 }
 
 bool fracas_child_live(const fracas_computation *computation, fracas_models *models, int fd)
@@ -146,8 +107,6 @@ static fracas_err cut(fracas_child *child)
         if (child->size - at < fracas_packet_bytes(&head)) break;
         if (head.kind == FRACAS_PACKET_FAULT && head.size == sizeof(fracas_trouble)) {
             memcpy(child->fault, body + offsetof(fracas_trouble, text), sizeof child->fault);
-        } else if (head.kind == FRACAS_PACKET_MEETING && head.size == sizeof child->meeting) {
-            memcpy(&child->meeting, body, sizeof child->meeting);
         } else if (head.kind == FRACAS_PACKET_RECORD && child->count < child->lease.count) {
             TRY(fracas_packet_create(FRACAS_PACKET_RECORD, body, head.size,
                                      &child->record[child->count]));

@@ -21,9 +21,8 @@ typedef struct {
     bool late;              /* killed at its deadline */
     fracas_packet **record; /* lease.count, of which `count` are complete */
     size_t count;
-    fracas_meeting meeting; /* its MEETING message (a helper's: it has begun); port 0: none */
-    char fault[1024];       /* its FAULT message; "": none */
-    unsigned char *bytes;   /* incomplete messages */
+    char fault[1024];     /* its FAULT message; "": none */
+    unsigned char *bytes; /* incomplete messages */
     size_t size, capacity;
 } fracas_child;
 

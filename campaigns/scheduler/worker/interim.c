@@ -3,7 +3,6 @@
 
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/types/header.h"
-#include "campaigns/scheduler/worker/group.h"
 #include "campaigns/store/checkpoint.h"
 
 #include <math.h>
@@ -77,17 +76,10 @@ static fracas_err begin(void *context, fracas_batch *batch, fracas_record *recor
     return FRACAS_OK;
 }
 
-/* Those who have come start at a checkpoint. */
-static bool has_come(const fracas_interim *interim)
-{
-    fracas_group *group = interim->computation->group;
-    return group && fracas_group_has_come(group);
-}
-
 static bool is_due(void *context)
 {
     const fracas_interim *interim = context;
-    return fracas_now() >= interim->due || has_come(interim);
+    return fracas_now() >= interim->due;
 }
 
 static fracas_err save_all(void *context, fracas_batch *batch, const fracas_record *record)
@@ -100,9 +92,6 @@ static fracas_err save_all(void *context, fracas_batch *batch, const fracas_reco
     const double now = fracas_now(); /* a slow disk costs a twentieth at most */
     interim->due = now +
                    fmax(interim->computation->options->checkpoint_seconds, 20 * (now - began));
-    if (!has_come(interim)) return FRACAS_OK;
-    if (!err) return fracas_fail(FRACAS_INTERRUPTED, "others have come to compute with this one");
-    fracas_group_leave(interim->computation->group);
     return FRACAS_OK;
 }
 

@@ -7,13 +7,11 @@
 #include "campaigns/scheduler/worker/compute.h"
 #include "campaigns/scheduler/worker/models.h"
 #include "campaigns/scheduler/worker/segment.h"
-#include "campaigns/store/file/disk.h"
 
 #include <errno.h>
 #include <math.h>
 #include <poll.h>
 #include <signal.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/time.h>
@@ -46,12 +44,6 @@ typedef struct {
 static bool works(const server *s)
 {
     return s->child.pid || s->own.runs;
-}
-
-/* Its child computes with another worker's, until there is a lease of its own. */
-static bool helps(const server *s)
-{
-    return s->child.pid && s->child.lease.role == FRACAS_LEASE_HELPS;
 }
 
 /* ---- messages to the rank ---- */
@@ -98,23 +90,6 @@ static fracas_err add_records(server *s, uint64_t point, const int64_t *replica,
     return err;
 }
 
-/* The campaign and the host, for comparison. */
-static fracas_err send_ready(server *s)
-{
-    char host[FRACAS_HOST_TEXT], boot[FRACAS_BOOT_TEXT];
-    fracas_disk_host(host, boot);
-    const fracas_ready ready = {s->campaign->hash, fracas_hash_of(host, strlen(host))};
-    return fracas_packet_send(s->rank, FRACAS_PACKET_READY, &ready, sizeof ready);
-}
-
-static fracas_err end_help(server *s, const char *why)
-{
-    fracas_trouble end = {0};
-    snprintf(end.text, sizeof end.text, "%s", why);
-    fracas_child_clear(&s->child);
-    return fracas_packet_send(s->rank, FRACAS_PACKET_HELPED, &end, sizeof end);
-}
-
 /* ---- leases ---- */
 
 /* Ends this process by SIGALRM after `seconds`; 0: no longer. */
@@ -146,9 +121,8 @@ static fracas_err start_next(server *s)
     set_alarm(fmax(lease->limit, 0));
     fracas_err err = fracas_models_get(&s->models, &computation);
     set_alarm(0);
-    if (err && lease->role == FRACAS_LEASE_HELPS) return end_help(s, fracas_message());
     if (err) return fail_lease(s, lease, 0, batch_of(s, lease, 0));
-    if (s->options->isolation == FRACAS_ISOLATION_LEASE || lease->role != FRACAS_LEASE_ALONE)
+    if (s->options->isolation == FRACAS_ISOLATION_LEASE)
         return fracas_child_start(&s->child, &computation, &s->models, s->rank);
     s->own = (own_lease){.runs = true, .computation = computation};
     memcpy(&s->own.lease, lease, fracas_lease_bytes(lease));
@@ -161,14 +135,8 @@ static fracas_err receive_child(server *s)
 {
     bool ended, good;
     TRY(fracas_child_receive(&s->child, &ended));
-    fracas_child *child = &s->child;
-    if (child->meeting.port && !helps(s)) {
-        TRY(fracas_packet_send(s->rank, FRACAS_PACKET_MEETING, &child->meeting,
-                               sizeof child->meeting));
-        child->meeting.port = 0;
-    }
     if (!ended) return FRACAS_OK;
-    if (helps(s)) return end_help(s, *child->fault ? child->fault : "its process died");
+    fracas_child *child = &s->child;
     const double seconds = fracas_now() - child->began;
     const uint64_t lease = child->lease.id;
     fracas_lease_failure failure;
@@ -226,7 +194,7 @@ static fracas_err on_stop(server *s, const fracas_packet *message)
         s->own.runs = false;
     }
     s->stopping = true;
-    return helps(s) && !s->child.meeting.port ? end_help(s, "it had not begun") : FRACAS_OK;
+    return FRACAS_OK;
 }
 
 static fracas_err on_lease(server *s, const fracas_packet *message)
@@ -290,13 +258,12 @@ static fracas_err wait_and_receive(server *s)
 /* Until STOP is obeyed or the rank is gone. */
 static fracas_err serve(server *s)
 {
-    TRY(send_ready(s));
+    TRY(fracas_packet_send(s->rank, FRACAS_PACKET_READY, &s->campaign->hash, sizeof(fracas_hash)));
     while (!s->orphan) {
         if (!works(s) && s->stopping) {
             if (s->segment.count) TRY(write_segment(s));
             return fracas_packet_send(s->rank, FRACAS_PACKET_ENDED, NULL, 0);
         }
-        if (helps(s) && s->nwaiting) TRY(end_help(s, "there is a lease of its own"));
         while (!works(s) && s->nwaiting && !s->stopping) TRY(start_next(s));
         if (s->own.runs) TRY(advance(s));
         if (fracas_segment_wait(&s->segment, s->options) <= 0) TRY(write_segment(s));

@@ -15,7 +15,6 @@ typedef struct {
     const char *study;               /* NULL: no checkpoints */
     const fracas_realizer *realizer; /* at the lease's point: fracas_models_get */
     const fracas_lease *lease;
-    struct fracas_group *group;      /* NULL: this process computes alone */
     const fracas_batch_watch *watch; /* in the place of checkpoints; NULL: nobody */
 } fracas_computation;
 

@@ -10,7 +10,6 @@ enum { NONE = UINT32_MAX, LINE = 8 /* doubles of a line of memory */ };
 /* Room for the making of one part after another. Turns are numbered within the part. */
 typedef struct {
     const fracas_surface_constants *constants;
-    size_t here, here_end;      /* elements of all parts here */
     size_t begin, end;          /* the part's elements */
     size_t place;               /* next free field of a group's memory */
     uint32_t *join_from, *join; /* interfaces by their second element, in order */
@@ -24,12 +23,6 @@ typedef struct {
 static bool owns(const maker *m, size_t e)
 {
     return e >= m->begin && e < m->end;
-}
-
-/* Some part here owns it. */
-static bool is_here(const maker *m, size_t e)
-{
-    return e >= m->here && e < m->here_end;
 }
 
 /* ---- room ---- */
@@ -118,8 +111,7 @@ static void give_joins(maker *m, fracas_surface_part *part)
             const size_t at = fracas_surface_interfaces_at(c) + i * interface_fields;
             fracas_surface_join *join = &part->join[joins++];
             *join = (fracas_surface_join){.interface = i, .edge = {t->edge[i][0], t->edge[i][1]}};
-            join->at = turn->ghost && is_here(m, e) ? place_copy(m, part, at, interface_fields)
-                                                    : (uint32_t)at;
+            join->at = turn->ghost ? place_copy(m, part, at, interface_fields) : (uint32_t)at;
             for (int side = 0; side < 2; side++) {
                 const uint32_t of = m->turn_of[pair[side]];
                 join->element[side] = part->turn[of].at;
@@ -197,7 +189,6 @@ void fracas_surface_division_destroy(void *p)
         for (size_t k = 0; k < FRACAS_COUNT(owned); k++) free(owned[k]);
     }
     free(division->part);
-    fracas_surface_sharing_destroy(division->sharing);
     free(division);
 }
 
@@ -208,19 +199,17 @@ static size_t first_of(const fracas_surface_tables *t, size_t block)
     return e < t->nelements ? e : t->nelements;
 }
 
-/* The parts of blocks `from` to before `to`. */
-static fracas_err make_parts(maker *m, size_t from, size_t to, fracas_surface_division *division)
+static fracas_err make_parts(maker *m, fracas_surface_division *division)
 {
     const fracas_surface_tables *t = m->constants->tables;
-    m->here = m->end = first_of(t, from);
-    m->here_end = first_of(t, to);
+    const size_t blocks = fracas_surface_blocks(t);
     for (size_t i = 0; i < division->parts; i++) {
         m->begin = m->end;
-        m->end = first_of(t, from + (i + 1) * (to - from) / division->parts);
+        m->end = first_of(t, (i + 1) * blocks / division->parts);
         TRY(make_part(m, &division->part[i]));
     }
     division->sums = m->place;
-    division->fields = m->place + fracas_surface_blocks(t) * SURFACE_SUMS;
+    division->fields = m->place + blocks * SURFACE_SUMS;
     if (division->fields <= UINT32_MAX) return FRACAS_OK;
     return fracas_fail(
         FRACAS_ENVIRONMENT,
@@ -229,23 +218,18 @@ static fracas_err make_parts(maker *m, size_t from, size_t to, fracas_surface_di
 }
 
 fracas_err fracas_surface_division_create(const fracas_surface_constants *c, size_t parts,
-                                          const fracas_peers *peers, fracas_surface_division **out)
+                                          fracas_surface_division **out)
 {
-    const size_t blocks = fracas_surface_blocks(c->tables), count = peers ? peers->count : 1,
-                 number = peers ? peers->number : 0,
-                 from = fracas_surface_share(blocks, number, count),
-                 to = fracas_surface_share(blocks, number + 1, count);
+    const size_t blocks = fracas_surface_blocks(c->tables);
     fracas_surface_division *division = calloc(1, sizeof *division);
     if (!division) return fracas_no_memory("the parts of a body");
-    division->parts = parts > to - from ? to - from : parts;
-    division->part = calloc(division->parts + 1, sizeof *division->part);
+    division->parts = parts < blocks ? parts : blocks;
+    division->part = calloc(division->parts, sizeof *division->part);
     maker m;
     fracas_err err = maker_init(&m, c);
     if (!err)
-        err = division->part ? make_parts(&m, from, to, division)
-                             : fracas_no_memory("the parts of a body");
+        err = division->part ? make_parts(&m, division) : fracas_no_memory("the parts of a body");
     maker_clear(&m);
-    if (!err && peers) err = fracas_surface_sharing_create(c, peers, &division->sharing);
     if (err) fracas_surface_division_destroy(division);
     else *out = division;
     return err;

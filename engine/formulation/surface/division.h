@@ -8,14 +8,15 @@
  * takes their turns in the same order, and drops their forces. Both parts compute the interfaces
  * between them, from the same numbers in the same order; the one with the second element counts
  * events and energies. So nothing but the copies goes between parts, once a step, and no bit
- * depends on their number.
- *
- * Parts may be those of one of several peers (sharing.h). An interface with another peer has no
- * copy: each peer has its own state of it. */
+ * depends on their number. */
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_DIVISION_H
 #define FRACAS_ENGINE_FORMULATION_SURFACE_DIVISION_H
 
-#include "engine/formulation/surface/sharing.h"
+#include "base/err.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
 
 struct fracas_surface_constants;
 
@@ -53,18 +54,16 @@ typedef struct {
 } fracas_surface_part;
 
 typedef struct {
-    size_t parts; /* this peer's, at least one if there are no others */
+    size_t parts;
     fracas_surface_part *part;
-    fracas_surface_sharing *sharing; /* NULL: no other peers */
-    size_t sums;                     /* place of the sums of all blocks */
-    size_t fields;                   /* a lane's, in a group's memory */
+    size_t sums;   /* place of the sums of all blocks */
+    size_t fields; /* a lane's, in a group's memory */
 } fracas_surface_division;
 
-/* Divides a body, or the share of one of its peers, into `parts`, or as many as it has blocks.
- * FRACAS_ENVIRONMENT without memory. */
+/* Divides a body into `parts`, or as many as it has blocks. FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err
 fracas_surface_division_create(const struct fracas_surface_constants *constants, size_t parts,
-                               const fracas_peers *peers, fracas_surface_division **division);
+                               fracas_surface_division **division);
 void fracas_surface_division_destroy(void *division); /* NULL is allowed */
 
 #endif

@@ -38,7 +38,6 @@ void fracas_surface_book(const fracas_surface_constants *c, fracas_step *step,
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* events are rare */
     const int lane = event->lane;
-    if (event->ghost && !step->onset_time) return;
     const fracas_surface_view before = view_of(c, step, event, step->drift[lane]),
                               now = view_of(c, step, event, 0);
     const size_t at = event->interface * (size_t)step->width + (size_t)lane;
@@ -51,12 +50,12 @@ void fracas_surface_book(const fracas_surface_constants *c, fracas_step *step,
     }
     pthread_mutex_lock(&lock);
     if (event->opens) {
-        step->cracked[lane] += !event->ghost;
+        step->cracked[lane]++;
         step->first_onset[lane] = fmin(step->first_onset[lane], first); /* NaN: none yet */
         if (step->onset_time) step->onset_time[at] = first;
     }
     if (event->parts) {
-        step->broken[lane] += !event->ghost;
+        step->broken[lane]++;
         if (step->break_time) step->break_time[at] = last;
     }
     pthread_mutex_unlock(&lock);

@@ -11,21 +11,12 @@ double fracas_surface_spin(const fracas_surface_constants *c, double time)
     return w * w;
 }
 
-/* Adds blocks in pairs, pairs of pairs, ...: in the end the first one of all holds them all. */
-void fracas_surface_add_blocks(const fracas_surface_constants *c, const fracas_step *step,
-                               size_t from, size_t to)
+/* Adds blocks of `size` sums in pairs, pairs of pairs, ...: the first one holds them all then. */
+static void add_blocks(double *sums, size_t blocks, size_t size)
 {
-    const fracas_surface_division *division = step->division.plan;
-    const size_t blocks = fracas_surface_blocks(c->tables),
-                 size = (size_t)(SURFACE_SUMS * step->lanes);
-    for (int first = 0; first < step->width; first += step->lanes) {
-        double *sums = fracas_surface_field(step, division->sums, first);
-        for (size_t apart = 1; apart < blocks; apart *= 2)
-            for (size_t b = (from + 2 * apart - 1) / (2 * apart) * (2 * apart);
-                 b + apart < to && (b + 2 * apart <= to || to == blocks); b += 2 * apart)
-                for (size_t i = 0; i < size; i++)
-                    sums[b * size + i] += sums[(b + apart) * size + i];
-    }
+    for (size_t apart = 1; apart < blocks; apart *= 2)
+        for (size_t b = 0; b + apart < blocks; b += 2 * apart)
+            for (size_t i = 0; i < size; i++) sums[b * size + i] += sums[(b + apart) * size + i];
 }
 
 /* Work of the body force since the step before [J]: exactly the mean of the forces of both steps
@@ -58,9 +49,7 @@ void fracas_surface_totals(const fracas_surface_constants *c, fracas_step *step)
     const fracas_surface_division *division = step->division.plan;
     for (int first = 0; first < step->width; first += step->lanes) {
         double *sums = fracas_surface_field(step, division->sums, first);
-        if (division->sharing)
-            fracas_surface_sharing_add(division->sharing, sums,
-                                       (size_t)(SURFACE_SUMS * step->lanes));
+        add_blocks(sums, fracas_surface_blocks(c->tables), (size_t)(SURFACE_SUMS * step->lanes));
         for (int l = 0; l < step->lanes; l++) {
             double sum[SURFACE_SUMS];
             for (int s = 0; s < SURFACE_SUMS; s++) sum[s] = sums[s * step->lanes + l];

@@ -210,12 +210,12 @@ size_t fracas_surface_parts_most(const fracas_model *model)
 }
 
 fracas_err fracas_surface_model_divide(const fracas_model *model, size_t parts,
-                                       const fracas_peers *peers, fracas_division *out)
+                                       fracas_division *out)
 {
     const fracas_surface_constants c = fracas_surface_constants_of(model);
     fracas_surface_division *division;
-    TRY(fracas_surface_division_create(&c, parts, peers, &division));
-    *out = (fracas_division){division->parts, division->fields, division, peers};
+    TRY(fracas_surface_division_create(&c, parts, &division));
+    *out = (fracas_division){division->parts, division->fields, division};
     return FRACAS_OK;
 }
 
@@ -308,14 +308,10 @@ void fracas_surface_advance(const fracas_model *model, fracas_step *step)
 {
     surface_task task = {.constants = fracas_surface_constants_of(model), .step = step};
     const fracas_surface_constants *c = &task.constants;
-    const fracas_surface_division *division = step->division.plan;
     const fracas_surface_kernel *kernel = (*c->tables->body->kernels)[step->isa][step->lanes];
     task.sweep = kernel->sweep[fracas_law_of(&model->spec)->number][c->tables->order - 1];
     for (int l = 0; l < step->width; l++) step->spin[l] = fracas_surface_spin(c, step->time[l]);
-    if (division->sharing) fracas_surface_sharing_begin(division->sharing, step);
-    if (division->parts) fracas_team_run(step->team, advance_part, &task);
-    if (division->sharing) return; /* the rest is fracas_surface_share_step */
-    fracas_surface_add_blocks(c, step, 0, fracas_surface_blocks(c->tables));
+    fracas_team_run(step->team, advance_part, &task);
     fracas_surface_totals(c, step);
 }
 
@@ -327,13 +323,6 @@ bool fracas_surface_is_broken(const fracas_surface_constants *c, const fracas_st
     for (size_t p = 0; p < fracas_surface_points(c->tables); p++)
         if (!(*point_value(c, step, i, (int)p, SURFACE_DAMAGE, lane) >= 1.0)) return false;
     return true;
-}
-
-void fracas_surface_break(const fracas_surface_constants *c, const fracas_step *step, size_t i,
-                          int lane)
-{
-    for (size_t p = 0; p < fracas_surface_points(c->tables); p++)
-        *point_value(c, step, i, (int)p, SURFACE_DAMAGE, lane) = 1.0;
 }
 
 /* D of an interface: the mean over its points by their weights, 1 only where all are broken

@@ -298,11 +298,8 @@ double fracas_surface_inverse_size(const fracas_surface *surface, size_t interfa
 
 /* w(t)^2, w = speed min(1, t/ramp): 0 where no body force acts [1/s2]. */
 double fracas_surface_spin(const fracas_surface_constants *constants, double time);
-/* Adds blocks `from` to before `to` after a sweep, as far as they are of no greater sum. */
-void fracas_surface_add_blocks(const fracas_surface_constants *constants, const fracas_step *step,
-                               size_t from, size_t to);
-/* Then all: sums to energies [J], those of the potential (membrane.8), (shell.11), power [W] and
- * work [J]. */
+/* After a sweep: sums of all blocks to energies [J], those of the potential (membrane.8),
+ * (shell.11), power [W] and work [J]. */
 void fracas_surface_totals(const fracas_surface_constants *constants, fracas_step *step);
 
 /* ---- events: onset and break of points within a step, lane by lane; they are rare ---- */
@@ -310,7 +307,6 @@ void fracas_surface_totals(const fracas_surface_constants *constants, fracas_ste
 typedef struct {
     size_t interface;
     int lane;                 /* the step's */
-    int ghost;                /* another part counts it */
     const double *element[2]; /* its elements' fields in that lane ... */
     const double *fields;     /* ... and its own */
     int cracks[SURFACE_POINTS_MOST], breaks[SURFACE_POINTS_MOST]; /* by point */
@@ -327,8 +323,6 @@ void fracas_surface_book(const fracas_surface_constants *constants, fracas_step 
 /* All its points are. */
 bool fracas_surface_is_broken(const fracas_surface_constants *constants, const fracas_step *step,
                               size_t interface, int lane);
-void fracas_surface_break(const fracas_surface_constants *constants, const fracas_step *step,
-                          size_t interface, int lane);
 /* An interface as a record has it; times are NaN where none are kept. */
 fracas_interface_row fracas_surface_interface_row(const fracas_model *model,
                                                   const fracas_surface_constants *constants,
@@ -344,15 +338,11 @@ double fracas_surface_interface_volume(const fracas_model *model, size_t interfa
 size_t fracas_surface_state_size(const fracas_model *model);
 size_t fracas_surface_parts_most(const fracas_model *model);
 FRACAS_MUST_USE fracas_err fracas_surface_model_divide(const fracas_model *model, size_t parts,
-                                                       const fracas_peers *peers,
                                                        fracas_division *division);
 double *fracas_surface_strength(const fracas_model *model, const fracas_step *step, int lane,
                                 size_t *stride);
 void fracas_surface_lane_init(const fracas_model *model, const fracas_step *step, int lane);
 void fracas_surface_advance(const fracas_model *model, fracas_step *step);
-FRACAS_MUST_USE fracas_err fracas_surface_share_step(const fracas_model *model, fracas_step *step);
-FRACAS_MUST_USE fracas_err fracas_surface_gather(const fracas_model *model, fracas_step *step,
-                                                 int lane);
 FRACAS_MUST_USE fracas_err fracas_surface_count(const fracas_model *model, fracas_step *step,
                                                 int lane, fracas_census *census);
 size_t fracas_surface_partition(const fracas_model *model, fracas_step *step, int lane);
@@ -379,7 +369,6 @@ void fracas_surface_fields(const fracas_model *model, const fracas_step *step, i
     .parts_most = fracas_surface_parts_most, .divide = fracas_surface_model_divide,             \
     .division_destroy = fracas_surface_division_destroy, .strength = fracas_surface_strength,   \
     .lane_init = fracas_surface_lane_init, .advance = fracas_surface_advance,                   \
-    .share = fracas_surface_share_step, .gather = fracas_surface_gather,                        \
     .count = fracas_surface_count, .partition = fracas_surface_partition,                       \
     .add_up = fracas_surface_add_up, .harvest = fracas_surface_harvest,                         \
     .element_nodes = fracas_surface_element_nodes, .add_matter = fracas_surface_add_matter,     \

@@ -9,7 +9,7 @@
 
 /* ---- interfaces ---- */
 
-/* Books the events at an interface, lane by lane. */
+/* Books the events at an interface, lane by lane; not in the turn of a ghost: another part does. */
 __attribute__((noinline, cold, unused)) static void
 surface_book(const surface_context *c, int points, const fracas_surface_join *join,
              const vmask *cracks, const vmask *breaks, vmask opens, vmask parts)
@@ -17,7 +17,6 @@ surface_book(const surface_context *c, int points, const fracas_surface_join *jo
     for (int l = 0; l < LANES; l++) {
         fracas_surface_event event = {.interface = join->interface,
                                       .lane = c->first + l,
-                                      .ghost = c->ghost,
                                       .element = {surface_place(c, join->element[0]) + l,
                                                   surface_place(c, join->element[1]) + l},
                                       .fields = surface_place(c, join->at) + l,
@@ -103,7 +102,7 @@ LANES_FUNCTION int surface_crack(surface_context *c, int order, int law, int cal
     c->sum[SURFACE_RUBBED] += rubbed;
     opens = lanes_and(opens, whole);  /* the first of its points */
     parts = lanes_and(parts, broken); /* the last */
-    if (__builtin_expect(lanes_any(lanes_or(opens, parts)), 0))
+    if (!c->ghost && __builtin_expect(lanes_any(lanes_or(opens, parts)), 0))
         surface_book(c, points * BODY_LAYERS, join, cracks, breaks, opens, parts);
     return 1;
 }
