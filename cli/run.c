@@ -70,7 +70,7 @@ fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv)
 {
     bool ran;
     fracas_err end = fracas_run(run, argc, argv, &ran);
-    if (!fracas_run_speaks()) return FRACAS_OK;
+    if (!fracas_run_owns_terminal()) return FRACAS_OK;
     if (end != FRACAS_OK && end != FRACAS_SOME_FAILED) return end;
 
     char study[PATH_MAX], message[1024]; /* the error, for after the report */
@@ -183,7 +183,7 @@ static fracas_err check_growth(const char *study, const fracas_campaign *campaig
         before += point->replicas;
     }
     const int64_t after = (int64_t)campaign->npoints * replicas;
-    if (fracas_run_speaks() && after > before)
+    if (fracas_run_owns_terminal() && after > before)
         fprintf(stderr, "fracas: %s is to grow from %" PRId64 " realizations to %" PRId64 "\n",
                 study, before, after);
     return FRACAS_OK;
@@ -241,7 +241,7 @@ static fracas_err retry(const fracas_arguments *arguments)
         return fracas_fail(FRACAS_USAGE,
                            "retry: --failed is missing: fracas retry STUDY --failed computes again "
                            "what FAILED; what was interrupted, `fracas run` computes");
-    if (fracas_run_speaks()) TRY(plan_again(arguments->operand, point));
+    if (fracas_run_owns_terminal()) TRY(plan_again(arguments->operand, point));
     return fracas_cli_run_study(arguments);
 }
 

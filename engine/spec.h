@@ -61,7 +61,7 @@ enum { FRACAS_LAW_OWN = 4 }; /* numbers of a law's own, at most */
 typedef struct {
     const fracas_kind *law;
     double fracture_energy;        /* J/m2; 0 where the critical opening is given */
-    double beta;                   /* interface stiffness by E/h; 1 */
+    double beta;                   /* interface stiffness over E/h; 1 */
     double critical_opening;       /* m; 0 where the fracture energy is given */
     double beta_shear;             /* shells: stiffness against shearing off; 1 */
     const fracas_kind *onset;      /* surfaces: mean, flux; traction compared with the strength */

@@ -112,7 +112,7 @@ static void describe_ring(const fracas_spec *spec, fracas_forecast *forecast)
                       traits->folds(spec, forecast->bound < forecast->mean, forecast->turn);
     if (spec->geometry.direction == &fracas_direction_initial && traits->path)
         forecast->turned = fabs(traits->path(spec, spec->time.end)) / radius;
-    forecast->lonely = fracas_law_zone(&spec->cohesive) > 0.5 * fracas_spec_length(spec);
+    forecast->zone_covers_ring = fracas_law_zone(&spec->cohesive) > 0.5 * fracas_spec_length(spec);
 }
 
 /* Diagonal of the box around all interfaces, and their largest distance from the z axis [m]. */

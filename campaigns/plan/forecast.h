@@ -26,10 +26,10 @@ typedef struct {
     double turn;        /* pi/2 R/c, from a ring's greatest speed to its turning point [s] */
     bool folds;         /* a whole ring moves inward before time.end */
     double turned;      /* turn of a ring with initial opening directions until time.end [rad] */
-    bool lonely;        /* the fracture-limiting zone of one interface reaches around the ring */
-    bool repeated;      /* several replicas with strengths from a file: all are equal */
-    double mean;        /* strength of an interface [Pa] */
-    double element;     /* mean element size [m] */
+    bool zone_covers_ring; /* the fracture-limiting zone of one interface reaches around the ring */
+    bool repeated;         /* several replicas with strengths from a file: all are equal */
+    double mean;           /* strength of an interface [Pa] */
+    double element;        /* mean element size [m] */
     fracas_surface_survey mesh; /* a mesh file's; no parts: another body */
     fracas_surface_group loose; /* the least physical group of edges without a key; 0: none */
     fracas_surface_group inner; /* the least physical group of edges between elements; 0: none */

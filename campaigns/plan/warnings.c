@@ -117,7 +117,7 @@ WARNING(
     "%.3g s",
     2 * forecast->turn)
 
-WARNING(warn_lonely, forecast->lonely, fracas_law_zone(&point->spec.cohesive),
+WARNING(warn_zone, forecast->zone_covers_ring, fracas_law_zone(&point->spec.cohesive),
         "cohesive.zone is longer than half of the ring: once an interface opens, none else can: "
         "shorten it to less than a quarter of a fragment")
 
@@ -365,7 +365,7 @@ WARNING(warn_stretch, forecast->mesh.box[2] > 0 && !forecast->mesh.round, 1,
 
 fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
     warn_parts,     warn_unit,      warn_coarse,   warn_uniform,     warn_lines,   warn_weak_load,
-    warn_repeated,  warn_folds,     warn_lonely,   warn_step,        warn_turned,  warn_passed,
+    warn_repeated,  warn_folds,     warn_zone,     warn_step,        warn_turned,  warn_passed,
     warn_short,     warn_long,      warn_flat,     warn_weakest,     warn_wave,    warn_bending,
     warn_few_steps, warn_never,     warn_shatters, warn_mesh_effect, warn_open,    warn_heats,
     warn_undivided, warn_loose,     warn_inner,    warn_steered,     warn_stretch, warn_fast,

@@ -33,7 +33,7 @@ bool fracas_run_is_rank(void)
     return launched_rank() >= 0;
 }
 
-bool fracas_run_speaks(void)
+bool fracas_run_owns_terminal(void)
 {
     int rank = launched_rank();
     return rank < 0 || (rank == 0 && !getenv(FRACAS_LAUNCHER_MARK));

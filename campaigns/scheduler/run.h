@@ -20,6 +20,6 @@ bool fracas_run_is_rank(void);
 
 /* True in the only process with reports to the user: the launcher, or rank 0 under the user's own
  * mpirun or srun. */
-bool fracas_run_speaks(void);
+bool fracas_run_owns_terminal(void);
 
 #endif

@@ -65,7 +65,7 @@ typedef struct {
     bool shares_of_onset;
     int fields[2]; /* surfaces: values without, with friction, at most SURFACE_POINT_FIELDS_MOST */
     /* Chains. */
-    double (*contact)(const fracas_cohesive *); /* stiffness of contact by E/h; NULL: at most 1 */
+    double (*contact)(const fracas_cohesive *); /* contact stiffness over E/h, 1; NULL: at most 1 */
     /* Stiffness of contact of an interface of this sigma_c [Pa/m]; NULL: by `contact`. */
     double (*contact_by_strength)(const fracas_spec *, double strength);
     /* Constant of an interface, of its stiffness K [Pa/m] and sigma_c [Pa]; NULL: 0. */

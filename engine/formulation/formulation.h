@@ -33,7 +33,7 @@ struct fracas_model {
     double time_step;                         /* s */
     double tolerance;                         /* 1, of the energy guard: 0.05; tests have others */
     double own[FRACAS_LAW_OWN];               /* the law's own numbers, as its kernels read them */
-    fracas_motion idle; /* the whole body's, which load and supports keep from becoming strain */
+    fracas_motion rigid_part; /* the body's motion that can never become strain energy */
 };
 
 #define FRACAS_ENERGY_LANES(key, role, unit, meaning) double key[FRACAS_LANES_MAX];

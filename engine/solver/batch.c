@@ -88,14 +88,16 @@ double *fracas_batch_strength(fracas_batch *batch, size_t lane, size_t *stride)
     return batch->model->formulation->strength(batch->model, &batch->step, (int)lane, stride);
 }
 
-/* A lane before its first step; `last` stays. */
+/* A lane before its first step; `stop_at` stays. */
 static void begin_lane(fracas_batch *batch, size_t l)
 {
     fracas_lane *lane = &batch->lane[l];
     fracas_step *step = &batch->step;
     batch->model->formulation->lane_init(batch->model, step, (int)l);
-    *lane = (fracas_lane){
-        .history = lane->history, .last = lane->last, .running = l < batch->count, .counted = -1};
+    *lane = (fracas_lane){.history = lane->history,
+                          .stop_at = lane->stop_at,
+                          .running = l < batch->count,
+                          .counted = -1};
     fracas_history_begin(&lane->history);
     for (int e = 0; e < FRACAS_ENERGIES; e++) step->energy[e][l] = 0;
     step->driven[l] = 0;
@@ -222,7 +224,7 @@ static fracas_err check_end(fracas_batch *batch, size_t l, fracas_outcome *outco
     TRY(fracas_guard_check(&lane->guard, ledger, batch->model, step, (int)l, lane->steps, over,
                            &drifts));
     if (drifts) *outcome = FRACAS_ENERGY_DRIFT;
-    else if (lane->last > 0 && lane->steps == lane->last) *outcome = FRACAS_TIME_LIMIT;
+    else if (lane->stop_at > 0 && lane->steps == lane->stop_at) *outcome = FRACAS_TIME_LIMIT;
     else *running = !over;
     return FRACAS_OK;
 }
@@ -331,8 +333,8 @@ static fracas_err run_again(fracas_batch *batch, fracas_record *record)
     bool again = false, drifted[FRACAS_LANES_MAX] = {false};
     for (size_t l = 0; l < batch->count; l++) {
         fracas_lane *lane = &batch->lane[l];
-        if (record[l].outcome == FRACAS_ENERGY_DRIFT && lane->guard.final && !lane->last) {
-            lane->last = lane->guard.sound;
+        if (record[l].outcome == FRACAS_ENERGY_DRIFT && lane->guard.final && !lane->stop_at) {
+            lane->stop_at = lane->guard.sound;
             fracas_record_clear(&record[l]);
             again = drifted[l] = true;
         }

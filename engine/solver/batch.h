@@ -17,11 +17,10 @@ typedef struct {
     fracas_stop stop;
     fracas_settling settling;
     fracas_guard guard;
-    int64_t
-        last; /* step at which it ends without its rule: its numbers were final; 0: by its rule */
-    int64_t steps; /* done */
-    double pace;   /* s, time step of the last steps ... */
-    double since;  /* s, ... since this time ... */
+    int64_t stop_at; /* above 0: it ends at this step, the last with a sound balance (run_again) */
+    int64_t steps;   /* done */
+    double pace;     /* s, time step of the last steps ... */
+    double since;    /* s, ... since this time ... */
     int64_t paces; /* ... and how many: time = since + paces pace, without the round-off of a sum */
     double first_break; /* s, seen at this time; 0: none yet */
     int64_t counted;    /* breaks when the census was taken; -1: never */

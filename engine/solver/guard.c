@@ -14,7 +14,7 @@ fracas_err fracas_guard_beside(const fracas_model *model, fracas_step *step, int
 {
     const bool whole = step->broken[lane] == 0;
     FRACAS_CLEARED(fracas_pieces) pieces = {0};
-    TRY(fracas_pieces_find(model, step, lane, whole ? model->idle : FRACAS_MOTION_HOMOGENEOUS,
+    TRY(fracas_pieces_find(model, step, lane, whole ? model->rigid_part : FRACAS_MOTION_HOMOGENEOUS,
                            &pieces));
     *energy = 0;
     for (size_t f = 0; f < pieces.count; f++) {

@@ -23,7 +23,7 @@ typedef struct {
 
 /* Energy of a lane able to break things, beside all stored and lost ones [J]: the
  * kinetic energy beside the motion of each fragment as a whole (before the first break: beside
- * the body's idle motion); less the energy of fragments of one element  (fragments.6). */
+ * the rigid part of the body); less the energy of fragments of one element  (fragments.6). */
 FRACAS_MUST_USE fracas_err fracas_guard_beside(const fracas_model *model, fracas_step *step,
                                                int lane, double *energy);
 

@@ -51,7 +51,7 @@ static void check_surface(fracas_model *model)
     const size_t n = unknowns_of(model), dimension = (size_t)tables_of(model)->body->dimension;
     OWN(fracas_batch) batch = lane_of(model, 0, 0, 0);
     OK(fracas_batch_begin(batch));
-    assert_int_equal(model->idle, FRACAS_MOTION_RIGID);
+    assert_int_equal(model->rigid_part, FRACAS_MOTION_RIGID);
     const double expansion = beside_of(batch, true);
     assert_true(expansion > 0);
     assert_true(fabs(beside_of(batch, false)) < 1e-24 * expansion);

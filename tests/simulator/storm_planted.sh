@@ -15,7 +15,7 @@ store@campaigns/store/index/index_rows.c@"PRAGMA synchronous = FULL"@"PRAGMA syn
 scheduler@campaigns/scheduler/director/director.c@fracas_scheduler_lost(director->scheduler, worker);
     director->phase@director->phase@leases of a dead server are forgotten
 scheduler@campaigns/scheduler/lease/scheduler.c@t->returned++;@@two workers take turns with what never ends
-scheduler@campaigns/scheduler/worker/link.c@!link->unknown && @@a new server gets the messages for the former one
+scheduler@campaigns/scheduler/worker/link.c@!link->unacknowledged && @@a new server gets the messages for the former one
 store@campaigns/store/study/checkpoint.c@if (fsync(c->fd) < 0)@if (0)@a checkpoint is renamed before its fsync
 store@campaigns/store/study/checkpoint.c@return fracas_disk_sync_folder(c->path);@return FRACAS_OK;@a checkpoint is finished before its name is synced
 store@campaigns/store/study/checkpoint.c@TRY(fracas_disk_check_own_seal(made->path));@@a damaged checkpoint is loaded

@@ -21,7 +21,7 @@ static void a_server_hears_nothing_that_is_for_one_before_it(void **state)
                         flush = {.kind = FRACAS_PACKET_FLUSH};
     int pair[2];
     assert_int_equal(socketpair(AF_UNIX, SOCK_STREAM, 0, pair), 0);
-    fracas_link link = {.supervisor = {.control = -1, .server = pair[0]}, .unknown = 2};
+    fracas_link link = {.supervisor = {.control = -1, .server = pair[0]}, .unacknowledged = 2};
     fracas_link_send(&link, &flush);
     fracas_link_send(&link, &fresh);
     fracas_link_send(&link, &flush);

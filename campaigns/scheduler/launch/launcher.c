@@ -24,7 +24,7 @@
  * then, before a warning; after the last message of rank 0 or the end of the starter. */
 enum { PATIENCE_ASKED = 5, PATIENCE = 60, PATIENCE_END = 10 };
 
-enum { NOISE = 16384, MOST_BARREN = 3 };
+enum { NOISE = 16384, MOST_IN_VAIN = 3 };
 
 /* One start of the ranks. */
 typedef struct {
@@ -52,7 +52,7 @@ typedef struct {
     double asked;             /* time of the first signal to end, or of drain_at; 0: not yet */
     double drain_at, kill_at; /* by the walltime; INFINITY: there is none */
     int64_t durable;          /* maximum of realizations done or failed for good; -1: unknown */
-    int starts, barren;       /* barren: starts in a row without gain */
+    int starts, in_vain;      /* in_vain: starts in a row without gain */
 } launcher;
 
 /* Keeps the last of it, a part of NOISE at a time: a starter prints the reason at its end. */
@@ -277,8 +277,8 @@ static fracas_err go_on(launcher *p, int status)
     if (!now->speaks && fracas_mpirun_hopeless(now->noise, reason, sizeof reason))
         return fracas_fail(FRACAS_ENVIRONMENT, "%s", reason);
     explain(p, status, reason, sizeof reason);
-    p->barren = now->gained ? 0 : p->barren + 1;
-    if (p->barren == MOST_BARREN) {
+    p->in_vain = now->gained ? 0 : p->in_vain + 1;
+    if (p->in_vain == MOST_IN_VAIN) {
         char shown[2 * NOISE];
         fracas_text_show(now->noise, shown, sizeof shown);
         fprintf(stderr, "%s", shown);
@@ -286,12 +286,12 @@ static fracas_err go_on(launcher *p, int status)
             FRACAS_ENVIRONMENT,
             "%s; the ranks were started %d times, the last %d in vain; what was done "
             "is kept; the same command goes on from there",
-            reason, p->starts, MOST_BARREN);
+            reason, p->starts, MOST_IN_VAIN);
     }
     snprintf(text, sizeof text, "%s; the ranks are started again", reason);
     fracas_progress_message(&p->progress, text);
     setenv(FRACAS_RESTARTED, reason, 1);
-    for (const double until = fracas_now() + p->barren; fracas_now() < until && !is_asked(p);)
+    for (const double until = fracas_now() + p->in_vain; fracas_now() < until && !is_asked(p);)
         poll(NULL, 0, 50);
     return is_asked(p) ? stopped(p) : FRACAS_OK;
 }

@@ -29,7 +29,7 @@ static fracas_err report_death(fracas_link *link, int rank, fracas_packet **mess
         snprintf(text, room, "%s, and there is no new one: %.400s", how, fracas_message());
     } else {
         snprintf(text, room, "%s; a new one goes on", how);
-        link->unknown++;
+        link->unacknowledged++;
         replaced = true;
     }
     link->ended = !replaced;
@@ -62,8 +62,8 @@ fracas_err fracas_link_receive(fracas_link *link, int rank, fracas_packet **mess
 
 void fracas_link_send(fracas_link *link, const fracas_packet *message)
 {
-    if (message->kind == FRACAS_PACKET_FRESH) link->unknown--;
-    else if (!link->unknown && link->supervisor.server >= 0 &&
+    if (message->kind == FRACAS_PACKET_FRESH) link->unacknowledged--;
+    else if (!link->unacknowledged && link->supervisor.server >= 0 &&
              fracas_packet_write(link->supervisor.server, message))
         shutdown(link->supervisor.server, SHUT_WR); /* without memory: it would wait for the rest */
 }

@@ -11,8 +11,8 @@
 typedef struct {
     fracas_supervisor supervisor; /* with the connection */
     bool ended;                   /* the server has sent its last message: ENDED or TROUBLE */
-    int unknown; /* new servers unknown to rank 0: its messages are for a former one */
-    int deaths;  /* servers lost since the last segment or failure report */
+    int unacknowledged; /* restarts that rank 0 has not confirmed (FRESH): drop its messages */
+    int deaths;         /* servers lost since the last segment or failure report */
 } fracas_link;
 
 /* *message, freed by the caller, is NULL if none of the server has come. After an unexpected end of

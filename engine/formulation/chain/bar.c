@@ -79,7 +79,7 @@ static fracas_err bar_model_init(fracas_model *model)
     TRY(fill_sizes(model));
     /* a free bar may fly, unless it meets a wall */
     if (fracas_chain_is_held(model) || fracas_chain_gap(model) >= 0)
-        model->idle = FRACAS_MOTION_NONE;
+        model->rigid_part = FRACAS_MOTION_NONE;
     /* check_strength keeps a stiffness of contact by strength below the elements'. */
     return fracas_chain_critical_step(model);
 }

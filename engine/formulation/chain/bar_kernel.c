@@ -193,8 +193,8 @@ LANES_FUNCTION bar_link bar_linear(const bar_context *c, int uniform, const bar_
                                     : (right->stress - left->stress) / (left->size + right->size)};
 }
 
-LANES_FUNCTION bar_link bar_join(bar_context *c, int uniform, int flux, int law, int balanced,
-                                 size_t e, const bar_element *left, const bar_element *right)
+LANES_FUNCTION bar_link bar_interface(bar_context *c, int uniform, int flux, int law, int balanced,
+                                      size_t e, const bar_element *left, const bar_element *right)
 {
     if (law == BAR_OPERATOR) return bar_linear(c, uniform, left, right);
     return flux ? bar_flux(c, uniform, law, balanced, e, left, right)
@@ -331,17 +331,17 @@ LANES_FUNCTION void bar_run(const fracas_bar_constants *bar, fracas_step *step, 
     bar_link closing = {.traction = walls.traction[0], .slip = zero}, left;
     if (bar->periodic) {
         bar_element end = bar_load(c, uniform, last);
-        closing = bar_join(c, uniform, flux, law, balanced, last, &end, &element);
+        closing = bar_interface(c, uniform, flux, law, balanced, last, &end, &element);
     }
     bar_element next = bar_load(c, uniform, 1);
-    bar_link right = bar_join(c, uniform, flux, law, balanced, 0, &element, &next);
+    bar_link right = bar_interface(c, uniform, flux, law, balanced, 0, &element, &next);
     if (!bar->held) bar_finish(c, uniform, flux, 0, &element, &closing, &right, 0, 0);
     else bar_finish(c, uniform, flux, 0, &element, &closing, &right, 1, 0);
     for (size_t e = 1; e < last; e++) {
         left = right;
         element = next;
         next = bar_load(c, uniform, e + 1);
-        right = bar_join(c, uniform, flux, law, balanced, e, &element, &next);
+        right = bar_interface(c, uniform, flux, law, balanced, e, &element, &next);
         bar_finish(c, uniform, flux, e, &element, &left, &right, 0, 0);
     }
     if (!bar->periodic) closing.traction = walls.traction[1];

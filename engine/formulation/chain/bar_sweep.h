@@ -24,7 +24,7 @@ typedef struct {
     int periodic, held;     /* ends: joined, moving with the background; else free */
     int walls;              /* beyond free ends */
     double gap, parting;    /* m, from there to the walls at the start; m/s, rate L/2  (bar.20) */
-    double contact_factor;  /* 1, stiffness of contact by E/h */
+    double contact_factor;  /* 1, stiffness of contact over E/h */
     double young;           /* Pa */
     double beta, spring;    /* 1, Pa/m: nitsche, K = beta E/h */
     double whole;           /* 1, (1 - 1/(2 beta))^2, nitsche  (balance.2) */

@@ -37,7 +37,7 @@ static inline bool fracas_chain_is_held(const fracas_model *model)
 /* From free ends to the walls beyond at the start [m]; NaN: there are none. */
 double fracas_chain_gap(const fracas_model *model);
 
-/* Stiffness of contact by E/h; 1 for laws that have another measure. */
+/* Stiffness of contact over E/h; 1 for laws that have another measure. */
 double fracas_chain_contact_factor(const fracas_spec *spec);
 
 /* Element or vertex after e, around a closed chain. */

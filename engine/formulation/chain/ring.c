@@ -91,7 +91,7 @@ static fracas_err ring_model_init(fracas_model *model)
         table[e * RING_TABLE + RING_START_Y] = model->element_size * fracas_cospi(middle);
     }
     const bool held = motion_of(model).drive == FRACAS_RING_HELD; /* a free spin stretches, too */
-    model->idle = held ? FRACAS_MOTION_HOMOGENEOUS : FRACAS_MOTION_NONE;
+    model->rigid_part = held ? FRACAS_MOTION_HOMOGENEOUS : FRACAS_MOTION_NONE;
     return fracas_chain_critical_step(model);
 }
 

@@ -55,9 +55,9 @@ LANES_FUNCTION vd ring_trial_rate(const ring_context *c, const ring_element *lef
            lanes_select(broken, lanes_set(0.0), ring_stress_rate(c, left, right, at, at_right));
 }
 
-LANES_FUNCTION void ring_join(ring_context *c, int law, int balanced, size_t e,
-                              const ring_element *left, const ring_element *right,
-                              const ring_frame *frame, ring_link *link)
+LANES_FUNCTION void ring_interface(ring_context *c, int law, int balanced, size_t e,
+                                   const ring_element *left, const ring_element *right,
+                                   const ring_frame *frame, ring_link *link)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
     double *at = ring_at(c, e), *at_right = ring_at(c, ring_next(c, e));
@@ -164,8 +164,8 @@ LANES_FUNCTION void ring_round(ring_context *c, int law, int balanced, ring_held
     if (round - 1 < last)
         ring_direct(c, round - 1, &element[before], &element[at], &held->frame[before]);
     if (round - 2 < last) {
-        ring_join(c, law, balanced, round - 2, &element[left], &element[before], &held->frame[left],
-                  &held->link[before]);
+        ring_interface(c, law, balanced, round - 2, &element[left], &element[before],
+                       &held->frame[left], &held->link[before]);
         ring_finish(c, round - 2, &element[left], &held->link[left], &held->link[before]);
     }
     if (round + 1 < last) ring_load(c, round + 1, &element[after]);
@@ -190,7 +190,8 @@ LANES_FUNCTION void ring_flux(const fracas_ring_constants *ring, fracas_step *st
     ring_load(c, last, &held.end);
     ring_load(c, 0, &held.element[0]);
     ring_direct(c, last, &held.end, &held.element[0], &held.frame[0]);
-    ring_join(c, law, balanced, last, &held.end, &held.element[0], &held.frame[0], &held.link[0]);
+    ring_interface(c, law, balanced, last, &held.end, &held.element[0], &held.frame[0],
+                   &held.link[0]);
     const ring_link closing = held.link[0];
     for (size_t round = 0; round < last + 2; round += RING_HELD) {
         ring_round(c, law, balanced, &held, round, 0);

@@ -71,10 +71,10 @@ LANES_FUNCTION vd stershic_traction(const ring_context *c, vd q, vd *damage, vd 
     return rigid_link_law(q, damage, sigma_c, *delta_c, c->spring);
 }
 
-/* Looks at one interface: does it qualify, is it in a critical zone  (ring.14)? Only the
+/* Inspects one interface: does it qualify, is it in a critical zone  (ring.14)? Only the
  * component along n of its elements' pull counts, so that a link that qualifies does open. */
-LANES_FUNCTION void stershic_look(const ring_context *c, size_t e, const ring_element *left,
-                                  const ring_element *right, stershic_watch *watch)
+LANES_FUNCTION void stershic_inspect(const ring_context *c, size_t e, const ring_element *left,
+                                     const ring_element *right, stershic_watch *watch)
 {
     const vd zero = lanes_set(0.0);
     double *at = stershic_at(c, e);
@@ -117,10 +117,10 @@ LANES_FUNCTION stershic_watch stershic_look_around(const ring_context *c)
         ring_element element = stershic_load(c, e);
         lanes_store(at + RING_STRESS * LANES, element.stress);
         if (e == 0) first = element;
-        else stershic_look(c, e - 1, &before, &element, &watch);
+        else stershic_inspect(c, e - 1, &before, &element, &watch);
         before = element;
     }
-    stershic_look(c, last, &before, &first, &watch);
+    stershic_inspect(c, last, &before, &first, &watch);
     return watch;
 }
 
@@ -225,8 +225,8 @@ typedef struct {
     ring_vector common; /* ... under this force each [Pa] */
 } stershic_link;
 
-LANES_FUNCTION stershic_link stershic_join(ring_context *c, size_t e, const ring_element *left,
-                                           const ring_element *right)
+LANES_FUNCTION stershic_link stershic_interface(ring_context *c, size_t e, const ring_element *left,
+                                                const ring_element *right)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5);
     double *at = stershic_at(c, e);
@@ -308,15 +308,15 @@ LANES_FUNCTION void stershic_advance(ring_context *c, vd share)
 {
     const size_t last = c->ring->elements - 1;
     ring_element element = stershic_load(c, 0), end = stershic_load(c, last);
-    const stershic_link closing = stershic_join(c, last, &end, &element);
+    const stershic_link closing = stershic_interface(c, last, &end, &element);
     ring_element next = stershic_load(c, 1);
-    stershic_link left, right = stershic_join(c, 0, &element, &next);
+    stershic_link left, right = stershic_interface(c, 0, &element, &next);
     stershic_finish(c, 0, &element, &closing, &right, share);
     for (size_t e = 1; e < last; e++) {
         left = right;
         element = next;
         next = stershic_load(c, e + 1);
-        right = stershic_join(c, e, &element, &next);
+        right = stershic_interface(c, e, &element, &next);
         stershic_finish(c, e, &element, &left, &right, share);
     }
     stershic_finish(c, last, &next, &right, &closing, share);

@@ -325,9 +325,9 @@ LANES_FUNCTION void shell_press(shell_point *p)
     }
 }
 
-/* Gives the two elements forces, and strains at their bulk points  (shell.10). */
-LANES_FUNCTION void shell_give(const surface_context *c, int order, size_t i,
-                               const surface_sides *sides, const shell_point at[SHELL_EDGE])
+/* Scatters forces to the two elements, and strains to their bulk points  (shell.10). */
+LANES_FUNCTION void shell_scatter(const surface_context *c, int order, size_t i,
+                                  const surface_sides *sides, const shell_point at[SHELL_EDGE])
 {
     const double *table = surface_table(c, order, i) + SHELL_POINTS;
     vd force[3][3], turned[SHELL_EDGE], work[SHELL_EDGE][4];

@@ -109,8 +109,8 @@ static void give_joins(maker *m, fracas_surface_part *part)
             const uint32_t i = m->join[j], *pair = t->element[i];
             if (!owns(m, pair[0]) && !owns(m, pair[1])) continue;
             const size_t at = fracas_surface_interfaces_at(c) + i * interface_fields;
-            fracas_surface_join *join = &part->join[joins++];
-            *join = (fracas_surface_join){.interface = i, .edge = {t->edge[i][0], t->edge[i][1]}};
+            fracas_surface_facet *join = &part->join[joins++];
+            *join = (fracas_surface_facet){.interface = i, .edge = {t->edge[i][0], t->edge[i][1]}};
             join->at = turn->ghost ? place_copy(m, part, at, interface_fields) : (uint32_t)at;
             for (int side = 0; side < 2; side++) {
                 const uint32_t of = m->turn_of[pair[side]];

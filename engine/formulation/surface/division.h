@@ -34,7 +34,7 @@ typedef struct {
     uint32_t at;        /* place of its fields */
     uint32_t element[2], slot[2];
     uint8_t edge[2]; /* which of its elements' edges */
-} fracas_surface_join;
+} fracas_surface_facet;
 
 typedef struct {
     uint32_t element, at, slot;
@@ -48,7 +48,7 @@ typedef struct {
 typedef struct {
     size_t turns, copies;
     fracas_surface_turn *turn;
-    fracas_surface_join *join;
+    fracas_surface_facet *join;
     fracas_surface_finish *finish;
     fracas_surface_copy *copy;
 } fracas_surface_part;

@@ -33,8 +33,8 @@ static double crossing(const fracas_step *step, int lane, double before, double 
     return step->time[lane] - step->drift[lane] * (share > 0 ? fmin(share, 1.0) : 0.0);
 }
 
-void fracas_surface_book(const fracas_surface_constants *c, fracas_step *step,
-                         const fracas_surface_event *event)
+void fracas_surface_record_event(const fracas_surface_constants *c, fracas_step *step,
+                                 const fracas_surface_event *event)
 {
     static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER; /* events are rare */
     const int lane = event->lane;

@@ -21,7 +21,7 @@
  *   NAME_input      mean traction and jump at a layer, for the law
  *   NAME_crack      the law at a Gauss point
  *   NAME_opening    opening of a layer over that of its break, from the point's values
- *   NAME_give       adds forces and strains of an interface to the slots of its two elements
+ *   NAME_scatter       adds forces and strains of an interface to the slots of its two elements
  *   NAME_forces     adds the forces of an element's own stresses
  *   NAME_kinetic    twice its kinetic energy, and its share of SURFACE_MOMENT
  * Last it includes engine/formulation/surface/sweep_kernel.h, which visits elements and interfaces.
@@ -169,7 +169,7 @@ LANES_FUNCTION surface_sides surface_edges(int order, const uint8_t edge[2])
 }
 
 LANES_FUNCTION surface_sides surface_sides_of(const surface_context *c, int order,
-                                              const fracas_surface_join *join)
+                                              const fracas_surface_facet *join)
 {
     surface_sides sides = surface_edges(order, join->edge);
     UNROLL_FOR (int side = 0; side < 2; side++) {

@@ -205,9 +205,10 @@ LANES_FUNCTION surface_opening membrane_crack(const surface_context *c,
     return all;
 }
 
-/* Gives the two elements the forces on the nodes of the edge, and strains at their bulk points. */
-LANES_FUNCTION void membrane_give(const surface_context *c, int order, size_t i,
-                                  const surface_sides *sides, const membrane_point at[3])
+/* Scatters the forces on the nodes of the edge to the two elements, and strains to their bulk
+ * points. */
+LANES_FUNCTION void membrane_scatter(const surface_context *c, int order, size_t i,
+                                     const surface_sides *sides, const membrane_point at[3])
 {
     const int points = SURFACE_EDGE(order), bulk = SURFACE_BULK(order), nodes = order + 1;
     const double *table = surface_table(c, order, i);

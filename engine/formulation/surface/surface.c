@@ -116,9 +116,9 @@ static void measure(fracas_model *model)
             : sqrt(model->mass / (model->spec.material.density * model->spec.geometry.thickness));
 }
 
-/* A free body flies and turns as one, edges that move along hold all of its expansion, and what
- * stands on a fixed edge can use up all of its motion. */
-static fracas_motion idle_motion(const fracas_model *model)
+/* Motion that can never become strain energy: the rigid motion of a free body; the imposed
+ * expansion if every held edge follows it; none if an edge is fixed. */
+static fracas_motion rigid_part(const fracas_model *model)
 {
     const fracas_surface_tables *t = tables_of(model);
     if (t->moves && stretch_of(model).moving) return FRACAS_MOTION_HOMOGENEOUS;
@@ -147,7 +147,7 @@ fracas_err fracas_surface_model_init(fracas_model *model)
     TRY(fracas_surface_tables_create(model, &t));
     model->plan = t;
     model->bytes = fracas_surface_bytes(model->surface) + fracas_surface_tables_bytes(t);
-    model->idle = idle_motion(model);
+    model->rigid_part = rigid_part(model);
     if (body->check_tables) TRY(body->check_tables(model));
     TRY(check_motion(model));
     const size_t nodes = (size_t)SURFACE_NODES(t->order);

@@ -134,7 +134,7 @@ typedef struct fracas_surface_constants {
     double thickness;     /* m */
     double c11, c12, c33; /* E/(1-nu^2), nu c11, E/(2 + 2 nu) [Pa]; shells: times thickness [N/m] */
     double d11, d12, d33; /* shells: thickness^2/12 of those [N m] */
-    double normal, tangential; /* 1: k_n and k_t by K of the interface  (membrane.6) */
+    double normal, tangential; /* k_n/K and k_t/K of the interface, 1  (membrane.6) */
     double energy, opening;    /* G_c [J/m2], or 2 G_c/p [m]: the other is 0 */
     double beta_c, mu_c;       /* 1 */
     int law;                   /* its number */
@@ -157,8 +157,8 @@ typedef struct {
     double onset[SURFACE_POINTS_MOST], opening[SURFACE_POINTS_MOST];
 } fracas_surface_view;
 /* Fills the last two from the rest. */
-typedef void fracas_surface_look(const fracas_surface_constants *constants, size_t interface,
-                                 fracas_surface_view *view);
+typedef void fracas_surface_inspect(const fracas_surface_constants *constants, size_t interface,
+                                    fracas_surface_view *view);
 
 /* Strain energy of an element with displacements u [J], and its stresses at the bulk points,
  * [point][body->stresses]; NULL: they are not wanted. */
@@ -176,7 +176,7 @@ typedef void fracas_surface_sweep(const fracas_surface_constants *constants, fra
  * M^-1 (-f)(u) where velocities are, views and strain energies. */
 typedef struct {
     fracas_surface_sweep *sweep[SURFACE_SWEEPS][2];
-    fracas_surface_look *look[2];
+    fracas_surface_inspect *look[2];
     fracas_surface_strain *strain[2];
 } fracas_surface_kernel;
 typedef const fracas_surface_kernel
@@ -315,8 +315,8 @@ typedef struct {
 
 /* Counts an event, and keeps the times interpolated between the step before and this one
  * (membrane.12). Parts may call it at once. */
-void fracas_surface_book(const fracas_surface_constants *constants, fracas_step *step,
-                         const fracas_surface_event *event);
+void fracas_surface_record_event(const fracas_surface_constants *constants, fracas_step *step,
+                                 const fracas_surface_event *event);
 
 /* ---- broken interfaces ---- */
 

@@ -9,10 +9,10 @@
 
 /* ---- interfaces ---- */
 
-/* Books the events at an interface, lane by lane; not in the turn of a ghost: another part does. */
+/* Records the events at an interface, lane by lane; a ghost has none: another part records them. */
 __attribute__((noinline, cold, unused)) static void
-surface_book(const surface_context *c, int points, const fracas_surface_join *join,
-             const vmask *cracks, const vmask *breaks, vmask opens, vmask parts)
+surface_record_events(const surface_context *c, int points, const fracas_surface_facet *join,
+                      const vmask *cracks, const vmask *breaks, vmask opens, vmask parts)
 {
     for (int l = 0; l < LANES; l++) {
         fracas_surface_event event = {.interface = join->interface,
@@ -26,7 +26,7 @@ surface_book(const surface_context *c, int points, const fracas_surface_join *jo
             event.cracks[p] = lanes_get(cracks[p], l);
             event.breaks[p] = lanes_get(breaks[p], l);
         }
-        if (event.opens || event.parts) fracas_surface_book(c->constants, c->step, &event);
+        if (event.opens || event.parts) fracas_surface_record_event(c->constants, c->step, &event);
     }
 }
 
@@ -54,7 +54,7 @@ LANES_FUNCTION plane_interface surface_interface(const fracas_surface_constants 
  * other lanes. False where it was called for a calm step and some lane has an onset or a break in
  * it: then nothing but `at` has changed. `calm` is a constant of each call. */
 LANES_FUNCTION int surface_crack(surface_context *c, int order, int law, int calm,
-                                 const fracas_surface_join *join, double *fields,
+                                 const fracas_surface_facet *join, double *fields,
                                  const double *strength, BODY(point) at[3])
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
@@ -103,14 +103,14 @@ LANES_FUNCTION int surface_crack(surface_context *c, int order, int law, int cal
     opens = lanes_and(opens, whole);  /* the first of its points */
     parts = lanes_and(parts, broken); /* the last */
     if (!c->ghost && __builtin_expect(lanes_any(lanes_or(opens, parts)), 0))
-        surface_book(c, points * BODY_LAYERS, join, cracks, breaks, opens, parts);
+        surface_record_events(c, points * BODY_LAYERS, join, cracks, breaks, opens, parts);
     return 1;
 }
 
 /* An interface: tractions at its Gauss points, and their forces on its elements. False where it was
  * called for a calm step and that fails: then nothing has changed. */
-LANES_FUNCTION int surface_join(surface_context *c, int order, int law, int calm,
-                                const fracas_surface_join *join)
+LANES_FUNCTION int surface_interface_forces(surface_context *c, int order, int law, int calm,
+                                            const fracas_surface_facet *join)
 {
     const size_t i = join->interface;
     const fracas_surface_constants *s = c->constants;
@@ -123,7 +123,7 @@ LANES_FUNCTION int surface_join(surface_context *c, int order, int law, int calm
     if (law == SURFACE_OPERATOR) {
         UNROLL_FOR (int g = 0; g < points; g++)
             if (s->contact) BODY(press)(&at[g]);
-        BODY(give)(c, order, i, &sides, at);
+        BODY(scatter)(c, order, i, &sides, at);
         return 1;
     }
     /* No lane is past its onset where none has a peak and no traction is near the least strength:
@@ -148,7 +148,7 @@ LANES_FUNCTION int surface_join(surface_context *c, int order, int law, int calm
                     BODY(flux_energy)(&at[g]);
         c->sum[SURFACE_FLUX] += flux;
     }
-    BODY(give)(c, order, i, &sides, at);
+    BODY(scatter)(c, order, i, &sides, at);
     return 1;
 }
 
@@ -371,7 +371,7 @@ LANES_FUNCTION void surface_fetch(const void *from, size_t size)
  * away, and each visit is long. */
 LANES_FUNCTION void surface_fetch_turn(const surface_context *c, int order,
                                        const fracas_surface_turn *turn,
-                                       const fracas_surface_join *join)
+                                       const fracas_surface_facet *join)
 {
     const fracas_surface_tables *t = c->tables;
     const size_t nodes = (size_t)SURFACE_NODES(order), e = turn->element;
@@ -391,10 +391,12 @@ LANES_FUNCTION void surface_fetch_turn(const surface_context *c, int order,
 }
 
 /* An interface with friction, or with an onset or a break in this step. */
-typedef void surface_stirred(surface_context *context, const fracas_surface_join *join);
+typedef void surface_interface_with_events(surface_context *context,
+                                           const fracas_surface_facet *join);
 
 LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *step, int first,
-                                size_t number, int order, int law, surface_stirred *stirred)
+                                size_t number, int order, int law,
+                                surface_interface_with_events *stirred)
 {
     const fracas_surface_division *division = step->division.plan;
     const fracas_surface_part *part = &division->part[number];
@@ -415,7 +417,7 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
                                .begins = lanes_le(lanes_load(step->drift + first), lanes_set(0.0)),
                                .spin = lanes_load(step->spin + first)};
     surface_context *c = &context;
-    const fracas_surface_join *join = part->join;
+    const fracas_surface_facet *join = part->join;
     const fracas_surface_finish *finish = part->finish;
     for (const fracas_surface_turn *turn = part->turn; turn < part->turn + part->turns; turn++) {
         const size_t e = turn->element;
@@ -426,7 +428,7 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
         if (law != SURFACE_OPERATOR) surface_drift(&s->motion, c->drift, BODY_SIZE(order), at);
         surface_enter(c, order, e, at, surface_place(c, turn->slot));
         for (; join < part->join + turn->join_end; join++)
-            if (s->friction || !surface_join(c, order, law, 1, join)) stirred(c, join);
+            if (s->friction || !surface_interface_forces(c, order, law, 1, join)) stirred(c, join);
         for (; finish < part->finish + turn->finish_end; finish++)
             surface_finish(c, order, law, finish);
         if (!c->ghost && ((e + 1) % SURFACE_BLOCK == 0 || e + 1 == s->tables->nelements))
@@ -436,8 +438,8 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
 
 #if LANES == 1
 /* Brings a view up to date  (membrane.12). */
-LANES_FUNCTION void surface_look(const fracas_surface_constants *s, int order, size_t i,
-                                 fracas_surface_view *view)
+LANES_FUNCTION void surface_inspect(const fracas_surface_constants *s, int order, size_t i,
+                                    fracas_surface_view *view)
 {
     surface_context c = {.constants = s, .tables = s->tables};
     surface_sides sides = surface_edges(order, s->tables->edge[i]);
@@ -476,9 +478,9 @@ LANES_FUNCTION double surface_strain(const fracas_surface_constants *s, int orde
 
 #define SURFACE_SWEEP(name, order, law)                                                       \
     __attribute__((noinline)) static void name##_stirred(surface_context *c,                  \
-                                                         const fracas_surface_join *join)     \
+                                                         const fracas_surface_facet *join)    \
     {                                                                                         \
-        surface_join(c, order, law, 0, join);                                                 \
+        surface_interface_forces(c, order, law, 0, join);                                     \
     }                                                                                         \
     static void name(const fracas_surface_constants *constants, fracas_step *step, int first, \
                      size_t part)                                                             \
@@ -489,7 +491,7 @@ LANES_FUNCTION double surface_strain(const fracas_surface_constants *s, int orde
     static void name(const fracas_surface_constants *constants, size_t i, \
                      fracas_surface_view *view)                           \
     {                                                                     \
-        surface_look(constants, order, i, view);                          \
+        surface_inspect(constants, order, i, view);                       \
     }
 #define SURFACE_STRAIN(name, order, law)                                                     \
     static double name(const fracas_surface_constants *constants, size_t element, double *u, \
