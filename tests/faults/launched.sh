@@ -35,6 +35,13 @@ fake beside sh -c 'n=0; while [ $n -lt 70 ]; do sleep 0.$((n % 9)) & n=$((n + 1)
 sleep 0.5
 echo '@fracas end 6 1 0 enough'
 END2
+# SIGPIPE, which the launcher ignores, ends what mpirun starts.
+fake pipe <<'END2'
+case $(sed -n 's/^SigIgn:[[:space:]]*//p' /proc/$$/status) in
+*[13579bdf]???) echo '@fracas end 6 1 0 ignored' ;;
+*) echo '@fracas end 6 1 0 heard' ;;
+esac
+END2
 # Nobody gets the status of a child.
 fake ignoring env --ignore-signal=CHLD <<'END2'
 echo '@fracas end 6 1 0 enough'
@@ -71,4 +78,5 @@ ended in-use 4 1 '^fracas: in use'
 ended hopeless 6 3 '^fracas: Open MPI has no component `nonexist` of `btl`'
 ended missing 6 1 '^fracas: there is no mpirun; install Open MPI'
 ended beside 6 1 '^fracas: enough'
+ended pipe 6 1 '^fracas: heard'
 ended ignoring 6 1 '^fracas: enough'

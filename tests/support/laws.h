@@ -5,16 +5,11 @@
 
 #include "sampler/api/sampler.h"
 #include "tests/support/kinds.h"
+#include "tests/support/test.h"
 
 /* Strengths of a law, by its name. */
 #define STRENGTH(law, ...) \
     ((fracas_strength){.distribution = kind_of(&fracas_strength_section, law), __VA_ARGS__})
-
-static inline void assert_close(double got, double expected, double relative)
-{
-    if (!(fabs(got - expected) <= relative * fabs(expected)))
-        fail_msg("%.17g is not %.17g to %g relative", got, expected, relative);
-}
 
 static inline const fracas_param *param_of(const fracas_kind *law, const char *key)
 {

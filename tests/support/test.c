@@ -9,6 +9,12 @@ void test_fails(const char *call, fracas_err err, fracas_err wanted, const char 
     for (size_t p = 0; p < most && part[p]; p++) assert_has(fracas_message(), part[p]);
 }
 
+void assert_close(double got, double expected, double relative)
+{
+    if (!(fabs(got - expected) <= relative * fabs(expected)))
+        fail_msg("%.17g is not %.17g to %g relative", got, expected, relative);
+}
+
 void assert_has(const char *text, const char *part)
 {
     if (!strstr(text, part)) fail_msg("no \"%s\" in: %s", part, text);

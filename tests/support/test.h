@@ -34,6 +34,12 @@ void test_fails(const char *call, fracas_err err, fracas_err wanted, const char 
 
 void assert_has(const char *text, const char *part);
 
+/* |got - expected| <= relative |expected|. cmocka's own compares as float, and takes infinity and
+ * NaN for any number. */
+void assert_close(double got, double expected, double relative);
+#undef assert_float_equal
+#undef assert_float_not_equal
+
 /* A stream, and what was written to it: closes the stream, the text is freed by the caller. One at
  * a time. */
 FILE *text_begin(void);

@@ -128,16 +128,16 @@ static void processor_time_of_control_groups(void **state)
     write_line("groups/a/b/c", "cpu.max", "max 100000\n");
     assert_true(isinf(quota_of("0::/a/b/c\n")));
     write_line("groups/a/b", "cpu.max", "250000 100000\n");
-    assert_float_equal(quota_of("0::/a/b/c\n"), 2.5, 0);
+    assert_close(quota_of("0::/a/b/c\n"), 2.5, 0);
     write_line("groups/a/b/c", "cpu.max", "300000 100000\n");
-    assert_float_equal(quota_of("0::/a/b/c\n"), 2.5, 0);
+    assert_close(quota_of("0::/a/b/c\n"), 2.5, 0);
     write_line("groups/a", "cpu.max", "50000 100000\n");
-    assert_float_equal(quota_of("0::/a/b/c\n"), 0.5, 0);
+    assert_close(quota_of("0::/a/b/c\n"), 0.5, 0);
     assert_true(isinf(quota_of("0::/\n")));
     /* In a container the group is the root. */
     write_line("groups", "cpu.max", "150000 50000\n");
-    assert_float_equal(quota_of("0::/\n"), 3, 0);
-    assert_float_equal(quota_of("0::/docker/of the host\n"), 3, 0);
+    assert_close(quota_of("0::/\n"), 3, 0);
+    assert_close(quota_of("0::/docker/of the host\n"), 3, 0);
     write_line("groups", "cpu.max", "max 100000\n");
 
     /* Version 1, of which the other controllers are nothing to us, and beside version 2. */
@@ -145,13 +145,13 @@ static void processor_time_of_control_groups(void **state)
     write_line("groups/cpu,cpuacct/job", "cpu.cfs_period_us", "100000\n");
     assert_true(isinf(quota_of("4:cpu,cpuacct:/job\n")));
     write_line("groups/cpu,cpuacct/job", "cpu.cfs_quota_us", "1600000\n");
-    assert_float_equal(quota_of("5:memory:/job\n4:cpu,cpuacct:/job\n0::/\n"), 16, 0);
+    assert_close(quota_of("5:memory:/job\n4:cpu,cpuacct:/job\n0::/\n"), 16, 0);
     assert_true(isinf(quota_of("4:cpuset,cpuacct:/job\n")));
     write_line("groups/cpu", "cpu.cfs_quota_us", "200000\n");
     write_line("groups/cpu", "cpu.cfs_period_us", "100000\n");
-    assert_float_equal(quota_of("1:cpuacct,cpu:/docker/of the host\n"), 2, 0);
+    assert_close(quota_of("1:cpuacct,cpu:/docker/of the host\n"), 2, 0);
     write_line("groups/unified", "cpu.max", "100000 100000\n");
-    assert_float_equal(quota_of("1:cpu:/\n0::/\n"), 1, 0);
+    assert_close(quota_of("1:cpu:/\n0::/\n"), 1, 0);
 }
 
 /* As Open MPI 4.1.4 said them. */

@@ -91,17 +91,17 @@ static void in_no_folder(const char *folder)
  */
 static void in_a_deep_folder(const char *folder)
 {
-    char path[4096], part[201];
+    enum { DEPTH = 4000 };
+    char path[4096], part[202];
     fracas_scratch scratch;
-    memset(part, 'x', 200);
-    part[200] = '\0';
     must(chdir(folder) == 0);
     size_t n = (size_t)snprintf(path, sizeof path, "%s", folder);
-    while (n < 3850) {
+    while (n < DEPTH) {
+        snprintf(part, sizeof part, "%0*d", DEPTH - n > 202 ? 200 : DEPTH - (int)n - 1, 0);
         must(mkdir(part, 0777) == 0 && chdir(part) == 0);
         n += (size_t)snprintf(path + n, sizeof path - n, "/%s", part);
     }
-    memcpy(part, ".fracas-mpi-", 12);
+    snprintf(part, sizeof part, ".fracas-mpi-%0188d", 0);
     must(mkdir(part, 0777) == 0);
     setenv("TMPDIR", path, 1);
     must(fracas_scratch_create(&scratch) == FRACAS_OK);
@@ -113,6 +113,21 @@ static void in_a_deep_folder(const char *folder)
     setenv("TMPDIR", path, 1);
     must(fracas_scratch_create(&scratch) == FRACAS_ENVIRONMENT);
     fracas_scratch_remove(&scratch);
+}
+
+/* Folders of killed runs go, which nobody has locked; those of runs that go on and of others stay.
+ */
+static void beside_others(const char *folder)
+{
+    fracas_scratch first, second;
+    setenv("TMPDIR", folder, 1);
+    must(fracas_scratch_create(&first) == FRACAS_OK);
+    must(chdir(folder) == 0 && mkdir(".fracas-mpi-killed", 0777) == 0 && mkdir("mine", 0777) == 0);
+    must(fracas_scratch_create(&second) == FRACAS_OK);
+    must(access(first.session.path, F_OK) == 0 && access(second.session.path, F_OK) == 0);
+    must(access(".fracas-mpi-killed", F_OK) != 0 && access("mine", F_OK) == 0);
+    fracas_scratch_remove(&first);
+    fracas_scratch_remove(&second);
 }
 
 /* Nobody would remove those of other nodes. */
@@ -136,8 +151,9 @@ static void on_nodes(const char *folder)
 
 static void folders_of_mpi(void **state)
 {
-    static void (*const each[])(const char *) = {in_the_first_that_is_there, where_none_is_named,
-                                                 in_no_folder, in_a_deep_folder, on_nodes};
+    static void (*const each[])(const char *) = {
+        in_the_first_that_is_there, where_none_is_named, in_no_folder,
+        in_a_deep_folder,           beside_others,       on_nodes};
     for (size_t i = 0; i < FRACAS_COUNT(each); i++) {
         char *folder = sample_folder();
         assert_int_equal(in_child(each[i], folder), 0);
@@ -153,6 +169,10 @@ static void count_to_two(const char *none)
     fracas_signals_catch();
     raise(SIGHUP);
     must(!fracas_signals_ask());
+    raise(SIGUSR1); /* batch systems may send it often */
+    raise(SIGUSR2);
+    must(fracas_signals_ask() && !fracas_signals_insist());
+    fracas_signals_catch();
     raise(SIGINT);
     must(fracas_signals_ask() && !fracas_signals_insist());
     raise(SIGTERM);

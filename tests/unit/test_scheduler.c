@@ -187,16 +187,16 @@ static void what_comes_next_is_predicted(void **state)
     assert_true(next(scheduler, 0, 5, &lease));
     OK(fracas_scheduler_computed(scheduler, 0, lease.id, 13,
                                  8)); /* 1 s each: batches of 8 s from now on */
-    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 13), 8, 1e-9);
+    assert_close(fracas_scheduler_predicted(scheduler, 0, 13), 8, 1e-9);
     assert_true(next(scheduler, 0, 13, &lease));
-    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 15), 6 + 8, 1e-9);
-    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 99), 0 + 8,
-                       1e-9); /* late: it may end at any time */
+    assert_close(fracas_scheduler_predicted(scheduler, 0, 15), 6 + 8, 1e-9);
+    assert_close(fracas_scheduler_predicted(scheduler, 0, 99), 0 + 8,
+                 1e-9); /* late: it may end at any time */
     assert_true(next(scheduler, 0, 15, &ahead));
-    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 15), 6 + 8 + 8, 1e-9);
+    assert_close(fracas_scheduler_predicted(scheduler, 0, 15), 6 + 8 + 8, 1e-9);
     OK(fracas_scheduler_computed(scheduler, 0, lease.id, 21, 8));
-    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 22), 7 + 8,
-                       1e-9); /* the one ahead has run for 1 s */
+    assert_close(fracas_scheduler_predicted(scheduler, 0, 22), 7 + 8,
+                 1e-9); /* the one ahead has run for 1 s */
 }
 
 /* The last ones of a plan: what waits again counts too, and when nothing waits, what is held. */
@@ -209,16 +209,16 @@ static void what_waits_again_is_predicted(void **state)
     computed(scheduler, 1, &second, 8);
     assert_true(next(scheduler, 1, 0, &second));
     assert_int_equal(second.count, 8);
-    assert_float_equal(fracas_scheduler_predicted(scheduler, 0, 3), 5 + 6,
-                       1e-9); /* the rest of 8, and the last 6 */
+    assert_close(fracas_scheduler_predicted(scheduler, 0, 3), 5 + 6,
+                 1e-9); /* the rest of 8, and the last 6 */
     computed(scheduler, 1, &second, 8);
     fracas_scheduler_lost(scheduler, 0);
-    assert_float_equal(fracas_scheduler_predicted(scheduler, 1, 3), 8, 1e-9);
+    assert_close(fracas_scheduler_predicted(scheduler, 1, 3), 8, 1e-9);
     assert_true(next(scheduler, 1, 3, &second));
     computed(scheduler, 1, &second, 8);
     assert_true(next(scheduler, 1, 3, &second));
     assert_int_equal(second.count, 6);
-    assert_float_equal(fracas_scheduler_predicted(scheduler, 1, 3.25), 5.75, 1e-9);
+    assert_close(fracas_scheduler_predicted(scheduler, 1, 3.25), 5.75, 1e-9);
 }
 
 /* s that a lease may take: as the options say, or 600 s and 50 times its prediction. */
@@ -229,16 +229,16 @@ static void a_lease_has_a_time_limit(void **state)
     fracas_scheduler *scheduler = create_with(row, POINTS * 100, &options);
     fracas_lease lease;
     assert_true(next(scheduler, 0, 0, &lease));
-    assert_float_equal(lease.limit, 600 + 50 * 8 * 100 / 1e6,
-                       1e-9); /* nothing is measured: 1e6 element-steps/s at least */
+    assert_close(lease.limit, 600 + 50 * 8 * 100 / 1e6,
+                 1e-9); /* nothing is measured: 1e6 element-steps/s at least */
     computed(scheduler, 0, &lease, 40);
     assert_true(next(scheduler, 0, 0, &lease));
-    assert_float_equal(lease.limit, 600 + 50 * 40, 1e-9);
+    assert_close(lease.limit, 600 + 50 * 40, 1e-9);
     fracas_scheduler_destroy(scheduler);
     options.limit = 7;
     scheduler = create_with(row, POINTS * 100, &options);
     assert_true(next(scheduler, 0, 0, &lease));
-    assert_float_equal(lease.limit, 7, 0);
+    assert_close(lease.limit, 7, 0);
     fracas_scheduler_destroy(scheduler);
 }
 

@@ -55,12 +55,12 @@ static void show(fracas_progress *progress)
 void fracas_progress_update(fracas_progress *progress, const fracas_counts *counts)
 {
     progress->last = *counts;
-    if (progress->quiet) return;
     if (!progress->any) {
         progress->any = true;
         progress->first = *counts;
         progress->began = progress->shown = fracas_now();
     }
+    if (progress->quiet) return;
     if (fracas_now() - progress->shown >= (progress->terminal ? terminal_interval : plain_interval))
         show(progress);
 }
@@ -76,7 +76,7 @@ void fracas_progress_message(fracas_progress *progress, const char *text)
 
 void fracas_progress_end(fracas_progress *progress)
 {
-    if (!progress->any) return;
+    if (!progress->any || progress->quiet) return;
     show(progress);
     if (progress->bar) fprintf(progress->out, "\n");
     progress->bar = false;
