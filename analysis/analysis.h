@@ -35,6 +35,11 @@ FRACAS_MUST_USE fracas_err fracas_analysis_axes(fracas_analysis *analysis, const
  * anything else. */
 FRACAS_MUST_USE fracas_err fracas_analysis_ordinates(fracas_analysis *analysis, const char *list);
 
+/* The same check without a study; NULL: none. */
+FRACAS_MUST_USE fracas_err fracas_analysis_check_ordinates(const char *list);
+/* True of a key of the summary's statistics, with or without ".mean" or ".value". */
+bool fracas_analysis_is_statistic(const char *key);
+
 /* Points with figures of their own: "3,17,200-210", or "all"; else all of few points, of many a
  * choice. FRACAS_USAGE, with the part that is wrong, for anything else. */
 FRACAS_MUST_USE fracas_err fracas_analysis_points(fracas_analysis *analysis, const char *list);

@@ -139,6 +139,11 @@ struct fracas_analysis;
 FRACAS_MUST_USE fracas_err fracas_cli_analyse(const char *study, struct fracas_campaign **campaign,
                                               struct fracas_analysis **analysis);
 
+/* FRACAS_USAGE, with the name of the file, if `report:` of a campaign file has keys that the report
+ * of its study would refuse. */
+FRACAS_MUST_USE fracas_err fracas_cli_check_report(const char *file,
+                                                   const struct fracas_campaign *campaign);
+
 typedef struct {
     bool json, quiet;           /* the statistics as JSON, or nothing, in the place of the table */
     const char *output;         /* folder; NULL: STUDY/report */

@@ -24,6 +24,7 @@ static fracas_err plan(const fracas_arguments *arguments)
     TRY(fracas_arguments_integer(arguments, "jobs", 1, INT_MAX, &options.jobs));
     OWN(fracas_campaign) campaign = NULL;
     TRY(fracas_campaign_read(arguments->operand, &campaign));
+    TRY(fracas_cli_check_report(arguments->operand, campaign));
     /* as `fracas run` here, which may refuse what another machine is to compute */
     if (!options.jobs && fracas_allocation_jobs(0, campaign->parallel.parts, &options.jobs))
         options.jobs = 1;

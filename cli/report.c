@@ -22,7 +22,7 @@ static const fracas_option report_options[] = {
     {"x", "KEY",
      "draw mean counts and sizes against this parameter or statistic (the strain rate)"},
     {"series", "KEY", "draw a series for each value of this parameter"},
-    {"y", "KEYS", "draw these statistics, too, as aspect,onset_time (dissipated)"},
+    {"y", "KEYS", "statistics to draw beside size and count, as aspect,onset_time (dissipated)"},
     {"points", "LIST", "draw figures of these points, as 3,17,20-25 or all (all of 16, 6 of more)"},
     {"output", "FOLDER", "where to; also -o FOLDER (STUDY/report)", 'o'},
     {"json", NULL, "print the statistics as JSON"},
@@ -32,13 +32,35 @@ static const fracas_option report_options[] = {
     FRACAS_WIDE_OPTION,
     {0}};
 
+bool fracas_cli_alone(const char *study)
+{
+    char file[PATH_MAX], campaign[PATH_MAX];
+    uint64_t version;
+    snprintf(file, sizeof file, "%s/study.h5", study);
+    snprintf(campaign, sizeof campaign, "%s/campaign.yaml", study);
+    if (access(file, F_OK)) return false;
+    if (access(campaign, F_OK) && errno == ENOENT) return true;
+    return !fracas_file_version(file, &version) && version < FRACAS_FORMAT_VERSION;
+}
+
 fracas_err fracas_cli_check_study(const char *study)
 {
     char file[PATH_MAX];
     snprintf(file, sizeof file, "%s/campaign.yaml", study);
     if (!access(file, R_OK)) return FRACAS_OK;
+    const int reason = errno;
+    if (reason == ENOTDIR)
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s is no folder of a study: name the folder, or its "
+                           "file study.h5, which must have that name",
+                           study);
+    if (fracas_cli_alone(study))
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s has study.h5 alone, to look at by report, export, compare, fit, "
+                           "picture and verify: this command needs the whole study",
+                           study);
     return fracas_fail(FRACAS_DAMAGED, "%s is no study: %s: %s; `fracas run FILE` makes one", study,
-                       file, strerror(errno));
+                       file, strerror(reason));
 }
 
 fracas_err fracas_cli_read_campaign(const char *study, fracas_campaign **campaign)
@@ -52,17 +74,6 @@ fracas_err fracas_cli_read_campaign(const char *study, fracas_campaign **campaig
         FRACAS_DAMAGED, "the study's campaign file is damaged, or another version of fracas "
                         "wrote it, which knows more: use that version, or remove it and run the "
                         "campaign file it was made from, or restore it");
-}
-
-bool fracas_cli_alone(const char *study)
-{
-    char file[PATH_MAX], campaign[PATH_MAX];
-    uint64_t version;
-    snprintf(file, sizeof file, "%s/study.h5", study);
-    snprintf(campaign, sizeof campaign, "%s/campaign.yaml", study);
-    if (access(file, F_OK)) return false;
-    if (access(campaign, F_OK) && errno == ENOENT) return true;
-    return !fracas_file_version(file, &version) && version < FRACAS_FORMAT_VERSION;
 }
 
 fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign,
@@ -125,9 +136,31 @@ fracas_err fracas_cli_report(const char *study, const fracas_report_view *view)
 {
     OWN(fracas_campaign) campaign = NULL;
     OWN(fracas_analysis) analysis = NULL;
+    OWNED char *beside = NULL;
+    fracas_report_view named = *view; /* beside a file alone may be the user's own files */
+    if (!view->output && fracas_cli_alone(study)) {
+        TRY(fracas_path(&beside, "%s/report", study));
+        named.output = beside;
+    }
     TRY(fracas_cli_analyse(study, &campaign, &analysis));
     TRY(set_axes(analysis, campaign, view));
-    return finish(analysis, study, view);
+    return finish(analysis, study, &named);
+}
+
+fracas_err fracas_cli_check_report(const char *file, const fracas_campaign *campaign)
+{
+    const fracas_report_keys *keys = &campaign->report;
+    fracas_err err = fracas_analysis_check_ordinates(keys->y);
+    if (!err && keys->x && fracas_point_table_find(&campaign->table, keys->x) == SIZE_MAX &&
+        !fracas_analysis_is_statistic(keys->x))
+        err = fracas_fail(FRACAS_USAGE,
+                          "x of the figures, `%s`: no parameter of the points and no statistic "
+                          "(summary.json has these) has this name",
+                          keys->x);
+    if (!err && keys->x && keys->series && !strcmp(keys->x, keys->series))
+        err = fracas_fail(FRACAS_USAGE, "`%s` is both x and series of the figures; give another",
+                          keys->x);
+    return err ? fracas_fail_within(err, "%s: `report`", file) : FRACAS_OK;
 }
 
 /* ---- while the study is computed ---- */
@@ -213,7 +246,8 @@ static fracas_err export(const fracas_arguments *arguments)
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
     TRY(fracas_output_folder_in(fracas_given(arguments, "to"), arguments->operand, "export",
                                 &folder));
-    if (fracas_given(arguments, "to")) TRY(check_free(folder, histories));
+    if (fracas_given(arguments, "to") || fracas_cli_alone(arguments->operand))
+        TRY(check_free(folder, histories));
     TRY(fracas_export_write(analysis, folder, histories));
     printf("export: %s/datapackage.json\n", folder);
     return FRACAS_OK;

@@ -58,7 +58,10 @@ static const char *const effect_legend[] = {
     "ratios in all settings of the others (Student's t, degrees of freedom by Welch and "
     "Satterthwaite). least to most: in single settings, which effects.csv has.",
     "An interval without 0 shows an effect; where least and most are far apart, it depends on the "
-    "other parameters. With common random numbers the intervals are too wide.",
+    "other parameters. `with`: these change along, as in a zipped sweep, and share the effect; "
+    "mesh "
+    "and time may change along as well. Parameters of more than twelve values are left out. With "
+    "common random numbers the intervals are too wide.",
     NULL,
 };
 

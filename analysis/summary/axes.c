@@ -161,7 +161,10 @@ static void take_if_named(void *context, const fracas_field *leaf)
     statistic *wanted = context;
     const bool number = leaf->type == FRACAS_FIELD_NUMBER,
                whole = leaf->type == FRACAS_FIELD_INTEGER;
-    if (wanted->found || strcmp(leaf->key, wanted->key) != 0 || !(number || whole)) return;
+    const size_t length = strlen(wanted->key);
+    const char *end = strncmp(leaf->key, wanted->key, length) ? "?" : leaf->key + length;
+    if (wanted->found || !(number || whole)) return;
+    if (*end && strcmp(end, ".mean") != 0 && strcmp(end, ".value") != 0) return;
     const size_t npoints = wanted->analysis->table->npoints;
     wanted->found = true;
     for (size_t p = 0; p < npoints; p++) {

@@ -33,19 +33,96 @@ static const fracas_field effect_field[] = {
 };
 const fracas_fields fracas_effect_fields = FRACAS_FIELDS(effect_field);
 
-/* A parameter, its values by a point each, and the other parameters. */
+/* A parameter, its values by a point each, and the other parameters: those that stay the same in a
+ * setting, and those that change with it at all points, as in a zipped sweep. */
 typedef struct {
     const fracas_analysis *analysis;
     size_t column;
     size_t nlevels, level[FRACAS_MOST_LEVELS + 1];
-    fracas_columns others;
+    fracas_columns others, partners;
     size_t room, count;
     fracas_effect *effect;
 } making;
 
+/* ---- the other parameters ---- */
+
 static const fracas_value *value_at(const making *of, size_t point)
 {
     return &of->analysis->table->point[point].value[of->column];
+}
+
+static bool is_absent(const fracas_value *value)
+{
+    return isnan(value->real) && !*value->text;
+}
+
+/* A value that one of the points has not, as the parameter of another law, is no difference. */
+static bool alike(const making *of, size_t column, size_t a, size_t b)
+{
+    const fracas_point_table *table = of->analysis->table;
+    const fracas_value *x = &table->point[a].value[column], *y = &table->point[b].value[column];
+    return is_absent(x) || is_absent(y) || fracas_value_same(x, y);
+}
+
+/* True if points alike in the parameter are alike in this column. */
+static bool goes_along(const making *of, size_t column)
+{
+    const size_t npoints = of->analysis->table->npoints;
+    for (size_t p = 0; p < npoints; p++)
+        for (size_t q = 0; q < p; q++)
+            if (fracas_value_same(value_at(of, p), value_at(of, q)) && !alike(of, column, p, q))
+                return false;
+    return true;
+}
+
+/* True of mesh and time, which serve the other parameters, where they do not name points. */
+static bool serves(const making *of, size_t column)
+{
+    const char *path = of->analysis->table->column[column].path;
+    const fracas_columns *shown = &of->analysis->shown;
+    for (size_t i = 0; i < shown->count; i++)
+        if (shown->column[i] == column) return false;
+    return !strncmp(path, "mesh.", 5) || !strncmp(path, "time.", 5);
+}
+
+static void part_others(making *of)
+{
+    const fracas_point_table *table = of->analysis->table;
+    of->others.count = of->partners.count = 0;
+    for (size_t c = 0; c < table->ncolumns; c++) {
+        if (c == of->column || serves(of, c) || !fracas_point_table_varies(table, c)) continue;
+        fracas_columns *to = goes_along(of, c) ? &of->partners : &of->others;
+        to->column[to->count++] = c;
+    }
+}
+
+static bool alike_in_others(const making *of, size_t a, size_t b)
+{
+    for (size_t i = 0; i < of->others.count; i++)
+        if (!alike(of, of->others.column[i], a, b)) return false;
+    return true;
+}
+
+/* "rate, with fracture energy" */
+static void words_of(const making *of, char *text, size_t size)
+{
+    const fracas_point_table *table = of->analysis->table;
+    snprintf(text, size, "%s", fracas_column_words(table, of->column));
+    for (size_t i = 0; i < of->partners.count; i++)
+        fracas_append(text, size, i ? ", " : ", with ", "%s",
+                      fracas_column_words(table, of->partners.column[i]));
+}
+
+/* The values of the other parameters that name points. */
+static void setting_text(const making *of, size_t point, char *text, size_t size)
+{
+    const fracas_columns *shown = &of->analysis->shown;
+    size_t column[FRACAS_MOST_NAMED];
+    fracas_columns named = {0, column};
+    for (size_t i = 0; i < shown->count && named.count < FRACAS_MOST_NAMED; i++)
+        for (size_t j = 0; j < of->others.count; j++)
+            if (of->others.column[j] == shown->column[i]) column[named.count++] = shown->column[i];
+    fracas_columns_label(of->analysis->table, &named, point, text, size);
 }
 
 /* ---- the values of a parameter ---- */
@@ -55,7 +132,7 @@ static void take_level(making *of, size_t point)
 {
     const fracas_value *value = value_at(of, point);
     size_t at = of->nlevels;
-    if (isnan(value->real) && !*value->text) return;
+    if (is_absent(value)) return;
     for (size_t i = 0; i < of->nlevels; i++)
         if (fracas_value_same(value_at(of, of->level[i]), value)) return;
     if (of->nlevels > FRACAS_MOST_LEVELS) return;
@@ -74,7 +151,7 @@ static void value_text(const making *of, size_t point, char *text, size_t size)
     char label[160];
     fracas_columns_label(table, &one, point, label, sizeof label);
     const size_t name = strlen(fracas_column_words(table, column));
-    snprintf(text, size, "%.63s", strlen(label) > name ? label + name + 1 : label);
+    snprintf(text, size, "%.127s", strlen(label) > name ? label + name + 1 : label);
 }
 
 /* ---- changes ---- */
@@ -111,17 +188,14 @@ static void add_setting(const fracas_estimate *from, const fracas_estimate *to, 
     change->most = fmax(one, change->most);
 }
 
-/* (estimators.30) */
+/* Replicas that are all alike tell nothing of their scatter: no interval  (estimators.30) */
 static fracas_change change_of(const change_sums *sums)
 {
     fracas_change change = sums->change;
     const double k = (double)sums->settings, log = sums->log / k,
                  freedom = sums->variance * sums->variance / sums->squares,
-                 half = !(sums->variance >= 0) ? NAN
-                        : sums->variance == 0  ? 0
-                        : freedom > 0
-                            ? gsl_cdf_tdist_Pinv(0.975, freedom) * sqrt(sums->variance) / k
-                            : NAN;
+                 half = freedom > 0 ? gsl_cdf_tdist_Pinv(0.975, freedom) * sqrt(sums->variance) / k
+                                    : NAN;
     if (sums->settings == 0) return change;
     change.value = expm1(log);
     change.low = expm1(log - half);
@@ -138,7 +212,7 @@ static fracas_err add_row(making *of, size_t from, size_t to, const char *at,
     *row = (fracas_effect){.count = change_of(&sums[0]), .size = change_of(&sums[1])};
     row->settings = sums[0].settings > sums[1].settings ? sums[0].settings : sums[1].settings;
     FRACAS_PRINT(row->key, "%s", of->analysis->table->column[of->column].path);
-    FRACAS_PRINT(row->words, "%s", fracas_column_words(of->analysis->table, of->column));
+    words_of(of, row->words, sizeof row->words);
     FRACAS_PRINT(row->at, "%s", at);
     value_text(of, from, row->from, sizeof row->from);
     value_text(of, to, row->to, sizeof row->to);
@@ -153,17 +227,16 @@ static fracas_err add_pairs(making *of, size_t from, size_t to, change_sums whol
     for (size_t p = 0; p < table->npoints; p++) {
         if (!fracas_value_same(value_at(of, p), value_at(of, from))) continue;
         for (size_t q = 0; q < table->npoints; q++) {
-            if (!fracas_value_same(value_at(of, q), value_at(of, to)) ||
-                !fracas_columns_same(table, &of->others, p, q))
+            if (!fracas_value_same(value_at(of, q), value_at(of, to)) || !alike_in_others(of, p, q))
                 continue;
             const fracas_point_statistics *a = &of->analysis->point[p],
                                           *b = &of->analysis->point[q];
             change_sums one[2] = {none, none}, *sums = rows ? one : whole;
-            char at[128];
+            char at[sizeof of->effect->at];
             add_setting(&a->count, &b->count, &sums[0]);
             add_setting(&a->size, &b->size, &sums[1]);
             if (!rows) continue;
-            fracas_columns_label(table, &of->others, p, at, sizeof at);
+            setting_text(of, p, at, sizeof at);
             TRY(add_row(of, from, to, at, one));
         }
     }
@@ -186,18 +259,17 @@ static fracas_err add_parameter(making *of)
 fracas_err fracas_effects(const fracas_analysis *analysis, fracas_effect **effect, size_t *count)
 {
     const fracas_columns *shown = &analysis->shown;
-    making of = {.analysis = analysis};
-    OWNED size_t *others = calloc(shown->count + 1, sizeof *others);
+    const size_t ncolumns = analysis->table->ncolumns;
+    OWNED size_t *room = calloc(2 * ncolumns + 1, sizeof *room);
+    making of = {.analysis = analysis, .others = {0, room}, .partners = {0, room + ncolumns}};
     *effect = NULL;
     *count = 0;
-    if (!others) return fracas_no_memory("the effects");
+    if (!room) return fracas_no_memory("the effects");
     fracas_err err = FRACAS_OK;
     for (size_t i = 0; i < shown->count && !err; i++) {
-        of.others = (fracas_columns){0, others};
-        for (size_t j = 0; j < shown->count; j++)
-            if (j != i) others[of.others.count++] = shown->column[j];
         of.column = shown->column[i];
         of.nlevels = 0;
+        part_others(&of);
         err = add_parameter(&of);
     }
     if (err) free(of.effect);

@@ -5,7 +5,7 @@
 
 #include "analysis/summary/study.h"
 
-enum { FRACAS_MOST_LEVELS = 12 }; /* a parameter with more values is for a figure */
+enum { FRACAS_MOST_LEVELS = 12, FRACAS_MOST_NAMED = 16 }; /* more values are for a figure; others */
 
 /* Relative changes; NaN: none. */
 typedef struct {
@@ -15,10 +15,10 @@ typedef struct {
 } fracas_change;
 
 typedef struct {
-    char key[64];   /* path of the parameter */
-    char words[96]; /* "Weibull modulus" */
-    char from[64], to[64];
-    char at[128];     /* setting: the other parameters in which points differ; "": all of them */
+    char key[64];    /* path of the parameter */
+    char words[192]; /* "Weibull modulus"; "rate, with fracture energy" of a zipped sweep */
+    char from[128], to[128];
+    char at[640];     /* setting: the other parameters in which points differ; "": all of them */
     int64_t settings; /* pairs of points that differ in nothing else */
     fracas_change count, size;
 } fracas_effect;
@@ -26,10 +26,12 @@ typedef struct {
 extern const fracas_fields fracas_effect_fields;
 
 /* For each parameter by which the points are named, from each of its values to the next: the row of
- * all settings, and behind it, where there are several, a row for each. Numbers ascend, texts are
- * in the order in which they come first; parameters of more than FRACAS_MOST_LEVELS values are left
- * out, and settings without both means above 0 (estimators.29), (estimators.30). *effect freed by
- * the caller with free(). */
+ * all settings, and behind it, where there are several, a row for each. A setting is two points
+ * alike in all other parameters but those that change with this one at all points (`words` names
+ * them), and mesh and time where these name no points; a value that one of both has not is no
+ * difference. Numbers ascend, texts are in the order in which they come first; parameters of more
+ * than FRACAS_MOST_LEVELS values are left out, and settings without both means above 0
+ * (estimators.29), (estimators.30). *effect freed by the caller with free(). */
 FRACAS_MUST_USE fracas_err fracas_effects(const fracas_analysis *analysis, fracas_effect **effect,
                                           size_t *count);
 

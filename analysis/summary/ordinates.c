@@ -80,32 +80,44 @@ static void take_leaf(void *context, const fracas_field *leaf)
     else if (!strcmp(part, ".high")) to->high = leaf->offset;
 }
 
-static bool find(const char *key, size_t length, fracas_ordinate *to)
+static bool find_as(const char *key, size_t length, fracas_ordinate *to)
 {
-    static const char *const ends[] = {".mean", ".value"};
     for (size_t i = 0; i < FRACAS_NNUMBERS; i++) {
-        const size_t n = strlen(fracas_realization_numbers[i].key);
-        if (strncmp(fracas_realization_numbers[i].key, key, n) != 0) continue;
-        if (length != n && (length != n + 5 || strncmp(key + n, ".mean", 5) != 0)) continue;
-        *to = fracas_ordinate_of(&fracas_realization_numbers[i]);
+        const fracas_number *number = &fracas_realization_numbers[i];
+        if (strlen(number->key) != length || strncmp(number->key, key, length) != 0) continue;
+        *to = fracas_ordinate_of(number);
         return true;
     }
     *to = (fracas_ordinate){
         .value = SIZE_MAX, .half_width = SIZE_MAX, .low = SIZE_MAX, .high = SIZE_MAX};
-    for (size_t i = 0; i < 2; i++) { /* as `x` takes them */
-        const size_t end = strlen(ends[i]);
-        if (length > end && !strncmp(key + length - end, ends[i], end)) length -= end;
-    }
     FRACAS_PRINT(to->key, "%.*s", (int)length, key);
     wanted_key wanted = {key, length, to};
     fracas_fields_walk(&fracas_statistics, ".", take_leaf, &wanted);
     return to->value != SIZE_MAX;
 }
 
+/* Also by the key of its mean or value, as `x` has it. */
+static bool find(const char *key, size_t length, fracas_ordinate *to)
+{
+    static const char *const ends[] = {".mean", ".value"};
+    for (size_t i = 0; i < 2; i++) {
+        const size_t end = strlen(ends[i]);
+        if (length > end && !strncmp(key + length - end, ends[i], end) &&
+            find_as(key, length - end, to))
+            return true;
+    }
+    return find_as(key, length, to);
+}
+
 static fracas_err take_key(const char *list, const char *key, size_t length, fracas_ordinate *to)
 {
     const int shown = (int)length;
-    const bool known = length > 0 && length < sizeof to->key && find(key, length, to);
+    if (length == 0)
+        return fracas_fail(FRACAS_USAGE,
+                           "y of the figures, `%s`: an empty name; give statistics as "
+                           "aspect,onset_time",
+                           list);
+    const bool known = length < sizeof to->key && find(key, length, to);
     if (!known)
         return fracas_fail(FRACAS_USAGE,
                            "y of the figures, `%s`: `%.*s` is no statistic; summary.json has them, "
@@ -123,6 +135,19 @@ static bool is_above_0(const fracas_analysis *analysis, const fracas_number *num
     for (size_t p = 0; p < analysis->table->npoints; p++)
         if (fracas_number_mean(number, &analysis->point[p])->mean > 0) return true;
     return false;
+}
+
+fracas_err fracas_analysis_check_ordinates(const char *list)
+{
+    fracas_ordinate found[FRACAS_MOST_ORDINATES];
+    size_t count;
+    return list ? fracas_ordinates_find(NULL, list, found, &count) : FRACAS_OK;
+}
+
+bool fracas_analysis_is_statistic(const char *key)
+{
+    fracas_ordinate found;
+    return strlen(key) < sizeof found.key && find(key, strlen(key), &found);
 }
 
 fracas_err fracas_ordinates_find(const fracas_analysis *analysis, const char *list,

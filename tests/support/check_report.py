@@ -67,25 +67,30 @@ def effect_of(pairs, key):
     u = [((row[key + ".deviation"] / row[key + ".mean"]) ** 2 / row[key + ".n"], row[key + ".n"]) for pair in of for row in pair]
     mean, v = sum(map(math.log, ratio)) / len(of), sum(x for x, n in u)
     freedom = v * v / sum(x * x / (n - 1) for x, n in u) if v > 0 else math.nan
-    half = student_of(freedom) * math.sqrt(v) / len(of) if v > 0 else v
+    half = student_of(freedom) * math.sqrt(v) / len(of) if v > 0 else math.nan
     return [math.expm1(x) for x in (mean, mean - half, mean + half)] + [min(ratio) - 1, max(ratio) - 1]
 
 with open(os.path.join(report, "effects.csv"), encoding="utf-8") as file:
     effects = list(csv.DictReader(file))
 place, whole = 0, []
+parameters = [point["parameters"] for point in summary["points"]]
+names = {name for of in parameters for name in of if not name.startswith("derived.") and (name in summary["varying"] or not re.match("mesh|time", name))}
+changing = [name for name in names if len({str(of.get(name)) for of in parameters}) > 1]
+alike = lambda name, p, q: parameters[p].get(name) is None or parameters[q].get(name) is None or parameters[p][name] == parameters[q][name]
+points = range(len(rows))
 for path in summary["varying"]:
-    value = [point["parameters"].get(path) for point in summary["points"]]
-    others = [tuple(str(point["parameters"].get(other)) for other in summary["varying"] if other != path) for point in summary["points"]]
+    value = [of.get(path) for of in parameters]
+    others = [name for name in changing if name != path and not all(alike(name, p, q) for p in points for q in points if value[p] == value[q])]
     levels = list(dict.fromkeys(x for x in value if x is not None))
     levels = levels if isinstance(levels[0], str) else sorted(levels)
     for a, b in zip(levels, levels[1:]) if len(levels) <= 12 else ():
-        pairs = [(p, q) for p in range(len(rows)) for q in range(len(rows)) if (value[p], value[q]) == (a, b) and others[p] == others[q]]
+        pairs = [(p, q) for p in range(len(rows)) for q in range(len(rows)) if (value[p], value[q]) == (a, b) and all(alike(name, p, q) for name in others)]
         known = [pair for pair in pairs if any(rows[i][key + ".mean"] > 0 for key in ("count", "size") for i in pair[:1]) and
                  any(rows[pair[0]][key + ".mean"] > 0 and rows[pair[1]][key + ".mean"] > 0 for key in ("count", "size"))]
         for group in [known] * bool(known) + [[pair] for pair in known] * (len(known) > 1):
             line = effects[place]
             place += 1
-            assert line["parameter"] == path and int(line["settings"]) == len(group) and (line["at"] == "") == (group is known or len(known) == 1 and not others[0])
+            assert line["parameter"] == path and int(line["settings"]) == len(group) and (line["at"] == "" or group is not known)
             whole += [line] * (group is known)
             for key in ("count", "size"):
                 for name, wanted in zip(("change", "low", "high", "least", "most"), effect_of(group, key)):

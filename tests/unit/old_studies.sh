@@ -107,7 +107,25 @@ for name in alone alone/study.h5; do
     said 'count .* 0 +- 0'
     expect 0 "$fracas" compare $name now
 done
+# Files beside it that no fracas wrote are the user's.
+for file in report/points.csv export/points.csv fits.csv; do
+    mkdir -p mine/report mine/export
+    cp now/study.h5 mine
+    echo mine > mine/$file
+    case $file in
+    report/*) command='report mine' ;;
+    export/*) command='export mine' ;;
+    *) command='fit mine --point 0 --resamples 99' ;;
+    esac
+    # shellcheck disable=SC2086
+    expect 2 "$fracas" $command
+    [ "$(cat mine/$file)" = mine ] || fail "$file of a user was replaced"
+    rm -r mine
+done
 (cd alone && expect 0 "$fracas" report study.h5 --quiet)
 expect 5 "$fracas" status alone
-said 'alone is no study: alone/campaign.yaml: No such file'
+said 'alone has study.h5 alone, to look at by report'
+cp now/study.h5 other.h5
+expect 5 "$fracas" report other.h5
+said 'its file study.h5, which must have that name'
 echo "versions 3 and 4 read, damage found"

@@ -14,6 +14,17 @@ cmp one/summary.json one/report/summary.json
 /usr/bin/python3 "$source/tests/support/check_report.py" one "$source"
 [ "$(wc -c < one/summary.json)" -lt 120000 ] || fail "a summary of $(wc -c < one/summary.json) bytes"
 
+# Keys of `report:` that the report would refuse are refused before anything is computed.
+for keys in 'y: [aspect, aspct]' 'x: aspct' 'x: loading.rate, series: loading.rate'; do
+    { cat one.yaml; echo "report: {$keys}"; } > keys.yaml
+    for command in 'plan keys.yaml' 'run keys.yaml --study keys'; do
+        # shellcheck disable=SC2086
+        expect 2 "$fracas" $command
+        said 'keys.yaml: `report`: .*\(aspct\|both x and series\)'
+        [ ! -e keys ] || fail "a study was begun"
+    done
+done
+
 cat > planted.py <<'END'
 import copy, json, os, sys
 sys.path[:0] = [os.path.join(sys.argv[1], "tests/support")]

@@ -78,6 +78,7 @@ static void axes_are_chosen_by_what_varies(void **state)
     assert_axes(&of, "size.mean", "loading.rate", "size.mean by loading.rate");
     assert_true(strstr(of.analysis.axes.label, "[\u00b5m]") != NULL);
     assert_true(fabs(of.analysis.axes.value[0] - 100) < 1e-9); /* um: 1e-3/10 m, two roundings */
+    assert_axes(&of, "size", NULL, "size.mean");               /* as `y` takes it */
     clear(&of);
     make(1, 3, 1, &of); /* no rate varies */
     assert_axes(&of, NULL, NULL, "strength.shape");
@@ -177,6 +178,10 @@ static void statistics_are_ordinates(void **state)
     assert_ordinate(&of, 3, "usable", "realizations that ended FRAGMENTED, INTACT or TIME_LIMIT", 7,
                     NAN, NAN);
     assert_true(of.analysis.ordinate[0].over && !of.analysis.ordinate[1].over);
+    of.point->pooled.all.mean = (fracas_interval){3e-3, 2e-3, 5e-3,
+                                                  0}; /* a key that ends in .mean */
+    OK(fracas_analysis_ordinates(&of.analysis, "fragment.mean"));
+    assert_ordinate(&of, 0, "fragment.mean", "mean size of all fragments", 3e-3, 2e-3, 5e-3);
     OK(fracas_analysis_ordinates(&of.analysis, "aspect.mean,fragment.mass_mean.value"));
     assert_ordinate(&of, 0, "aspect", "aspect ratio of the fragments without dust", 1.5, 1.25,
                     1.75);
@@ -198,7 +203,7 @@ static void wrong_ordinates_are_refused(void **state)
     fracas_analysis *analysis = &of.analysis;
     FAILS(fracas_analysis_ordinates(analysis, "aspect,aspct"), FRACAS_USAGE,
           "y of the figures, `aspect,aspct`: `aspct` is no statistic; summary.json has them");
-    FAILS(fracas_analysis_ordinates(analysis, "aspect,"), FRACAS_USAGE, "`` is no statistic");
+    FAILS(fracas_analysis_ordinates(analysis, "aspect,"), FRACAS_USAGE, "an empty name");
     FAILS(fracas_analysis_ordinates(analysis, "fragment"), FRACAS_USAGE, "is no statistic");
     FAILS(fracas_analysis_ordinates(analysis, "strength.shape"), FRACAS_USAGE, "is no statistic");
     FAILS(fracas_analysis_ordinates(analysis, "size.mean"), FRACAS_USAGE,

@@ -112,7 +112,7 @@ static void intervals_are_of_the_settings(void **state)
     fracas_columns_clear(&of.analysis.shown);
 }
 
-/* A mean of one replica has no interval, equal replicas have one of width 0; a point without a mean
+/* A mean of one replica has no interval, nor have equal replicas; a point without a mean
  * makes no setting, nor does one without a partner; too many values are no levels. */
 static void odd_points(void **state)
 {
@@ -133,7 +133,7 @@ static void odd_points(void **state)
     assert_int_equal(count, 2);
     assert_row(effect, "rate", "1e3 1/s", "1e4 1/s", "", 1, 1);
     assert_true(isnan(effect->count.low) && isnan(effect->count.high));
-    assert_true(effect->size.low == 1 && effect->size.high == 1);
+    assert_true(effect->size.value == 1 && isnan(effect->size.low) && isnan(effect->size.high));
     assert_row(effect + 1, "shape of the strengths", "5", "10", "", 1, 0);
     fracas_columns_clear(&of.analysis.shown);
     free(effect);
@@ -148,4 +148,47 @@ static void odd_points(void **state)
     }
 }
 
-TESTS(settings_are_pairs, intervals_are_of_the_settings, odd_points)
+/* Parameters that change along at all points share the effect and are named; where they change by
+ * themselves, too, they make settings. A parameter that one law has not is no difference. */
+static void partners_are_named(void **state)
+{
+    static made of;
+    OWNED fracas_effect *effect = NULL;
+    size_t count;
+    begin(&of);
+    add(&of, "nitsche", 1e3, 5, 10, 1); /* rates and shapes zipped */
+    add(&of, "nitsche", 1e4, 10, 20, 1);
+    add(&of, "stershic", 1e3, 5, 30, 1);
+    add(&of, "stershic", 1e4, 10, 60, 1);
+    OK(fracas_columns_create(&of.table, &of.analysis.shown));
+    OK(fracas_effects(&of.analysis, &effect, &count));
+    assert_int_equal(count, 6);
+    assert_row(effect, "rate, with shape of the strengths", "1e3 1/s", "1e4 1/s", "", 2, 1);
+    assert_row(effect + 1, "rate, with shape of the strengths", "1e3 1/s", "1e4 1/s", "law nitsche",
+               1, 1);
+    assert_row(effect + 3, "law", "nitsche", "stershic", "", 2, 2);
+    fracas_columns_clear(&of.analysis.shown);
+    free(effect);
+    begin(&of);
+    add(&of, "nitsche", 1e3, 5, 10,
+        1); /* two corners and one between: no two differ in one alone */
+    add(&of, "nitsche", 1e4, 10, 20, 1);
+    add(&of, "nitsche", 1e3, 10, 30, 1);
+    OK(fracas_columns_create(&of.table, &of.analysis.shown));
+    OK(fracas_effects(&of.analysis, &effect, &count));
+    assert_int_equal(count, 2);
+    assert_row(effect, "rate", "1e3 1/s", "1e4 1/s", "", 1, 20.0 / 30 - 1); /* at shape 10 */
+    assert_row(effect + 1, "shape of the strengths", "5", "10", "", 1, 2);  /* at rate 1e3 */
+    fracas_columns_clear(&of.analysis.shown);
+    free(effect);
+    begin(&of);
+    add(&of, "nitsche", 1e3, NAN, 10, 1); /* without a shape */
+    add(&of, "stershic", 1e3, 5, 20, 1);
+    add(&of, "stershic", 1e3, 10, 40, 1);
+    OK(fracas_columns_create(&of.table, &of.analysis.shown));
+    OK(fracas_effects(&of.analysis, &effect, &count));
+    assert_row(effect, "law", "nitsche", "stershic", "", 2, sqrt(2 * 4) - 1);
+    fracas_columns_clear(&of.analysis.shown);
+}
+
+TESTS(settings_are_pairs, intervals_are_of_the_settings, odd_points, partners_are_named)
