@@ -11,7 +11,7 @@
 
 #define CHANGE(key, doc, member) FRACAS_FIELD(fracas_change, NUMBER, key, "1", doc, member)
 static const fracas_field change_field[] = {
-    CHANGE("change", "geometric mean over the settings of %s at `to` / at `from`, less 1", value),
+    CHANGE("value", "geometric mean over the settings of %s at `to` / at `from`, less 1", value),
     CHANGE("low", "lower end of its 95 % interval", low),
     CHANGE("high", "upper end of its 95 % interval", high),
     CHANGE("least", "the least change in one setting", least),
@@ -27,9 +27,10 @@ static const fracas_field effect_field[] = {
                  "setting: values of the other parameters; empty: all settings", at),
     FRACAS_FIELD(fracas_effect, INTEGER, "settings", "1",
                  "settings, each a pair of points that differ in nothing else", settings),
-    FRACAS_FIELD_OF(fracas_effect, change_fields, "count", "1", "the mean number of fragments",
-                    count),
-    FRACAS_FIELD_OF(fracas_effect, change_fields, "size", "1", "the mean fragment size", size),
+    FRACAS_FIELD_OF(fracas_effect, change_fields, "count_change", "1",
+                    "the mean number of fragments", count),
+    FRACAS_FIELD_OF(fracas_effect, change_fields, "size_change", "1", "the mean fragment size",
+                    size),
 };
 const fracas_fields fracas_effect_fields = FRACAS_FIELDS(effect_field);
 

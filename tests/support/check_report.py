@@ -93,8 +93,8 @@ for path in summary["varying"]:
             assert line["parameter"] == path and int(line["settings"]) == len(group) and (line["at"] == "" or group is not known)
             whole += [line] * (group is known)
             for key in ("count", "size"):
-                for name, wanted in zip(("change", "low", "high", "least", "most"), effect_of(group, key)):
-                    found = line[f"{key}.{name}"]
+                for name, wanted in zip(("value", "low", "high", "least", "most"), effect_of(group, key)):
+                    found = line[f"{key}_change.{name}"]
                     assert (found == "") == math.isnan(wanted) and (found == "" or abs(float(found) - wanted) < 1e-9 * (1 + abs(wanted))), (path, a, b, key, name, found, wanted)
 assert place == len(effects)
 assert [(e["parameter"], e["from"], e["to"], e["settings"]) for e in summary["effects"]] == [(e["parameter"], e["from"], e["to"], int(e["settings"])) for e in whole]
