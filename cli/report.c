@@ -51,8 +51,8 @@ fracas_err fracas_cli_check_study(const char *study)
     const int reason = errno;
     if (reason == ENOTDIR)
         return fracas_fail(FRACAS_DAMAGED,
-                           "%s is no folder of a study: name the folder, or its "
-                           "file study.h5, which must have that name",
+                           "%s is no study: name a study's folder, or its file study.h5, which "
+                           "must have that name",
                            study);
     if (fracas_cli_alone(study))
         return fracas_fail(FRACAS_DAMAGED,
