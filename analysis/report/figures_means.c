@@ -469,7 +469,7 @@ static void name_chart(const means_plot *plot, size_t drawing, fracas_chart *cha
     if (plot->axes->drawings.count > 0 && plot->n > 0)
         fracas_columns_label(plot->analysis->table, &plot->axes->drawings, plot->mark->point, label,
                              sizeof label);
-    FRACAS_PRINT(chart->title, "%.120s against %s%s%s",
+    FRACAS_PRINT(chart->title, "%.70s against %.70s%s%.100s",
                  plot->of == FRACAS_MEANS_OTHER ? plot->ordinate.words : texts[plot->of].title,
                  plot->axes->words, *label ? ", " : "", label);
     chart->title[0] = (char)toupper((unsigned char)chart->title[0]);
