@@ -59,118 +59,6 @@ static fracas_err read_list(fracas_gmsh_mesh *m, int64_t *count, int32_t *last)
 
 /* ---- physical groups ---- */
 
-static bool has_key(int32_t group)
-{
-    return group > 0 && group < FRACAS_EDGES;
-}
-
-int32_t fracas_gmsh_choose(int32_t a, int32_t b)
-{
-    if (a == b || (has_key(a) && !has_key(b))) return a;
-    if (has_key(b)) return has_key(a) ? 0 : b;
-    return a < b ? a : b;
-}
-
-/* The number of a group of curves: that of the key of which it has the name. Gmsh turns a curve of
- * a group round by a minus. */
-static int32_t key_of(const fracas_surface_group *named, size_t count, int32_t group)
-{
-    const int32_t number = group < 0 && group > INT32_MIN ? -group : group;
-    for (size_t g = 0; g < count; g++) {
-        const char *name = named[g].name;
-        if (named[g].number == number && !strncmp(name, "edge_", 5) && name[5] > '0' &&
-            name[5] < '0' + FRACAS_EDGES && !name[6])
-            return name[5] - '0';
-    }
-    return number;
-}
-
-static int32_t number_of(const fracas_gmsh_mesh *m, int32_t group)
-{
-    return key_of(m->group, m->ngroups, group);
-}
-
-/* The first curves of a section of names from `at` on: dimension, number, "name"; other lines are
- * passed over. *at goes behind them; false: none is left before `end`. */
-static bool next_group(const char *text, size_t end, size_t *at, fracas_surface_group *group)
-{
-    while (*at < end) {
-        char line[128];
-        int32_t dimension;
-        const char *stop = memchr(text + *at, '\n', end - *at);
-        const size_t length = stop ? (size_t)(stop - text) - *at : end - *at;
-        snprintf(line, sizeof line, "%.*s", (int)(length < sizeof line ? length : sizeof line),
-                 text + *at);
-        *at += length + 1;
-        if (sscanf(line, "%" SCNd32 " %" SCNd32 " \"%63[^\"]", &dimension, &group->number,
-                   group->name) == 3 &&
-            dimension == 1)
-            return true;
-    }
-    return false;
-}
-
-/* The section of names, outside of comments; NULL: there is none. */
-static const char *find_names(const char *text, size_t size)
-{
-    static const char begin[] = "$PhysicalNames", comments[] = "$Comments", end[] = "$EndComments";
-    const char *from = text;
-    for (;; from++) {
-        const size_t left = size - (size_t)(from - text);
-        const char *names = memmem(from, left, begin, strlen(begin)),
-                   *comment = memmem(from, left, comments, strlen(comments));
-        if (!names) return NULL;
-        const bool commented = comment && comment < names;
-        if (!commented && (names == text || names[-1] == '\n')) return names;
-        from = commented ? memmem(comment, size - (size_t)(comment - text), end, strlen(end))
-                         : names;
-        if (!from) return NULL;
-    }
-}
-
-bool fracas_gmsh_group_name(const char *text, size_t size, size_t i, char name[64])
-{
-    static const char end[] = "$EndPhysicalNames";
-    const char *from = find_names(text, size);
-    if (!from) return false;
-    size_t at = (size_t)(from - text);
-    const char *to = memmem(from, size - at, end, strlen(end));
-    fracas_surface_group group;
-    for (size_t g = 0; to && next_group(text, (size_t)(to - text), &at, &group); g++) {
-        if (g < i) continue;
-        memcpy(name, group.name, sizeof group.name);
-        return true;
-    }
-    return false;
-}
-
-fracas_err fracas_gmsh_group(const char *text, size_t size, const char *name, int32_t *number,
-                             bool *shared)
-{
-    static const char end[] = "$EndPhysicalNames";
-    *number = 0;
-    *shared = false;
-    const char *from = find_names(text, size);
-    if (!from) return FRACAS_OK;
-    size_t at = (size_t)(from - text), count = 0;
-    const char *to = memmem(from, size - at, end, strlen(end));
-    if (!to) return FRACAS_OK; /* an error of the mesh */
-    const size_t stop = (size_t)(to - text);
-    OWNED fracas_surface_group *group = malloc((stop - at) / 6 * sizeof *group + sizeof *group);
-    if (!group) return fracas_no_memory("the names of a mesh"); /* a line has 6 bytes at least */
-    while (next_group(text, stop, &at, &group[count])) count++;
-    int32_t own = 0;
-    for (size_t g = 0; g < count; g++) {
-        if (strcmp(group[g].name, name) != 0 || has_key(*number)) continue;
-        own = group[g].number;
-        *number = key_of(group, count, own);
-    }
-    for (size_t g = 0; g < count; g++)
-        *shared = *shared ||
-                  (group[g].number != own && key_of(group, count, group[g].number) == *number);
-    return FRACAS_OK;
-}
-
 /* Their number, then a line each. */
 static fracas_err read_names(fracas_gmsh_mesh *m)
 {
@@ -182,7 +70,8 @@ static fracas_err read_names(fracas_gmsh_mesh *m)
     m->group = malloc((lines + 1) * sizeof *m->group);
     if (!m->group) return fracas_no_memory("the names of a mesh");
     for (size_t at = begin; m->ngroups < lines;)
-        if (next_group(m->scan.text, m->scan.at, &at, &m->group[m->ngroups])) m->ngroups++;
+        if (fracas_gmsh_next_group(m->scan.text, m->scan.at, &at, &m->group[m->ngroups]))
+            m->ngroups++;
         else break;
     return FRACAS_OK;
 }
@@ -202,7 +91,7 @@ static fracas_err read_groups(fracas_gmsh_mesh *m, int dimension, int32_t *group
     TRY(fracas_gmsh_fits(&m->scan, count, 1));
     for (int64_t i = 0; i < count; i++) {
         TRY(fracas_gmsh_ints(&m->scan, 1, &one));
-        one = number_of(m, one);
+        one = fracas_gmsh_key_of(m->group, m->ngroups, one);
         const int32_t before = *group;
         *group = i ? fracas_gmsh_choose(before, one) : one;
         if (i && *group == 0) clash[0] = before, clash[1] = one;
@@ -426,7 +315,9 @@ static fracas_err read_element(fracas_gmsh_mesh *m, int32_t type, size_t bytes, 
                                 number, tag);
     if ((type == GMSH_LINE || type == GMSH_LINE_3) && tag != 0)
         m->line[m->nlines++] = (fracas_gmsh_line){
-            .node = {node[0], node[1]}, .element = number, .tag = number_of(m, tag)};
+            .node = {node[0], node[1]},
+            .element = number,
+            .tag = fracas_gmsh_key_of(m->group, m->ngroups, tag)};
     if (type != GMSH_TRIANGLE && type != GMSH_TRIANGLE_6) return FRACAS_OK;
     const int order = type == GMSH_TRIANGLE ? 1 : 2;
     if (m->order != 0 && m->order != order)

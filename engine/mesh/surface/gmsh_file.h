@@ -45,6 +45,16 @@ const fracas_gmsh_entry *fracas_gmsh_find(const fracas_gmsh_entry *all, size_t c
  * where both have one. */
 int32_t fracas_gmsh_choose(int32_t a, int32_t b);
 
+/* ---- names (gmsh_names.c) ---- */
+
+/* The number of a group of curves: the one of a key with its name, or else its own. Gmsh turns a
+ * curve of a group round by a minus. */
+int32_t fracas_gmsh_key_of(const fracas_surface_group *named, size_t count, int32_t group);
+
+/* The first curves of a section of names from `at` on: dimension, number, "name"; other lines are
+ * passed over. *at goes behind them; false: none is left before `end`. */
+bool fracas_gmsh_next_group(const char *text, size_t end, size_t *at, fracas_surface_group *group);
+
 /* Name number i, from 0, of the physical groups of curves in the text of a file; false after the
  * last. */
 bool fracas_gmsh_group_name(const char *text, size_t size, size_t i, char name[64]);
