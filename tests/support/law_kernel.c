@@ -2,21 +2,7 @@
 #include "tests/support/law_point.h"
 
 #include "engine/cohesive/kernels.h"
-
-/* Lane l of one field, `step` bytes apart. */
-LANES_FUNCTION vd gathered(const double *first, size_t step)
-{
-    _Alignas(64) double lanes[LANES];
-    for (int l = 0; l < LANES; l++) lanes[l] = *(const double *)((const char *)first + l * step);
-    return lanes_load(lanes);
-}
-
-LANES_FUNCTION void scatter(double *first, size_t step, vd from)
-{
-    _Alignas(64) double lanes[LANES];
-    lanes_store(lanes, from);
-    for (int l = 0; l < LANES; l++) *(double *)((char *)first + l * step) = lanes[l];
-}
+#include "tests/support/lanes_of.h"
 
 #define OF(lanes, field) gathered(&(lanes)->field, sizeof *(lanes))
 #define INTO(field, from) scatter(&out->field, sizeof *out, from)

@@ -2,21 +2,7 @@
 #include "tests/support/plane_point.h"
 
 #include "engine/cohesive/kernels.h"
-
-/* One field of each lane's struct, `step` bytes apart. */
-LANES_FUNCTION vd gathered(const double *first, size_t step)
-{
-    _Alignas(64) double lanes[LANES];
-    for (int l = 0; l < LANES; l++) lanes[l] = *(const double *)((const char *)first + l * step);
-    return lanes_load(lanes);
-}
-
-LANES_FUNCTION void scatter(double *first, size_t step, vd from)
-{
-    _Alignas(64) double lanes[LANES];
-    lanes_store(lanes, from);
-    for (int l = 0; l < LANES; l++) *(double *)((char *)first + l * step) = lanes[l];
-}
+#include "tests/support/lanes_of.h"
 
 #define OF(lanes, field) .field = gathered(&(lanes)->field, sizeof *(lanes))
 #define INTO(lanes, from, field) scatter(&(lanes)->field, sizeof *(lanes), (from).field)
