@@ -139,20 +139,12 @@ fracas_err fracas_cli_run_study(const fracas_arguments *arguments)
 
 /* ---- run ---- */
 
-/* Before anything is computed; other errors of the file are the run's to say. */
-static fracas_err check_report(const char *file)
-{
-    OWN(fracas_campaign) campaign = NULL;
-    if (fracas_run_is_rank() || fracas_campaign_read(file, &campaign)) return FRACAS_OK;
-    return fracas_cli_check_report(file, campaign);
-}
-
 static fracas_err run(const fracas_arguments *arguments)
 {
     fracas_run_options run;
     TRY(fracas_cli_read_run_options(arguments, &run));
     run.file = arguments->operand;
-    TRY(check_report(run.file));
+    run.check = fracas_cli_check_report;
     return fracas_cli_run(&run, arguments->argc, arguments->argv);
 }
 

@@ -56,6 +56,7 @@ static fracas_err examine(const fracas_run_options *options, const fracas_starte
     char study[4096];
     int64_t failed = 0;
     TRY(fracas_run_campaign(options, &campaign));
+    if (options->check) TRY(options->check(options->file, campaign));
     TRY(fracas_study_folder(options, campaign, study, sizeof study));
     TRY(fracas_study_examine(study, campaign, options->force, settled, &failed));
     *result = failed ? fracas_failure_report(study, NULL, &campaign->table) : FRACAS_OK;

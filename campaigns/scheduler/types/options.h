@@ -16,11 +16,15 @@ typedef enum {
 } fracas_isolation;
 extern const char *const fracas_isolation_name[2]; /* "lease", "none" */
 
+struct fracas_campaign;
+
 typedef struct {
     const char *file;  /* campaign file */
     const char *study; /* study folder; NULL: studies/<name> */
-    int jobs;          /* MPI ranks; 0: one a core */
-    int width;         /* lanes of a batch: 1, 4, 8; 0: by the number of realizations */
+    /* Further check of the campaign before anything is computed; NULL: none. */
+    fracas_err (*check)(const char *file, const struct fracas_campaign *campaign);
+    int jobs;  /* MPI ranks; 0: one a core */
+    int width; /* lanes of a batch: 1, 4, 8; 0: by the number of realizations */
     fracas_isa isa;
     double segment_age;   /* a segment is written at this age [s] ... */
     double segment_bytes; /* ... or at this size */
