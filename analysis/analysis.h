@@ -56,6 +56,10 @@ FRACAS_MUST_USE fracas_err fracas_analysis_write_json(const fracas_analysis *ana
 FRACAS_MUST_USE fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study,
                                                const char *folder, int refresh);
 
+/* FRACAS_USAGE if the folder has a file that fracas_export_write would replace, and no report or
+ * export wrote it. */
+FRACAS_MUST_USE fracas_err fracas_export_free(const char *folder, bool histories);
+
 /* A Frictionless Data Package in `folder`, made if it is not there: points.csv, realizations.csv,
  * fragments.csv, statistics.csv, energies.csv, convergence.csv, with `histories` histories.csv, and
  * at last datapackage.json, the schema of each (docs/formats/export.md). Equal bytes for equal

@@ -54,6 +54,12 @@ static inline bool fracas_value_same(const fracas_value *a, const fracas_value *
     return !strcmp(a->text, b->text) && (a->real == b->real || (isnan(a->real) && isnan(b->real)));
 }
 
+/* The point has no such value. */
+static inline bool fracas_value_absent(const fracas_value *value)
+{
+    return isnan(value->real) && !*value->text;
+}
+
 /* True if a column, not a derived one, varies over the points. */
 static inline bool fracas_point_table_varies(const fracas_point_table *table, size_t column)
 {

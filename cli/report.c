@@ -228,15 +228,6 @@ static const fracas_option export_options[] = {
     {"histories", NULL, "energies over time of every realization, too: histories.csv"},
     {0}};
 
-/* A folder that a user named has no files of the user's own where the export writes. */
-static fracas_err check_free(const char *folder, bool histories)
-{
-    static const char *const name[] = {"datapackage.json", "points.csv",     "realizations.csv",
-                                       "fragments.csv",    "statistics.csv", "energies.csv",
-                                       "convergence.csv",  "histories.csv"};
-    return fracas_output_free(folder, name, FRACAS_COUNT(name) - !histories);
-}
-
 static fracas_err export(const fracas_arguments *arguments)
 {
     const bool histories = fracas_given(arguments, "histories") != NULL;
@@ -247,7 +238,7 @@ static fracas_err export(const fracas_arguments *arguments)
     TRY(fracas_output_folder_in(fracas_given(arguments, "to"), arguments->operand, "export",
                                 &folder));
     if (fracas_given(arguments, "to") || fracas_cli_alone(arguments->operand))
-        TRY(check_free(folder, histories));
+        TRY(fracas_export_free(folder, histories));
     TRY(fracas_export_write(analysis, folder, histories));
     printf("export: %s/datapackage.json\n", folder);
     return FRACAS_OK;

@@ -196,8 +196,7 @@ void fracas_columns_value(const fracas_point_table *table, size_t column, size_t
 
 static bool is_absent(const fracas_point_table *table, size_t column, size_t point)
 {
-    const fracas_value *value = &table->point[point].value[column];
-    return table->column[column].text ? *value->text == '\0' : isnan(value->real);
+    return fracas_value_absent(&table->point[point].value[column]);
 }
 
 static bool takes_prefix(const char *unit)
@@ -255,13 +254,18 @@ static bool differs(const fracas_point_table *table, size_t column)
     return false;
 }
 
+bool fracas_columns_serves(const char *path)
+{
+    return !strncmp(path, "mesh.", 5) || !strncmp(path, "time.", 5);
+}
+
 void fracas_columns_beside(const fracas_point_table *table, const fracas_columns *columns,
                            char *text, size_t size)
 {
     text[0] = '\0';
     for (size_t c = 0; c < table->ncolumns; c++) {
         const char *path = table->column[c].path;
-        bool known = !strncmp(path, "mesh.", 5) || !strncmp(path, "time.", 5) || rank_of(path) < 0;
+        bool known = fracas_columns_serves(path) || rank_of(path) < 0;
         for (size_t i = 0; i < columns->count; i++) known = known || columns->column[i] == c;
         if (!known && differs(table, c)) fracas_append(text, size, ", ", "%s", path);
     }

@@ -69,6 +69,9 @@ void fracas_columns_value(const fracas_point_table *table, size_t column, size_t
 void fracas_columns_beside(const fracas_point_table *table, const fracas_columns *columns,
                            char *text, size_t size);
 
+/* True of parameters of mesh and time, which serve the others. */
+bool fracas_columns_serves(const char *path);
+
 /* True if both points have equal values in all of these columns. */
 bool fracas_columns_same(const fracas_point_table *table, const fracas_columns *columns, size_t a,
                          size_t b);

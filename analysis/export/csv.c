@@ -38,3 +38,13 @@ fracas_err fracas_csv_file(const fracas_csv_table *table, const fracas_analysis 
     putc('\n', output.file);
     return fracas_output_close(&output, table->rows(table, analysis, output.file));
 }
+
+fracas_err fracas_csv_free(const fracas_csv_table *const *table, const char *folder)
+{
+    for (; *table; table++) {
+        char name[64];
+        FRACAS_PRINT(name, "%s.csv", (*table)->name);
+        TRY(fracas_output_free(folder, &(const char *){name}, 1));
+    }
+    return FRACAS_OK;
+}

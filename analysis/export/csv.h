@@ -50,4 +50,9 @@ void fracas_csv_fields(const fracas_csv_table *table, const fracas_analysis *ana
 FRACAS_MUST_USE fracas_err fracas_csv_file(const fracas_csv_table *table,
                                            const fracas_analysis *analysis, const char *folder);
 
+/* FRACAS_USAGE if the folder has a file of one of these tables, up to a NULL, and no report or
+ * export wrote it (fracas_output_free). */
+FRACAS_MUST_USE fracas_err fracas_csv_free(const fracas_csv_table *const *table,
+                                           const char *folder);
+
 #endif

@@ -153,19 +153,32 @@ static fracas_err remove_package(const char *folder)
     return FRACAS_OK;
 }
 
+enum { TABLES = 7 };
+
+/* The tables of an export, up to a NULL. */
+static void choose_tables(bool histories, const fracas_csv_table *table[TABLES + 1])
+{
+    const fracas_csv_table *const all[TABLES] = {
+        &fracas_csv_table_points,     &fracas_csv_table_realizations, &fracas_csv_table_fragments,
+        &fracas_csv_table_statistics, &fracas_csv_table_energies,     &fracas_csv_table_convergence,
+        &fracas_csv_table_histories};
+    for (size_t i = 0; i <= TABLES; i++)
+        table[i] = i < (histories ? TABLES : TABLES - 1) ? all[i] : NULL;
+}
+
+fracas_err fracas_export_free(const char *folder, bool histories)
+{
+    const fracas_csv_table *table[TABLES + 1];
+    choose_tables(histories, table);
+    TRY(fracas_output_free(folder, &(const char *){package_file}, 1));
+    return fracas_csv_free(table, folder);
+}
+
 fracas_err fracas_export_write(const fracas_analysis *analysis, const char *folder, bool histories)
 {
-    const fracas_csv_table *const table[] = {
-        &fracas_csv_table_points,
-        &fracas_csv_table_realizations,
-        &fracas_csv_table_fragments,
-        &fracas_csv_table_statistics,
-        &fracas_csv_table_energies,
-        &fracas_csv_table_convergence,
-        histories ? &fracas_csv_table_histories : NULL,
-        NULL,
-    };
+    const fracas_csv_table *table[TABLES + 1];
     fracas_output_file output;
+    choose_tables(histories, table);
     TRY(fracas_output_folder(folder));
     TRY(remove_package(folder));
     for (size_t i = 0; table[i]; i++) TRY(fracas_csv_file(table[i], analysis, folder));

@@ -44,9 +44,7 @@ static bool has_column(const fracas_number *number, const fracas_analysis *analy
     if (!number->column) return false;
     if (number->where == FRACAS_WITH_SURFACES) return fracas_analysis_any_surface(analysis);
     if (number->where == FRACAS_ALWAYS) return true;
-    for (size_t p = 0; p < analysis->table->npoints; p++)
-        if (fracas_number_mean(number, &analysis->point[p])->mean > 0) return true;
-    return false;
+    return fracas_number_above_0(number, analysis->point, analysis->table->npoints);
 }
 
 static bool any_chain(const fracas_analysis *analysis)

@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mean sizes and counts against the abscissa of the axes. */
-#include "analysis/report/figures.h"
+#include "analysis/report/means_plot.h"
 
-#include "analysis/scaling/scaling.h"
 #include "analysis/data/format.h"
 #include "base/own.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,74 +14,33 @@ enum { LAW_VALUES = 80, TALL = FRACAS_FIGURE_TALL };
 
 static const size_t ALL_SERIES = SIZE_MAX;
 
-typedef struct {
-    size_t point;
-    size_t series;  /* for the whole figure, in the order of first points */
-    size_t drawing; /* likewise */
-    char name[128]; /* slopes and crossovers know its series by this */
-} mean_mark;
-
-/* Marks of a figure, or of one of its drawings. */
-typedef struct {
-    const fracas_analysis *analysis;
-    const fracas_means_axes *axes;
-    fracas_means of;
-    fracas_ordinate ordinate;
-    double factor;     /* from the SI value to the axis */
-    size_t n, nseries; /* nseries: for the whole figure */
-    mean_mark *mark;
-    double x[2]; /* least and greatest of the whole figure */
-    fracas_size_slope *slope;
-    size_t nslopes;
-    fracas_size_crossover *crossover;
-    size_t ncrossovers;
-} means_plot;
-
-static void means_plot_clear(means_plot *plot)
+static void fracas_means_plot_clear(fracas_means_plot *plot)
 {
     free(plot->mark);
     free(plot->slope);
     free(plot->crossover);
 }
 
-static bool is_normalised(const means_plot *plot)
-{
-    return plot->of == FRACAS_MEANS_NORMALISED;
-}
-
-static const fracas_point_statistics *statistics_of(const means_plot *plot, size_t mark)
-{
-    return &plot->analysis->point[plot->mark[mark].point];
-}
-
-static bool has_mean(const means_plot *plot, size_t point)
-{
-    const double x = plot->analysis->axes.value[point];
-    double low, high;
-    return isfinite(x) && (!plot->analysis->axes.log || x > 0) &&
-           isfinite(
-               fracas_ordinate_at(&plot->ordinate, &plot->analysis->point[point], &low, &high));
-}
-
-static bool has_scales(const means_plot *plot, size_t point)
+static bool has_scales(const fracas_means_plot *plot, size_t point)
 {
     const fracas_point_statistics *statistics = &plot->analysis->point[point];
-    return has_mean(plot, point) && !statistics->surface && isfinite(statistics->scales.size) &&
-           isfinite(statistics->scales.rate);
+    return fracas_means_has(plot, point) && !statistics->surface &&
+           isfinite(statistics->scales.size) && isfinite(statistics->scales.rate);
 }
 
-static bool mark_has_scales(const means_plot *plot, size_t mark)
+static bool mark_has_scales(const fracas_means_plot *plot, size_t mark)
 {
     return has_scales(plot, plot->mark[mark].point);
 }
 
 /* Rate and size that are 1 on the axes. */
-static fracas_scales units_of(const means_plot *plot, const fracas_scales *scales)
+static fracas_scales units_of(const fracas_means_plot *plot, const fracas_scales *scales)
 {
-    return is_normalised(plot) ? *scales : (fracas_scales){.rate = 1, .size = 1 / plot->factor};
+    return fracas_means_normalised(plot) ? *scales
+                                         : (fracas_scales){.rate = 1, .size = 1 / plot->factor};
 }
 
-static double x_of(const means_plot *plot, size_t point)
+static double x_of(const fracas_means_plot *plot, size_t point)
 {
     return plot->axes->value[point] / units_of(plot, &plot->analysis->point[point].scales).rate;
 }
@@ -91,15 +48,16 @@ static double x_of(const means_plot *plot, size_t point)
 /* ---- series and drawings ---- */
 
 /* Marks with their series and drawings; a drawing has at most FRACAS_MEANS_SERIES series. */
-static void number_marks(const size_t *series, const size_t *drawing, means_plot *plot)
+static void number_marks(const size_t *series, const size_t *drawing, fracas_means_plot *plot)
 {
     const size_t nchunks = (plot->nseries + FRACAS_MEANS_SERIES - 1) / FRACAS_MEANS_SERIES;
     for (size_t p = 0; p < plot->analysis->table->npoints; p++) {
-        if (is_normalised(plot) ? !has_scales(plot, p) : !has_mean(plot, p)) continue;
+        if (fracas_means_normalised(plot) ? !has_scales(plot, p) : !fracas_means_has(plot, p))
+            continue;
         const double x = x_of(plot, p);
         plot->x[0] = plot->n ? fmin(plot->x[0], x) : x;
         plot->x[1] = plot->n ? fmax(plot->x[1], x) : x;
-        plot->mark[plot->n++] = (mean_mark){
+        plot->mark[plot->n++] = (fracas_mean_mark){
             .point = p,
             .series = series[p],
             .drawing = drawing[p] * nchunks + series[p] / FRACAS_MEANS_SERIES};
@@ -107,7 +65,7 @@ static void number_marks(const size_t *series, const size_t *drawing, means_plot
 }
 
 /* Numbers drawings anew from 0, without gaps; returns how many there are. */
-static size_t number_drawings(means_plot *plot)
+static size_t number_drawings(fracas_means_plot *plot)
 {
     size_t count = 0;
     for (size_t low = 0;; count++) {
@@ -122,7 +80,7 @@ static size_t number_drawings(means_plot *plot)
     }
 }
 
-static fracas_err find_marks(means_plot *plot, size_t *ndrawings)
+static fracas_err find_marks(fracas_means_plot *plot, size_t *ndrawings)
 {
     const fracas_point_table *table = plot->analysis->table;
     OWNED size_t *series = calloc(2 * table->npoints + 1, sizeof *series);
@@ -137,7 +95,7 @@ static fracas_err find_marks(means_plot *plot, size_t *ndrawings)
 }
 
 /* Against the rate: fitted powers and crossovers, and the names of their series. */
-static fracas_err find_fits(means_plot *plot)
+static fracas_err find_fits(fracas_means_plot *plot)
 {
     FRACAS_CLEARED(fracas_columns) rates = {0};
     if (!plot->axes->rate || plot->of == FRACAS_MEANS_OTHER) return FRACAS_OK;
@@ -147,12 +105,13 @@ static fracas_err find_fits(means_plot *plot)
                              sizeof plot->mark[m].name);
     if (plot->of == FRACAS_MEANS_COUNT)
         return fracas_count_slopes(plot->analysis, true, &plot->slope, &plot->nslopes);
-    if (!is_normalised(plot)) TRY(fracas_size_slopes(plot->analysis, &plot->slope, &plot->nslopes));
+    if (!fracas_means_normalised(plot))
+        TRY(fracas_size_slopes(plot->analysis, &plot->slope, &plot->nslopes));
     return fracas_size_crossovers(plot->analysis, false, &plot->crossover, &plot->ncrossovers);
 }
 
 /* The first mark of a series; SIZE_MAX: it has none here. */
-static size_t first_of(const means_plot *plot, size_t series)
+static size_t first_of(const fracas_means_plot *plot, size_t series)
 {
     for (size_t m = 0; m < plot->n; m++)
         if (plot->mark[m].series == series) return m;
@@ -162,8 +121,8 @@ static size_t first_of(const means_plot *plot, size_t series)
 /* ---- marks ---- */
 
 /* The marks of a series. */
-static fracas_err add_means(const means_plot *plot, const fracas_ordinate *ordinate, size_t number,
-                            fracas_panel *panel)
+static fracas_err add_means(const fracas_means_plot *plot, const fracas_ordinate *ordinate,
+                            size_t number, fracas_panel *panel)
 {
     fracas_series *series;
     TRY(fracas_panel_add(panel, FRACAS_MARKS, (unsigned)number, plot->n, &series));
@@ -171,7 +130,7 @@ static fracas_err add_means(const means_plot *plot, const fracas_ordinate *ordin
     series->n = 0;
     for (size_t m = 0; m < plot->n; m++) {
         if (plot->mark[m].series != number) continue;
-        const fracas_point_statistics *statistics = statistics_of(plot, m);
+        const fracas_point_statistics *statistics = fracas_means_statistics(plot, m);
         double low, high;
         const double value = fracas_ordinate_at(ordinate, statistics, &low, &high);
         const double unit = units_of(plot, &statistics->scales).size;
@@ -187,19 +146,12 @@ static fracas_err add_means(const means_plot *plot, const fracas_ordinate *ordin
     return FRACAS_OK;
 }
 
-/* Lines from mark to mark for the eye; none where laws and powers of the rate are, nor against a
- * text. */
-static bool has_lines(const means_plot *plot)
-{
-    return !plot->axes->nnames && (!plot->axes->rate || plot->of == FRACAS_MEANS_OTHER);
-}
-
 /* None where two marks have one abscissa. */
-static fracas_err join_means(const means_plot *plot, fracas_panel *panel)
+static fracas_err join_means(const fracas_means_plot *plot, fracas_panel *panel)
 {
     const size_t marks = panel->nseries - 1;
     fracas_series *line;
-    if (!has_lines(plot)) return FRACAS_OK;
+    if (!fracas_means_joined(plot)) return FRACAS_OK;
     const size_t n = panel->series[marks].n;
     TRY(fracas_panel_add(panel, FRACAS_CURVE, panel->series[marks].look, n, &line));
     const fracas_series *of = &panel->series[marks];
@@ -222,7 +174,7 @@ static fracas_err join_means(const means_plot *plot, fracas_panel *panel)
 /* ---- laws of the strain rate ---- */
 
 /* A curve over the rates of all marks and a factor of two beyond, without its y. */
-static fracas_err add_curve(const means_plot *plot, unsigned look, fracas_panel *panel,
+static fracas_err add_curve(const fracas_means_plot *plot, unsigned look, fracas_panel *panel,
                             fracas_series **series)
 {
     TRY(fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, series));
@@ -232,25 +184,25 @@ static fracas_err add_curve(const means_plot *plot, unsigned look, fracas_panel 
     return FRACAS_OK;
 }
 
-static fracas_err add_law(const means_plot *plot, fracas_scaling_law_id law,
+static fracas_err add_law(const fracas_means_plot *plot, fracas_scaling_law_id law,
                           const fracas_scales *scales, unsigned look, fracas_panel *panel)
 {
     fracas_series *series;
     TRY(add_curve(plot, look, panel, &series));
     FRACAS_PRINT(series->name, "%s", fracas_scaling_laws[law].name);
     for (size_t i = 0; i < LAW_VALUES; i++)
-        series->y[i] = is_normalised(plot)
+        series->y[i] = fracas_means_normalised(plot)
                            ? fracas_scaling_laws[law].normalised(series->x[i], scales->modulus)
                            : fracas_scaling_law_at(law, scales, series->x[i]) * plot->factor;
     return FRACAS_OK;
 }
 
 /* True if one curve of a scaling law serves all marks of a series, or of ALL_SERIES. */
-static bool same_scales(const means_plot *plot, size_t series)
+static bool same_scales(const fracas_means_plot *plot, size_t series)
 {
     const fracas_scales *first = NULL;
     for (size_t m = 0; m < plot->n; m++) {
-        const fracas_scales *scales = &statistics_of(plot, m)->scales;
+        const fracas_scales *scales = &fracas_means_statistics(plot, m)->scales;
         if (!mark_has_scales(plot, m) || (series != ALL_SERIES && plot->mark[m].series != series))
             continue;
         if (first && (first->size != scales->size || first->rate != scales->rate)) return false;
@@ -261,24 +213,26 @@ static bool same_scales(const means_plot *plot, size_t series)
 
 /* True if the law is a number, and one curve of it serves all marks: Mott's only where all
  * strengths have one modulus. */
-static bool law_serves(const means_plot *plot, fracas_scaling_law_id law,
+static bool law_serves(const fracas_means_plot *plot, fracas_scaling_law_id law,
                        const fracas_scales *scales)
 {
     if (!isfinite(fracas_scaling_laws[law].normalised(1, scales->modulus))) return false;
     for (size_t m = 0; law == FRACAS_LAW_MOTT && m < plot->n; m++)
-        if (mark_has_scales(plot, m) && statistics_of(plot, m)->scales.modulus != scales->modulus)
+        if (mark_has_scales(plot, m) &&
+            fracas_means_statistics(plot, m)->scales.modulus != scales->modulus)
             return false;
     return true;
 }
 
 /* All laws where one curve each serves all marks; else ZMR in the colour of each series it serves.
  * None for surfaces, and none against anything but the rate. */
-static fracas_err add_laws(const means_plot *plot, size_t number, bool *drawn, fracas_panel *panel)
+static fracas_err add_laws(const fracas_means_plot *plot, size_t number, bool *drawn,
+                           fracas_panel *panel)
 {
     const size_t first = first_of(plot, number);
-    const fracas_scales *scales = &statistics_of(plot, first)->scales;
+    const fracas_scales *scales = &fracas_means_statistics(plot, first)->scales;
     if (!plot->axes->rate || !mark_has_scales(plot, first) || *drawn) return FRACAS_OK;
-    if (is_normalised(plot) || same_scales(plot, ALL_SERIES)) {
+    if (fracas_means_normalised(plot) || same_scales(plot, ALL_SERIES)) {
         *drawn = true;
         for (unsigned law = 0; law < FRACAS_SCALING_LAWS; law++)
             if (law_serves(plot, (fracas_scaling_law_id)law, scales))
@@ -293,7 +247,7 @@ static fracas_err add_laws(const means_plot *plot, size_t number, bool *drawn, f
 
 /* The look of the series that slopes and crossovers know by this name; false: it has no marks here.
  */
-static bool look_of(const means_plot *plot, const char *name, bool only, unsigned *look)
+static bool look_of(const fracas_means_plot *plot, const char *name, bool only, unsigned *look)
 {
     *look = 0;
     if (only) return true;
@@ -304,7 +258,7 @@ static bool look_of(const means_plot *plot, const char *name, bool only, unsigne
     return false;
 }
 
-static bool series_has_scales(const means_plot *plot, unsigned series)
+static bool series_has_scales(const fracas_means_plot *plot, unsigned series)
 {
     for (size_t m = 0; m < plot->n; m++)
         if (plot->mark[m].series == series && mark_has_scales(plot, m)) return true;
@@ -314,7 +268,7 @@ static bool series_has_scales(const means_plot *plot, unsigned series)
 /* The fitted line of each series, in the colour of its marks; sizes only of those that have no
  * laws.
  */
-static fracas_err add_slopes(const means_plot *plot, fracas_panel *panel)
+static fracas_err add_slopes(const fracas_means_plot *plot, fracas_panel *panel)
 {
     const bool only = plot->nseries == 1 && plot->axes->drawings.count == 0,
                beside_laws = plot->of == FRACAS_MEANS_COUNT;
@@ -334,7 +288,7 @@ static fracas_err add_slopes(const means_plot *plot, fracas_panel *panel)
 }
 
 /* The fitted crossover of each series, in the colour of its marks. */
-static fracas_err add_crossovers(const means_plot *plot, fracas_panel *panel)
+static fracas_err add_crossovers(const fracas_means_plot *plot, fracas_panel *panel)
 {
     const bool only = plot->ncrossovers == 1;
     for (size_t i = 0; i < plot->ncrossovers; i++) {
@@ -353,186 +307,10 @@ static fracas_err add_crossovers(const means_plot *plot, fracas_panel *panel)
     return FRACAS_OK;
 }
 
-/* ---- words ---- */
-
-static fracas_number_text replicas_text(const means_plot *plot)
-{
-    const fracas_analysis *analysis = plot->analysis;
-    size_t least = SIZE_MAX, most = 0; /* replicas a mark */
-    for (size_t p = 0; p < analysis->table->npoints; p++) {
-        const size_t n = (size_t)analysis->point[p].size.n;
-        if (!has_mean(plot, p)) continue;
-        least = n < least ? n : least;
-        most = n > most ? n : most;
-    }
-    return fracas_figure_range(least, most);
-}
-
-static const char *lines_of(const means_plot *plot)
-{
-    return has_lines(plot) ? " Lines join the marks of a series." : "";
-}
-
-static void caption_of_size(const means_plot *plot, fracas_chart *chart)
-{
-    const fracas_number_text n = replicas_text(plot);
-    const bool rate = plot->axes->rate, normalised = is_normalised(plot);
-    if (fracas_analysis_all_surfaces(plot->analysis)) {
-        FRACAS_PRINT(chart->caption,
-                     "Mean over replicas (n = %s) of the mean square root of a fragment\u2019s "
-                     "area, dust included; bars: 95 %% interval of the mean (Student\u2019s t over "
-                     "replicas).%s%s",
-                     n.text, lines_of(plot),
-                     rate ? " Lines: powers of the rate, and a crossover where there is one, "
-                            "fitted to the marks of the same colour. The scaling laws are of bars "
-                            "and rings."
-                          : "");
-        return;
-    }
-    FRACAS_PRINT(
-        chart->caption,
-        "%sMean over replicas (n = %s) of body length / fragments%s%s; bars: 95 %% interval of the "
-        "mean (Student\u2019s t over replicas).%s%s%s",
-        normalised ? "Sizes over s\u2080 = E G_c/\u03c3_c\u00b2, rates over \u03b5\u0307\u2080 "
-                     "= c \u03c3_c\u00b3/(E\u00b2 G_c), \u03c3_c the mean strength. "
-                   : "",
-        n.text,
-        !normalised && fracas_analysis_any_surface(plot->analysis)
-            ? ", of surfaces of the mean square root of their areas"
-            : "",
-        rate && !normalised && fracas_analysis_any_surface(plot->analysis)
-            ? ", with a fitted power of the rate"
-            : "",
-        lines_of(plot),
-        !rate ? ""
-        : normalised || same_scales(plot, ALL_SERIES)
-            ? " Lines: scaling laws of Zhou, Molinari and Ramesh (ZMR, ZMR-2), Grady, and Glenn "
-              "and Chudnovsky (GC); Mott\u2019s where all strengths have one Weibull modulus."
-            : " Lines: ZMR law with the material of the marks of the same colour, where these "
-              "have one.",
-        rate ? " A crossover fitted to the marks, where there is one, is a line in their colour, "
-               "too."
-             : "");
-}
-
-static void caption_of_count(const means_plot *plot, fracas_chart *chart)
-{
-    FRACAS_PRINT(
-        chart->caption,
-        "Mean over replicas (n = %s) of the number of fragments of a body, dust "
-        "included%s; bars: 95 %% interval of the mean (Student\u2019s t over replicas).%s%s",
-        replicas_text(plot).text,
-        fracas_analysis_much_dust(plot->analysis) ? ", and without it (open marks)" : "",
-        lines_of(plot),
-        plot->axes->rate
-            ? " Lines: powers of the rate fitted to the filled marks of the same colour."
-            : "");
-}
-
-static void caption_of_other(const means_plot *plot, fracas_chart *chart)
-{
-    const fracas_ordinate *of = &plot->ordinate;
-    const bool interval = of->half_width != SIZE_MAX || of->low != SIZE_MAX;
-    FRACAS_PRINT(chart->caption, "%s %.180s (n = %s)%s.%s",
-                 of->over ? "Mean over replicas of the" : "From all usable replicas together: the",
-                 of->words, replicas_text(plot).text,
-                 of->over   ? "; bars: 95 % interval of the mean (Student\u2019s t over replicas)"
-                 : interval ? "; bars: 95 % interval by resampling replicas"
-                            : "",
-                 lines_of(plot));
-}
-
-static const struct {
-    const char *file, *suffix, *title, *y;
-} texts[] = {
-    [FRACAS_MEANS_SIZE] = {"size", "", "Mean fragment size", "mean fragment size [%sm]"},
-    [FRACAS_MEANS_NORMALISED] = {"size", "-normalised", "Normalised mean fragment size",
-                                 "mean fragment size s/s\u2080"},
-    [FRACAS_MEANS_COUNT] = {"count", "", "Mean number of fragments", "mean number of fragments"},
-};
-
-/* "count-against-strength-shape-2" */
-static void name_file(const means_plot *plot, size_t drawing, fracas_chart *chart)
-{
-    const bool other = plot->of == FRACAS_MEANS_OTHER;
-    FRACAS_PRINT(chart->file, "%.24s-against-%.38s%s",
-                 other ? plot->ordinate.key : texts[plot->of].file,
-                 plot->axes->rate ? "rate" : plot->axes->key, other ? "" : texts[plot->of].suffix);
-    for (char *dot = chart->file; (dot = strpbrk(dot, "._"));) *dot = '-';
-    if (drawing > 0) fracas_append(chart->file, sizeof chart->file, "-", "%zu", drawing + 1);
-}
-
-static void name_chart(const means_plot *plot, size_t drawing, fracas_chart *chart)
-{
-    char label[128] = "";
-    name_file(plot, drawing, chart);
-    if (plot->axes->drawings.count > 0 && plot->n > 0)
-        fracas_columns_label(plot->analysis->table, &plot->axes->drawings, plot->mark->point, label,
-                             sizeof label);
-    FRACAS_PRINT(chart->title, "%.70s against %.70s%s%.100s",
-                 plot->of == FRACAS_MEANS_OTHER ? plot->ordinate.words : texts[plot->of].title,
-                 plot->axes->words, *label ? ", " : "", label);
-    chart->title[0] = (char)toupper((unsigned char)chart->title[0]);
-    if (plot->of == FRACAS_MEANS_OTHER) caption_of_other(plot, chart);
-    else if (plot->of == FRACAS_MEANS_COUNT) caption_of_count(plot, chart);
-    else caption_of_size(plot, chart);
-}
-
-/* Marks at the ends of the range do not lie on the frame. */
-static void leave_room(const double range[2], fracas_axis *axis)
-{
-    const double part = 0.04, apart = range[1] - range[0];
-    if (axis->nnames || !(apart > 0)) return;
-    axis->show[0] = axis->log      ? range[0] * pow(range[0] / range[1], part)
-                    : range[0] < 0 ? range[0] - part * apart
-                                   : fmax(0, range[0] - part * apart);
-    axis->show[1] = axis->log ? range[1] * pow(range[1] / range[0], part) : range[1] + part * apart;
-}
-
-static void label_other(const means_plot *plot, const char *sign, fracas_axis *axis)
-{
-    const fracas_ordinate *of = &plot->ordinate;
-    const bool pure = !*of->unit || !strcmp(of->unit, "1");
-    const size_t room = pure ? 44 : 36; /* characters beside a panel */
-    FRACAS_PRINT(axis->label, "%.44s", strlen(of->words) <= room ? of->words : of->key);
-    if (!pure) fracas_append(axis->label, sizeof axis->label, " ", "[%s%s]", sign, of->unit);
-}
-
-/* Sizes and counts go with powers of the rate; against anything else an axis is logarithmic if its
- * values are of several decades. */
-static void set_axes(const means_plot *plot, const char *sign, fracas_chart *chart)
-{
-    fracas_panel *panel = chart->panel;
-    const bool other = plot->of == FRACAS_MEANS_OTHER;
-    double least = INFINITY, most = -INFINITY;
-    for (size_t m = 0; m < plot->n; m++) {
-        double low, high;
-        const double mean = fracas_ordinate_at(&plot->ordinate, statistics_of(plot, m), &low,
-                                               &high);
-        least = fmin(least, mean);
-        most = fmax(most, mean);
-    }
-    panel->x.log = plot->axes->log;
-    panel->y.log = (plot->axes->rate && !other) || (least > 0 && most >= 10 * least);
-    panel->x.nnames = plot->axes->nnames;
-    panel->x.name = plot->axes->name;
-    leave_room(plot->x, &panel->x);
-    if (panel->x.log || panel->y.log) chart->offers = FRACAS_AXES_LINEAR;
-    if (is_normalised(plot))
-        FRACAS_PRINT(panel->x.label, "strain rate \u03b5\u0307/\u03b5\u0307\u2080");
-    else FRACAS_PRINT(panel->x.label, "%s", plot->axes->label);
-    const double factor = plot->factor, range[] = {least * factor, most * factor};
-    if (other && !panel->y.log) leave_room(range, &panel->y);
-    if (other) label_other(plot, sign, &panel->y);
-    else if (plot->of == FRACAS_MEANS_SIZE)
-        FRACAS_PRINT(panel->y.label, "mean fragment size [%sm]", sign);
-    else FRACAS_PRINT(panel->y.label, "%s", texts[plot->of].y);
-}
-
 /* ---- charts ---- */
 
 /* Marks with dust on those without it, where there is much. */
-static fracas_err add_counts(const means_plot *plot, size_t series, fracas_panel *panel)
+static fracas_err add_counts(const fracas_means_plot *plot, size_t series, fracas_panel *panel)
 {
     if (fracas_analysis_much_dust(plot->analysis)) {
         const fracas_ordinate large_count = fracas_ordinate_of(
@@ -546,7 +324,7 @@ static fracas_err add_counts(const means_plot *plot, size_t series, fracas_panel
     return join_means(plot, panel);
 }
 
-static fracas_err add_series(const means_plot *plot, fracas_panel *panel)
+static fracas_err add_series(const fracas_means_plot *plot, fracas_panel *panel)
 {
     bool drawn = false; /* laws for all series */
     for (size_t s = 0; s < plot->nseries; s++) {
@@ -564,20 +342,21 @@ static fracas_err add_series(const means_plot *plot, fracas_panel *panel)
 }
 
 /* The drawing of this number, by its own marks. */
-static fracas_err draw(const means_plot *whole, size_t drawing, const char *sign,
+static fracas_err draw(const fracas_means_plot *whole, size_t drawing, const char *sign,
                        fracas_chart *chart)
 {
-    means_plot plot = *whole; /* its marks alone are its own */
-    OWNED mean_mark *mark = calloc(whole->n + 1, sizeof *mark);
+    fracas_means_plot plot = *whole; /* its marks alone are its own */
+    OWNED fracas_mean_mark *mark = calloc(whole->n + 1, sizeof *mark);
     if (!mark) return fracas_no_memory("a figure");
     plot.mark = mark;
     plot.n = 0;
     for (size_t m = 0; m < whole->n; m++)
         if (whole->mark[m].drawing == drawing) mark[plot.n++] = whole->mark[m];
-    name_chart(&plot, drawing, chart);
+    plot.same_scales = same_scales(&plot, ALL_SERIES);
+    fracas_means_name(&plot, drawing, chart);
     if (plot.n == 0) return FRACAS_OK;
     fracas_panel *panel = fracas_chart_add(chart, TALL);
-    set_axes(whole, sign, chart);
+    fracas_means_set_axes(whole, sign, chart);
     return add_series(&plot, panel);
 }
 
@@ -588,7 +367,7 @@ void fracas_charts_clear(fracas_charts *charts)
     *charts = (fracas_charts){0};
 }
 
-static fracas_err make_charts(means_plot *plot, const char *sign, fracas_charts *charts)
+static fracas_err make_charts(fracas_means_plot *plot, const char *sign, fracas_charts *charts)
 {
     size_t ndrawings = 0;
     TRY(find_marks(plot, &ndrawings));
@@ -625,7 +404,7 @@ static fracas_err figure(const fracas_analysis *analysis, fracas_means of,
     fracas_prefix prefix;
     *charts = (fracas_charts){0};
     TRY(prefix_of(analysis, ordinate, &prefix));
-    FRACAS_CLEARED(means_plot)
+    FRACAS_CLEARED(fracas_means_plot)
     plot = {.analysis = analysis,
             .axes = &analysis->axes,
             .of = of,

@@ -191,27 +191,22 @@ static void say_what(const fracas_analysis *analysis, char *text, size_t size)
 
 enum { MOST_WHOLE = 100 }; /* points whose summary is whole: a whole one has some 10 kB a point */
 
+static const fracas_csv_table *const tables[] = {&fracas_csv_table_points,
+                                                 &fracas_csv_table_slopes,
+                                                 &fracas_csv_table_energies,
+                                                 &fracas_csv_table_convergence,
+                                                 &fracas_csv_table_fragments,
+                                                 &fracas_csv_table_effects,
+                                                 NULL};
+
 static fracas_err write_tables(const fracas_analysis *analysis, const char *folder,
                                const fracas_shown_fits *shown)
 {
-    static const fracas_csv_table *const table[] = {
-        &fracas_csv_table_points,      &fracas_csv_table_slopes,    &fracas_csv_table_energies,
-        &fracas_csv_table_convergence, &fracas_csv_table_fragments, &fracas_csv_table_effects};
     fracas_output_file output;
-    for (size_t i = 0; i < FRACAS_COUNT(table); i++)
-        TRY(fracas_csv_file(table[i], analysis, folder));
+    for (size_t i = 0; tables[i]; i++) TRY(fracas_csv_file(tables[i], analysis, folder));
     TRY(fracas_output_open(folder, "summary.json", &output));
     fracas_summary_write(analysis, shown, analysis->table->npoints > MOST_WHOLE, output.file);
     return fracas_output_close(&output, FRACAS_OK);
-}
-
-/* A folder that a user named has no files of the user's own. */
-static fracas_err check_free(const char *folder)
-{
-    static const char *const name[] = {"index.html",    "summary.json", "points.csv",
-                                       "slopes.csv",    "energies.csv", "convergence.csv",
-                                       "fragments.csv", "effects.csv"};
-    return fracas_output_free(folder, name, FRACAS_COUNT(name));
 }
 
 fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study,
@@ -221,7 +216,11 @@ fracas_err fracas_report_write(const fracas_analysis *analysis, const char *stud
     FRACAS_CLEARED(fracas_shown_fits) shown = {0};
     char lead[512];
     TRY(fracas_output_folder_in(wanted, study, "report", &folder));
-    if (wanted) TRY(check_free(folder));
+    if (wanted) {
+        static const char *const others[] = {"index.html", "summary.json"};
+        TRY(fracas_output_free(folder, others, FRACAS_COUNT(others)));
+        TRY(fracas_csv_free(tables, folder));
+    }
     TRY(fracas_shown_fits_read(study, analysis, &shown));
     TRY(write_tables(analysis, folder, &shown));
     say_what(analysis, lead, sizeof lead);

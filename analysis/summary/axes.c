@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/summary/study.h"
 
-#include "analysis/data/field.h"
 #include "analysis/data/format.h"
 #include "analysis/data/words.h"
 #include "base/own.h"
@@ -140,43 +139,15 @@ static fracas_err take_column(const fracas_analysis *analysis, size_t column,
     return FRACAS_OK;
 }
 
-typedef struct {
-    const char *key;
-    const fracas_analysis *analysis;
-    fracas_means_axes *axes;
-    bool found;
-} statistic;
-
-/* "number of fragments", of "number of fragments (...); ...". */
-static void take_words(const char *doc, fracas_means_axes *axes)
+static void take_statistic(const fracas_analysis *analysis, const char *key,
+                           const fracas_ordinate *of, fracas_means_axes *axes)
 {
-    const size_t length = strcspn(doc, "(,;");
-    FRACAS_PRINT(axes->words, "%.*s", (int)length, doc);
-    for (char *end = axes->words + strlen(axes->words); end > axes->words && end[-1] == ' ';)
-        *--end = '\0';
-}
-
-static void take_if_named(void *context, const fracas_field *leaf)
-{
-    statistic *wanted = context;
-    const bool number = leaf->type == FRACAS_FIELD_NUMBER,
-               whole = leaf->type == FRACAS_FIELD_INTEGER;
-    const size_t length = strlen(wanted->key);
-    const char *end = strncmp(leaf->key, wanted->key, length) ? "?" : leaf->key + length;
-    if (wanted->found || !(number || whole)) return;
-    if (*end && strcmp(end, ".mean") != 0 && strcmp(end, ".value") != 0) return;
-    const size_t npoints = wanted->analysis->table->npoints;
-    wanted->found = true;
-    for (size_t p = 0; p < npoints; p++) {
-        const char *at = (const char *)&wanted->analysis->point[p] + leaf->offset;
-        int64_t integer;
-        if (number) memcpy(&wanted->axes->value[p], at, sizeof(double));
-        else memcpy(&integer, at, sizeof integer);
-        if (whole) wanted->axes->value[p] = (double)integer;
-    }
-    FRACAS_PRINT(wanted->axes->key, "%s", leaf->key);
-    take_words(leaf->doc, wanted->axes);
-    scale(leaf->unit, npoints, wanted->axes);
+    double low, high;
+    for (size_t p = 0; p < analysis->table->npoints; p++)
+        axes->value[p] = fracas_ordinate_at(of, &analysis->point[p], &low, &high);
+    FRACAS_PRINT(axes->key, "%s", key);
+    FRACAS_PRINT(axes->words, "%s%.64s", of->over ? "mean over replicas of the " : "", of->words);
+    scale(of->unit, analysis->table->npoints, axes);
 }
 
 static bool equals_rate(const fracas_analysis *analysis, size_t column)
@@ -193,10 +164,12 @@ static fracas_err take_key(const fracas_analysis *analysis, const char *key,
                            fracas_means_axes *axes)
 {
     const size_t column = fracas_point_table_find(analysis->table, key);
+    fracas_ordinate of;
     if (column == SIZE_MAX) {
-        statistic wanted = {key, analysis, axes, false};
-        fracas_fields_walk(&fracas_statistics, ".", take_if_named, &wanted);
-        return wanted.found ? FRACAS_OK : unknown(analysis, "x of the figures,", key, true);
+        if (!fracas_ordinate_find(key, strlen(key), &of))
+            return unknown(analysis, "x of the figures,", key, true);
+        take_statistic(analysis, key, &of, axes);
+        return FRACAS_OK;
     }
     if (!varies(analysis->table, column)) return alike(analysis, "x of the figures,", key);
     if (!equals_rate(analysis, column)) return take_column(analysis, column, axes);

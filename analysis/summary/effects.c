@@ -52,17 +52,12 @@ static const fracas_value *value_at(const making *of, size_t point)
     return &of->analysis->table->point[point].value[of->column];
 }
 
-static bool is_absent(const fracas_value *value)
-{
-    return isnan(value->real) && !*value->text;
-}
-
 /* A value that one of the points has not, as the parameter of another law, is no difference. */
 static bool alike(const making *of, size_t column, size_t a, size_t b)
 {
     const fracas_point_table *table = of->analysis->table;
     const fracas_value *x = &table->point[a].value[column], *y = &table->point[b].value[column];
-    return is_absent(x) || is_absent(y) || fracas_value_same(x, y);
+    return fracas_value_absent(x) || fracas_value_absent(y) || fracas_value_same(x, y);
 }
 
 /* True if points alike in the parameter are alike in this column. */
@@ -83,7 +78,7 @@ static bool serves(const making *of, size_t column)
     const fracas_columns *shown = &of->analysis->shown;
     for (size_t i = 0; i < shown->count; i++)
         if (shown->column[i] == column) return false;
-    return !strncmp(path, "mesh.", 5) || !strncmp(path, "time.", 5);
+    return fracas_columns_serves(path);
 }
 
 static void part_others(making *of)
@@ -133,7 +128,7 @@ static void take_level(making *of, size_t point)
 {
     const fracas_value *value = value_at(of, point);
     size_t at = of->nlevels;
-    if (is_absent(value)) return;
+    if (fracas_value_absent(value)) return;
     for (size_t i = 0; i < of->nlevels; i++)
         if (fracas_value_same(value_at(of, of->level[i]), value)) return;
     if (of->nlevels > FRACAS_MOST_LEVELS) return;

@@ -145,3 +145,11 @@ const fracas_estimate *fracas_number_mean(const fracas_number *number,
 {
     return (const void *)((const char *)point + number->mean);
 }
+
+bool fracas_number_above_0(const fracas_number *number, const fracas_point_statistics *point,
+                           size_t npoints)
+{
+    for (size_t p = 0; p < npoints; p++)
+        if (fracas_number_mean(number, &point[p])->mean > 0) return true;
+    return false;
+}

@@ -13,4 +13,8 @@ fracas_replica_values fracas_numbers_of(const fracas_point_statistics *point,
 const fracas_estimate *fracas_number_mean(const fracas_number *number,
                                           const fracas_point_statistics *point);
 
+/* True if its mean is above 0 at one of the points. */
+bool fracas_number_above_0(const fracas_number *number, const fracas_point_statistics *point,
+                           size_t npoints);
+
 #endif

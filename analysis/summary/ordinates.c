@@ -64,9 +64,9 @@ static void take_leaf(void *context, const fracas_field *leaf)
 {
     const wanted_key *wanted = context;
     fracas_ordinate *to = wanted->to;
-    const char *part = leaf->key + wanted->length;
     const bool whole = leaf->type == FRACAS_FIELD_INTEGER;
     if (strncmp(leaf->key, wanted->key, wanted->length) != 0) return;
+    const char *part = leaf->key + wanted->length;
     if (leaf->type != FRACAS_FIELD_NUMBER && !whole) return;
     if (!*part || !strcmp(part, ".mean") || !strcmp(part, ".value")) {
         if (to->value != SIZE_MAX) return;
@@ -96,10 +96,10 @@ static bool find_as(const char *key, size_t length, fracas_ordinate *to)
     return to->value != SIZE_MAX;
 }
 
-/* Also by the key of its mean or value, as `x` has it. */
-static bool find(const char *key, size_t length, fracas_ordinate *to)
+bool fracas_ordinate_find(const char *key, size_t length, fracas_ordinate *to)
 {
     static const char *const ends[] = {".mean", ".value"};
+    if (length >= sizeof to->key) return false;
     for (size_t i = 0; i < 2; i++) {
         const size_t end = strlen(ends[i]);
         if (length > end && !strncmp(key + length - end, ends[i], end) &&
@@ -117,8 +117,7 @@ static fracas_err take_key(const char *list, const char *key, size_t length, fra
                            "y of the figures, `%s`: an empty name; give statistics as "
                            "aspect,onset_time",
                            list);
-    const bool known = length < sizeof to->key && find(key, length, to);
-    if (!known)
+    if (!fracas_ordinate_find(key, length, to))
         return fracas_fail(FRACAS_USAGE,
                            "y of the figures, `%s`: `%.*s` is no statistic; summary.json has them, "
                            "as dissipated, aspect or fragment.mass_mean",
@@ -128,13 +127,6 @@ static fracas_err take_key(const char *list, const char *key, size_t length, fra
                            "y of the figures, `%s`: every report draws `%s`; leave it out", list,
                            to->key);
     return FRACAS_OK;
-}
-
-static bool is_above_0(const fracas_analysis *analysis, const fracas_number *number)
-{
-    for (size_t p = 0; p < analysis->table->npoints; p++)
-        if (fracas_number_mean(number, &analysis->point[p])->mean > 0) return true;
-    return false;
 }
 
 fracas_err fracas_analysis_check_ordinates(const char *list)
@@ -147,7 +139,7 @@ fracas_err fracas_analysis_check_ordinates(const char *list)
 bool fracas_analysis_is_statistic(const char *key)
 {
     fracas_ordinate found;
-    return strlen(key) < sizeof found.key && find(key, strlen(key), &found);
+    return fracas_ordinate_find(key, strlen(key), &found);
 }
 
 fracas_err fracas_ordinates_find(const fracas_analysis *analysis, const char *list,
@@ -156,7 +148,9 @@ fracas_err fracas_ordinates_find(const fracas_analysis *analysis, const char *li
     *count = 0;
     for (size_t i = 0; i < FRACAS_NNUMBERS && !list; i++) {
         const fracas_number *number = &fracas_realization_numbers[i];
-        if (number->drawn && is_above_0(analysis, number) && *count < FRACAS_MOST_ORDINATES)
+        if (number->drawn &&
+            fracas_number_above_0(number, analysis->point, analysis->table->npoints) &&
+            *count < FRACAS_MOST_ORDINATES)
             found[(*count)++] = fracas_ordinate_of(number);
     }
     for (const char *key = list; key;) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Statistics that the report draws against the abscissa, beside mean size and count. */
+/* Statistics of a point by their keys: for figures of the report beside mean size and count. */
 #ifndef FRACAS_ANALYSIS_SUMMARY_ORDINATES_H
 #define FRACAS_ANALYSIS_SUMMARY_ORDINATES_H
 
@@ -23,6 +23,10 @@ typedef struct {
 
 /* The mean of a number over realizations. */
 fracas_ordinate fracas_ordinate_of(const fracas_number *number);
+
+/* The statistic of a key of `length` characters, with or without ".mean" or ".value". False: none
+ * has it. */
+bool fracas_ordinate_find(const char *key, size_t length, fracas_ordinate *to);
 
 /* Value at a point, NaN: none, and the ends of its 95 % interval, NaN: none. */
 double fracas_ordinate_at(const fracas_ordinate *ordinate, const fracas_point_statistics *point,

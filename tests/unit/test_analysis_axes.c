@@ -78,7 +78,7 @@ static void axes_are_chosen_by_what_varies(void **state)
     assert_axes(&of, "size.mean", "loading.rate", "size.mean by loading.rate");
     assert_true(strstr(of.analysis.axes.label, "[\u00b5m]") != NULL);
     assert_true(fabs(of.analysis.axes.value[0] - 100) < 1e-9); /* um: 1e-3/10 m, two roundings */
-    assert_axes(&of, "size", NULL, "size.mean");               /* as `y` takes it */
+    assert_axes(&of, "size", NULL, "size");                    /* as `y` takes it */
     clear(&of);
     make(1, 3, 1, &of); /* no rate varies */
     assert_axes(&of, NULL, NULL, "strength.shape");
