@@ -84,6 +84,17 @@ typedef struct {
     double acceleration;            /* m/s2, held-velocity */
     double force;                   /* N/m, force: per length of the ring */
     double force_rate;              /* N/(m s), force */
+    double ratio_z;                 /* 1, expansion of shells: as ratio, along z; NaN: 1 */
+    double pressure;                /* Pa, pressure */
+    double body_force[3];           /* m/s2, body-force */
+    const fracas_kind *edge;        /* traction: on this edge */
+    double traction[3]; /* Pa, traction: outward, along the edge, along the surface's normal */
+    /* amplitude of pressure, body-force, traction (engine/loading/load.h); NaN: not given */
+    double rise, decay, duration;   /* s */
+    double front;                   /* m/s */
+    const fracas_kind *front_along; /* x, y, z; NULL: x */
+    double front_at, front_from;    /* m */
+    double decay_by_travel;         /* 1 */
 } fracas_loading;
 
 typedef struct {

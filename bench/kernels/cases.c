@@ -57,6 +57,7 @@ static fracas_spec plate(int64_t order, int64_t elements, double rate)
                         .loading = {.type = &fracas_loading_expansion,
                                     .rate = rate,
                                     .ratio = 1,
+                                    .ratio_z = NAN,
                                     .start = &fracas_start_moving},
                         .time = {.stop = &fracas_stop_time,
                                  .end = 1,

@@ -65,6 +65,13 @@ static double concentration_of(const fracas_spec *spec, const holding *held, dou
     return 4;
 }
 
+/* Ratio of the sides' strains that is farthest from 1. */
+static double ratio_of(const fracas_stretch *stretch)
+{
+    const bool along_z = fabs(stretch->ratio_z - 1) > fabs(stretch->ratio - 1); /* NaN: no */
+    return along_z ? stretch->ratio_z : stretch->ratio;
+}
+
 /* Largest strain along x of a surface until t. Edges held against the motion, and those that start
  * it, send a shock v/c with v = d strain/dt L/2, doubled where it is reflected. A free body swings
  * back: a sphere at w^2 = 2 E/((1 - nu) rho R^2). */
@@ -75,11 +82,28 @@ static double strain_bound(const fracas_spec *spec, const fracas_stretch *stretc
                  rate = fabs(fracas_spec_strain_rate(spec));
     double strain = stretch->strain;
     if (held->against || stretch->shock) return strain * (1 + 4 * transit / t);
+    if (stretch->whole > 0) strain = fmin(strain, stretch->whole);
     if (held->any || isnan(rate)) return strain;
     if (!fracas_shape_of(spec)->edges) return fmin(strain, 4 * rate * transit);
-    if (stretch->ratio != 1) return strain;
+    if (ratio_of(stretch) != 1) return strain;
     return fmin(strain, rate * spec->geometry.radius / wave_speed(spec) *
                             sqrt((1 - spec->material.poisson) / 2));
+}
+
+/* Largest of E' (a + nu b) and of the uniaxial stress over pairs of sides, by E'; E' = E/(1 - nu^2)
+ * and strain along x 1. */
+static double largest_of(const fracas_stretch *stretch, double nu)
+{
+    const double side[3] = {1, stretch->ratio, stretch->ratio_z};
+    double largest = 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < i; j++) {
+            if (isnan(side[i])) continue;
+            const double most = fmax(fabs(side[i]), fabs(side[j])) * (1 - nu * nu);
+            largest = fmax(largest, fmax(most, fmax(fabs(side[j] + nu * side[i]),
+                                                    fabs(nu * side[j] + side[i]))));
+        }
+    return largest;
 }
 
 /* It stretches by (1, ratio) a with a = rate t or w^2 t^2/2; the bound is the larger stress along
@@ -91,10 +115,9 @@ static double surface_stress_bound(const fracas_spec *spec, const fracas_body_si
     const fracas_loading_traits *load = fracas_loading_traits_of(spec);
     const fracas_stretch stretch = load->surface(spec, spec->time.end);
     const holding held = holding_of(spec, &stretch);
-    const double nu = spec->material.poisson, ratio = stretch.ratio,
-                 factor = concentration_of(spec, &held, ratio, size);
-    const double largest = fmax(fabs(1 + nu * ratio),
-                                fmax(fabs(nu + ratio), fmax(1.0, fabs(ratio)) * (1 - nu * nu)));
+    const double nu = spec->material.poisson,
+                 factor = concentration_of(spec, &held, ratio_of(&stretch), size);
+    const double largest = largest_of(&stretch, nu);
     double stress = factor * spec->material.young * strain_bound(spec, &stretch, &held, size) *
                     largest / (1 - nu * nu);
     if (load->body_force) {
@@ -118,7 +141,8 @@ static double surface_opening_bound(const fracas_spec *spec, double extent)
     const fracas_stretch stretch = fracas_loading_traits_of(spec)->surface(spec, t);
     const double wave = wave_speed(spec) * t * (1 + nu) / sqrt(1 - nu * nu);
     const bool sudden = stretch.shock; /* edges open at their own velocity from the start */
-    return stretch.strain * fmax(1, fabs(stretch.ratio)) * (sudden ? extent : fmin(wave, extent));
+    return stretch.strain * fmax(1, fabs(ratio_of(&stretch))) *
+           (sudden ? extent : fmin(wave, extent));
 }
 
 double fracas_opening_bound(const fracas_spec *spec, double stress, double extent)

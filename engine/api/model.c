@@ -55,6 +55,7 @@ static fracas_err check_partners(const fracas_spec *spec)
                                                                      spec->loading.type};
     for (size_t c = 0; c < FRACAS_COUNT(chosen); c++) {
         size_t g = 0;
+        if (chosen[c]->only & model->groups) continue;
         while (g < model->ngoes_with && model->goes_with[g] != chosen[c]) g++;
         if (g == model->ngoes_with)
             return fracas_fail(FRACAS_USAGE, "model %s does not go with %s", model->name,

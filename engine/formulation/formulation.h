@@ -84,6 +84,8 @@ typedef struct {
      * of the angular velocity [1/s2] */
     double driven[FRACAS_LANES_MAX];
     _Alignas(64) double spin[FRACAS_LANES_MAX];
+    /* the same: amplitude of a load now, a step before  (loads.2) */
+    _Alignas(64) double amplitude[FRACAS_LANES_MAX], amplitude_before[FRACAS_LANES_MAX];
     /* accumulated: counts of interfaces, time of the first onset [s, NaN] */
     double first_onset[FRACAS_LANES_MAX];
     int64_t cracked[FRACAS_LANES_MAX], broken[FRACAS_LANES_MAX];

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/loading/loading.h"
 
+#include "engine/loading/load.h"
+
 #include <math.h>
 
 const fracas_kind fracas_axis_radial = {"radial", "outward"};
@@ -202,10 +204,20 @@ static const fracas_kind *const starts[] = {&fracas_start_moving, &fracas_start_
 
 static const fracas_param expansion[] = {
     {"rate", FRACAS_REAL, "1/s",
-     "strain rate along x: velocities are rate x, ratio rate y and, of shells, rate z",
+     "strain rate along x: velocities are rate x, ratio rate y and, of shells, ratio_z rate z",
      FRACAS_REQUIRED, -INFINITY, INFINITY, false, offsetof(fracas_loading, rate)},
     {"ratio", FRACAS_REAL, "1", "strain rate along y by that along x", 1, -INFINITY, INFINITY,
      false, offsetof(fracas_loading, ratio)},
+    {.name = "ratio_z",
+     .type = FRACAS_REAL,
+     .unit = "1",
+     .doc = "strain rate along z by that along x; none is 1; 0 leaves a cylinder its length",
+     .fallback = FRACAS_REQUIRED,
+     .minimum = -INFINITY,
+     .maximum = INFINITY,
+     .offset = offsetof(fracas_loading, ratio_z),
+     .only = FRACAS_GROUP_SHELL,
+     .optional = true},
     {FRACAS_ONE_OF("start", starts, offsetof(fracas_loading, start), "how the inside starts")},
 };
 
@@ -214,13 +226,14 @@ static fracas_stretch expansion_surface(const fracas_spec *spec, double t)
     const fracas_loading *loading = &spec->loading;
     return (fracas_stretch){.strain = fabs(loading->rate) * t,
                             .ratio = loading->ratio,
+                            .ratio_z = loading->ratio_z,
                             .moving = true,
                             .shock = loading->start == &fracas_start_rest};
 }
 
 const fracas_kind fracas_loading_expansion = {
     "expansion",
-    "velocities (rate x, ratio rate y; of shells also rate z): all nodes start with them, "
+    "velocities (rate x, ratio rate y; of shells also ratio_z rate z): all nodes start with them, "
     "those of held edges keep them",
     FRACAS_PARAMS(expansion),
     .traits = &(const fracas_loading_traits){.rate = imposed_rate_of,
@@ -238,7 +251,7 @@ static const fracas_param centrifugal[] = {
 static fracas_stretch centrifugal_surface(const fracas_spec *spec, double t)
 {
     const double speed = spec->loading.speed;
-    return (fracas_stretch){.strain = 0.5 * speed * speed * t * t, .ratio = 1};
+    return (fracas_stretch){.strain = 0.5 * speed * speed * t * t, .ratio = 1, .ratio_z = NAN};
 }
 
 const fracas_kind fracas_loading_centrifugal = {
@@ -250,7 +263,16 @@ const fracas_kind fracas_loading_centrifugal = {
 
 static const fracas_kind *const loadings[] = {
     &fracas_loading_imposed_rate, &fracas_loading_initial_velocity, &fracas_loading_held_velocity,
-    &fracas_loading_force,        &fracas_loading_expansion,        &fracas_loading_centrifugal};
+    &fracas_loading_force,        &fracas_loading_expansion,        &fracas_loading_centrifugal,
+    &fracas_loading_pressure,     &fracas_loading_body_force,       &fracas_loading_traction};
+
+/* Members of other loadings are 0. */
+static fracas_err check_loading(const void *section)
+{
+    const fracas_loading *loading = section;
+    const fracas_loading_traits *traits = loading->type->traits;
+    return traits->load ? fracas_load_check(loading) : FRACAS_OK;
+}
 
 const fracas_section fracas_loading_section = {
     .name = "loading",
@@ -260,4 +282,5 @@ const fracas_section fracas_loading_section = {
     .kind_offset = offsetof(fracas_loading, type),
     .offset = offsetof(fracas_spec, loading),
     .hashed = true,
+    .check = check_loading,
 };

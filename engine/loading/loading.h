@@ -22,11 +22,16 @@ typedef struct {
     double start[2];     /* FRACAS_RING_FREE: velocities outward and along the ring [m/s] */
 } fracas_ring_motion;
 
+typedef struct fracas_load fracas_load; /* engine/loading/load.h */
+
 /* Stretch (1, ratio) strain of a plate at a time t. */
 typedef struct {
-    double strain, ratio; /* |strain along x|; strain along y over that along x */
-    bool moving;          /* held edges move along */
-    bool shock;           /* they start with a jump in velocity: the inside is at rest */
+    double strain,
+        ratio;      /* |strain along x|; strain along y over that along x; INFINITY: unknown */
+    double ratio_z; /* expansion: strain along z over that along x; NaN: 1 */
+    double whole;   /* |strain| is below it until the body cracks; 0: no bound but `strain` */
+    bool moving;    /* held edges move along */
+    bool shock;     /* they start with a jump in velocity: the inside is at rest */
 } fracas_stretch;
 
 /* Traits of a loading. Functions are NULL for bodies without this loading. */
@@ -40,8 +45,9 @@ typedef struct {
      * greatest speed to the turning point [s]. NULL: never. */
     bool (*folds)(const fracas_spec *spec, bool whole, double turn);
     fracas_stretch (*surface)(const fracas_spec *spec, double t);
-    bool released;   /* the body moves freely after the start */
-    bool body_force; /* it acts on every unit of mass of a surface, by where that started */
+    bool released;           /* the body moves freely after the start */
+    bool body_force;         /* it acts on every unit of mass of a surface, by where that started */
+    const fracas_load *load; /* forces on a surface; NULL: none */
 } fracas_loading_traits;
 
 static inline const fracas_loading_traits *fracas_loading_traits_of(const fracas_spec *spec)
@@ -52,7 +58,8 @@ static inline const fracas_loading_traits *fracas_loading_traits_of(const fracas
 extern const fracas_section fracas_loading_section;
 extern const fracas_kind fracas_loading_imposed_rate, fracas_loading_initial_velocity,
     fracas_loading_held_velocity, fracas_loading_force, fracas_loading_expansion,
-    fracas_loading_centrifugal;
+    fracas_loading_centrifugal, fracas_loading_pressure, fracas_loading_body_force,
+    fracas_loading_traction;
 extern const fracas_kind fracas_start_moving, fracas_start_rest;
 extern const fracas_kind fracas_axis_radial, fracas_axis_circumferential;
 

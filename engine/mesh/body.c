@@ -6,6 +6,8 @@
 #include "engine/mesh/surface/gmsh_file.h"
 
 #include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
 
 const fracas_kind fracas_ends_periodic = {
     "periodic", "the bar closes on itself, as the hoop direction of a ring does"};
@@ -242,6 +244,23 @@ static fracas_err check_geometry(const void *section)
                        "gap is given, but ends are %s: walls stand beyond ends that move by "
                        "themselves: give ends: free, or leave gap out",
                        geometry->ends->name);
+}
+
+fracas_err fracas_shape_edge_tag(const fracas_kind *shape, const char *key, int32_t *tag)
+{
+    const size_t first = offsetof(fracas_geometry, edge[1]),
+                 last = offsetof(fracas_geometry, edge[FRACAS_EDGES - 1]);
+    char known[160] = "";
+    for (size_t p = 0; p < shape->nparams; p++) {
+        const fracas_param *param = &shape->params[p];
+        if (param->offset < first || param->offset > last) continue;
+        *tag = 1 + (int32_t)((param->offset - first) / sizeof(const fracas_kind *));
+        if (strcmp(param->name, key) == 0) return FRACAS_OK;
+        const size_t used = strlen(known);
+        snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", param->name);
+    }
+    return fracas_fail(FRACAS_USAGE, "%s is no edge that a campaign can name of the shape %s: %s%s",
+                       key, shape->name, *known ? "it has " : "it has none", known);
 }
 
 /* The names of a mesh file's physical groups are names of edge_1 to edge_4. */

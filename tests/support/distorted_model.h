@@ -16,24 +16,26 @@
 static inline fracas_spec surface_spec(const fracas_formulation *formulation,
                                        const fracas_kind *shape)
 {
-    fracas_spec spec = {
-        .formulation = &formulation->kind,
-        .geometry = {.shape = shape, .part = &fracas_part_whole},
-        .mesh = {.spacing = &fracas_spacing_triangles, .order = 2},
-        .material = {.young = 320e9, .density = 3300, .poisson = 0.3},
-        .cohesive = {.law = &fracas_law_nitsche.kind,
-                     .fracture_energy = 200,
-                     .beta = 5,
-                     .beta_shear = 1,
-                     .onset = &fracas_onset_mean,
-                     .coupling = 1},
-        .loading = {.type = &fracas_loading_expansion, .ratio = 1, .start = &fracas_start_moving},
-        .time = {.stop = &fracas_stop_time,
-                 .end = 1,
-                 .safety = 0.5,
-                 .integrator = &fracas_integrator_central_difference,
-                 .spectral_radius = 0.8,
-                 .mass = &fracas_mass_lumped}};
+    fracas_spec spec = {.formulation = &formulation->kind,
+                        .geometry = {.shape = shape, .part = &fracas_part_whole},
+                        .mesh = {.spacing = &fracas_spacing_triangles, .order = 2},
+                        .material = {.young = 320e9, .density = 3300, .poisson = 0.3},
+                        .cohesive = {.law = &fracas_law_nitsche.kind,
+                                     .fracture_energy = 200,
+                                     .beta = 5,
+                                     .beta_shear = 1,
+                                     .onset = &fracas_onset_mean,
+                                     .coupling = 1},
+                        .loading = {.type = &fracas_loading_expansion,
+                                    .ratio = 1,
+                                    .ratio_z = NAN,
+                                    .start = &fracas_start_moving},
+                        .time = {.stop = &fracas_stop_time,
+                                 .end = 1,
+                                 .safety = 0.5,
+                                 .integrator = &fracas_integrator_central_difference,
+                                 .spectral_radius = 0.8,
+                                 .mass = &fracas_mass_lumped}};
     for (int i = 0; i < FRACAS_EDGES; i++) spec.geometry.edge[i] = &fracas_edge_free;
     return spec;
 }

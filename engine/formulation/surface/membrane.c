@@ -101,14 +101,6 @@ static fracas_err hold_edge(const fracas_model *model, const fracas_surface_bord
 
 /* ---- the body ---- */
 
-/* M_kl of the lumped or consistent masses of element e [kg]. */
-static double mass_at(const fracas_surface_tables *t, size_t e, size_t k, size_t l)
-{
-    const size_t nodes = (size_t)SURFACE_NODES(t->order);
-    if (t->consistent) return t->consistent[((3 * e + 2) * nodes + k) * nodes + l];
-    return k == l ? t->lumped[(2 * e + 1) * nodes + k] : 0;
-}
-
 /* By the element's own masses: lumped ones would give quadratic elements another momentum, which
  * is not kept. */
 static void add_node(const fracas_surface_tables *t, size_t e, size_t k, const double (*x)[3],
@@ -116,7 +108,7 @@ static void add_node(const fracas_surface_tables *t, size_t e, size_t k, const d
 {
     double mass = 0, carried[3] = {0}, momentum[3] = {0};
     for (size_t l = 0; l < (size_t)SURFACE_NODES(t->order); l++) {
-        const double share = mass_at(t, e, k, l);
+        const double share = fracas_surface_mass(t, e, k, l);
         mass += share;
         for (size_t i = 0; i < 2; i++) {
             carried[i] += share * x[l][i];

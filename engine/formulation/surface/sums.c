@@ -41,7 +41,8 @@ static void set_totals(const fracas_surface_constants *c, fracas_step *step, int
     step->friction[l] += sum[SURFACE_RUBBED];
     step->damped[l] += sum[SURFACE_DAMPED];
     step->power[l] = sum[SURFACE_POWER];
-    step->work[l] = c->tables->position ? work_of(c, step, l, sum[SURFACE_MOMENT]) : 0;
+    step->work[l] = c->tables->position ? work_of(c, step, l, sum[SURFACE_MOMENT])
+                                        : sum[SURFACE_WORK];
 }
 
 void fracas_surface_totals(const fracas_surface_constants *c, fracas_step *step)

@@ -49,6 +49,7 @@ fracas_surface_constants fracas_surface_constants_of(const fracas_model *model)
         .strengths = (int)model->strengths,
         .speed = spins ? spec->loading.speed : 0,
         .ramp = spec->loading.ramp,
+        .loading = &spec->loading,
         .motion = {accelerations, alpha.alpha_m, alpha.beta, alpha.gamma, alpha.excess,
                    alpha.damping, sqrt(0.5 * (1 - alpha.alpha_m))}};
     c.c12 = nu * c.c11;
@@ -260,7 +261,8 @@ static double start_velocity(const fracas_model *model, size_t e, size_t i)
     const bool held = t->held[e] >> i & 1, fixed = t->fixed[e] >> i & 1;
     const double *x = fracas_surface_node(model->surface, e, i / dimension);
     if ((held && fixed) || !stretch.moving || (stretch.shock && !held)) return 0;
-    return (component == 1 ? stretch.ratio : 1.0) * model->spec.loading.rate * x[component];
+    const double along[3] = {1, stretch.ratio, isnan(stretch.ratio_z) ? 1 : stretch.ratio_z};
+    return along[component] * model->spec.loading.rate * x[component];
 }
 
 void fracas_surface_lane_init(const fracas_model *model, const fracas_step *step, int lane)
@@ -304,13 +306,23 @@ static void advance_part(void *context, size_t number)
         task->sweep(&task->constants, step, first, number);
 }
 
+/* Of a load without a front. */
+static double amplitude_at(const fracas_surface_constants *c, double time)
+{
+    return c->tables->nloads ? fracas_load_amplitude(c->loading, c->tables->load_clock, time) : 0;
+}
+
 void fracas_surface_advance(const fracas_model *model, fracas_step *step)
 {
     surface_task task = {.constants = fracas_surface_constants_of(model), .step = step};
     const fracas_surface_constants *c = &task.constants;
     const fracas_surface_kernel *kernel = (*c->tables->body->kernels)[step->isa][step->lanes];
     task.sweep = kernel->sweep[fracas_law_of(&model->spec)->number][c->tables->order - 1];
-    for (int l = 0; l < step->width; l++) step->spin[l] = fracas_surface_spin(c, step->time[l]);
+    for (int l = 0; l < step->width; l++) {
+        step->spin[l] = fracas_surface_spin(c, step->time[l]);
+        step->amplitude[l] = amplitude_at(c, step->time[l]);
+        step->amplitude_before[l] = amplitude_at(c, step->time[l] - step->drift[l]);
+    }
     fracas_team_run(step->team, advance_part, &task);
     fracas_surface_totals(c, step);
 }

@@ -24,6 +24,7 @@
 #include "engine/element/triangle.h"
 #include "engine/formulation/formulation.h"
 #include "engine/formulation/surface/division.h"
+#include "engine/loading/load.h"
 #include "engine/mesh/surface/surface.h"
 
 /* By the order of triangles: nodes, bulk points (of stresses), Gauss points of an edge. */
@@ -63,6 +64,7 @@ enum {
     SURFACE_DAMPED,                         /* energy damped in this step [J] */
     SURFACE_POWER,                          /* power of reactions [W] */
     SURFACE_MOMENT,                         /* membranes: sum of m r.du/dt of this step [kg m2/s] */
+    SURFACE_WORK,                           /* work of the load in this step [J] */
     SURFACE_SUMS
 };
 enum { SURFACE_BLOCK = 64 }; /* elements */
@@ -114,6 +116,11 @@ typedef struct {
     uint8_t (*edge)[2];     /* [interface]: which of its elements' edges */
     uint32_t *held, *fixed; /* [element]: bit dimension node + component: velocity held; at 0 */
     bool moves;             /* some edge is held, and not fixed */
+    /* Elements under a load, with its forces at amplitude 1  (loads.3) */
+    size_t nloads;
+    uint32_t *load_row;            /* [element]: its row + 1; 0: none; NULL: there is no load */
+    double *load;                  /* [row][unknown] [N] */
+    fracas_load_clock *load_clock; /* [row] */
     /* A shell's edges whose director is held. */
     size_t nrims;
     double *rim;        /* [rim][body->rim_table] */
@@ -143,6 +150,7 @@ typedef struct fracas_surface_constants {
     int fields, point_fields; /* an element's, by its unknowns; an interface's point's */
     int strengths;            /* an interface's: 1, or one for each Gauss point */
     double speed, ramp;       /* rad/s, s: w = speed min(1, t/ramp) */
+    const fracas_loading *loading;
     fracas_surface_motion motion;
     int contact; /* the operator: all interfaces broken and in contact; else whole */
 } fracas_surface_constants;
@@ -263,6 +271,15 @@ static inline size_t fracas_surface_strength_of(const fracas_surface_constants *
                                                 int g)
 {
     return interface * (size_t)c->strengths + (c->strengths > 1 ? (size_t)g : 0);
+}
+
+/* M_kl of the lumped or consistent masses of element e [kg]. */
+static inline double fracas_surface_mass(const fracas_surface_tables *t, size_t e, size_t k,
+                                         size_t l)
+{
+    const size_t nodes = (size_t)SURFACE_NODES(t->order);
+    if (t->consistent) return t->consistent[((3 * e + 2) * nodes + k) * nodes + l];
+    return k == l ? t->lumped[(2 * e + 1) * nodes + k] : 0;
 }
 
 /* Tables of model->surface and model->spec, checked. The caller destroys. */

@@ -278,6 +278,57 @@ LANES_FUNCTION vd surface_product(const surface_context *c, int order, size_t e,
     return product;
 }
 
+/* ---- loads ---- */
+
+/* Forces at amplitude 1 of a load, and its amplitudes at t_n and t_{n-1}. */
+typedef struct {
+    const double *force; /* NULL: the element has no load */
+    vd now, before;
+} surface_load;
+
+/* Amplitudes behind a front, lane by lane: each has its own time. */
+__attribute__((noinline, unused)) static void
+surface_front(const surface_context *c, const fracas_load_clock *clock, surface_load *load)
+{
+    _Alignas(64) double now[LANES], before[LANES];
+    const fracas_step *step = c->step;
+    for (int l = 0; l < LANES; l++) {
+        const double time = step->time[c->first + l], drift = step->drift[c->first + l];
+        now[l] = fracas_load_amplitude(c->constants->loading, clock, time);
+        before[l] = fracas_load_amplitude(c->constants->loading, clock, time - drift);
+    }
+    load->now = lanes_load(now);
+    load->before = lanes_load(before);
+}
+
+/* (loads.1) */
+LANES_FUNCTION surface_load surface_load_of(const surface_context *c, int order, size_t e)
+{
+    const fracas_surface_tables *t = c->tables;
+    surface_load load = {NULL, c->amplitude, c->amplitude_before};
+    if (__builtin_expect(!t->load_row, 1) || t->load_row[e] == 0) return load;
+    const size_t row = t->load_row[e] - 1;
+    load.force = t->load + row * (size_t)BODY_SIZE(order);
+    const double front = c->constants->loading->front;
+    if (front > 0 || front < 0) surface_front(c, &t->load_clock[row], &load);
+    return load;
+}
+
+/* F . x [N m] of a load at amplitude 1. */
+LANES_FUNCTION vd surface_along(const surface_load *load, int size, const vd *x)
+{
+    vd sum = lanes_set(0.0);
+    UNROLL_FOR (int i = 0; i < size; i++) sum += lanes_set(load->force[i]) * x[i];
+    return sum;
+}
+
+/* Work in this step by the mean of both amplitudes: exact with leapfrog, whose displacements move
+ * by dt v  (loads.4) */
+LANES_FUNCTION vd surface_work(const surface_context *c, const surface_load *load, vd along)
+{
+    return c->drift * (lanes_set(0.5) * (load->before + load->now)) * along;
+}
+
 /* Adds to an element's sums what Hulbert and Chung's scheme has beside leapfrog: kinetic energy,
  * damped energy, displacement in this step. `last` is a_{n-1}  (membrane.20), (membrane.21),
  * (membrane.22). */
@@ -301,9 +352,15 @@ LANES_FUNCTION void surface_damp_of(const surface_context *c, int order, size_t 
     surface_add(surface_at(sums, SURFACE_DAMPED),
                 lanes_set(0.25 * m->damping) * dt * dt *
                     surface_product(c, order, e, change, change, &moment));
-    if (!BODY_PLANE || !c->tables->position) return;
+    const surface_load load = surface_load_of(c, order, e);
+    if (!load.force && !(BODY_PLANE && c->tables->position)) return;
     UNROLL_FOR (int i = 0; i < size; i++)
         change[i] = lanes_load(surface_at(at, SURFACE_A * size + i)) - last[i];
+    if (load.force)
+        surface_add(
+            surface_at(sums, SURFACE_WORK),
+            surface_work(c, &load, lanes_set(m->excess) * dt * surface_along(&load, size, change)));
+    if (!BODY_PLANE || !c->tables->position) return;
     surface_product(c, order, e, change, change, &moment);
     surface_add(surface_at(sums, SURFACE_MOMENT), lanes_set(m->excess) * dt * moment);
 }
@@ -327,6 +384,10 @@ LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
     UNROLL_FOR (int i = 0; i < size; i++)
         force[i] = lanes_load(surface_at(slot, BODY_SLOT_FORCE(order) + i));
     BODY(forces)(c, order, e, slot, force);
+    surface_load load = {0};
+    if (law != SURFACE_OPERATOR) load = surface_load_of(c, order, e);
+    if (load.force)
+        UNROLL_FOR (int i = 0; i < size; i++) force[i] -= load.now * lanes_set(load.force[i]);
     UNROLL_FOR (int i = 0; i < size; i++) v[i] = lanes_load(surface_at(at, SURFACE_V * size + i));
     surface_accelerate(c, order, e, v, force, a);
     if (law == SURFACE_OPERATOR) {
@@ -340,10 +401,17 @@ LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
         UNROLL_FOR (int i = 0; i < size; i++)
             last[i] = lanes_load(surface_at(at, SURFACE_A * size + i));
     }
+    if (load.force && !alpha) { /* velocities at the start become those of half a step before */
+        const vd back = lanes_select(c->begins, lanes_set(0.5) * c->kick, lanes_set(0.0));
+        UNROLL_FOR (int i = 0; i < size; i++) v[i] -= back * a[i];
+    }
     surface_kick(&c->constants->motion, c->kick, c->begins, size, at, a, v, after);
     double *sums = surface_sums(c, e);
     surface_add(surface_at(sums, SURFACE_KINETIC), surface_product(c, order, e, v, after, &moment));
     if (BODY_PLANE) surface_add(surface_at(sums, SURFACE_MOMENT), moment);
+    if (load.force)
+        surface_add(surface_at(sums, SURFACE_WORK),
+                    surface_work(c, &load, surface_along(&load, size, v)));
     if (alpha) surface_damp(c, order, e, at, last);
 }
 
@@ -415,7 +483,9 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
                                .drift = lanes_load(step->drift + first),
                                .kick = lanes_load(step->kick + first),
                                .begins = lanes_le(lanes_load(step->drift + first), lanes_set(0.0)),
-                               .spin = lanes_load(step->spin + first)};
+                               .spin = lanes_load(step->spin + first),
+                               .amplitude = lanes_load(step->amplitude + first),
+                               .amplitude_before = lanes_load(step->amplitude_before + first)};
     surface_context *c = &context;
     const fracas_surface_facet *join = part->join;
     const fracas_surface_finish *finish = part->finish;

@@ -2,6 +2,7 @@
 /* Tables of a surface: masses, held edges, and the body's own geometry. */
 #include "engine/formulation/surface/surface.h"
 
+#include "engine/formulation/surface/loads.h"
 #include "engine/integrator/integrator.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
@@ -24,7 +25,10 @@
     TABLE(rim_from)
 #define TABLES(TABLE)      \
     OPERATOR_TABLES(TABLE) \
-    TABLE(position)
+    TABLE(position)        \
+    TABLE(load_row)        \
+    TABLE(load)            \
+    TABLE(load_clock)
 
 /* Their lengths; 0: there is none. */
 #define TABLE(name) size_t name;
@@ -35,6 +39,7 @@ typedef struct {
 
 typedef struct {
     bool consistent, rotary, positions; /* there are such tables */
+    size_t loads;                       /* rows of loads */
 } optional;
 
 static lengths lengths_of(const fracas_surface_tables *t, optional has)
@@ -56,6 +61,9 @@ static lengths lengths_of(const fracas_surface_tables *t, optional has)
         .rim_edge = t->nrims + 1,
         .rim_from = n + 1,
         .position = has.positions ? n * nodes * 2 : 0,
+        .load_row = has.loads ? n : 0,
+        .load = has.loads * nodes * (size_t)body->dimension,
+        .load_clock = has.loads,
     };
 }
 
@@ -82,7 +90,7 @@ static bool allocate(fracas_surface_tables *t, const lengths *length)
 
 static lengths own_lengths(const fracas_surface_tables *t)
 {
-    return lengths_of(t, (optional){t->consistent, t->rotary, t->position});
+    return lengths_of(t, (optional){t->consistent, t->rotary, t->position, t->nloads});
 }
 
 size_t fracas_surface_tables_bytes(const fracas_surface_tables *t)
@@ -312,6 +320,7 @@ static fracas_err fill(const fracas_model *model, fracas_surface_tables *t)
     TRY(fill_edges(model, t));
     for (size_t e = 0; e < t->nelements; e++) fill_element(model, t, e);
     for (size_t i = 0; i < t->ninterfaces; i++) fill_interface(model, t, i);
+    fracas_surface_loads_fill(model, t);
     return FRACAS_OK;
 }
 
@@ -327,12 +336,15 @@ fracas_err fracas_surface_tables_create(const fracas_model *model, fracas_surfac
     for (size_t b = 0; b < surface->nborders; b++)
         t->nrims += fracas_edge_of(edge_kind(&model->spec, surface->border[b].tag))->director;
     const fracas_time *time = &model->spec.time;
+    size_t loads;
+    fracas_err err = fracas_surface_loads_count(model, &loads);
     const lengths length = lengths_of(
         t, (optional){.consistent = fracas_mass_is_consistent(time),
                       .rotary = t->body->fill_rotary && time->rotary_inertia > 0,
-                      .positions = fracas_loading_traits_of(&model->spec)->body_force});
-    fracas_err err = allocate(t, &length) ? fill(model, t)
-                                          : fracas_no_memory("the tables of a surface");
+                      .positions = fracas_loading_traits_of(&model->spec)->body_force,
+                      .loads = loads});
+    if (!err)
+        err = allocate(t, &length) ? fill(model, t) : fracas_no_memory("the tables of a surface");
     if (err) fracas_surface_tables_destroy(t);
     else *tables = t;
     return err;

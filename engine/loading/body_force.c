@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Load `body-force`: the same on every unit of mass. */
+#include "engine/loading/load.h"
+
+#include <math.h>
+
+#define COMPONENT(key, i, models)                                                                 \
+    FRACAS_BRACES(key, FRACAS_REAL, "m/s2", "force along " key " on a unit of mass, at the peak", \
+                  0, -INFINITY, INFINITY, false, offsetof(fracas_loading, body_force[i]),         \
+                  .only = models)
+
+static const fracas_param params[] = {
+    COMPONENT("x", 0, 0),
+    COMPONENT("y", 1, 0),
+    COMPONENT("z", 2, FRACAS_GROUP_SHELL),
+    FRACAS_LOAD_AMPLITUDE,
+};
+
+static void density(const fracas_spec *spec, const fracas_place *at, double density[3])
+{
+    (void)at;
+    for (int i = 0; i < 3; i++) density[i] = spec->loading.body_force[i];
+}
+
+static const fracas_load load = {.on = FRACAS_LOAD_ON_MASS, .density = density};
+
+/* A held body bends or waves reflect: no bound is known. */
+static fracas_stretch surface(const fracas_spec *spec, double t)
+{
+    (void)spec, (void)t;
+    return (fracas_stretch){.strain = INFINITY, .ratio = 1, .ratio_z = NAN};
+}
+
+const fracas_kind fracas_loading_body_force = {
+    "body-force", "the same force on every unit of mass of a body at rest", FRACAS_PARAMS(params),
+    .only = FRACAS_GROUP_SURFACES,
+    .traits = &(const fracas_loading_traits){.surface = surface, .load = &load}};

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "engine/loading/load.h"
+
+#include "base/elementary.h"
+
+#include <math.h>
+
+typedef struct {
+    int component;
+} front_axis;
+
+const fracas_kind fracas_front_x = {"x", "along x", .traits = &(const front_axis){0}},
+                  fracas_front_y = {"y", "along y", .traits = &(const front_axis){1}},
+                  fracas_front_z = {"z", "along z", .traits = &(const front_axis){2}};
+const fracas_kind *const fracas_front_axes[3] = {&fracas_front_x, &fracas_front_y, &fracas_front_z};
+
+/* (loads.2) */
+fracas_load_clock fracas_load_clock_at(const fracas_loading *loading, const double x[3])
+{
+    fracas_load_clock clock = {0, loading->decay > 0 ? loading->decay : INFINITY};
+    if (!(fabs(loading->front) > 0)) return clock;
+    const front_axis *axis =
+        (loading->front_along ? loading->front_along : &fracas_front_x)->traits;
+    const double at = isnan(loading->front_at) ? 0 : loading->front_at,
+                 from = isnan(loading->front_from) ? at : loading->front_from;
+    clock.arrival = (x[axis->component] - at) / loading->front;
+    if (loading->decay_by_travel > 0)
+        clock.decay = fmax(0,
+                           loading->decay_by_travel * (x[axis->component] - from) / loading->front);
+    return clock;
+}
+
+/* (loads.2) */
+double fracas_load_amplitude(const fracas_loading *loading, const fracas_load_clock *clock,
+                             double t)
+{
+    const double since = t - clock->arrival;
+    if (since < 0) return 0;
+    double amplitude = loading->rise > 0 ? fmin(1, since / loading->rise) : 1;
+    if (loading->duration > 0) amplitude *= 1 - since / loading->duration;
+    if (clock->decay < INFINITY)
+        amplitude *= clock->decay > 0 ? fracas_exp(-since / clock->decay) : since > 0 ? 0 : 1;
+    return amplitude;
+}
+
+/* Beyond its duration the load is negative, and grows unless it decays. */
+double fracas_load_largest(const fracas_loading *loading, double t)
+{
+    return loading->duration > 0 ? fmax(1, t / loading->duration - 1) : 1;
+}
+
+fracas_err fracas_load_check(const fracas_loading *loading)
+{
+    const bool front = !isnan(loading->front);
+    if (front && loading->front == 0)
+        return fracas_fail(FRACAS_USAGE, "front is 0 m/s: it would never arrive: give its speed, "
+                                         "or leave front out for a load that acts everywhere");
+    const struct {
+        const char *key;
+        bool given;
+    } of_front[] = {{"front_along", loading->front_along != NULL},
+                    {"front_at", !isnan(loading->front_at)},
+                    {"front_from", !isnan(loading->front_from)},
+                    {"decay_by_travel", !isnan(loading->decay_by_travel)}};
+    for (size_t k = 0; !front && k < FRACAS_COUNT(of_front); k++)
+        if (of_front[k].given)
+            return fracas_fail(FRACAS_USAGE,
+                               "%s is given, but no front: give the speed of the front, `front: "
+                               "2000 m/s`, or leave %s out",
+                               of_front[k].key, of_front[k].key);
+    if (!isnan(loading->decay) && !isnan(loading->decay_by_travel))
+        return fracas_fail(FRACAS_USAGE, "decay and decay_by_travel are both given: the load "
+                                         "decays by one of them: leave the other out");
+    return FRACAS_OK;
+}

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Loads on surfaces: an amplitude over time by a density in space (docs/theory/loads.md).
+ *
+ *   f(x, t) = a(t, x) d(x)                                                          (loads.1)
+ *
+ * A load is one file, with its parameters and its density, and a line in loading.c. The surface
+ * integrates the density with the shape functions; masses, rotary inertia, reactions and the work
+ * in the ledger follow for every body. */
+#ifndef FRACAS_ENGINE_LOADING_LOAD_H
+#define FRACAS_ENGINE_LOADING_LOAD_H
+
+#include "engine/loading/loading.h"
+
+typedef enum {
+    FRACAS_LOAD_ON_AREA, /* d in N/m2 of the mid-surface */
+    FRACAS_LOAD_ON_MASS, /* d in m/s2 */
+    FRACAS_LOAD_ON_EDGE  /* d in N/m of an edge */
+} fracas_load_on;
+
+/* Where a load acts. */
+typedef struct {
+    double x[3];       /* m, at the start */
+    double normal[3];  /* unit normal of the mid-surface: elements are counter-clockwise from its
+                          side */
+    double outward[3]; /* edges: in the surface, away from the body; 1 */
+    double along[3];   /* edges: the body on the left, 1 */
+} fracas_place;
+
+struct fracas_load {
+    fracas_load_on on;
+    void (*density)(const fracas_spec *spec, const fracas_place *at, double density[3]);
+    /* Key of the edge of the shape on which it acts; NULL of loads on areas and masses. */
+    const char *(*edge)(const fracas_spec *spec);
+};
+
+/* When the load reaches a place, by its front [s], 0 without one; and the time constant of its
+ * decay there [s], INFINITY without one. */
+typedef struct {
+    double arrival, decay;
+} fracas_load_clock;
+
+fracas_load_clock fracas_load_clock_at(const fracas_loading *loading, const double x[3]);
+
+/* a = min(1, s/rise) (1 - s/duration) exp(-s/decay) for s = t - arrival >= 0, else 0; factors not
+ * given are 1                                                                       (loads.2) */
+double fracas_load_amplitude(const fracas_loading *loading, const fracas_load_clock *clock,
+                             double t);
+
+/* Largest |a| until t. */
+double fracas_load_largest(const fracas_loading *loading, double t);
+
+/* FRACAS_USAGE unless the keys of the amplitude go together. */
+FRACAS_MUST_USE fracas_err fracas_load_check(const fracas_loading *loading);
+
+extern const fracas_kind fracas_front_x, fracas_front_y, fracas_front_z;
+extern const fracas_kind *const fracas_front_axes[3];
+
+/* The keys of the amplitude, last in a load's parameters. */
+#define FRACAS_LOAD_TIME(key, member, what)                                               \
+    FRACAS_BRACES(.name = key, .type = FRACAS_REAL, .unit = "s", .doc = what,             \
+                  .fallback = FRACAS_REQUIRED, .maximum = INFINITY, .minimum_open = true, \
+                  .offset = offsetof(fracas_loading, member), .optional = true)
+#define FRACAS_LOAD_PLACE(key, member, what)                                              \
+    FRACAS_BRACES(.name = key, .type = FRACAS_REAL, .unit = "m", .doc = what,             \
+                  .fallback = FRACAS_REQUIRED, .minimum = -INFINITY, .maximum = INFINITY, \
+                  .offset = offsetof(fracas_loading, member), .optional = true)
+#define FRACAS_LOAD_AMPLITUDE                                                                   \
+    FRACAS_LOAD_TIME("rise", rise, "time in which it rises from 0, in proportion to time"),     \
+        FRACAS_LOAD_TIME("decay", decay, "time constant of its exponential decay"),             \
+        FRACAS_LOAD_TIME("duration", duration,                                                  \
+                         "time after which its sign changes: Friedlander's factor "             \
+                         "1 - t/duration"),                                                     \
+        {.name = "front",                                                                       \
+         .type = FRACAS_REAL,                                                                   \
+         .unit = "m/s",                                                                         \
+         .doc = "speed of a front behind which the load acts: all times above count from its "  \
+                "arrival",                                                                      \
+         .fallback = FRACAS_REQUIRED,                                                           \
+         .minimum = -INFINITY,                                                                  \
+         .maximum = INFINITY,                                                                   \
+         .offset = offsetof(fracas_loading, front),                                             \
+         .optional = true},                                                                     \
+        {FRACAS_ONE_OF("front_along", fracas_front_axes, offsetof(fracas_loading, front_along), \
+                       "axis along which the front runs"),                                      \
+         .optional = true},                                                                     \
+        FRACAS_LOAD_PLACE("front_at", front_at, "coordinate of the front at t = 0; none is 0"), \
+        FRACAS_LOAD_PLACE("front_from", front_from,                                             \
+                          "coordinate at which the front began to run; none is front_at"),      \
+    {                                                                                           \
+        .name = "decay_by_travel", .type = FRACAS_REAL, .unit = "1",                            \
+        .doc = "time constant of its decay over the time that the front took from front_from",  \
+        .fallback = FRACAS_REQUIRED, .maximum = INFINITY, .minimum_open = true,                 \
+        .offset = offsetof(fracas_loading, decay_by_travel), .optional = true                   \
+    }
+
+#endif

@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Load `pressure`: along the normal of the mid-surface, on every unit of its area. */
+#include "engine/loading/load.h"
+
+#include <math.h>
+
+static const fracas_param params[] = {
+    {"pressure", FRACAS_REAL, "Pa",
+     "pressure at the peak, along the normal of the mid-surface: outward of spheres and cylinders, "
+     "of mesh files to the side from which triangles are counter-clockwise; negative: against it",
+     FRACAS_REQUIRED, -INFINITY, INFINITY, false, offsetof(fracas_loading, pressure)},
+    FRACAS_LOAD_AMPLITUDE,
+};
+
+static void density(const fracas_spec *spec, const fracas_place *at, double density[3])
+{
+    for (int i = 0; i < 3; i++) density[i] = spec->loading.pressure * at->normal[i];
+}
+
+static const fracas_load load = {.on = FRACAS_LOAD_ON_AREA, .density = density};
+
+/* A sphere: p t^2/(2 rho h R) as if it had no stiffness; twice the static strain while whole. A
+ * surface without a radius may bend: no bound is known. */
+static fracas_stretch surface(const fracas_spec *spec, double t)
+{
+    const double radius = spec->geometry.radius, h = spec->geometry.thickness,
+                 p = fabs(spec->loading.pressure) * fracas_load_largest(&spec->loading, t);
+    return (fracas_stretch){
+        .strain = p == 0 ? 0 : p * t * t / (2 * spec->material.density * h * radius),
+        .ratio = 1,
+        .ratio_z = NAN,
+        .whole = p * radius * (1 - spec->material.poisson) / (spec->material.young * h)};
+}
+
+const fracas_kind fracas_loading_pressure = {
+    "pressure", "a pressure on one side of a body at rest: constant, or a pulse, or behind a front",
+    FRACAS_PARAMS(params), .only = FRACAS_GROUP_SHELL,
+    .traits = &(const fracas_loading_traits){.surface = surface, .load = &load}};
