@@ -90,11 +90,12 @@ typedef struct {
     const fracas_kind *edge;        /* traction: on this edge */
     double traction[3]; /* Pa, traction: outward, along the edge, along the surface's normal */
     /* amplitude of pressure, body-force, traction (engine/loading/load.h); NaN: not given */
-    double rise, decay, duration;   /* s */
-    double front;                   /* m/s */
-    const fracas_kind *front_along; /* x, y, z; NULL: x */
-    double front_at, front_from;    /* m */
-    double decay_by_travel;         /* 1 */
+    double rise, decay, duration;     /* s */
+    const fracas_attachment *history; /* times [s] and factors; NULL: none */
+    double front;                     /* m/s */
+    const fracas_kind *front_along;   /* x, y, z; NULL: x */
+    double front_at, front_from;      /* m */
+    double decay_by_travel;           /* 1 */
 } fracas_loading;
 
 typedef struct {

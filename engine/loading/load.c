@@ -30,14 +30,22 @@ fracas_load_clock fracas_load_clock_at(const fracas_loading *loading, const doub
     return clock;
 }
 
+fracas_err fracas_load_history(const fracas_loading *loading, fracas_profile *history)
+{
+    static const fracas_profile_form form = {"time", "s", "factor", .positive = false};
+    *history = (fracas_profile){0};
+    return loading->history ? fracas_profile_read(loading->history, &form, history) : FRACAS_OK;
+}
+
 /* (loads.2) */
-double fracas_load_amplitude(const fracas_loading *loading, const fracas_load_clock *clock,
-                             double t)
+double fracas_load_amplitude(const fracas_loading *loading, const fracas_profile *history,
+                             const fracas_load_clock *clock, double t)
 {
     const double since = t - clock->arrival;
     if (since < 0) return 0;
     double amplitude = loading->rise > 0 ? fmin(1, since / loading->rise) : 1;
     if (loading->duration > 0) amplitude *= 1 - since / loading->duration;
+    if (history->count > 0) amplitude = fracas_profile_at(history, since);
     if (clock->decay < INFINITY)
         amplitude *= clock->decay > 0 ? fracas_exp(-since / clock->decay) : since > 0 ? 0 : 1;
     return amplitude;
@@ -46,6 +54,13 @@ double fracas_load_amplitude(const fracas_loading *loading, const fracas_load_cl
 /* Beyond its duration the load is negative, and grows unless it decays. */
 double fracas_load_largest(const fracas_loading *loading, double t)
 {
+    FRACAS_CLEARED(fracas_profile) history = {0};
+    if (loading->history && !fracas_load_history(loading, &history)) {
+        double largest = 0;
+        for (size_t p = 0; p < history.count; p++)
+            largest = fmax(largest, fabs(history.place[p].value));
+        return largest;
+    }
     return loading->duration > 0 ? fmax(1, t / loading->duration - 1) : 1;
 }
 
@@ -68,6 +83,13 @@ fracas_err fracas_load_check(const fracas_loading *loading)
                                "%s is given, but no front: give the speed of the front, `front: "
                                "2000 m/s`, or leave %s out",
                                of_front[k].key, of_front[k].key);
+    if (loading->history && !(isnan(loading->rise) && isnan(loading->duration)))
+        return fracas_fail(FRACAS_USAGE,
+                           "history and %s are both given: %s says how the load changes: leave the "
+                           "other out",
+                           isnan(loading->rise) ? "duration" : "rise", loading->history->path);
+    FRACAS_CLEARED(fracas_profile) history = {0};
+    TRY(fracas_load_history(loading, &history));
     if (!isnan(loading->decay) && !isnan(loading->decay_by_travel))
         return fracas_fail(FRACAS_USAGE, "decay and decay_by_travel are both given: the load "
                                          "decays by one of them: leave the other out");

@@ -9,6 +9,7 @@
 #ifndef FRACAS_ENGINE_LOADING_LOAD_H
 #define FRACAS_ENGINE_LOADING_LOAD_H
 
+#include "base/profile.h"
 #include "engine/loading/loading.h"
 
 typedef enum {
@@ -41,10 +42,14 @@ typedef struct {
 
 fracas_load_clock fracas_load_clock_at(const fracas_loading *loading, const double x[3]);
 
+/* The factors of `history`, read; none without one. As fracas_profile_read. */
+FRACAS_MUST_USE fracas_err fracas_load_history(const fracas_loading *loading,
+                                               fracas_profile *history);
+
 /* a = min(1, s/rise) (1 - s/duration) exp(-s/decay) for s = t - arrival >= 0, else 0; factors not
- * given are 1                                                                       (loads.2) */
-double fracas_load_amplitude(const fracas_loading *loading, const fracas_load_clock *clock,
-                             double t);
+ * given are 1. A history, if there is one, stands for the first two  (loads.2) */
+double fracas_load_amplitude(const fracas_loading *loading, const fracas_profile *history,
+                             const fracas_load_clock *clock, double t);
 
 /* Largest |a| until t. */
 double fracas_load_largest(const fracas_loading *loading, double t);
@@ -64,33 +69,41 @@ extern const fracas_kind *const fracas_front_axes[3];
     FRACAS_BRACES(.name = key, .type = FRACAS_REAL, .unit = "m", .doc = what,             \
                   .fallback = FRACAS_REQUIRED, .minimum = -INFINITY, .maximum = INFINITY, \
                   .offset = offsetof(fracas_loading, member), .optional = true)
-#define FRACAS_LOAD_AMPLITUDE                                                                   \
-    FRACAS_LOAD_TIME("rise", rise, "time in which it rises from 0, in proportion to time"),     \
-        FRACAS_LOAD_TIME("decay", decay, "time constant of its exponential decay"),             \
-        FRACAS_LOAD_TIME("duration", duration,                                                  \
-                         "time after which its sign changes: Friedlander's factor "             \
-                         "1 - t/duration"),                                                     \
-        {.name = "front",                                                                       \
-         .type = FRACAS_REAL,                                                                   \
-         .unit = "m/s",                                                                         \
-         .doc = "speed of a front behind which the load acts: all times above count from its "  \
-                "arrival",                                                                      \
-         .fallback = FRACAS_REQUIRED,                                                           \
-         .minimum = -INFINITY,                                                                  \
-         .maximum = INFINITY,                                                                   \
-         .offset = offsetof(fracas_loading, front),                                             \
-         .optional = true},                                                                     \
-        {FRACAS_ONE_OF("front_along", fracas_front_axes, offsetof(fracas_loading, front_along), \
-                       "axis along which the front runs"),                                      \
-         .optional = true},                                                                     \
-        FRACAS_LOAD_PLACE("front_at", front_at, "coordinate of the front at t = 0; none is 0"), \
-        FRACAS_LOAD_PLACE("front_from", front_from,                                             \
-                          "coordinate at which the front began to run; none is front_at"),      \
-    {                                                                                           \
-        .name = "decay_by_travel", .type = FRACAS_REAL, .unit = "1",                            \
-        .doc = "time constant of its decay over the time that the front took from front_from",  \
-        .fallback = FRACAS_REQUIRED, .maximum = INFINITY, .minimum_open = true,                 \
-        .offset = offsetof(fracas_loading, decay_by_travel), .optional = true                   \
+#define FRACAS_LOAD_AMPLITUDE                                                                     \
+    FRACAS_LOAD_TIME("rise", rise, "time in which it rises from 0, in proportion to time"),       \
+        FRACAS_LOAD_TIME("decay", decay, "time constant of its exponential decay"),               \
+        FRACAS_LOAD_TIME("duration", duration,                                                    \
+                         "time after which its sign changes: Friedlander's factor "               \
+                         "1 - t/duration"),                                                       \
+        {.name = "history",                                                                       \
+         .type = FRACAS_ATTACHMENT,                                                               \
+         .unit = "1",                                                                             \
+         .doc =                                                                                   \
+             "text whose lines begin with a time [s] and a factor, linear between two lines, in " \
+             "place of rise and duration",                                                        \
+         .offset = offsetof(fracas_loading, history),                                             \
+         .optional = true},                                                                       \
+        {.name = "front",                                                                         \
+         .type = FRACAS_REAL,                                                                     \
+         .unit = "m/s",                                                                           \
+         .doc = "speed of a front behind which the load acts: all times above count from its "    \
+                "arrival",                                                                        \
+         .fallback = FRACAS_REQUIRED,                                                             \
+         .minimum = -INFINITY,                                                                    \
+         .maximum = INFINITY,                                                                     \
+         .offset = offsetof(fracas_loading, front),                                               \
+         .optional = true},                                                                       \
+        {FRACAS_ONE_OF("front_along", fracas_front_axes, offsetof(fracas_loading, front_along),   \
+                       "axis along which the front runs"),                                        \
+         .optional = true},                                                                       \
+        FRACAS_LOAD_PLACE("front_at", front_at, "coordinate of the front at t = 0; none is 0"),   \
+        FRACAS_LOAD_PLACE("front_from", front_from,                                               \
+                          "coordinate at which the front began to run; none is front_at"),        \
+    {                                                                                             \
+        .name = "decay_by_travel", .type = FRACAS_REAL, .unit = "1",                              \
+        .doc = "time constant of its decay over the time that the front took from front_from",    \
+        .fallback = FRACAS_REQUIRED, .maximum = INFINITY, .minimum_open = true,                   \
+        .offset = offsetof(fracas_loading, decay_by_travel), .optional = true                     \
     }
 
 #endif

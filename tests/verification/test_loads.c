@@ -157,7 +157,11 @@ static void traction_on_a_rim_pulls_and_turns(void **unused)
 static double amplitude(const fracas_loading *loading, double x, double t)
 {
     const fracas_load_clock clock = fracas_load_clock_at(loading, (double[3]){0, x, 0});
-    return fracas_load_amplitude(loading, &clock, t);
+    fracas_profile history;
+    OK(fracas_load_history(loading, &history));
+    const double a = fracas_load_amplitude(loading, &history, &clock, t);
+    fracas_profile_clear(&history);
+    return a;
 }
 
 static bool near(double a, double b)
@@ -177,6 +181,20 @@ static void amplitudes_rise_decay_and_change_sign(void **unused)
     l.duration = 5;
     assert_true(near(amplitude(&l, 0, 8), -0.6 * exp(-2)) && amplitude(&l, 0, 5) == 0);
     assert_true(fracas_load_largest(&l, 8) == 1 && near(fracas_load_largest(&l, 20), 3));
+}
+
+static void a_history_is_linear_between_its_lines(void **unused)
+{
+    static const char text[] = "time,pressure\n0,0.5\n2,1\n2,-3\n4,0\n";
+    const fracas_attachment file = {.path = "h.csv", .text = text, .size = sizeof text - 1};
+    fracas_loading l = no_pulse(&fracas_loading_pressure);
+    l.history = &file;
+    assert_true(amplitude(&l, 0, 0) == 0.5 && amplitude(&l, 0, 1) == 0.75 &&
+                amplitude(&l, 0, 2) == -3 && amplitude(&l, 0, 3) == -1.5 &&
+                amplitude(&l, 0, 9) == 0 && amplitude(&l, 0, -1) == 0);
+    l.decay = 4;
+    assert_true(near(amplitude(&l, 0, 3), -1.5 * exp(-0.75)));
+    assert_true(fracas_load_largest(&l, 1) == 3);
 }
 
 /* A front along y from 1, at 3 when the clock starts, 2 a second, that has decayed by t/(1.5 times
@@ -391,7 +409,8 @@ static void work_is_exact(void **unused)
     }
 }
 
-TESTS(pressure_on_an_octant_is_a_quarter_disk, forces_on_plates_are_exact,
-      traction_on_a_rim_pulls_and_turns, amplitudes_rise_decay_and_change_sign,
-      fronts_arrive_and_decay_by_their_travel, a_sphere_under_pressure_breathes, bodies_fall_alike,
-      a_pulled_strip_swings, a_front_loads_what_it_has_passed, work_is_exact)
+TESTS(a_history_is_linear_between_its_lines, pressure_on_an_octant_is_a_quarter_disk,
+      forces_on_plates_are_exact, traction_on_a_rim_pulls_and_turns,
+      amplitudes_rise_decay_and_change_sign, fronts_arrive_and_decay_by_their_travel,
+      a_sphere_under_pressure_breathes, bodies_fall_alike, a_pulled_strip_swings,
+      a_front_loads_what_it_has_passed, work_is_exact)

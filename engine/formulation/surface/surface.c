@@ -306,10 +306,12 @@ static void advance_part(void *context, size_t number)
         task->sweep(&task->constants, step, first, number);
 }
 
-/* Of a load without a front. */
+/* The amplitude of a load without a front. */
 static double amplitude_at(const fracas_surface_constants *c, double time)
 {
-    return c->tables->nloads ? fracas_load_amplitude(c->loading, c->tables->load_clock, time) : 0;
+    return c->tables->nloads ? fracas_load_amplitude(c->loading, &c->tables->load_history,
+                                                     c->tables->load_clock, time)
+                             : 0;
 }
 
 void fracas_surface_advance(const fracas_model *model, fracas_step *step)

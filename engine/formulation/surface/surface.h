@@ -121,6 +121,7 @@ typedef struct {
     uint32_t *load_row;            /* [element]: its row + 1; 0: none; NULL: there is no load */
     double *load;                  /* [row][unknown] [N] */
     fracas_load_clock *load_clock; /* [row] */
+    fracas_profile load_history;
     /* A shell's edges whose director is held. */
     size_t nrims;
     double *rim;        /* [rim][body->rim_table] */

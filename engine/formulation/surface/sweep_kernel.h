@@ -294,8 +294,10 @@ surface_front(const surface_context *c, const fracas_load_clock *clock, surface_
     const fracas_step *step = c->step;
     for (int l = 0; l < LANES; l++) {
         const double time = step->time[c->first + l], drift = step->drift[c->first + l];
-        now[l] = fracas_load_amplitude(c->constants->loading, clock, time);
-        before[l] = fracas_load_amplitude(c->constants->loading, clock, time - drift);
+        now[l] = fracas_load_amplitude(c->constants->loading, &c->tables->load_history, clock,
+                                       time);
+        before[l] = fracas_load_amplitude(c->constants->loading, &c->tables->load_history, clock,
+                                          time - drift);
     }
     load->now = lanes_load(now);
     load->before = lanes_load(before);

@@ -74,6 +74,7 @@ void fracas_surface_tables_destroy(void *p)
 #define TABLE(name) free(t->name);
     TABLES(TABLE)
 #undef TABLE
+    fracas_profile_clear(&t->load_history);
     free(t);
 }
 
@@ -320,6 +321,7 @@ static fracas_err fill(const fracas_model *model, fracas_surface_tables *t)
     TRY(fill_edges(model, t));
     for (size_t e = 0; e < t->nelements; e++) fill_element(model, t, e);
     for (size_t i = 0; i < t->ninterfaces; i++) fill_interface(model, t, i);
+    TRY(fracas_load_history(&model->spec.loading, &t->load_history));
     fracas_surface_loads_fill(model, t);
     return FRACAS_OK;
 }
