@@ -23,7 +23,8 @@ static const char of_chains[] =
     "interval of the size supports.";
 static const char of_surfaces[] =
     "rotation: mean kinetic energy of the spins of fragments, as part of that of their centres of "
-    "mass. Of an octant (geometry.part) all this is the octant's own, an eighth of the sphere.";
+    "mass. Of a part (geometry.part) all this is the part's own: of an octant an eighth of the "
+    "body.";
 static const char of_ledger[] =
     "resid., created: largest over replicas of |ledger residual| and of created energy, as parts "
     "of the dissipated. resid./total, on the page: the residual by the largest total energy: "

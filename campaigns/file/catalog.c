@@ -231,6 +231,28 @@ bool fracas_leaf_get(const fracas_leaf *leaf, const void *owner, fracas_value *v
     return true;
 }
 
+static size_t add_choices(const fracas_param *params, size_t nparams, const char *key,
+                          const fracas_kind *choice[FRACAS_MOST_CHOICES], size_t count)
+{
+    for (size_t p = 0; p < nparams; p++)
+        for (size_t c = 0; c < params[p].nchoices && strcmp(params[p].name, key) == 0; c++) {
+            size_t at = 0;
+            while (at < count && choice[at] != params[p].choices[c]) at++;
+            if (at == count && count < FRACAS_MOST_CHOICES) choice[count++] = params[p].choices[c];
+        }
+    return count;
+}
+
+size_t fracas_leaf_choices(const fracas_leaf *leaf, const fracas_kind *choice[FRACAS_MOST_CHOICES])
+{
+    const fracas_section *table = leaf->section->table;
+    size_t count = add_choices(table->params, table->nparams, leaf->key, choice, 0);
+    for (size_t k = 0; k < table->nkinds; k++)
+        count = add_choices(table->kinds[k]->params, table->kinds[k]->nparams, leaf->key, choice,
+                            count);
+    return count;
+}
+
 bool fracas_leaf_is_text(const fracas_leaf *leaf)
 {
     return !leaf->param || fracas_param_is_text(leaf->param);

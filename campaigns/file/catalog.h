@@ -61,6 +61,10 @@ void *fracas_section_at(const fracas_file_section *section, void *owner);
 /* The section's kind in its owner; NULL without kinds. */
 const fracas_kind *fracas_section_kind(const fracas_file_section *section, const void *owner);
 
+/* Choices of the leaf's key, of all kinds of its section together; returns their number. */
+enum { FRACAS_MOST_CHOICES = 32 };
+size_t fracas_leaf_choices(const fracas_leaf *leaf, const fracas_kind *choice[FRACAS_MOST_CHOICES]);
+
 /* True for a leaf of text: a kind's name, a choice, an attachment. */
 bool fracas_leaf_is_text(const fracas_leaf *leaf);
 

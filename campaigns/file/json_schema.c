@@ -133,7 +133,10 @@ static void write_leaf(fracas_json *json, const fracas_leaf *leaf)
 {
     fracas_json_object(json, leaf->path);
     if (leaf->param) {
-        const fracas_param widest = widest_of(leaf);
+        const fracas_kind *choice[FRACAS_MOST_CHOICES];
+        fracas_param widest = widest_of(leaf);
+        widest.choices = choice;
+        widest.nchoices = fracas_leaf_choices(leaf, choice);
         write_param(json, &widest);
     } else write_selector(json, leaf->section->table);
     fracas_json_close(json);

@@ -436,7 +436,7 @@ static fracas_err resolve_value(resolving *r, const fracas_leaf *leaf, const fra
     if (setting->expression) TRY(settle(r->file, r->draft, param, &setting, &known));
     TRY(fracas_setting_check(r->file, setting, param));
     if (fracas_param_is_object(param)) fracas_param_place(param, r->values, setting->object);
-    else fracas_param_set(param, r->values, setting->value);
+    else fracas_param_set(param, r->values, fracas_setting_number(setting, param));
     return FRACAS_OK;
 }
 

@@ -44,6 +44,15 @@ fracas_err fracas_setting_kind(const fracas_file *file, const char *key, const f
     return FRACAS_OK;
 }
 
+/* Kinds of a section may have other choices for the same key: one of any. */
+static fracas_err read_choice(const fracas_file *file, const fracas_leaf *leaf,
+                              const fracas_node *node, const fracas_kind **kind)
+{
+    const fracas_kind *choice[FRACAS_MOST_CHOICES];
+    const size_t count = fracas_leaf_choices(leaf, choice);
+    return fracas_setting_kind(file, leaf->key, node, choice, count, kind);
+}
+
 static fracas_err read_boolean(const fracas_file *file, const char *key, const fracas_node *node,
                                double *value)
 {
@@ -139,8 +148,7 @@ fracas_err fracas_setting_read(const fracas_file *file, const fracas_leaf *leaf,
     switch (param->type) {
     case FRACAS_BOOLEAN: return read_boolean(file, leaf->key, node, &setting->value);
     case FRACAS_INTEGER: return read_integer(file, leaf->key, node, &setting->value);
-    case FRACAS_CHOICE:
-        return read_name(file, leaf->key, node, param->choices, param->nchoices, &setting->value);
+    case FRACAS_CHOICE: return read_choice(file, leaf, node, &setting->kind);
     case FRACAS_ATTACHMENT:
         TRY(want_scalar(file, leaf->key, node, "the path of a file"));
         return fracas_attachment_read(file, leaf->key, node, &setting->object);
@@ -374,10 +382,32 @@ bool fracas_setting_computable(double value)
     return size == 0 || (size <= FRACAS_GREATEST && size >= 1 / FRACAS_GREATEST);
 }
 
+double fracas_setting_number(const fracas_setting *setting, const fracas_param *param)
+{
+    if (param->type != FRACAS_CHOICE) return setting->value;
+    for (size_t c = 0; c < param->nchoices; c++)
+        if (param->choices[c] == setting->kind) return (double)c;
+    return NAN;
+}
+
+/* A choice that only other kinds of the section have. */
+static fracas_err check_choice(const fracas_file *file, const fracas_setting *setting,
+                               const fracas_param *param)
+{
+    fracas_words words;
+    if (!isnan(fracas_setting_number(setting, param))) return FRACAS_OK;
+    fracas_words_init(&words, setting->kind->name);
+    for (size_t c = 0; c < param->nchoices; c++) fracas_words_add(&words, param->choices[c]->name);
+    return fracas_file_error(file, setting->node, "`%s` cannot be `%s` here%s", param->name,
+                             setting->kind->name,
+                             fracas_words_hint(&words, "%s can be", param->name));
+}
+
 fracas_err fracas_setting_check(const fracas_file *file, const fracas_setting *setting,
                                 const fracas_param *param)
 {
     double value = setting->value;
+    if (param->type == FRACAS_CHOICE) return check_choice(file, setting, param);
     if (fracas_param_is_text(param) || fracas_param_is_object(param)) return FRACAS_OK;
     if (!fracas_setting_computable(value))
         return fracas_file_error(file, setting->node,

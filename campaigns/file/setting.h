@@ -8,8 +8,8 @@
 typedef struct fracas_setting {
     const fracas_leaf *leaf;
     const fracas_node *node; /* its place */
-    const fracas_kind *kind; /* for the name of a kind */
-    double value;            /* for any other leaf, SI; for a choice, its index */
+    const fracas_kind *kind; /* for the name of a kind, and for a choice */
+    double value;            /* for any other leaf, SI */
     const char *expression;  /* gives the value from other keys; NULL: it is known */
     const void *object;      /* for a file or a list, which the campaign owns */
     bool wrong;              /* an error tells of it: its value is not known */
@@ -74,7 +74,11 @@ FRACAS_MUST_USE fracas_err fracas_settings_add_section(const fracas_file *file,
 #define FRACAS_GREATEST 1e100
 bool fracas_setting_computable(double value);
 
-/* FRACAS_USAGE unless the value lies in the range of `param`, and can be computed with. */
+/* The number that fracas_param_set takes: of a choice its index, NaN where `param` has it not. */
+double fracas_setting_number(const fracas_setting *setting, const fracas_param *param);
+
+/* FRACAS_USAGE unless the value lies in the range or among the choices of `param`, and can be
+ * computed with. */
 FRACAS_MUST_USE fracas_err fracas_setting_check(const fracas_file *file,
                                                 const fracas_setting *setting,
                                                 const fracas_param *param);

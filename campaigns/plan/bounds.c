@@ -38,9 +38,8 @@ static holding holding_of(const fracas_spec *spec, const fracas_stretch *stretch
 {
     holding of = {0};
     bool fast = false, released = false;
-    if (fracas_shape_of(spec)->edges) return of; /* symmetry, across the motion */
     for (int tag = fracas_shape_of(spec)->from_file ? 0 : 1; tag < FRACAS_EDGES; tag++) {
-        if (!spec->geometry.edge[tag]) continue;
+        if (!spec->geometry.edge[tag] || fracas_shape_edge(spec, tag)) continue;
         const fracas_edge *edge = fracas_edge_of(spec->geometry.edge[tag]);
         of.any = of.any || edge->held;
         of.against = of.against || (edge->held && !(edge->moving && stretch->moving));
@@ -61,8 +60,7 @@ static double concentration_of(const fracas_spec *spec, const holding *held, dou
     const double notch = fmax(10, 3 * sqrt(size->extent / size->element));
     if (shape->from_file || held->corners || held->against) return notch;
     if (shape->even) return 1;
-    if (shape->edges) return ratio == 1 ? 1.2 : 3; /* facets; other modes of a sphere */
-    return 4;
+    return shape->concentration ? shape->concentration(ratio) : 4;
 }
 
 /* Ratio of the sides' strains that is farthest from 1. */
@@ -74,7 +72,7 @@ static double ratio_of(const fracas_stretch *stretch)
 
 /* Largest strain along x of a surface until t. Edges held against the motion, and those that start
  * it, send a shock v/c with v = d strain/dt L/2, doubled where it is reflected. A free body swings
- * back: a sphere at w^2 = 2 E/((1 - nu) rho R^2). */
+ * back. */
 static double strain_bound(const fracas_spec *spec, const fracas_stretch *stretch,
                            const holding *held, const fracas_body_size *size)
 {
@@ -84,10 +82,10 @@ static double strain_bound(const fracas_spec *spec, const fracas_stretch *stretc
     if (held->against || stretch->shock) return strain * (1 + 4 * transit / t);
     if (stretch->whole > 0) strain = fmin(strain, stretch->whole);
     if (held->any || isnan(rate)) return strain;
-    if (!fracas_shape_of(spec)->edges) return fmin(strain, 4 * rate * transit);
-    if (ratio_of(stretch) != 1) return strain;
-    return fmin(strain, rate * spec->geometry.radius / wave_speed(spec) *
-                            sqrt((1 - spec->material.poisson) / 2));
+    const fracas_shape *shape = fracas_shape_of(spec);
+    const bool other_along_z = fabs(stretch->ratio_z - 1) > 0; /* NaN: no */
+    if (shape->swing && other_along_z) return strain;
+    return fmin(strain, rate * (shape->swing ? shape->swing(spec, stretch->ratio) : 4 * transit));
 }
 
 /* Largest of E' (a + nu b) and of the uniaxial stress over pairs of sides, by E'; E' = E/(1 - nu^2)

@@ -19,8 +19,8 @@ static void density(const fracas_spec *spec, const fracas_place *at, double dens
 
 static const fracas_load load = {.on = FRACAS_LOAD_ON_AREA, .density = density};
 
-/* A sphere: p t^2/(2 rho h R) as if it had no stiffness; twice the static strain while whole. A
- * surface without a radius may bend: no bound is known. */
+/* A body of radius R: p t^2/(2 rho h R) as if it had no stiffness; twice the static strain of a tube while
+ * whole, four times a sphere's. A surface without a radius may bend: no bound is known. */
 static fracas_stretch surface(const fracas_spec *spec, double t)
 {
     const double radius = spec->geometry.radius, h = spec->geometry.thickness,
@@ -29,7 +29,7 @@ static fracas_stretch surface(const fracas_spec *spec, double t)
         .strain = p == 0 ? 0 : p * t * t / (2 * spec->material.density * h * radius),
         .ratio = 1,
         .ratio_z = NAN,
-        .whole = p * radius * (1 - spec->material.poisson) / (spec->material.young * h)};
+        .whole = 2 * p * radius * (1 - spec->material.poisson) / (spec->material.young * h)};
 }
 
 const fracas_kind fracas_loading_pressure = {

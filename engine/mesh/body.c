@@ -2,6 +2,7 @@
 #include "engine/mesh/body.h"
 
 #include "base/elementary.h"
+#include "engine/mesh/surface/cylinder.h"
 #include "engine/mesh/surface/gmsh.h"
 #include "engine/mesh/surface/gmsh_file.h"
 
@@ -56,10 +57,30 @@ const fracas_kind fracas_edge_diaphragm = {
 static const fracas_kind *const edges[] = {
     &fracas_edge_free,    &fracas_edge_held,     &fracas_edge_sliding,  &fracas_edge_fixed,
     &fracas_edge_clamped, &fracas_edge_symmetry, &fracas_edge_diaphragm};
-const fracas_kind fracas_part_whole = {"whole", "all of it"};
-const fracas_kind fracas_part_octant = {"octant",
-                                        "x, y, z >= 0; the other seven are mirror images"};
+static const fracas_kind *const shell_edges[] = {&fracas_edge_free,     &fracas_edge_held,
+                                                 &fracas_edge_fixed,    &fracas_edge_clamped,
+                                                 &fracas_edge_symmetry, &fracas_edge_diaphragm};
+const fracas_kind fracas_part_whole = {"whole", "all of it",
+                                       .traits = &(const fracas_part_of_shape){0}};
+const fracas_kind fracas_part_half = {"half", "z >= 0; the other one is the mirror image",
+                                      .traits = &(const fracas_part_of_shape){1}};
+const fracas_kind fracas_part_quarter = {"quarter", "x, z >= 0; the other three are mirror images",
+                                         .traits = &(const fracas_part_of_shape){2}};
+const fracas_kind fracas_part_octant = {"octant", "x, y, z >= 0; the other seven are mirror images",
+                                        .traits = &(const fracas_part_of_shape){3}};
 static const fracas_kind *const parts[] = {&fracas_part_whole, &fracas_part_octant};
+static const fracas_kind *const tube_parts[] = {&fracas_part_whole, &fracas_part_half,
+                                                &fracas_part_quarter, &fracas_part_octant};
+
+static int planes_of(const fracas_geometry *geometry)
+{
+    return ((const fracas_part_of_shape *)geometry->part->traits)->planes;
+}
+
+static double wave_time(const fracas_spec *spec) /* radius by sqrt(E/rho) */
+{
+    return spec->geometry.radius * sqrt(spec->material.density / spec->material.young);
+}
 
 typedef struct {
     double metres;
@@ -71,9 +92,10 @@ static const fracas_kind unit_m = {"m", "metres", .traits = &(const length_unit)
                          unit_in = {"in", "inches", .traits = &(const length_unit){0.0254}};
 static const fracas_kind *const units[] = {&unit_m, &unit_cm, &unit_mm, &unit_um, &unit_in};
 
-#define EDGE(key, tag, what) \
-    FRACAS_BRACES(           \
-        FRACAS_ONE_OF(key, edges, offsetof(fracas_geometry, edge[tag]), "what holds " what))
+#define EDGE_OF(kinds, key, tag, what) \
+    FRACAS_BRACES(                     \
+        FRACAS_ONE_OF(key, kinds, offsetof(fracas_geometry, edge[tag]), "what holds " what))
+#define EDGE(key, tag, what) EDGE_OF(edges, key, tag, what)
 #define LENGTH(key, member, what)                                                  \
     FRACAS_BRACES(key, FRACAS_REAL, "m", what, FRACAS_REQUIRED, 0, INFINITY, true, \
                   offsetof(fracas_geometry, member))
@@ -195,9 +217,74 @@ static fracas_err make_sphere(const fracas_geometry *geometry,
                : fracas_surface_sphere(geometry->radius, fineness, surface);
 }
 
+static const fracas_kind *sphere_edge(const fracas_geometry *geometry, int32_t tag)
+{
+    (void)geometry, (void)tag;
+    return &fracas_edge_symmetry;
+}
+
+static double sphere_concentration(double ratio)
+{
+    return ratio == 1 ? 1.2 : 3; /* facets; other modes */
+}
+
+/* It swings back at w^2 = 2 E/((1 - nu) rho R^2). */
+static double sphere_swing(const fracas_spec *spec, double ratio)
+{
+    return ratio == 1 ? wave_time(spec) * sqrt((1 - spec->material.poisson) / 2) : INFINITY;
+}
+
 const fracas_kind fracas_shape_sphere = {
     "sphere", "a thin spherical shell about the origin", FRACAS_PARAMS(sphere),
-    .traits = &(const fracas_shape){.make = make_sphere, .edges = &fracas_edge_symmetry}};
+    .traits = &(const fracas_shape){.make = make_sphere,
+                                    .edge = sphere_edge,
+                                    .concentration = sphere_concentration,
+                                    .swing = sphere_swing}};
+
+static const fracas_param cylinder[] = {
+    LENGTH("radius", radius, "radius of the mid-surface"),
+    LENGTH("length", length, "of the whole cylinder: along y, from -length/2 to length/2"),
+    THICKNESS,
+    {FRACAS_ONE_OF("part", tube_parts, offsetof(fracas_geometry, part), "how much of it is there")},
+    EDGE_OF(shell_edges, "bottom", 3, "the end at the smallest y; of an octant it is a symmetry"),
+    EDGE_OF(shell_edges, "top", 4, "the end at the largest y"),
+};
+
+static fracas_err make_cylinder(const fracas_geometry *geometry,
+                                const fracas_surface_fineness *fineness,
+                                const fracas_surface **surface)
+{
+    return fracas_surface_cylinder(geometry->radius, geometry->length, planes_of(geometry),
+                                   fineness, surface);
+}
+
+static const fracas_kind *cylinder_edge(const fracas_geometry *geometry, int32_t tag)
+{
+    const bool is_plane = tag < 3 || (tag == 3 && planes_of(geometry) == 3);
+    return is_plane ? &fracas_edge_symmetry : NULL;
+}
+
+static double cylinder_concentration(double ratio)
+{
+    return ratio == 0 ? 1.5 : 3; /* bending at its ends; waves along it */
+}
+
+/* A ring swings back at w^2 = E/(rho R^2), a longer tube earlier; along the axis as a plate. */
+static double cylinder_swing(const fracas_spec *spec, double ratio)
+{
+    const double radius = spec->geometry.radius;
+    return wave_time(spec) * (ratio == 0 ? 1 : 1 + 4 * spec->geometry.length / radius);
+}
+
+const fracas_kind fracas_shape_cylinder = {
+    "cylinder",
+    "a thin tube around the y axis, open at both ends; mesh.divisions are along the shorter of a "
+    "quarter of its circumference and the length of the part",
+    FRACAS_PARAMS(cylinder),
+    .traits = &(const fracas_shape){.make = make_cylinder,
+                                    .edge = cylinder_edge,
+                                    .concentration = cylinder_concentration,
+                                    .swing = cylinder_swing}};
 
 static const fracas_param file[] = {
     {.name = "file",
@@ -231,13 +318,24 @@ const fracas_kind fracas_shape_file = {
     "file", "the surface of a mesh file", FRACAS_PARAMS(file),
     .traits = &(const fracas_shape){.make = make_from_file, .from_file = true}};
 
-static const fracas_kind *const shapes[] = {&fracas_shape_bar,    &fracas_shape_ring,
-                                            &fracas_shape_plate,  &fracas_shape_annulus,
-                                            &fracas_shape_sphere, &fracas_shape_file};
+static const fracas_kind *const shapes[] = {
+    &fracas_shape_bar,    &fracas_shape_ring,     &fracas_shape_plate, &fracas_shape_annulus,
+    &fracas_shape_sphere, &fracas_shape_cylinder, &fracas_shape_file};
+
+static fracas_err check_cylinder(const fracas_geometry *geometry)
+{
+    const fracas_kind *decided = cylinder_edge(geometry, 3), *given = geometry->edge[3];
+    if (!decided || given == decided || given == &fracas_edge_free) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "bottom is %s, but part: %s ends in the plane y = 0, its symmetry: leave "
+                       "bottom out, or take part: %s",
+                       given->name, geometry->part->name, fracas_part_quarter.name);
+}
 
 static fracas_err check_geometry(const void *section)
 {
     const fracas_geometry *geometry = section;
+    if (geometry->shape == &fracas_shape_cylinder) return check_cylinder(geometry);
     if (geometry->shape != &fracas_shape_bar || bar_free(geometry) || isnan(geometry->gap))
         return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,

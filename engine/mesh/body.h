@@ -17,11 +17,22 @@ typedef struct {
     /* Makes the mesh of a surface; NULL of chains. */
     fracas_err (*make)(const fracas_geometry *, const fracas_surface_fineness *,
                        const fracas_surface **);
-    bool round;               /* a chain along a circle in the plane */
-    bool even;                /* without holes, notches and curvature: stretches evenly */
-    bool from_file;           /* the mesh is an attachment */
-    const fracas_kind *edges; /* kind of all its edges; NULL: the campaign chooses */
+    bool round;     /* a chain along a circle in the plane */
+    bool even;      /* without holes, notches and curvature: stretches evenly */
+    bool from_file; /* the mesh is an attachment */
+    /* Kind of the edges of a tag, which the shape decides; NULL: the campaign chooses. Such edges
+     * lie along an expansion. NULL without any. */
+    const fracas_kind *(*edge)(const fracas_geometry *, int32_t tag);
+    /* Free, and set growing at the rates (1, ratio, 1) along x, y, z. Largest stress by an even
+     * stretch's; NULL: 4. Largest strain by rate [s]; NULL: 4 passages of a wave. */
+    double (*concentration)(double ratio);
+    double (*swing)(const fracas_spec *, double ratio);
 } fracas_shape;
+
+/* Traits of a part of a shape. */
+typedef struct {
+    int planes; /* number of planes of symmetry: z = 0, x = 0, y = 0, in this order */
+} fracas_part_of_shape;
 
 /* Traits of a spacing. */
 typedef struct {
@@ -46,8 +57,9 @@ typedef struct {
 
 extern const fracas_section fracas_geometry_section;
 extern const fracas_kind fracas_shape_bar, fracas_shape_ring, fracas_shape_plate,
-    fracas_shape_annulus, fracas_shape_sphere, fracas_shape_file;
-extern const fracas_kind fracas_part_whole, fracas_part_octant;
+    fracas_shape_annulus, fracas_shape_sphere, fracas_shape_cylinder, fracas_shape_file;
+extern const fracas_kind fracas_part_whole, fracas_part_half, fracas_part_quarter,
+    fracas_part_octant;
 extern const fracas_kind fracas_ends_periodic, fracas_ends_held, fracas_ends_free;
 extern const fracas_kind fracas_direction_initial, fracas_direction_current;
 extern const fracas_kind fracas_edge_free, fracas_edge_held, fracas_edge_sliding, fracas_edge_fixed,
@@ -72,6 +84,13 @@ static inline const fracas_spacing *fracas_spacing_of(const fracas_spec *spec)
 static inline const fracas_edge *fracas_edge_of(const fracas_kind *edge)
 {
     return edge->traits;
+}
+
+/* Kind of the edges of a tag, by the shape; NULL: the campaign chooses. */
+static inline const fracas_kind *fracas_shape_edge(const fracas_spec *spec, int32_t tag)
+{
+    const fracas_shape *shape = fracas_shape_of(spec);
+    return shape->edge ? shape->edge(&spec->geometry, tag) : NULL;
 }
 
 static inline bool fracas_spec_is_surface(const fracas_spec *spec)

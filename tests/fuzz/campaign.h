@@ -79,10 +79,12 @@ static inline bool is_small(const fracas_spec *spec)
     const fracas_geometry *g = &spec->geometry;
     if (!fracas_spec_is_surface(spec)) return spec->mesh.elements <= 1000;
     if (fracas_shape_of(spec)->from_file) return true;
-    const double longest = fmax(fmax(g->width, g->height), 6 * fmax(g->outer, g->radius)),
-                 shortest = g->width > 0   ? fmin(g->width, g->height)
-                            : g->outer > 0 ? g->outer - g->inner
-                                           : g->radius,
+    const double longest = fmax(fmax(fmax(g->width, g->height), g->length),
+                                6 * fmax(g->outer, g->radius)),
+                 shortest = g->width > 0    ? fmin(g->width, g->height)
+                            : g->outer > 0  ? g->outer - g->inner
+                            : g->length > 0 ? fmin(g->radius, g->length)
+                                            : g->radius,
                  size = spec->mesh.size > 0 ? spec->mesh.size
                                             : shortest / (double)spec->mesh.divisions;
     return longest <= 30 * fmin(size, shortest) && longest * shortest <= 200 * size * size;

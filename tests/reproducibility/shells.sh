@@ -1,10 +1,11 @@
-# An eighth of a sphere, with and without rotary inertia and behind a front, a whole one with friction and a plate in one study: study.h5 is the same,
+# An eighth of a sphere, with and without rotary inertia and behind a front, a whole one with friction, a plate and half a tube in one study: study.h5 is the same,
 # byte for byte, whatever computes it, and however often it was killed on the way.
 . tests/support/campaigns.sh
 
 whole='{name: whole, geometry: {shape: sphere, part: whole, radius: 2 mm, thickness: 0.3 mm}, mesh: {divisions: 2}, cohesive: {friction: 0.3, coupling: 0.8, onset: flux}, loading: {rate: 1e4 1/s}, time: {end: 0.6 us}}'
 plate='{name: plate, geometry: {shape: plate, width: 4 mm, height: 2 mm, thickness: 0.3 mm}, mesh: {divisions: 4}, cohesive: {fracture_energy: 0 J/m2, critical_opening: 0.4 um}, time: {end: 0.3 us, integrator: central-difference, safety: 0.4}}'
 front='{name: front, loading: {type: pressure, pressure: 400 MPa, decay_by_travel: 2, front: 3e4 m/s, front_at: 0.5 mm, front_from: 0 mm}}'
+tube='{name: tube, geometry: {shape: cylinder, part: half, radius: 2 mm, length: 3 mm, thickness: 0.2 mm, top: diaphragm}, mesh: {divisions: 5}, loading: {rate: 4e4 1/s, ratio: 0}, time: {end: 0.5 us}}'
 # shells FILE REPLICAS: two seconds of one core.
 shells()
 {
@@ -28,6 +29,7 @@ sweep:
       - $whole
       - $plate
       - $front
+      - $tube
 END
 }
 
@@ -38,7 +40,7 @@ import h5py
 r = h5py.File("one/study.h5")["realization"]
 print(list(zip(r["point"][:], r["fragments"][:], r["dissipated"][:], r["dissipated_bending"][:])))
 octant = r["point"][:] <= 1
-assert len(octant) == 20 and (r["fragments"][:] > 1).all()
+assert len(octant) == 30 and (r["fragments"][:] > 1).all()
 assert (r["dissipated_bending"][:][octant] > 0).all() and (r["dissipated_bending"][:] < r["dissipated"][:]).all()
 END
 compare_compilers all.yaml

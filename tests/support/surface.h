@@ -5,7 +5,7 @@
 
 #include "base/hash.h"
 #include "base/param.h"
-#include "engine/mesh/surface/surface.h"
+#include "engine/mesh/surface/cylinder.h"
 #include "tests/support/test.h"
 
 /* The numbers 2^-32 k, 0 <= k < 2^32, spread at random. */
@@ -20,7 +20,16 @@ typedef const fracas_surface a_surface;
 FRACAS_OWNER(a_surface, fracas_surface_destroy)
 
 /* Bodies of two lengths [m], or of one. */
-typedef enum { SHAPE_RECTANGLE, SHAPE_ANNULUS, SHAPE_SPHERE, SHAPE_OCTANT } body_shape;
+typedef enum {
+    SHAPE_RECTANGLE,
+    SHAPE_ANNULUS,
+    SHAPE_SPHERE,
+    SHAPE_OCTANT,
+    SHAPE_TUBE, /* and cut by one to three planes of symmetry */
+    SHAPE_TUBE_HALF,
+    SHAPE_TUBE_QUARTER,
+    SHAPE_TUBE_OCTANT
+} body_shape;
 
 static inline a_surface *surface_of(body_shape shape, const double length[2],
                                     const fracas_surface_fineness *fineness)
@@ -33,6 +42,13 @@ static inline a_surface *surface_of(body_shape shape, const double length[2],
     case SHAPE_ANNULUS: OK(fracas_surface_annulus(length[0], length[1], fineness, &surface)); break;
     case SHAPE_SPHERE: OK(fracas_surface_sphere(length[0], fineness, &surface)); break;
     case SHAPE_OCTANT: OK(fracas_surface_octant(length[0], fineness, &surface)); break;
+    case SHAPE_TUBE:
+    case SHAPE_TUBE_HALF:
+    case SHAPE_TUBE_QUARTER:
+    case SHAPE_TUBE_OCTANT:
+        OK(fracas_surface_cylinder(length[0], length[1], (int)(shape - SHAPE_TUBE), fineness,
+                                   &surface));
+        break;
     }
     return surface;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Good campaign files: values, sweeps, hashes, columns, the resolved file, extensions. */
+#include "campaigns/file/catalog.h"
 #include "tests/support/campaign_text.h"
 
 #include "campaigns/file/identity.h"
@@ -364,14 +365,20 @@ static void test_strain_rate(void **state)
     assert_true(isnan(fracas_spec_strain_rate(&spec)));
 }
 
-/* Kinds of one section that have a key in common must give it one type, unit and list of choices:
- * they share a leaf and a column. */
+/* Kinds of one section that have a key in common must give it one type and unit: they share a leaf
+ * and a column. Each may have choices of its own, but those of one name are one. */
 static void check_same_key(const fracas_section *section, const fracas_param *a,
                            const fracas_param *b)
 {
-    if (strcmp(a->name, b->name) == 0 &&
-        (a->type != b->type || strcmp(a->unit, b->unit) != 0 || a->choices != b->choices))
-        fail_msg("%s.%s has two types or units, or choices", section->name, a->name);
+    if (strcmp(a->name, b->name) != 0) return;
+    if (a->type != b->type || strcmp(a->unit, b->unit) != 0)
+        fail_msg("%s.%s has two types or units", section->name, a->name);
+    assert_true(a->nchoices + b->nchoices <= FRACAS_MOST_CHOICES);
+    for (size_t c = 0; c < a->nchoices; c++)
+        for (size_t d = 0; d < b->nchoices; d++)
+            if (strcmp(a->choices[c]->name, b->choices[d]->name) == 0 &&
+                a->choices[c] != b->choices[d])
+                fail_msg("%s.%s has two of %s", section->name, a->name, a->choices[c]->name);
 }
 
 static void check_section(const fracas_section *section)

@@ -9,6 +9,7 @@
 #include "campaigns/plan/point_model.h"
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
+#include "tests/support/cracks.h"
 #include "tests/support/surface_measures.h"
 
 static char *membrane_campaign; /* tests/data/campaigns/membrane.yaml */
@@ -352,21 +353,6 @@ static void test_bytes(void **state)
     OK(fracas_forecast_all(with, 1, false, &b));
     assert_true(b.bytes - a.bytes == 2.0 * 84 * sizeof(fracas_interface_row));
     assert_true(a.speed > 0 && a.time == 64.0 * (double)a.steps * 2 / a.speed);
-}
-
-/* Runs one realization in which every interface has this strength; true if any cracks. */
-static bool cracks(const fracas_model *model, double strength)
-{
-    OWN(fracas_batch) batch;
-    FRACAS_CLEARED(fracas_record) record;
-    const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
-    OK(fracas_batch_create(model, 1, &options, &batch));
-    size_t stride;
-    double *sigma_c = fracas_batch_strength(batch, 0, &stride);
-    for (size_t i = 0; i < fracas_model_interfaces(model); i++) sigma_c[i * stride] = strength;
-    fracas_record_init(&record);
-    OK(fracas_batch_run(batch, &record));
-    return record.cracked > 0;
 }
 
 /* No stress exceeds the bound, and even stretching reaches it: plates of strength 1.05 bound stay

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* engine/mesh/surface: rectangles, annuli, spheres and octants: topology, areas, perturbation,
- * bits. */
+/* engine/mesh/surface: rectangles, annuli, spheres, octants and cylinders: topology, areas,
+ * perturbation, bits. */
 #include "tests/support/surface.h"
 #include "tests/support/surface_measures.h"
 
@@ -21,7 +21,24 @@ static const body bodies[] = {
     {"annulus", SHAPE_ANNULUS, {1.0, 2.0}, 3.0 * PI, 6.0 * PI, 0, 2, 1.03, 1.54},
     {"sphere", SHAPE_SPHERE, {2.0}, 16.0 * PI, 0.0, 2, 0, 1.2, 1.18},
     {"octant", SHAPE_OCTANT, {2.0}, 2.0 * PI, 3.0 * PI, 1, 3, 1.75, 1.47},
+    {"tube", SHAPE_TUBE, {2.0, 5.0}, 20.0 * PI, 8.0 * PI, 0, 4, 1.0001, 1.43},
+    {"half of a tube", SHAPE_TUBE_HALF, {2.0, 5.0}, 10.0 * PI, 4.0 * PI + 10.0, 1, 4, 1.0001, 1.43},
+    {"quarter", SHAPE_TUBE_QUARTER, {2.0, 5.0}, 5.0 * PI, 2.0 * PI + 10.0, 1, 4, 1.0001, 1.43},
+    {"octant of a tube",
+     SHAPE_TUBE_OCTANT,
+     {2.0, 5.0},
+     2.5 * PI,
+     2.0 * PI + 5.0,
+     1,
+     4,
+     1.0001,
+     1.43},
 };
+
+static bool is_tube(const body *b)
+{
+    return b->shape >= SHAPE_TUBE;
+}
 
 static a_surface *made(const body *b, size_t divisions, int order)
 {
@@ -40,15 +57,34 @@ static double radius_of(const body *b)
     return b->shape < SHAPE_SPHERE ? 0.0 : b->length[0];
 }
 
-/* Six times the volume of the tetrahedron to the origin on a sphere, else twice the area: positive
- * unless inverted. */
-static double outward(const fracas_surface *s, size_t e, bool is_sphere)
+/* From the origin, of a tube from its axis. */
+static double distance_of(const body *b, const double x[3])
 {
-    const double *a = s->node[corner_of(s, e, 0)], *b = s->node[corner_of(s, e, 1)],
-                 *c = s->node[corner_of(s, e, 2)];
-    if (!is_sphere) return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    return sqrt(x[0] * x[0] + (is_tube(b) ? 0.0 : x[1] * x[1]) + x[2] * x[2]);
+}
+
+/* Six times the volume of the tetrahedron to the origin on a sphere, of a tube to the element's
+ * height on its axis, else twice the area: positive unless inverted. */
+static double outward(const body *of, const fracas_surface *s, size_t e)
+{
+    double corner[3][3], height = 0.0;
+    for (size_t k = 0; k < 3; k++) memcpy(corner[k], s->node[corner_of(s, e, k)], sizeof corner[k]);
+    for (size_t k = 0; k < 3 && is_tube(of); k++) height += corner[k][1] / 3.0;
+    for (size_t k = 0; k < 3; k++) corner[k][1] -= height;
+    const double *a = corner[0], *b = corner[1], *c = corner[2];
+    if (radius_of(of) == 0.0) return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
            a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/* Planes of symmetry x, y, z = 0, and ends, all to the last bit. */
+static void check_end(const body *b, int tag, const double x[3])
+{
+    const double low = b->shape == SHAPE_TUBE_OCTANT ? 0.0 : -0.5 * b->length[1];
+    assert_true(tag > 2 || b->shape > SHAPE_TUBE);
+    if (tag > 2) assert_true(x[1] == (tag == 3 ? low : 0.5 * b->length[1]));
+    else if (b->shape == SHAPE_TUBE_HALF) assert_true(x[2] == 0.0 && (x[0] < 0.0) == (tag == 1));
+    else assert_true(x[tag == 1 ? 0 : 2] == 0.0);
 }
 
 /* What holds for every mesh of a body: nodes on it to round-off, elements outward, tags where they
@@ -59,11 +95,11 @@ static void check_body(const body *b, const fracas_surface *s)
     check_edges(s);
     assert_int_equal(euler(s), b->euler);
     for (size_t n = 0; n < s->nnodes; n++) {
-        const double *x = s->node[n], radius = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+        const double *x = s->node[n], radius = distance_of(b, x);
         if (of > 0.0) assert_true(fabs(radius - of) < 4e-16 * of);
         else assert_true(x[2] == 0.0);
     }
-    for (size_t e = 0; e < s->nelements; e++) assert_true(outward(s, e, of > 0.0) > 0.0);
+    for (size_t e = 0; e < s->nelements; e++) assert_true(outward(b, s, e) > 0.0);
     for (size_t i = 0; i < s->ninterfaces; i++) assert_int_equal(s->interface[i].tag, 0);
     for (size_t i = 0; i < s->nborders; i++) {
         const fracas_surface_border *f = &s->border[i];
@@ -77,6 +113,7 @@ static void check_body(const body *b, const fracas_surface *s)
                                         : x[1] == (f->tag == 3 ? -1.0 : 1.0));
             if (b->shape == SHAPE_ANNULUS) assert_true(fabs(radius - f->tag) < 5e-16 * f->tag);
             if (b->shape == SHAPE_OCTANT) assert_true(x[f->tag - 1] == 0.0); /* to the last bit */
+            if (is_tube(b)) check_end(b, f->tag, x);
         }
     }
 }
@@ -92,6 +129,13 @@ static void test_bodies(void **state)
                 if (bodies[i].shape == SHAPE_OCTANT) assert_int_equal(s->nelements, n * n);
                 if (bodies[i].shape == SHAPE_RECTANGLE)
                     assert_int_equal(s->nelements, 2 * n * ((3 * n + 1) / 2));
+                if (!is_tube(&bodies[i])) continue;
+                /* the quarter of the circle, PI, is the longer side of the octant, 2.5 */
+                const double by = bodies[i].shape == SHAPE_TUBE_OCTANT ? PI / 2.5 : 5.0 / PI;
+                const size_t quarters = bodies[i].shape == SHAPE_TUBE        ? 4
+                                        : bodies[i].shape == SHAPE_TUBE_HALF ? 2
+                                                                             : 1;
+                assert_int_equal(s->nelements, 2 * quarters * n * (size_t)lround((double)n * by));
             }
 }
 
@@ -232,8 +276,7 @@ static void test_never_inverts(void **state)
                     const fracas_surface one = {.corners = 3,
                                                 .node = (const double(*)[3])node,
                                                 .element = (uint32_t[]){0, 1, 2}};
-                    least = fmin(least, outward(&one, 0, radius_of(b) > 0.0) /
-                                            outward(plain, e, radius_of(b) > 0.0));
+                    least = fmin(least, outward(b, &one, 0) / outward(b, plain, e));
                 }
             if (!(least > 0.0)) fail_msg("%s, %zu divisions: %g", b->name, n, least);
             if (n == 9)
@@ -250,7 +293,7 @@ static void test_perturbed(void **state)
     for (size_t i = 0; i < FRACAS_COUNT(bodies); i++)
         for (int order = 1; order <= 2; order++)
             for (uint64_t seed = 1; seed <= 12; seed++) {
-                const size_t n = 1 + (size_t)seed;
+                const size_t n = (size_t)seed;
                 const body *b = &bodies[i];
                 OWN(a_surface) s = perturbed(b, n, order, seed, seed % 2),
                                *plain = made(b, n, order);
@@ -285,7 +328,8 @@ static void test_annuli(void **state)
                                                   true);
                 double area = 0.0;
                 for (size_t e = 0; e < s->nelements; e++) {
-                    assert_true(outward(plain, e, false) > 0.0 && outward(s, e, false) > 0.0);
+                    assert_true(outward(&bodies[1], plain, e) > 0.0 &&
+                                outward(&bodies[1], s, e) > 0.0);
                     area += s->area[e];
                 }
                 fracas_surface_measures all;
@@ -312,6 +356,9 @@ static void test_refused(void **state)
            "the outer radius of an annulus is 1 m, the inner one 1 m");
     expect(fracas_surface_sphere(INFINITY, &f, &s), "the radius of a surface is inf m");
     expect(fracas_surface_octant(0.0, &f, &s), "the radius of a surface is 0 m");
+    expect(fracas_surface_cylinder(0.0, 1.0, 0, &f, &s), "the radius of a surface is 0 m");
+    expect(fracas_surface_cylinder(1.0, -1.0, 0, &f, &s), "the length of a surface is -1 m");
+    expect(fracas_surface_cylinder(1e-20, 1e20, 0, &f, &s), "elements, more than");
     f.order = 3;
     expect(fracas_surface_sphere(1.0, &f, &s), "order 1 or 2, not 3");
     f.order = 1;
@@ -347,10 +394,11 @@ static void test_refused(void **state)
 /* The same bits from every compiler and on every CPU: a change of these is one of every mesh. */
 static void test_bits(void **state)
 {
-    static const uint64_t golden[][2] = {{0x8a331ad5461bbe74, 0x61ed2581fd5f1d39},
-                                         {0x1cb5415b2eb412d1, 0xe9a0ad3b1ad00f0f},
-                                         {0xca48d546424be57a, 0x4c6850602b364004},
-                                         {0x90feec28914a2f5a, 0xd4d117494b31ceb0}};
+    static const uint64_t golden[][2] = {
+        {0x8a331ad5461bbe74, 0x61ed2581fd5f1d39}, {0x1cb5415b2eb412d1, 0xe9a0ad3b1ad00f0f},
+        {0xca48d546424be57a, 0x4c6850602b364004}, {0x90feec28914a2f5a, 0xd4d117494b31ceb0},
+        {0xcede5846f91ba28c, 0xe72a49de7536bd6b}, {0x5a69bd3eb1175bdf, 0x07642968c7cf1387},
+        {0xc8ba51e48c100802, 0xf7c9291d99e7b149}, {0xa28dff65af647bb7, 0x08ef8178cb5ae972}};
     bool same = true;
     for (size_t i = 0; i < FRACAS_COUNT(bodies); i++)
         for (int order = 1; order <= 2; order++) {

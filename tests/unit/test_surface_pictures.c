@@ -5,7 +5,7 @@
 
 static const struct {
     const char *name;
-    body_shape shape; /* spheres and octants are seen from x = y = z, others from above */
+    body_shape shape; /* from spheres on seen from x = y = z, others from above */
     double length[2]; /* m */
     size_t divisions;
     double scale;
@@ -14,6 +14,7 @@ static const struct {
     {"annulus", SHAPE_ANNULUS, {0.5, 1.0}, 4, 140.0},
     {"sphere", SHAPE_SPHERE, {1.0}, 4, 140.0},
     {"octant", SHAPE_OCTANT, {1.0}, 8, 165.0},
+    {"cylinder", SHAPE_TUBE, {0.6, 1.6}, 6, 140.0},
 };
 
 enum { WIDTH = 300, HEIGHT = 300 };

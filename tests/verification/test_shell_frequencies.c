@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* ctest-labels: ci slow-sanitize */
-/* Frequencies of thin plates and strips by the shell's operator, masses lumped.
+/* Frequencies of thin plates, strips and tubes by the shell's operator, masses lumped.
  */
 #include "tests/support/shell_statics.h"
 #include "tests/support/test.h"
@@ -119,6 +119,68 @@ static void a_thick_plate(void **unused)
     check(&v);
 }
 
+/* omega^2 by E/(rho R^2) of the lowest modes of a free tube of radius 1, symmetric in x, y, z. */
+static void tube_frequencies(double length, double thickness, int64_t divisions, int count,
+                             double *square)
+{
+    fracas_spec spec = shell_spec(&fracas_shape_cylinder);
+    spec.geometry.part = &fracas_part_octant;
+    spec.geometry.length = length;
+    spec.geometry.thickness = thickness;
+    spec.mesh.divisions = divisions;
+    OWN(fracas_model) model = distorted_model(spec, 0, 0);
+    shell_statics *s = statics_open(model);
+    double *mode = random_start(s, count + 2), omega[5];
+    lowest_frequencies(s, count, count + 2, mode, omega);
+    print_message("tube of length %g, thickness %g, %zu elements:", length, thickness,
+                  model->elements);
+    for (int k = 0; k < count; k++) {
+        square[k] = omega[k] * omega[k] * spec.material.density / spec.material.young;
+        print_message("  %.6f", square[k]);
+    }
+    print_message("\n");
+    free(mode);
+    statics_close(s);
+}
+
+/* Inextensional: n^2 (n^2 - 1)^2/(n^2 + 1) h^2/12 by E' = E of a ring, which bends the other way
+ * too, and by E/(1 - nu^2) of a tube much longer than sqrt(R h), which cannot (Rayleigh); the two
+ * are 10 % apart. */
+static double ovalising(double n, double h)
+{
+    const double m = n * n - 1;
+    return n * n * m * m / (n * n + 1) * h * h / 12;
+}
+
+static void a_free_tube_becomes_oval(void **unused)
+{
+    const double h = 0.02;
+    double ring[2], tube[2];
+    tube_frequencies(0.05, h, 1, 2, ring);
+    tube_frequencies(4, h, 22, 2, tube);
+    for (int k = 0; k < 2; k++) {
+        const double thin = ovalising(2 + 2 * k, h);
+        print_message("n = %d: ring %+.3f %%, tube %+.3f %%\n", 2 + 2 * k,
+                      100 * (ring[k] / thin - 1), 100 * (tube[k] * (1 - 0.09) / thin - 1));
+        assert_true(fabs(ring[k] / thin - 1) < 0.01);
+        assert_true(fabs(tube[k] * (1 - 0.09) / thin - 1) < 0.01);
+    }
+}
+
+/* A free tube breathes under hoop stress alone, and gets nu w/R shorter by length: with the energy
+ * of this (Rayleigh, Love) omega^2 = E/(rho R^2) (1 + h^2/(12 R^2))/(1 + nu^2 L^2/(12 R^2)), as
+ * (shell.4) counts w/R^2 as a curvature. So thick a ring has but two modes below, n = 2 and
+ * n = 4. */
+static void a_free_tube_breathes(void **unused)
+{
+    double square[2][3];
+    for (int k = 0; k < 2; k++) tube_frequencies(0.3, 0.12, 2 << k, 3, square[k]);
+    const double exact = (1 + 0.12 * 0.12 / 12) / (1 + 0.09 * 0.3 * 0.3 / 12);
+    print_message("breathing: %+.3f %%, %+.3f %%\n", 100 * (square[0][2] / exact - 1),
+                  100 * (square[1][2] / exact - 1));
+    assert_true(fabs(square[1][2] / exact - 1) < 2e-4);
+}
+
 /* A plate turning about an axis in its plane has twice the energy w^2 (rho h int y^2 dA + r rho
  * h^3/12 A), to round-off. A translation has none of the second: R is an energy of gradients. */
 static void a_rigid_turn(void **unused)
@@ -142,4 +204,5 @@ static void a_rigid_turn(void **unused)
                 1e-12 * mass_product(with, v, v));
 }
 
-TESTS(a_supported_plate, a_clamped_beam, a_thick_plate, a_rigid_turn)
+TESTS(a_supported_plate, a_clamped_beam, a_thick_plate, a_free_tube_becomes_oval,
+      a_free_tube_breathes, a_rigid_turn)

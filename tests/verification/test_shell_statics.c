@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* ctest-labels: ci slow-sanitize */
-/* Shells at rest under loads: the pinched hemisphere, the Scordelis-Lo roof, plates with exact
- * solutions. Tables of docs/results/shell.md.
+/* Shells at rest under loads: the pinched hemisphere, the Scordelis-Lo roof, the pinched cylinder,
+ * plates with exact solutions. Tables of docs/results/shell.md.
  */
 #include "tests/support/shell_statics.h"
 #include "tests/support/test.h"
@@ -150,6 +150,30 @@ static double roof(const bench_mesh *m)
     return down;
 }
 
+/* Ends in diaphragms, two opposite forces of 1 in the middle: a quarter of one on the octant. */
+static double pinched(const bench_mesh *m)
+{
+    const double radius = 300, in[3] = {0, 0, -0.25}, at[3] = {0, 0, radius};
+    fracas_spec spec = shell_spec(&fracas_shape_cylinder);
+    spec.geometry.part = &fracas_part_octant;
+    spec.geometry.radius = radius;
+    spec.geometry.length = 600;
+    spec.geometry.thickness = 3;
+    spec.geometry.edge[4] = &fracas_edge_diaphragm;
+    spec.material = (fracas_material){.young = 3e6, .density = 1, .poisson = 0.3};
+    spec.cohesive.beta = m->beta;
+    spec.cohesive.beta_shear = m->beta_shear;
+    spec.mesh.divisions = (int64_t)m->n;
+    OWN(fracas_model) model = distorted_model(spec, m->distortion, 3);
+    shell_statics *s = statics_open(model);
+    OWNED double *f = vector_of(s->n), *u = vector_of(s->n);
+    load_point(model, at, in, f);
+    statics_solve(s, f, u);
+    const double down = -read_point(model, at, 2, u);
+    statics_close(s);
+    return 1e5 * down;
+}
+
 typedef double benchmark(const bench_mesh *m);
 
 /* Prints a line of the table; values [count]. */
@@ -196,6 +220,12 @@ static void the_pinched_hemisphere(void **unused)
 static void the_scordelis_lo_roof(void **unused)
 {
     check_benchmark("roof", roof, (const size_t[]){4, 8, 16, 32}, 0.3006);
+}
+
+/* 1.8248e-5: the series of Fluegge's shell. A force in a point takes a fine mesh. */
+static void the_pinched_cylinder(void **unused)
+{
+    check_benchmark("cylinder", pinched, (const size_t[]){8, 16, 32, 48}, 1.8248);
 }
 
 /* ---- plates ---- */
@@ -351,4 +381,4 @@ static void a_soft_shear_is_a_soft_plate(void **unused)
 }
 
 TESTS(bending_converges_with_order_2, a_soft_shear_is_a_soft_plate, the_scordelis_lo_roof,
-      the_pinched_hemisphere)
+      the_pinched_hemisphere, the_pinched_cylinder)

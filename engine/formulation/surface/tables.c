@@ -229,8 +229,8 @@ static void fill_positions(const fracas_surface *surface, fracas_surface_tables 
 /* The kind of the edges of a tag. */
 static const fracas_kind *edge_kind(const fracas_spec *spec, int32_t tag)
 {
-    const fracas_kind *all = fracas_shape_of(spec)->edges;
-    if (all) return all;
+    const fracas_kind *decided = fracas_shape_edge(spec, tag);
+    if (decided) return decided;
     const fracas_kind *kind = spec->geometry.edge[tag > 0 && tag < FRACAS_EDGES ? tag : 0];
     return kind ? kind : &fracas_edge_free;
 }

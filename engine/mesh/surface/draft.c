@@ -64,6 +64,15 @@ void fracas_surface_project(double point[3], double radius)
     for (int i = 0; i < 3; i++) point[i] *= share;
 }
 
+/* The same around the axis of a tube. */
+static void project(const fracas_surface_draft *draft, double point[3], double radius)
+{
+    const double y = point[1];
+    if (draft->tube) point[1] = 0.0;
+    fracas_surface_project(point, radius);
+    if (draft->tube) point[1] = y;
+}
+
 /* ---- perturbation ---- */
 
 static fracas_err check_shifts(const fracas_surface_draft *draft,
@@ -91,7 +100,7 @@ static fracas_err check_shifts(const fracas_surface_draft *draft,
     return FRACAS_OK;
 }
 
-/* (meshes.6) The local edge length of each vertex, 0 on the boundary: that of an equilateral
+/* (meshes.7) The local edge length of each vertex, 0 on the boundary: that of an equilateral
  * triangle as high as the least altitude of the elements around it. */
 static void set_room(const fracas_surface_draft *draft, double *room)
 {
@@ -115,24 +124,25 @@ static void set_room(const fracas_surface_draft *draft, double *room)
         for (int k = 0; k < 2; k++) room[draft->tag[t].node[k]] = 0.0;
 }
 
-/* Two unit vectors along the surface at `point`: x and y in the plane. */
+/* Two unit vectors along the surface at `point`: x and y in the plane, around and along a tube. */
 static void tangents(const fracas_surface_draft *draft, const double point[3], double first[3],
                      double second[3])
 {
     static const double origin[3], axis[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
     memcpy(first, axis[0], sizeof axis[0]);
     memcpy(second, axis[1], sizeof axis[1]);
-    if (draft->sphere == 0.0) return;
-    int least = 0;
-    for (int i = 1; i < 3; i++)
-        if (fabs(point[i]) < fabs(point[least])) least = i;
-    fracas_surface_normal(origin, axis[least], point, first);
+    if (draft->round == 0.0) return;
+    const double out[3] = {point[0], draft->tube ? 0.0 : point[1], point[2]};
+    int least = draft->tube ? 1 : 0;
+    for (int i = 0; i < 3 && !draft->tube; i++)
+        if (fabs(out[i]) < fabs(out[least])) least = i;
+    fracas_surface_normal(origin, axis[least], out, first);
     fracas_surface_project(first, 1.0);
-    fracas_surface_normal(origin, point, first, second);
+    fracas_surface_normal(origin, out, first, second);
     fracas_surface_project(second, 1.0);
 }
 
-/* (meshes.7) */
+/* (meshes.8) */
 static fracas_err perturb(const fracas_surface_draft *draft,
                           const fracas_surface_fineness *fineness, double (*node)[3])
 {
@@ -146,7 +156,7 @@ static fracas_err perturb(const fracas_surface_draft *draft,
         for (int i = 0; i < 3; i++)
             node[v][i] += fineness->amplitude * room[v] *
                           (fineness->shift[v][0] * first[i] + fineness->shift[v][1] * second[i]);
-        if (draft->sphere > 0.0) fracas_surface_project(node[v], draft->sphere);
+        if (draft->round > 0.0) project(draft, node[v], draft->round);
     }
     return FRACAS_OK;
 }
@@ -177,8 +187,7 @@ static void add_middles(const fracas_surface_draft *draft, const fracas_surface_
         const double *a = all->node[side[first].low], *b = all->node[side[first].high];
         double *middle = all->node[all->nnodes];
         for (int i = 0; i < 3; i++) middle[i] = 0.5 * (a[i] + b[i]);
-        if (next - first == 2 && draft->radius[0] > 0.0)
-            fracas_surface_project(middle, draft->radius[0]);
+        if (next - first == 2 && draft->radius[0] > 0.0) project(draft, middle, draft->radius[0]);
         for (size_t i = first; i < next; i++)
             all->element[6 * (size_t)side[i].element + 3 + side[i].edge] = (uint32_t)all->nnodes;
         all->nnodes++;
@@ -196,7 +205,7 @@ static void bend_tagged(const fracas_surface_draft *draft, const fracas_surface_
         const uint32_t middle =
             all->element[6 * (size_t)side[first].element + 3 + side[first].edge];
         if (draft->radius[tag->tag] > 0.0)
-            fracas_surface_project(all->node[middle], draft->radius[tag->tag]);
+            project(draft, all->node[middle], draft->radius[tag->tag]);
     }
 }
 

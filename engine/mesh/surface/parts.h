@@ -97,7 +97,8 @@ typedef struct {
     uint32_t *element; /* [nelements][3] */
     fracas_surface_tag *tag;
     double radius[FRACAS_SURFACE_TAGS];
-    double sphere; /* radius on which vertices stay; 0: in the plane z = 0 */
+    double round; /* radius on which vertices stay; 0: in the plane z = 0 */
+    bool tube;    /* this and all radii are around the y axis */
 } fracas_surface_draft;
 
 /* Room for so many; the caller clears. */
@@ -117,5 +118,13 @@ FRACAS_MUST_USE fracas_err fracas_surface_divide(const fracas_surface_fineness *
                                                  double length, double height, double *divisions);
 /* Moves `point` along its line through the origin to the distance `radius`. */
 void fracas_surface_project(double point[3], double radius);
+
+#define FRACAS_SURFACE_LEG \
+    0.93060485910209960 /* sqrt(sqrt(3)/2): half a square's leg by its edge */
+
+/* Elements and tags of nx by ny squares cut in two along alternating diagonals, nodes row by row;
+ * `closed`: the last square of a row is beside the first, and nx even. Tags: 1 first column, 2 last
+ * column, 3 first row, 4 last row. */
+void fracas_surface_fill_grid(fracas_surface_draft *draft, size_t nx, size_t ny, bool closed);
 
 #endif

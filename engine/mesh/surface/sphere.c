@@ -154,7 +154,7 @@ static fracas_err make(const polyhedron *solid, double radius,
     TRY(fracas_surface_draft_init(
         &draft, (double)solid->nvertices + edges * (n - 1.0) + faces * (n - 1.0) * (n - 2.0) / 2.0,
         faces * n * n, is_closed ? 0.0 : 3.0 * n));
-    draft.sphere = radius;
+    draft.round = radius;
     for (int t = 0; t < FRACAS_SURFACE_TAGS; t++) draft.radius[t] = radius;
     for (size_t face = 0; face < solid->nfaces; face++)
         fill_face(solid, face, (size_t)n, radius, &draft);
