@@ -163,7 +163,7 @@ fracas_err fracas_page_chart(fracas_page *page, fracas_chart *chart, fracas_err 
 {
     fracas_err err = built;
     if (!err && chart->npanels > 0) {
-        fracas_page_figure(page, chart->file, NULL);
+        fracas_page_figure(page, chart->file, chart->columns > 1 ? "row" : NULL);
         put_drawings(page, chart);
         fracas_page_figure_end(page, chart->title, chart->caption, chart->file, true, true);
         err = write_files(page, chart);
