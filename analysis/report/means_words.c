@@ -189,6 +189,8 @@ static void label_other(const fracas_means_plot *plot, const char *sign, fracas_
     if (!pure) fracas_append(axis->label, sizeof axis->label, " ", "[%s%s]", sign, of->unit);
 }
 
+enum { MOST_TWICE = 300 }; /* marks of a figure that a page has twice, for other axes */
+
 /* Sizes and counts go with powers of the rate; against anything else an axis is logarithmic if its
  * values are of several decades. */
 void fracas_means_set_axes(const fracas_means_plot *plot, const char *sign, fracas_chart *chart,
@@ -208,7 +210,7 @@ void fracas_means_set_axes(const fracas_means_plot *plot, const char *sign, frac
     panel->x.nnames = plot->axes->nnames;
     panel->x.name = plot->axes->name;
     leave_room(plot->x, &panel->x);
-    if (panel->x.log || panel->y.log) chart->offers = FRACAS_AXES_LINEAR;
+    if ((panel->x.log || panel->y.log) && plot->n <= MOST_TWICE) chart->offers = FRACAS_AXES_LINEAR;
     if (fracas_means_normalised(plot))
         FRACAS_PRINT(panel->x.label, "strain rate \u03b5\u0307/\u03b5\u0307\u2080");
     else FRACAS_PRINT(panel->x.label, "%s", plot->axes->label);

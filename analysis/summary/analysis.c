@@ -126,7 +126,11 @@ fracas_err fracas_analysis_create(const char *study, const fracas_hash *campaign
 {
     *analysis = NULL;
     fracas_analysis *made = calloc(1, sizeof *made);
-    if (!made) return fracas_no_memory("an analysis");
+    if (made) made->kept = calloc(1, sizeof *made->kept);
+    if (!made || !made->kept) {
+        free(made);
+        return fracas_no_memory("an analysis");
+    }
     fracas_err err = analyse(study, campaign, table, made);
     if (err) fracas_analysis_destroy(made);
     else *analysis = made;
@@ -145,6 +149,8 @@ void fracas_analysis_destroy(fracas_analysis *analysis)
     fracas_means_axes_clear(&analysis->axes);
     free(analysis->drawn);
     fracas_results_close(analysis->results);
+    free(analysis->kept->crossovers);
+    free(analysis->kept);
     free(analysis->name);
     free(analysis);
 }

@@ -11,8 +11,15 @@
 #include "analysis/summary/statistics.h"
 #include "campaigns/store/results.h"
 
+/* Results that several parts of a report need and that take long. */
+typedef struct {
+    void *crossovers; /* an array of fracas_size_crossover; NULL: not yet fitted */
+    size_t ncrossovers;
+} fracas_kept;
+
 struct fracas_analysis {
-    char *name; /* for the study's folder */
+    fracas_kept *kept; /* NULL: each part computes them */
+    char *name;        /* for the study's folder */
     fracas_file_header header;
     const fracas_point_table *table;
     fracas_columns shown;   /* columns by which the points differ */
