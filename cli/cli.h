@@ -27,6 +27,7 @@ typedef struct {
     const char *operand;          /* its name in the help; NULL: none */
     bool optional;                /* the operand may be left out */
     const char *second;           /* a second operand */
+    const char *instead;          /* an option that takes the place of the second; NULL: none */
     const char *doc;              /* one sentence, no full stop */
     const char *more;             /* paragraph for `fracas help NAME` */
     const fracas_option *options; /* up to one without a name; NULL: none */
