@@ -25,10 +25,14 @@ FRACAS_MUST_USE fracas_err fracas_analysis_create(const char *study, const fraca
 void fracas_analysis_destroy(fracas_analysis *analysis); /* NULL is allowed */
 FRACAS_OWNER(fracas_analysis, fracas_analysis_destroy)
 
-/* Draws the means of the report against this parameter or statistic, in series by this parameter;
- * NULL: chosen by what varies. FRACAS_USAGE for a key that is unknown or does not vary. */
+/* Draws the means of the report against this parameter or statistic, in series by this parameter
+ * and panels by that; NULL: chosen by what varies. FRACAS_USAGE for a key that is unknown, does not
+ * vary, or is given twice. */
 FRACAS_MUST_USE fracas_err fracas_analysis_axes(fracas_analysis *analysis, const char *x,
-                                                const char *series);
+                                                const char *series, const char *panels);
+/* FRACAS_USAGE if two of them are the same. */
+FRACAS_MUST_USE fracas_err fracas_analysis_check_axes(const char *x, const char *series,
+                                                      const char *panels);
 
 /* Draws these statistics, "aspect,fragment.mass_mean", beside mean size and count; NULL: those that
  * every report draws, where they make few drawings. FRACAS_USAGE, with the part that is wrong, for

@@ -38,6 +38,7 @@ typedef struct {
 typedef struct fracas_report_keys {
     const char *x;      /* on the abscissa: a parameter's path, or a statistic's key */
     const char *series; /* path of the parameter whose values make the series */
+    const char *panels; /* path of the parameter whose values make the panels */
     const char *y;      /* keys of statistics, "aspect,onset_time", drawn beside size and count */
 } fracas_report_keys;
 

@@ -169,14 +169,16 @@ fracas_err fracas_arguments_read(const fracas_command *command, int argc, char *
         return fracas_fail(FRACAS_USAGE, "%s: --%s %s", command->name, command->refused,
                            command->why);
     if (command->operand && optind < arguments->argc) arguments->operand = argv[optind++];
-    if (command->second && optind < arguments->argc) arguments->second = argv[optind++];
+    const bool two = command->second &&
+                     !(command->instead && fracas_given(arguments, command->instead));
+    if (two && optind < arguments->argc) arguments->second = argv[optind++];
     if (optind < arguments->argc)
         return fracas_fail(FRACAS_USAGE, "%s: one argument too many: `%s`; see `fracas help %s`",
                            command->name, argv[optind], command->name);
     const bool needed = command->operand && !command->optional;
-    const char *missing = needed && !arguments->operand           ? command->operand
-                          : command->second && !arguments->second ? command->second
-                                                                  : NULL;
+    const char *missing = needed && !arguments->operand ? command->operand
+                          : two && !arguments->second   ? command->second
+                                                        : NULL;
     if (missing)
         return fracas_fail(FRACAS_USAGE, "%s: %s is missing: fracas %s %s%s%s", command->name,
                            missing, command->name, command->operand, command->second ? " " : "",

@@ -27,6 +27,7 @@ typedef struct {
     const char *operand;          /* its name in the help; NULL: none */
     bool optional;                /* the operand may be left out */
     const char *second;           /* a second operand */
+    const char *instead;          /* an option that takes the place of the second; NULL: none */
     const char *doc;              /* one sentence, no full stop */
     const char *more;             /* paragraph for `fracas help NAME` */
     const fracas_option *options; /* up to one without a name; NULL: none */
@@ -145,11 +146,11 @@ FRACAS_MUST_USE fracas_err fracas_cli_check_report(const char *file,
                                                    const struct fracas_campaign *campaign);
 
 typedef struct {
-    bool json, quiet;           /* the statistics as JSON, or nothing, in the place of the table */
-    const char *output;         /* folder; NULL: STUDY/report */
-    int columns;                /* for the table; 0: no limit */
-    const char *x, *series, *y; /* keys of the figures; NULL: the campaign's */
-    const char *points;         /* points with figures of their own; NULL: chosen */
+    bool json, quiet;   /* the statistics as JSON, or nothing, in the place of the table */
+    const char *output; /* folder; NULL: STUDY/report */
+    int columns;        /* for the table; 0: no limit */
+    const char *x, *series, *panels, *y; /* keys of the figures; NULL: the campaign's */
+    const char *points;                  /* points with figures of their own; NULL: chosen */
 } fracas_report_view;
 
 /* Prints the result table and writes the report of all realizations done by now: the last step of

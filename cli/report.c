@@ -22,6 +22,7 @@ static const fracas_option report_options[] = {
     {"x", "KEY",
      "draw mean counts and sizes against this parameter or statistic (the strain rate)"},
     {"series", "KEY", "draw a series for each value of this parameter"},
+    {"panels", "KEY", "draw a panel for each value of this parameter"},
     {"y", "KEYS", "statistics to draw beside size and count, as aspect,onset_time (dissipated)"},
     {"points", "LIST", "draw figures of these points, as 3,17,20-25 or all (all of 16, 6 of more)"},
     {"output", "FOLDER", "where to; also -o FOLDER (STUDY/report)", 'o'},
@@ -105,10 +106,11 @@ static fracas_err set_axes(fracas_analysis *analysis, const fracas_campaign *cam
     const fracas_report_keys none = {0}, *keys = campaign ? &campaign->report : &none;
     const char *x = view->x ? view->x : keys->x,
                *series = view->series ? view->series : keys->series,
+               *panels = view->panels ? view->panels : keys->panels,
                *y = view->y ? view->y : keys->y;
     if (y) TRY(fracas_analysis_ordinates(analysis, y));
     if (view->points) TRY(fracas_analysis_points(analysis, view->points));
-    return x || series ? fracas_analysis_axes(analysis, x, series) : FRACAS_OK;
+    return x || series || panels ? fracas_analysis_axes(analysis, x, series, panels) : FRACAS_OK;
 }
 
 static fracas_err page_of(const char *study, const fracas_report_view *view, char **page)
@@ -157,9 +159,7 @@ fracas_err fracas_cli_check_report(const char *file, const fracas_campaign *camp
                           "x of the figures, `%s`: no parameter of the points and no statistic "
                           "(summary.json has these) has this name",
                           keys->x);
-    if (!err && keys->x && keys->series && !strcmp(keys->x, keys->series))
-        err = fracas_fail(FRACAS_USAGE, "`%s` is both x and series of the figures; give another",
-                          keys->x);
+    if (!err) err = fracas_analysis_check_axes(keys->x, keys->series, keys->panels);
     return err ? fracas_fail_within(err, "%s: `report`", file) : FRACAS_OK;
 }
 
@@ -199,6 +199,7 @@ static fracas_err report(const fracas_arguments *arguments)
                                      .columns = fracas_cli_columns(arguments),
                                      .x = fracas_given(arguments, "x"),
                                      .series = fracas_given(arguments, "series"),
+                                     .panels = fracas_given(arguments, "panels"),
                                      .y = fracas_given(arguments, "y"),
                                      .points = fracas_given(arguments, "points"),
                                      .output = fracas_given(arguments, "output")};

@@ -219,15 +219,70 @@ static fracas_err list_points(const fracas_analysis *a, const fracas_analysis *b
     return FRACAS_OK;
 }
 
+/* ---- points of one study ---- */
+
+/* "3,17" has two parts; longer lists are parted by a colon. */
+static fracas_err part_lists(const char *points, char **first, const char **second)
+{
+    const size_t colon = strcspn(points, ":"), comma = strcspn(points, ","),
+                 end = points[colon] ? colon : comma;
+    if (!points[end] || (!points[colon] && strchr(points + end + 1, ',')))
+        return fracas_fail(FRACAS_USAGE,
+                           "points `%s`: give two points or ranges as 3,17 or 0-2,9-11, or two "
+                           "lists as 0,1,2:9,10,11",
+                           points);
+    *first = strndup(points, end);
+    *second = points + end + 1;
+    return *first ? FRACAS_OK : fracas_no_memory("a list of points");
+}
+
+static fracas_err list_pairs(const fracas_analysis *of, const char *points,
+                             fracas_comparison *comparison)
+{
+    OWNED char *first = NULL;
+    OWNED size_t *a = NULL, *b = NULL;
+    const char *second = NULL;
+    size_t na, nb;
+    TRY(part_lists(points, &first, &second));
+    TRY(fracas_points_listed(first, of->table->npoints, &a, &na));
+    TRY(fracas_points_listed(second, of->table->npoints, &b, &nb));
+    if (na != nb)
+        return fracas_fail(FRACAS_USAGE,
+                           "points `%s`: %zu on one side and %zu on the other; they are compared "
+                           "in their order, each with one",
+                           points, na, nb);
+    comparison->point = calloc(na + 1, sizeof *comparison->point);
+    if (!comparison->point) return fracas_no_memory("the points of a study");
+    comparison->listed = true;
+    FRACAS_PRINT(comparison->how, "%s", points);
+    for (size_t i = 0; i < na; i++) {
+        if (a[i] == b[i])
+            return fracas_fail(FRACAS_USAGE, "points `%s`: point %zu would be compared with itself",
+                               points, a[i]);
+        comparison->point[comparison->npoints].a = a[i];
+        comparison->point[comparison->npoints++].b = b[i];
+    }
+    return FRACAS_OK;
+}
+
+static fracas_err list_partners(const fracas_analysis *a, const fracas_analysis *b, const char *by,
+                                fracas_comparison *comparison)
+{
+    OWNED size_t *partner = malloc((a->table->npoints + 1) * sizeof *partner);
+    if (!partner) return fracas_no_memory("the points of two studies");
+    TRY(fracas_match_points(a->table, b->table, by, partner, comparison->how,
+                            sizeof comparison->how));
+    return list_points(a, b, partner, comparison);
+}
+
+/* ---- the whole ---- */
+
 fracas_err fracas_compare(const fracas_analysis *a, const fracas_analysis *b,
                           const fracas_compare_options *options, fracas_comparison *comparison)
 {
     *comparison = (fracas_comparison){0};
-    OWNED size_t *partner = malloc((a->table->npoints + 1) * sizeof *partner);
-    if (!partner) return fracas_no_memory("the points of two studies");
-    TRY(fracas_match_points(a->table, b->table, options->by, partner, comparison->how,
-                            sizeof comparison->how));
-    TRY(list_points(a, b, partner, comparison));
+    TRY(options->points ? list_pairs(a, options->points, comparison)
+                        : list_partners(a, b, options->by, comparison));
     for (size_t i = 0; i < comparison->npoints; i++)
         TRY(compare_points(a, b, options, &comparison->point[i]));
     return correct(comparison);

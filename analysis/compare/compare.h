@@ -13,6 +13,8 @@ enum { FRACAS_COMPARE_PERMUTATIONS = 9999 };
 
 typedef struct {
     const char *by;       /* "loading.rate,strength.shape"; NULL: see fracas_match_points */
+    const char *points;   /* "3,17", "0-2,9-11" or "0,1,2:9,10,11": pairs of points of one study;
+                             NULL: partners of two studies */
     bool common;          /* both campaigns have random_numbers: common */
     int64_t permutations; /* 0: FRACAS_COMPARE_PERMUTATIONS */
     uint64_t seed;        /* equal seeds give equal p */
@@ -44,7 +46,8 @@ typedef struct {
 } fracas_compared_point;
 
 typedef struct {
-    char how[512]; /* columns by which the points were matched; "": equal hashes */
+    bool listed;   /* points of one study, paired by a list */
+    char how[512]; /* columns by which the points were matched, or the list; "": equal hashes */
     size_t npoints;
     fracas_compared_point *point;
     size_t nonly_a, nonly_b;
@@ -54,8 +57,12 @@ typedef struct {
 /* Points matched by fracas_match_points; differences with their intervals (compare.1) to
  * (compare.5); p (compare.6) to (compare.9), corrected over the points for each number by itself
  * (compare.10). Realizations are paired by their replica where seeds are equal, and hashes are or
- * both have common random numbers. FRACAS_USAGE if points cannot be matched. *comparison is cleared
- * by the caller, after an error too. */
+ * both have common random numbers. FRACAS_USAGE if points cannot be matched.
+ *
+ * With options->points, b is a, and the points of the first list are compared with those of the
+ * second, in their order. FRACAS_USAGE for lists of unequal lengths, and for a point with itself.
+ *
+ * *comparison is cleared by the caller, after an error too. */
 FRACAS_MUST_USE fracas_err fracas_compare(const fracas_analysis *a, const fracas_analysis *b,
                                           const fracas_compare_options *options,
                                           fracas_comparison *comparison);

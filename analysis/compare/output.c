@@ -113,9 +113,11 @@ fracas_err fracas_comparison_print(const fracas_comparison *comparison, const fr
         "by itself. distribution of sizes: largest difference of the distribution functions of "
         "all fragments.",
         NULL};
-    fprintf(out, "A: %s, %zu points; B: %s, %zu points; %zu in both, matched by %s\n", a->name,
-            a->table->npoints, b->name, b->table->npoints, comparison->npoints,
-            *comparison->how ? comparison->how : "all their parameters");
+    if (comparison->listed) fprintf(out, "A and B: points %s of %s\n", comparison->how, a->name);
+    else
+        fprintf(out, "A: %s, %zu points; B: %s, %zu points; %zu in both, matched by %s\n", a->name,
+                a->table->npoints, b->name, b->table->npoints, comparison->npoints,
+                *comparison->how ? comparison->how : "all their parameters");
     for (size_t i = 0; i < comparison->npoints; i++)
         TRY(print_point(&comparison->point[i], columns, out));
     putc('\n', out);
@@ -213,7 +215,9 @@ void fracas_comparison_write_json(const fracas_comparison *comparison, const fra
     fracas_json_begin(&json, out);
     write_study(&json, "a", a, comparison->only_a, comparison->nonly_a);
     write_study(&json, "b", b, comparison->only_b, comparison->nonly_b);
-    fracas_json_text(&json, "matched_by", *comparison->how ? comparison->how : NULL);
+    fracas_json_text(&json, "matched_by",
+                     *comparison->how && !comparison->listed ? comparison->how : NULL);
+    if (comparison->listed) fracas_json_text(&json, "listed", comparison->how);
     fracas_json_array(&json, "points");
     for (size_t i = 0; i < comparison->npoints; i++) write_point(&json, &comparison->point[i]);
     fracas_json_end(&json);

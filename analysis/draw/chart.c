@@ -90,20 +90,30 @@ void fracas_panel_extent(const fracas_panel *panel, double x[2], double y[2])
     }
 }
 
+/* How many panels have the axes of the first. */
+static size_t alike(const fracas_chart *chart)
+{
+    return chart->columns ? chart->npanels : chart->npanels > 0;
+}
+
 void fracas_charts_align(fracas_chart *chart, size_t count)
 {
     double all[2][2] = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
     for (size_t i = 0; i < count; i++) {
-        double end[2][2];
-        fracas_panel_extent(chart[i].panel, end[0], end[1]);
-        for (int axis = 0; axis < 2; axis++) {
-            all[axis][0] = fmin(all[axis][0], end[axis][0]);
-            all[axis][1] = fmax(all[axis][1], end[axis][1]);
+        for (size_t p = 0; p < alike(&chart[i]); p++) {
+            double end[2][2];
+            fracas_panel_extent(&chart[i].panel[p], end[0], end[1]);
+            for (int axis = 0; axis < 2; axis++) {
+                all[axis][0] = fmin(all[axis][0], end[axis][0]);
+                all[axis][1] = fmax(all[axis][1], end[axis][1]);
+            }
         }
     }
     for (size_t i = 0; i < count; i++) {
-        memcpy(chart[i].panel->x.show, all[0], sizeof all[0]);
-        memcpy(chart[i].panel->y.show, all[1], sizeof all[1]);
+        for (size_t p = 0; p < alike(&chart[i]); p++) {
+            memcpy(chart[i].panel[p].x.show, all[0], sizeof all[0]);
+            memcpy(chart[i].panel[p].y.show, all[1], sizeof all[1]);
+        }
     }
 }
 
@@ -142,7 +152,7 @@ static void put_x(const fracas_axis *axis, double x, FILE *out)
 }
 
 static void put_series(const fracas_panel *panel, size_t number, const fracas_series *series,
-                       FILE *out)
+                       bool titled, FILE *out)
 {
     static const char *const kind[] = {"curve", "steps", "mark", "band", "box"};
     for (size_t i = 0; i < series->n; i++) {
@@ -154,6 +164,7 @@ static void put_series(const fracas_panel *panel, size_t number, const fracas_se
         fracas_csv_real(series->y[i], out);
         fracas_csv_real(series->low ? series->low[i] : NAN, out);
         fracas_csv_real(series->high ? series->high[i] : NAN, out);
+        if (titled) putc(',', out), fracas_csv_text(panel->title, out);
         putc('\n', out);
     }
 }
@@ -164,8 +175,9 @@ void fracas_chart_csv(const fracas_chart *chart, FILE *out)
     put_label(chart, false, out);
     putc(',', out);
     put_label(chart, true, out);
-    fputs(",low,high\n", out);
+    fputs(chart->columns ? ",low,high,title\n" : ",low,high\n", out);
     for (size_t p = 0; p < chart->npanels; p++)
         for (size_t s = 0; s < chart->panel[p].nseries; s++)
-            put_series(&chart->panel[p], p + 1, &chart->panel[p].series[s], out);
+            put_series(&chart->panel[p], p + 1, &chart->panel[p].series[s], chart->columns > 0,
+                       out);
 }

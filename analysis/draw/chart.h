@@ -38,6 +38,7 @@ typedef struct {
 
 typedef struct {
     fracas_axis x, y;
+    char title[128];  /* above it; "": none */
     double height;    /* pixels of the plot area */
     double y_floor;   /* smaller values are not shown; 0 for none */
     const char *bars; /* meaning of low to high, as on hover: "95 %"; NULL is the same */
@@ -45,7 +46,7 @@ typedef struct {
     fracas_series *series;
 } fracas_panel;
 
-enum { FRACAS_MAX_PANELS = 2 };
+enum { FRACAS_MAX_PANELS = 12 };
 
 /* Axes offered on a page beside the logarithmic ones of the figure. */
 typedef enum {
@@ -60,13 +61,16 @@ typedef struct {
     char caption[1024]; /* sentences: subject, n, meaning of the bars */
     unsigned offers;    /* FRACAS_AXES_SEMILOG | FRACAS_AXES_LINEAR as far as sensible; 0: none */
     int width;          /* pixels of the drawing's own coordinates; a page scales it */
-    size_t npanels;     /* one above the other */
+    size_t columns;     /* small multiples: so many panels beside each other, with one legend, and
+                           labels of the axes at the edges alone; 0: one above the other */
+    size_t npanels;
     fracas_panel panel[FRACAS_MAX_PANELS];
 } fracas_chart;
 
 enum {
     FRACAS_CHART_WIDE = 470,
-    FRACAS_CHART_NARROW = 380
+    FRACAS_CHART_NARROW = 380,
+    FRACAS_CHART_MULTIPLES = 760
 }; /* narrow enough for text to be readable on a phone */
 
 enum { FRACAS_CHART_COLOURS = 6 }; /* classes c0 to c5 of the style sheet */
@@ -93,8 +97,9 @@ void fracas_chart_write(const fracas_chart *chart, bool standalone, FILE *out);
 void fracas_chart_write_axes(const fracas_chart *chart, fracas_axes axes, FILE *out);
 
 /* The data of fracas_chart_write, a line a value: panel (from 1), series, kind (mark, curve, steps,
- * band, box), x (or its name), y, low, high. The first line names them with the labels of the axes
- * and their units, separated by " | " where panels differ. An empty field is NaN. */
+ * band, box), x (or its name), y, low, high; of small multiples the panel's title. The first line
+ * names them with the labels of the axes and their units, separated by " | " where panels differ.
+ * An empty field is NaN. */
 void fracas_chart_csv(const fracas_chart *chart, FILE *out);
 
 /* True if value i of the series is drawn: finite, above 0 on a log axis, not below the panel's
@@ -104,7 +109,7 @@ bool fracas_panel_shows(const fracas_panel *panel, const fracas_series *series, 
 /* Least and greatest shown value on both axes, bars included; {INFINITY, -INFINITY}: none. */
 void fracas_panel_extent(const fracas_panel *panel, double x[2], double y[2]);
 
-/* Gives the first panels of all charts the same axes. */
+/* Gives the first panels of all charts the same axes; of small multiples all panels. */
 void fracas_charts_align(fracas_chart *chart, size_t count);
 
 /* The name of a value on an axis with names; NULL on any other. */

@@ -2,31 +2,21 @@
 /* Charts as SVG. */
 #include "analysis/draw/chart.h"
 
-#include "analysis/draw/scale.h"
-#include "analysis/data/format.h"
+#include "analysis/draw/frame.h"
 
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
-enum { BOX = 8 }; /* half the width of a box */
 enum { RIGHT = 24, LINE_HEIGHT = 21, SWATCH = 30, GAP = 14, TICK = 4 }; /* pixels */
-enum { LEGEND_MOST = 12 }; /* further series are counted, not named */
-enum { COLOURS = FRACAS_CHART_COLOURS, DASHES = 5, SHAPES = 4 };
+enum { PAD = 7 };                  /* between marks and frame */
+enum { TITLE = 25, BETWEEN = 12 }; /* above a panel of small multiples, and below it */
+enum { LEGEND_MOST = 12 };         /* further series are counted, not named */
+enum { COLOURS = FRACAS_CHART_COLOURS };
 
 static const double character = 8.6; /* width of a mean character of 15 px sans serif */
 
 /* ---- where things are ---- */
-
-typedef struct {
-    fracas_panel panel; /* with the axes of this drawing; its series are the chart's */
-    size_t number;
-    bool page; /* on a page, for its script */
-    FILE *out;
-    fracas_scale x, y;
-    double top;   /* width of the legend */
-    double width; /* for the chart */
-    fracas_tick xtick[FRACAS_MAX_TICKS], ytick[FRACAS_MAX_TICKS];
-    size_t nxtick, nytick;
-} frame;
 
 static size_t characters(const char *text)
 {
@@ -36,13 +26,8 @@ static size_t characters(const char *text)
     return count;
 }
 
-static bool shown(double value, const fracas_axis *axis)
-{
-    return isfinite(value) && (!axis->log || value > 0);
-}
-
 /* From 1/2 to n + 1/2, with a tick a name. */
-static void fit_names(frame *f)
+static void fit_names(fracas_frame *f)
 {
     f->x = (fracas_scale){.low = 0.5, .high = (double)f->panel.x.nnames + 0.5};
     f->nxtick = 0;
@@ -53,7 +38,16 @@ static void fit_names(frame *f)
     }
 }
 
-static void fit(frame *f)
+/* No mark lies on the frame. */
+static double pad_of(const fracas_chart *chart)
+{
+    for (size_t p = 0; p < chart->npanels; p++)
+        for (size_t s = 0; s < chart->panel[p].nseries; s++)
+            if (chart->panel[p].series[s].kind == FRACAS_MARKS) return PAD;
+    return 0;
+}
+
+static void fit(fracas_frame *f)
 {
     double x[2], y[2];
     fracas_panel_extent(&f->panel, x, y);
@@ -68,167 +62,67 @@ static void fit(frame *f)
     f->nytick = fracas_scale_ticks(&f->y, f->ytick);
 }
 
-/* ---- drawing ---- */
+/* ---- axes and legend ---- */
 
-static void draw_axes(const frame *f, double bottom)
+/* A text about x, or one that ends there, that shrinks where it is wider than its room. */
+static void put_text(const fracas_frame *f, const char *text, double x, double y,
+                     const char *anchor, double room)
 {
+    const double wide = character * (double)characters(text);
+    fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\"", x, y, anchor);
+    if (wide > room) fprintf(f->out, " style=\"font-size:%.1fpx\"", fmax(8, 15 * room / wide));
+    fracas_markup(f->out, ">%s</text>\n", text);
+}
+
+static void put_y_label(const char *label, double middle, FILE *out)
+{
+    fprintf(out, "<text transform=\"translate(16 %.1f) rotate(-90)\" text-anchor=\"middle\">",
+            middle);
+    fracas_markup(out, "%s</text>\n", label);
+}
+
+static void draw_x_ticks(const fracas_frame *f, double bottom)
+{
+    const double room = f->panel.x.nnames ? (f->x.to - f->x.from) / (double)f->panel.x.nnames - 6
+                                          : INFINITY;
     for (size_t i = 0; i < f->nxtick; i++) {
         double x = fracas_scale_place(&f->x, f->xtick[i].value);
         bool major = *f->xtick[i].label;
         if (major)
-            fprintf(f->out, "<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/>\n", x, f->y.to, bottom);
+            fprintf(f->out, "<path class=\"grid\" d=\"M%.1f %.1fV%.1f\"/>\n", x, f->y.to - f->pad,
+                    bottom);
         fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fv%d\"/>\n", x, bottom,
                 major ? TICK : TICK / 2);
-        if (!major) continue;
-        fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", x, bottom + 20);
-        fracas_markup(f->out, "%s</text>\n", f->xtick[i].label);
+        if (major && !f->inner_x) put_text(f, f->xtick[i].label, x, bottom + 20, "middle", room);
     }
+}
+
+static void draw_axes(const fracas_frame *f)
+{
+    const double bottom = f->y.from + f->pad, left = f->x.from - f->pad, right = f->x.to + f->pad;
+    draw_x_ticks(f, bottom);
     for (size_t i = 0; i < f->nytick; i++) {
         double y = fracas_scale_place(&f->y, f->ytick[i].value);
         bool major = *f->ytick[i].label;
         if (major)
-            fprintf(f->out, "<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/>\n", f->x.from, y,
-                    f->x.to);
-        fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fh%d\"/>\n", f->x.from, y,
+            fprintf(f->out, "<path class=\"grid\" d=\"M%.1f %.1fH%.1f\"/>\n", left, y, right);
+        fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fh%d\"/>\n", left, y,
                 major ? -TICK : -TICK / 2);
-        if (major)
-            fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%s</text>\n",
-                    f->x.from - 7, y + 5.2, f->ytick[i].label);
+        if (major && !f->inner_y)
+            put_text(f, f->ytick[i].label, left - 7, y + 5.2, "end", INFINITY);
     }
-    fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fV%.1fH%.1f\"/>\n", f->x.from, f->y.to,
-            bottom, f->x.to);
+    fprintf(f->out, "<path class=\"axis\" d=\"M%.1f %.1fV%.1fH%.1f\"/>\n", left, f->y.to - f->pad,
+            bottom, right);
+    if (*f->panel.title && f->legend)
+        put_text(f, f->panel.title, (left + right) / 2, f->y.to - f->pad - 7, "middle",
+                 right - left);
+    if (f->legend) return; /* which labels all panels together */
     if (*f->panel.x.label) {
-        fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">",
-                (f->x.from + f->x.to) / 2, bottom + 43);
+        fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"middle\">", (left + right) / 2,
+                bottom + 43);
         fracas_markup(f->out, "%s</text>\n", f->panel.x.label);
     }
-    fprintf(f->out, "<text transform=\"translate(16 %.1f) rotate(-90)\" text-anchor=\"middle\">",
-            (f->y.from + f->y.to) / 2);
-    fracas_markup(f->out, "%s</text>\n", f->panel.y.label);
-}
-
-static void draw_mark(unsigned look, double x, double y, FILE *out)
-{
-    static const char *const shape[SHAPES] = {
-        "m-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0z", /* disc */
-        "m-4.5 -4.5h9v9h-9z",                    /* square */
-        "m0 -6l6 6l-6 6l-6 -6z",                 /* diamond */
-        "m0 -5.5l5.5 9.5h-11z",                  /* triangle */
-    };
-    fprintf(out, "M%.1f %.1f%s", x, y, shape[look % SHAPES]);
-}
-
-#define LINE_START "<path class=\"line\" stroke-dasharray=\"%s\" d=\""
-
-static const char *dash_of(unsigned look)
-{
-    static const char *const dash[DASHES] = {"none", "7 3", "2 3", "9 3 2 3", "4 2"};
-    return dash[look % DASHES];
-}
-
-static void draw_title(const frame *f, const fracas_series *series, size_t i)
-{
-    char x[32], y[32];
-    const char *name = fracas_axis_name(&f->panel.x, series->x[i]);
-    if (name) FRACAS_PRINT(x, "%s", name);
-    else fracas_format_digits(series->x[i], 4, x, sizeof x);
-    fracas_format_digits(series->y[i], 4, y, sizeof y);
-    fracas_markup(f->out, "<title>%s", series->name);
-    fprintf(f->out, "%s", *series->name ? "; " : "");
-    fracas_markup(f->out, "%s: %s; %s", f->panel.x.label, x, f->panel.y.label);
-    fprintf(f->out, ": %s", y);
-    if (isfinite(series->low[i])) {
-        fracas_format_digits(series->low[i], 4, x, sizeof x);
-        fracas_format_digits(series->high[i], 4, y, sizeof y);
-        fprintf(f->out, " (%s: %s to %s)", f->panel.bars ? f->panel.bars : "95 %", x, y);
-    }
-    fputs("</title>", f->out);
-}
-
-static void draw_marks(const frame *f, const fracas_series *series)
-{
-    for (size_t i = 0; i < series->n; i++) {
-        if (!fracas_panel_shows(&f->panel, series, i)) continue;
-        double x = fracas_scale_place(&f->x, series->x[i]),
-               y = fracas_scale_place(&f->y, series->y[i]);
-        if (isfinite(series->low[i]) && isfinite(series->high[i])) {
-            bool open = !shown(series->low[i], &f->panel.y);
-            double low = open ? f->y.from : fracas_scale_place(&f->y, series->low[i]);
-            double high = fracas_scale_place(&f->y, series->high[i]);
-            const char *foot = open ? "" : "m-4 0h8m-4 0";
-            fprintf(f->out, "<path class=\"bar\" d=\"M%.1f %.1f%sV%.1fm-4 0h8\"/>\n", x, low, foot,
-                    high);
-        }
-        fprintf(f->out, "<path class=\"mark%s\" d=\"", series->open ? " open" : "");
-        draw_mark(series->look, x, y, f->out);
-        fputs("\">", f->out);
-        draw_title(f, series, i);
-        fputs("</path>\n", f->out);
-    }
-}
-
-/* Vertices closer than half a pixel to the one before are left out, except the last. */
-static void draw_line(const frame *f, const fracas_series *series)
-{
-    bool begun = false;
-    double last_x = 0, last_y = 0;
-    for (size_t i = 0; i < series->n; i++) {
-        if (!fracas_panel_shows(&f->panel, series, i)) continue;
-        double x = fracas_scale_place(&f->x, series->x[i]),
-               y = fracas_scale_place(&f->y, series->y[i]);
-        bool near = begun && fabs(x - last_x) < 0.5 && fabs(y - last_y) < 0.5;
-        if (near && i + 1 < series->n) continue;
-        if (!begun) fprintf(f->out, LINE_START "M%.1f %.1f", dash_of(series->look), x, y);
-        else if (series->kind == FRACAS_STEPS) fprintf(f->out, "V%.1fH%.1f", y, x);
-        else fprintf(f->out, "L%.1f %.1f", x, y);
-        begun = true;
-        last_x = x;
-        last_y = y;
-    }
-    if (!begun) return;
-    fracas_markup(f->out, "\"><title>%s</title></path>\n", series->name);
-}
-
-/* The areas of values begin to end - 1, all with a low and a high: along the lows, and back along
- * the highs. Values below a log axis lie at its foot. */
-static void draw_area(const frame *f, const fracas_series *series, size_t begin, size_t end)
-{
-    fputs("<path class=\"area\" d=\"", f->out);
-    for (size_t k = 0; k < 2 * (end - begin); k++) {
-        const size_t i = k < end - begin ? begin + k : end - 1 - (k - (end - begin));
-        const double value = k < end - begin ? series->low[i] : series->high[i];
-        const double y = shown(value, &f->panel.y) ? fracas_scale_place(&f->y, value) : f->y.from;
-        fprintf(f->out, "%c%.1f %.1f", k ? 'L' : 'M', fracas_scale_place(&f->x, series->x[i]),
-                fmin(y, f->y.from));
-    }
-    fputs("z\"/>\n", f->out);
-}
-
-static void draw_band(const frame *f, const fracas_series *series)
-{
-    for (size_t i = 0, begin = 0; i <= series->n; i++) {
-        if (i < series->n && fracas_panel_shows(&f->panel, series, i) && isfinite(series->low[i]) &&
-            isfinite(series->high[i]))
-            continue;
-        if (i > begin) draw_area(f, series, begin, i);
-        begin = i + 1;
-    }
-    draw_line(f, series);
-}
-
-static void draw_boxes(const frame *f, const fracas_series *series)
-{
-    for (size_t i = 0; i < series->n; i++) {
-        if (!fracas_panel_shows(&f->panel, series, i) || !isfinite(series->low[i]) ||
-            !isfinite(series->high[i]))
-            continue;
-        const double top = fracas_scale_place(&f->y, series->high[i]);
-        const double bottom = shown(series->low[i], &f->panel.y)
-                                  ? fracas_scale_place(&f->y, series->low[i])
-                                  : f->y.from;
-        fprintf(f->out, "<path class=\"area\" d=\"M%.1f %.1fh%dV%.1fh%dz\"/>\n",
-                fracas_scale_place(&f->x, series->x[i]) - BOX, top, 2 * BOX, bottom, -2 * BOX);
-    }
+    put_y_label(f->panel.y.label, (f->y.from + f->y.to) / 2, f->out);
 }
 
 static bool in_legend(const fracas_series *series)
@@ -246,27 +140,43 @@ static size_t named_for(const fracas_panel *panel, size_t s)
     return s;
 }
 
-static void open_group(const frame *f, const char *class, size_t s)
+/* An entry of the shared legend for a series: of its name, else of its look. */
+static size_t entry_of(const fracas_panel *legend, const fracas_series *series)
+{
+    for (size_t e = 0; e < legend->nseries; e++)
+        if (legend->series[e].look == series->look &&
+            (!in_legend(series) || !strcmp(legend->series[e].name, series->name)))
+            return e;
+    return SIZE_MAX;
+}
+
+static void put_key(const fracas_frame *f, size_t s)
+{
+    const size_t entry = f->legend ? entry_of(f->legend, &f->panel.series[s]) : SIZE_MAX;
+    if (entry != SIZE_MAX) fprintf(f->out, " data-key=\"0.%zu\"", entry);
+    else
+        fprintf(f->out, " data-key=\"%zu.%zu\"", f->number + (f->legend != NULL),
+                named_for(&f->panel, s));
+}
+
+static void open_group(const fracas_frame *f, const char *class, size_t s)
 {
     const unsigned look = f->panel.series[s].look;
     if (look >= FRACAS_CHART_GREY) fprintf(f->out, "<g class=\"%s cg\"", class);
     else fprintf(f->out, "<g class=\"%s c%u\"", class, look % COLOURS);
-    if (f->page) fprintf(f->out, " data-key=\"%zu.%zu\"", f->number, named_for(&f->panel, s));
+    if (f->page) put_key(f, s);
     fputs(">\n", f->out);
 }
 
-static void draw_series(const frame *f, size_t s)
+static void draw_series(const fracas_frame *f, size_t s)
 {
     const fracas_series *series = &f->panel.series[s];
     open_group(f, "series", s);
-    if (series->kind == FRACAS_MARKS) draw_marks(f, series);
-    else if (series->kind == FRACAS_BAND) draw_band(f, series);
-    else if (series->kind == FRACAS_BOXES) draw_boxes(f, series);
-    else draw_line(f, series);
+    fracas_frame_draw(f, series);
     fputs("</g>\n", f->out);
 }
 
-static void draw_entry(const frame *f, size_t s, double x, double y, double width)
+static void draw_entry(const fracas_frame *f, size_t s, double x, double y, double width)
 {
     const fracas_series *series = &f->panel.series[s];
     open_group(f, "entry", s);
@@ -278,10 +188,11 @@ static void draw_entry(const frame *f, size_t s, double x, double y, double widt
         fprintf(f->out, "<path class=\"area\" d=\"M%.1f %.1fh24v10h-24z\"/>", x, y - 5);
     if (series->kind == FRACAS_MARKS) {
         fputs("<path class=\"key\" fill=\"currentColor\" d=\"", f->out);
-        draw_mark(series->look, x + 12, y, f->out);
+        fracas_frame_mark(series->look, x + 12, y, f->out);
         fputs("\"/>", f->out);
     } else if (series->kind != FRACAS_BOXES) {
-        fprintf(f->out, LINE_START "M%.1f %.1fh24\"/>", dash_of(series->look), x, y);
+        fprintf(f->out, FRACAS_LINE_START "M%.1f %.1fh24\"/>", fracas_frame_dash(series->look), x,
+                y);
     }
     const double room = f->width - x - SWATCH, wide = width - SWATCH - GAP; /* a long one shrinks */
     fprintf(f->out, "<text x=\"%.1f\" y=\"%.1f\"", x + SWATCH, y + 5.2);
@@ -306,7 +217,7 @@ static size_t legend_order(const fracas_panel *panel, size_t order[LEGEND_MOST])
 
 /* Entries left to right, broken into lines; returns the height used. Draws nothing if `draw` is
  * false. */
-static double legend(const frame *f, bool draw)
+static double legend(const fracas_frame *f, bool draw)
 {
     size_t order[LEGEND_MOST], named = legend_order(&f->panel, order);
     double x = f->x.from, y = f->top + LINE_HEIGHT / 2.0;
@@ -348,7 +259,7 @@ static double left_margin(const fracas_chart *chart, fracas_axes axes)
 {
     size_t widest = 1;
     for (size_t p = 0; p < chart->npanels; p++) {
-        frame f = {.panel = panel_of(chart, p, axes), .width = chart->width};
+        fracas_frame f = {.panel = panel_of(chart, p, axes), .width = chart->width};
         fit(&f);
         for (size_t i = 0; i < f.nytick; i++)
             if (characters(f.ytick[i].label) > widest) widest = characters(f.ytick[i].label);
@@ -357,17 +268,18 @@ static double left_margin(const fracas_chart *chart, fracas_axes axes)
 }
 
 /* Places the panel, with scales in `f`, below `top`; returns where it ends. */
-static double place(frame *f, double left, double top)
+static double place(fracas_frame *f, double left, double top)
 {
     f->top = top;
     fit(f);
-    f->x.from = left;
+    f->x.from = left + f->pad;
     const char *last = f->nxtick > 0 ? f->xtick[f->nxtick - 1].label
                                      : ""; /* in the middle of which the axis may end */
-    f->x.to = f->width - fmax(RIGHT, 4 + character * (double)characters(last) / 2);
-    f->y.to = top + legend(f, false) + 8;
-    f->y.from = f->y.to + f->panel.height;
-    return f->y.from + (*f->panel.x.label ? 53 : 30);
+    f->x.to = f->width - fmax(RIGHT, 4 + character * (double)characters(last) / 2) - f->pad;
+    const double head = top + legend(f, false) + 8;
+    f->y.to = head + f->pad;
+    f->y.from = head + f->panel.height - f->pad;
+    return head + f->panel.height + (*f->panel.x.label ? 53 : 30);
 }
 
 void fracas_svg_begin(const char *title, int width, double height, bool standalone, FILE *out)
@@ -384,7 +296,7 @@ void fracas_svg_begin(const char *title, int width, double height, bool standalo
 
 /* Data for the script of a page, to read values off a drawing: ends of the axes, values and places.
  */
-static void put_axis(const frame *f, const char *name, const fracas_scale *scale,
+static void put_axis(const fracas_frame *f, const char *name, const fracas_scale *scale,
                      const fracas_axis *axis, const char *label)
 {
     fprintf(f->out, " data-%s=\"%s %.9g %.9g %.1f %.1f\" data-%s-label=\"", name,
@@ -403,7 +315,7 @@ static const char *x_label(const fracas_chart *chart, size_t p)
     return chart->panel[p].x.label;
 }
 
-static void draw_panel(const fracas_chart *chart, const frame *f)
+static void draw_panel(const fracas_chart *chart, const fracas_frame *f)
 {
     fputs("<g class=\"panel\"", f->out);
     if (f->page) {
@@ -411,23 +323,156 @@ static void draw_panel(const fracas_chart *chart, const frame *f)
         put_axis(f, "y", &f->y, &f->panel.y, f->panel.y.label);
     }
     fputs(">\n", f->out);
-    legend(f, true);
-    draw_axes(f, f->y.from);
+    if (!f->legend) legend(f, true);
+    draw_axes(f);
     for (size_t s = 0; s < f->panel.nseries; s++) draw_series(f, s);
     fputs("</g>\n", f->out);
 }
 
-static void draw_chart(const fracas_chart *chart, fracas_axes axes, bool page, FILE *out)
+/* ---- small multiples ---- */
+
+enum { MOST_ENTRIES = 40 };
+
+typedef struct {
+    fracas_panel legend; /* its series are copies of the first of each entry */
+    fracas_series series[MOST_ENTRIES];
+    double left, top, wide, gap; /* the first panel; width of each; between two */
+    size_t rows;
+} multiples;
+
+static void find_entries(const fracas_chart *chart, multiples *of)
+{
+    of->legend = (fracas_panel){.series = of->series};
+    for (size_t p = 0; p < chart->npanels; p++) {
+        for (size_t s = 0; s < chart->panel[p].nseries; s++) {
+            const fracas_series *series = &chart->panel[p].series[s];
+            if (in_legend(series) && of->legend.nseries < MOST_ENTRIES &&
+                entry_of(&of->legend, series) == SIZE_MAX)
+                of->series[of->legend.nseries++] = *series;
+        }
+    }
+}
+
+/* Labels of the abscissa that would touch: of logarithmic axes those between decades go, where two
+ * decades stay, then each second label. */
+static bool touch(const fracas_frame *f)
+{
+    double end = -INFINITY;
+    for (size_t i = 0; i < f->nxtick; i++) {
+        if (!*f->xtick[i].label) continue;
+        const double x = fracas_scale_place(&f->x, f->xtick[i].value),
+                     half = character * (double)characters(f->xtick[i].label) / 2;
+        if (x - half < end) return true;
+        end = x + half;
+    }
+    return false;
+}
+
+static void thin_labels(fracas_frame *f)
+{
+    size_t decades = 0;
+    for (size_t i = 0; i < f->nxtick; i++)
+        decades += *f->xtick[i].label && fracas_scale_decade(f->xtick[i].value);
+    if (f->panel.x.nnames > 0) return;
+    for (size_t i = 0; i < f->nxtick && f->x.log && decades > 1 && touch(f); i++)
+        if (!fracas_scale_decade(f->xtick[i].value)) *f->xtick[i].label = '\0';
+    while (touch(f)) {
+        size_t labels = 0;
+        for (size_t i = 0; i < f->nxtick; i++)
+            if (*f->xtick[i].label && labels++ % 2) *f->xtick[i].label = '\0';
+    }
+}
+
+/* Half of the widest number of the abscissa reaches beyond the frame. */
+static double widest_number(const fracas_chart *chart, fracas_axes axes)
+{
+    size_t widest = 1;
+    fracas_frame f = {.panel = panel_of(chart, 0, axes),
+                      .width = chart->width / (double)chart->columns};
+    fit(&f);
+    for (size_t i = 0; i < f.nxtick && f.panel.x.nnames == 0; i++)
+        if (characters(f.xtick[i].label) > widest) widest = characters(f.xtick[i].label);
+    return character * (double)widest;
+}
+
+static void place_multiples(const fracas_chart *chart, fracas_axes axes, multiples *of)
+{
+    const double beyond = fmax(0, widest_number(chart, axes) / 2 - PAD);
+    const size_t columns = chart->columns;
+    fracas_frame f = {.panel = of->legend, .width = chart->width};
+    of->left = left_margin(chart, axes);
+    f.x.from = of->left;
+    f.top = 4;
+    of->top = 4 + legend(&f, false);
+    of->gap = fmax(GAP, 2 * beyond + 8);
+    of->wide = (chart->width - of->left - fmax(RIGHT / 2, beyond + 2) -
+                of->gap * (double)(columns - 1)) /
+               (double)columns;
+    of->rows = (chart->npanels + columns - 1) / columns;
+}
+
+static void draw_multiple(const fracas_chart *chart, fracas_axes axes, const multiples *of,
+                          size_t p, bool page, FILE *out)
+{
+    const size_t columns = chart->columns;
+    fracas_frame f = {.panel = panel_of(chart, p, axes),
+                      .number = p,
+                      .page = page,
+                      .out = out,
+                      .pad = pad_of(chart),
+                      .width = of->wide,
+                      .legend = &of->legend,
+                      .inner_x = p + columns<chart->npanels, .inner_y = p % columns> 0};
+    const double head = of->top + TITLE +
+                        (double)(p / columns) * (TITLE + f.panel.height + BETWEEN),
+                 left = of->left + (double)(p % columns) * (of->wide + of->gap);
+    fit(&f);
+    f.x.from = left + f.pad;
+    f.x.to = left + of->wide - f.pad;
+    f.y.to = head + f.pad;
+    f.y.from = head + f.panel.height - f.pad;
+    thin_labels(&f);
+    draw_panel(chart, &f);
+}
+
+static void draw_multiples(const fracas_chart *chart, fracas_axes axes, bool page, FILE *out)
+{
+    multiples of;
+    find_entries(chart, &of);
+    place_multiples(chart, axes, &of);
+    const double bottom = of.top + (double)of.rows * (TITLE + chart->panel->height + BETWEEN) -
+                          BETWEEN;
+    const double right = of.left + (double)chart->columns * (of.wide + of.gap) - of.gap;
+    fracas_frame f = {.panel = of.legend,
+                      .page = page,
+                      .out = out,
+                      .width = chart->width,
+                      .legend = &of.legend,
+                      .top = 4};
+    f.x.from = of.left;
+    fracas_svg_begin(chart->title, chart->width, bottom + 53, !page, out);
+    fputs("<g class=\"panel\">\n", out); /* for its letters */
+    legend(&f, true);
+    put_text(&f, chart->panel->x.label, (of.left + right) / 2, bottom + 43, "middle",
+             right - of.left);
+    put_y_label(chart->panel->y.label, (of.top + TITLE + bottom) / 2, out);
+    fputs("</g>\n", out);
+    for (size_t p = 0; p < chart->npanels; p++) draw_multiple(chart, axes, &of, p, page, out);
+    fputs("</svg>\n", out);
+}
+
+static void draw_stack(const fracas_chart *chart, fracas_axes axes, bool page, FILE *out)
 {
     double left = left_margin(chart, axes), height = 4, top = 4;
     for (int draw = 0; draw < 2; draw++) {
         if (draw) fracas_svg_begin(chart->title, chart->width, height, !page, out);
         for (size_t p = 0; p < chart->npanels; p++) {
-            frame f = {.panel = panel_of(chart, p, axes),
-                       .number = p,
-                       .page = page,
-                       .out = out,
-                       .width = chart->width};
+            fracas_frame f = {.panel = panel_of(chart, p, axes),
+                              .number = p,
+                              .page = page,
+                              .out = out,
+                              .pad = pad_of(chart),
+                              .width = chart->width};
             const double end = place(&f, left, draw ? top : height);
             if (draw) draw_panel(chart, &f);
             if (draw) top = end;
@@ -435,6 +480,12 @@ static void draw_chart(const fracas_chart *chart, fracas_axes axes, bool page, F
         }
     }
     fputs("</svg>\n", out);
+}
+
+static void draw_chart(const fracas_chart *chart, fracas_axes axes, bool page, FILE *out)
+{
+    if (chart->columns) draw_multiples(chart, axes, page, out);
+    else draw_stack(chart, axes, page, out);
 }
 
 void fracas_chart_write(const fracas_chart *chart, bool standalone, FILE *out)

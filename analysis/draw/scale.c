@@ -52,6 +52,11 @@ void fracas_scale_fit(fracas_scale *scale, bool log, double least, double greate
     scale->high = greatest;
 }
 
+bool fracas_scale_decade(double value)
+{
+    return value > 0 && fabs(log10(value) - round(log10(value))) < 1e-9;
+}
+
 double fracas_scale_place(const fracas_scale *scale, double value)
 {
     double part = scale->log ? log10(value / scale->low) / log10(scale->high / scale->low)

@@ -28,6 +28,9 @@ double fracas_scale_nice(double value, bool up);
  * Equal ends are put apart. */
 void fracas_scale_fit(fracas_scale *scale, bool log, double least, double greatest);
 
+/* True of a power of ten. */
+bool fracas_scale_decade(double value);
+
 /* Pixels of a value. */
 double fracas_scale_place(const fracas_scale *scale, double value);
 

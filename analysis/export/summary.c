@@ -418,6 +418,7 @@ static void write_axes(fracas_json *json, const fracas_analysis *analysis)
     fracas_json_object(json, "axes");
     fracas_json_text(json, "x", *axes->key ? axes->key : NULL);
     write_columns(json, "series", analysis->table, &axes->series);
+    write_columns(json, "panels", analysis->table, &axes->panels);
     write_columns(json, "drawings", analysis->table, &axes->drawings);
     fracas_json_close(json);
 }

@@ -13,10 +13,10 @@
 typedef struct {
     size_t count;
     fracas_chart *chart;
-    size_t left_out; /* drawings beyond FRACAS_MOST_DRAWINGS */
+    size_t left_out; /* drawings beyond the most */
 } fracas_charts;
 
-enum { FRACAS_MOST_DRAWINGS = 12 };
+enum { FRACAS_MOST_DRAWINGS = 12, FRACAS_MOST_PANELS = 36 }; /* most in a figure */
 void fracas_charts_clear(fracas_charts *charts);
 
 typedef enum {

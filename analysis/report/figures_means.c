@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LAW_VALUES = 80, TALL = FRACAS_FIGURE_TALL };
+enum { TALL = FRACAS_FIGURE_TALL, MULTIPLE = 190 };
 
 static const size_t ALL_SERIES = SIZE_MAX;
 
@@ -45,12 +45,24 @@ static double x_of(const fracas_means_plot *plot, size_t point)
     return plot->axes->value[point] / units_of(plot, &plot->analysis->point[point].scales).rate;
 }
 
-/* ---- series and drawings ---- */
+/* ---- series, panels and drawings ---- */
 
-/* Marks with their series and drawings; a drawing has at most FRACAS_MEANS_SERIES series. */
-static void number_marks(const size_t *series, const size_t *drawing, fracas_means_plot *plot)
+/* Classes of all points. */
+typedef struct {
+    size_t *series, *panel, *drawing;
+} classes;
+
+static size_t parts_of(size_t count, size_t most)
 {
-    const size_t nchunks = (plot->nseries + FRACAS_MEANS_SERIES - 1) / FRACAS_MEANS_SERIES;
+    return (count + most - 1) / most;
+}
+
+/* Marks with their series, panels and drawings. A drawing has at most FRACAS_MEANS_PANELS panels of
+ * at most FRACAS_MEANS_SERIES series. */
+static void number_marks(const classes *of, fracas_means_plot *plot)
+{
+    const size_t parts = parts_of(plot->nseries, FRACAS_MEANS_SERIES),
+                 pages = parts_of(plot->npanels, FRACAS_MEANS_PANELS);
     for (size_t p = 0; p < plot->analysis->table->npoints; p++) {
         if (fracas_means_normalised(plot) ? !has_scales(plot, p) : !fracas_means_has(plot, p))
             continue;
@@ -59,8 +71,10 @@ static void number_marks(const size_t *series, const size_t *drawing, fracas_mea
         plot->x[1] = plot->n ? fmax(plot->x[1], x) : x;
         plot->mark[plot->n++] = (fracas_mean_mark){
             .point = p,
-            .series = series[p],
-            .drawing = drawing[p] * nchunks + series[p] / FRACAS_MEANS_SERIES};
+            .series = of->series[p],
+            .panel = of->panel[p],
+            .drawing = (of->drawing[p] * pages + of->panel[p] / FRACAS_MEANS_PANELS) * parts +
+                       of->series[p] / FRACAS_MEANS_SERIES};
     }
 }
 
@@ -83,13 +97,15 @@ static size_t number_drawings(fracas_means_plot *plot)
 static fracas_err find_marks(fracas_means_plot *plot, size_t *ndrawings)
 {
     const fracas_point_table *table = plot->analysis->table;
-    OWNED size_t *series = calloc(2 * table->npoints + 1, sizeof *series);
+    const fracas_means_axes *axes = plot->axes;
+    OWNED size_t *class = calloc(3 * table->npoints + 1, sizeof *class);
     plot->mark = calloc(table->npoints + 1, sizeof *plot->mark);
-    if (!plot->mark || !series) return fracas_no_memory("a figure");
-    size_t *drawing = series + table->npoints;
-    plot->nseries = fracas_columns_classes(table, &plot->axes->series, series);
-    fracas_columns_classes(table, &plot->axes->drawings, drawing);
-    number_marks(series, drawing, plot);
+    if (!plot->mark || !class) return fracas_no_memory("a figure");
+    const classes of = {class, class + table->npoints, class + 2 * table->npoints};
+    plot->nseries = fracas_columns_classes(table, &axes->series, of.series);
+    plot->npanels = fracas_columns_classes(table, &axes->panels, of.panel);
+    fracas_columns_classes(table, &axes->drawings, of.drawing);
+    number_marks(&of, plot);
     *ndrawings = number_drawings(plot);
     return FRACAS_OK;
 }
@@ -173,14 +189,21 @@ static fracas_err join_means(const fracas_means_plot *plot, fracas_panel *panel)
 
 /* ---- laws of the strain rate ---- */
 
+/* Values of a curve: in a narrow panel fewer of them are as smooth. */
+static size_t law_values(const fracas_means_plot *plot)
+{
+    return plot->axes->panels.count > 0 ? 40 : 80;
+}
+
 /* A curve over the rates of all marks and a factor of two beyond, without its y. */
 static fracas_err add_curve(const fracas_means_plot *plot, unsigned look, fracas_panel *panel,
                             fracas_series **series)
 {
-    TRY(fracas_panel_add(panel, FRACAS_CURVE, look, LAW_VALUES, series));
-    for (size_t i = 0; i < LAW_VALUES; i++)
+    const size_t n = law_values(plot);
+    TRY(fracas_panel_add(panel, FRACAS_CURVE, look, n, series));
+    for (size_t i = 0; i < n; i++)
         (*series)->x[i] = plot->x[0] / 2 *
-                          pow(4 * plot->x[1] / plot->x[0], (double)i / (LAW_VALUES - 1));
+                          pow(4 * plot->x[1] / plot->x[0], (double)i / (double)(n - 1));
     return FRACAS_OK;
 }
 
@@ -190,7 +213,7 @@ static fracas_err add_law(const fracas_means_plot *plot, fracas_scaling_law_id l
     fracas_series *series;
     TRY(add_curve(plot, look, panel, &series));
     FRACAS_PRINT(series->name, "%s", fracas_scaling_laws[law].name);
-    for (size_t i = 0; i < LAW_VALUES; i++)
+    for (size_t i = 0; i < series->n; i++)
         series->y[i] = fracas_means_normalised(plot)
                            ? fracas_scaling_laws[law].normalised(series->x[i], scales->modulus)
                            : fracas_scaling_law_at(law, scales, series->x[i]) * plot->factor;
@@ -232,7 +255,7 @@ static fracas_err add_laws(const fracas_means_plot *plot, size_t number, bool *d
     const size_t first = first_of(plot, number);
     const fracas_scales *scales = &fracas_means_statistics(plot, first)->scales;
     if (!plot->axes->rate || !mark_has_scales(plot, first) || *drawn) return FRACAS_OK;
-    if (fracas_means_normalised(plot) || same_scales(plot, ALL_SERIES)) {
+    if (fracas_means_normalised(plot) || plot->same_scales) {
         *drawn = true;
         for (unsigned law = 0; law < FRACAS_SCALING_LAWS; law++)
             if (law_serves(plot, (fracas_scaling_law_id)law, scales))
@@ -270,8 +293,7 @@ static bool series_has_scales(const fracas_means_plot *plot, unsigned series)
  */
 static fracas_err add_slopes(const fracas_means_plot *plot, fracas_panel *panel)
 {
-    const bool only = plot->nseries == 1 && plot->axes->drawings.count == 0,
-               beside_laws = plot->of == FRACAS_MEANS_COUNT;
+    const bool only = fracas_means_alone(plot), beside_laws = plot->of == FRACAS_MEANS_COUNT;
     for (size_t i = 0; i < plot->nslopes; i++) {
         const fracas_size_slope *of = &plot->slope[i];
         unsigned number;
@@ -279,7 +301,7 @@ static fracas_err add_slopes(const fracas_means_plot *plot, fracas_panel *panel)
         if (!look_of(plot, of->name, only, &number)) continue; /* through several series */
         if (!beside_laws && series_has_scales(plot, number)) continue;
         TRY(add_curve(plot, number + 2 * FRACAS_CHART_COLOURS, panel, &series));
-        for (size_t v = 0; v < LAW_VALUES; v++)
+        for (size_t v = 0; v < series->n; v++)
             series->y[v] = fracas_slope_at(&of->slope, series->x[v]) * plot->factor;
         if (only)
             FRACAS_PRINT(series->name, "fitted: power %s", fracas_slope_text(&of->slope).text);
@@ -290,7 +312,7 @@ static fracas_err add_slopes(const fracas_means_plot *plot, fracas_panel *panel)
 /* The fitted crossover of each series, in the colour of its marks. */
 static fracas_err add_crossovers(const fracas_means_plot *plot, fracas_panel *panel)
 {
-    const bool only = plot->ncrossovers == 1;
+    const bool only = plot->ncrossovers == 1 && plot->npanels == 1;
     for (size_t i = 0; i < plot->ncrossovers; i++) {
         const fracas_size_crossover *of = &plot->crossover[i];
         const fracas_scales unit = units_of(plot, &of->scales);
@@ -300,7 +322,7 @@ static fracas_err add_crossovers(const fracas_means_plot *plot, fracas_panel *pa
         if (!look_of(plot, of->name, only, &look)) continue; /* surfaces have no normalised sizes */
         /* ZMR has the other dashes */
         TRY(add_curve(plot, look + (only ? 0 : FRACAS_CHART_COLOURS), panel, &series));
-        for (size_t v = 0; v < LAW_VALUES; v++)
+        for (size_t v = 0; v < series->n; v++)
             series->y[v] = fracas_crossover_at(of, series->x[v] * unit.rate) / unit.size;
         if (only) FRACAS_PRINT(series->name, "fitted crossover");
     }
@@ -341,23 +363,55 @@ static fracas_err add_series(const fracas_means_plot *plot, fracas_panel *panel)
     return add_crossovers(plot, panel);
 }
 
-/* The drawing of this number, by its own marks. */
-static fracas_err draw(const fracas_means_plot *whole, size_t drawing, const char *sign,
-                       fracas_chart *chart)
+/* The marks of a drawing, or of a panel of it, in `mark`. */
+static fracas_means_plot part_of(const fracas_means_plot *whole, size_t drawing, size_t panel,
+                                 fracas_mean_mark *mark)
 {
-    fracas_means_plot plot = *whole; /* its marks alone are its own */
-    OWNED fracas_mean_mark *mark = calloc(whole->n + 1, sizeof *mark);
-    if (!mark) return fracas_no_memory("a figure");
+    fracas_means_plot plot = *whole;
     plot.mark = mark;
     plot.n = 0;
     for (size_t m = 0; m < whole->n; m++)
-        if (whole->mark[m].drawing == drawing) mark[plot.n++] = whole->mark[m];
-    plot.same_scales = same_scales(&plot, ALL_SERIES);
+        if (whole->mark[m].drawing == drawing &&
+            (panel == SIZE_MAX || whole->mark[m].panel == panel))
+            mark[plot.n++] = whole->mark[m];
+    return plot;
+}
+
+/* One curve of a law serves the marks of each panel. */
+static bool panels_have_scales(const fracas_means_plot *whole, size_t drawing,
+                               fracas_mean_mark *mark)
+{
+    for (size_t p = 0; p < whole->npanels; p++) {
+        const fracas_means_plot plot = part_of(whole, drawing, p, mark);
+        if (!same_scales(&plot, ALL_SERIES)) return false;
+    }
+    return true;
+}
+
+/* The drawing of this number, panel by panel. */
+static fracas_err draw(const fracas_means_plot *whole, size_t drawing, const char *sign,
+                       fracas_chart *chart)
+{
+    OWNED fracas_mean_mark *mark = calloc(whole->n + 1, sizeof *mark);
+    if (!mark) return fracas_no_memory("a figure");
+    const bool same = panels_have_scales(whole, drawing, mark),
+               multiples = whole->axes->panels.count > 0;
+    fracas_means_plot plot = part_of(whole, drawing, SIZE_MAX, mark);
+    plot.same_scales = same;
     fracas_means_name(&plot, drawing, chart);
-    if (plot.n == 0) return FRACAS_OK;
-    fracas_panel *panel = fracas_chart_add(chart, TALL);
-    fracas_means_set_axes(whole, sign, chart);
-    return add_series(&plot, panel);
+    for (size_t p = 0; p < whole->npanels; p++) {
+        plot = part_of(whole, drawing, p, mark);
+        plot.same_scales = same;
+        if (plot.n == 0) continue;
+        fracas_panel *panel = fracas_chart_add(chart, multiples ? MULTIPLE : TALL);
+        fracas_means_set_axes(whole, sign, chart, panel);
+        if (multiples) fracas_means_name_panel(&plot, panel);
+        TRY(add_series(&plot, panel));
+    }
+    if (!multiples || chart->npanels == 0) return FRACAS_OK;
+    if (chart->npanels > 1) chart->width = FRACAS_CHART_MULTIPLES;
+    chart->columns = chart->npanels == 4 ? 2 : chart->npanels < 3 ? chart->npanels : 3;
+    return FRACAS_OK;
 }
 
 void fracas_charts_clear(fracas_charts *charts)
@@ -367,12 +421,20 @@ void fracas_charts_clear(fracas_charts *charts)
     *charts = (fracas_charts){0};
 }
 
+static size_t most_drawings(const fracas_means_plot *plot)
+{
+    const size_t panels = plot->npanels < FRACAS_MEANS_PANELS ? plot->npanels : FRACAS_MEANS_PANELS,
+                 most = FRACAS_MOST_PANELS / (panels > 0 ? panels : 1);
+    return most < FRACAS_MOST_DRAWINGS ? most : FRACAS_MOST_DRAWINGS;
+}
+
 static fracas_err make_charts(fracas_means_plot *plot, const char *sign, fracas_charts *charts)
 {
     size_t ndrawings = 0;
     TRY(find_marks(plot, &ndrawings));
     TRY(find_fits(plot));
-    charts->left_out = ndrawings > FRACAS_MOST_DRAWINGS ? ndrawings - FRACAS_MOST_DRAWINGS : 0;
+    const size_t most = most_drawings(plot);
+    charts->left_out = ndrawings > most ? ndrawings - most : 0;
     ndrawings -= charts->left_out;
     charts->chart = calloc(ndrawings + 1, sizeof *charts->chart);
     if (!charts->chart) return fracas_no_memory("a figure");
@@ -380,7 +442,8 @@ static fracas_err make_charts(fracas_means_plot *plot, const char *sign, fracas_
         fracas_chart_init(&charts->chart[charts->count++]);
         TRY(draw(plot, d, sign, &charts->chart[d]));
     }
-    if (ndrawings > 1) fracas_charts_align(charts->chart, ndrawings);
+    if (ndrawings > 1 || plot->axes->panels.count > 0)
+        fracas_charts_align(charts->chart, ndrawings);
     return FRACAS_OK;
 }
 

@@ -12,6 +12,7 @@ typedef struct {
     size_t point;
     size_t series;  /* for the whole figure, in the order of first points */
     size_t drawing; /* likewise */
+    size_t panel;   /* likewise */
     char name[128]; /* slopes and crossovers know its series by this */
 } fracas_mean_mark;
 
@@ -21,9 +22,9 @@ typedef struct {
     const fracas_means_axes *axes;
     fracas_means of;
     fracas_ordinate ordinate;
-    bool same_scales;  /* one curve of a law serves all marks */
-    double factor;     /* from the SI value to the axis */
-    size_t n, nseries; /* nseries: for the whole figure */
+    bool same_scales;           /* one curve of a law serves all marks */
+    double factor;              /* from the SI value to the axis */
+    size_t n, nseries, npanels; /* series and panels: for the whole figure */
     fracas_mean_mark *mark;
     double x[2]; /* least and greatest of the whole figure */
     fracas_size_slope *slope;
@@ -59,10 +60,19 @@ static inline bool fracas_means_joined(const fracas_means_plot *plot)
     return !plot->axes->nnames && (!plot->axes->rate || plot->of == FRACAS_MEANS_OTHER);
 }
 
+/* True if one series holds all marks of the figure. */
+static inline bool fracas_means_alone(const fracas_means_plot *plot)
+{
+    return plot->nseries == 1 && plot->npanels == 1 && plot->axes->drawings.count == 0;
+}
+
 /* File, title and caption of a drawing, by the marks of its own. */
 void fracas_means_name(const fracas_means_plot *plot, size_t drawing, fracas_chart *chart);
-/* Labels, ranges and scales of its axes, by all marks of the figure; `sign`: prefix of the
- * ordinate. */
-void fracas_means_set_axes(const fracas_means_plot *plot, const char *sign, fracas_chart *chart);
+/* Labels, ranges and scales of the axes of its panel, by all marks of the figure; `sign`: prefix of
+ * the ordinate. */
+void fracas_means_set_axes(const fracas_means_plot *plot, const char *sign, fracas_chart *chart,
+                           fracas_panel *panel);
+/* Title of a panel of small multiples, by its marks. */
+void fracas_means_name_panel(const fracas_means_plot *plot, fracas_panel *panel);
 
 #endif

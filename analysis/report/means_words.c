@@ -3,6 +3,7 @@
 #include "analysis/report/means_plot.h"
 
 #include "analysis/data/format.h"
+#include "analysis/data/words.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -115,20 +116,57 @@ static void name_file(const fracas_means_plot *plot, size_t drawing, fracas_char
     if (drawing > 0) fracas_append(chart->file, sizeof chart->file, "-", "%zu", drawing + 1);
 }
 
-void fracas_means_name(const fracas_means_plot *plot, size_t drawing, fracas_chart *chart)
+/* "Weibull modulus and radius" */
+static void name_columns(const fracas_means_plot *plot, const fracas_columns *columns, char *text,
+                         size_t size)
+{
+    for (size_t i = 0; i < columns->count; i++)
+        fracas_append(text, size, " and ", "%s",
+                      fracas_column_words(plot->analysis->table, columns->column[i]));
+}
+
+/* Drawings that go on with more series or panels have nothing else to tell them apart. */
+static void name_drawing(const fracas_means_plot *plot, size_t drawing, fracas_chart *chart)
 {
     char label[128] = "";
-    name_file(plot, drawing, chart);
-    if (plot->axes->drawings.count > 0 && plot->n > 0)
+    if (plot->axes->drawings.count > 0)
         fracas_columns_label(plot->analysis->table, &plot->axes->drawings, plot->mark->point, label,
                              sizeof label);
-    FRACAS_PRINT(chart->title, "%.70s against %.70s%s%.100s",
+    if (*label) fracas_append(chart->title, sizeof chart->title, ", ", "%.100s", label);
+    if (drawing > 0 &&
+        (!*label || plot->nseries > FRACAS_MEANS_SERIES || plot->npanels > FRACAS_MEANS_PANELS))
+        fracas_append(chart->title, sizeof chart->title, ", ", "continued");
+}
+
+static void caption_of_panels(const fracas_means_plot *plot, fracas_chart *chart)
+{
+    char words[128] = "";
+    name_columns(plot, &plot->axes->panels, words, sizeof words);
+    fracas_append(chart->caption, sizeof chart->caption, " ", "A panel for each %s.", words);
+}
+
+void fracas_means_name(const fracas_means_plot *plot, size_t drawing, fracas_chart *chart)
+{
+    name_file(plot, drawing, chart);
+    FRACAS_PRINT(chart->title, "%.70s against %.70s",
                  plot->of == FRACAS_MEANS_OTHER ? plot->ordinate.words : texts[plot->of].title,
-                 plot->axes->words, *label ? ", " : "", label);
+                 plot->axes->words);
+    if (plot->n > 0) name_drawing(plot, drawing, chart);
     chart->title[0] = (char)toupper((unsigned char)chart->title[0]);
     if (plot->of == FRACAS_MEANS_OTHER) caption_of_other(plot, chart);
     else if (plot->of == FRACAS_MEANS_COUNT) caption_of_count(plot, chart);
     else caption_of_size(plot, chart);
+    if (plot->axes->panels.count > 0) caption_of_panels(plot, chart);
+    if (plot->nseries > FRACAS_MEANS_SERIES)
+        fracas_append(chart->caption, sizeof chart->caption, " ",
+                      "At most %d of %zu series: the others follow.", FRACAS_MEANS_SERIES,
+                      plot->nseries);
+}
+
+void fracas_means_name_panel(const fracas_means_plot *plot, fracas_panel *panel)
+{
+    fracas_columns_label(plot->analysis->table, &plot->axes->panels, plot->mark->point,
+                         panel->title, sizeof panel->title);
 }
 
 /* Marks at the ends of the range do not lie on the frame. */
@@ -151,11 +189,13 @@ static void label_other(const fracas_means_plot *plot, const char *sign, fracas_
     if (!pure) fracas_append(axis->label, sizeof axis->label, " ", "[%s%s]", sign, of->unit);
 }
 
+enum { MOST_TWICE = 300 }; /* marks of a figure that a page has twice, for other axes */
+
 /* Sizes and counts go with powers of the rate; against anything else an axis is logarithmic if its
  * values are of several decades. */
-void fracas_means_set_axes(const fracas_means_plot *plot, const char *sign, fracas_chart *chart)
+void fracas_means_set_axes(const fracas_means_plot *plot, const char *sign, fracas_chart *chart,
+                           fracas_panel *panel)
 {
-    fracas_panel *panel = chart->panel;
     const bool other = plot->of == FRACAS_MEANS_OTHER;
     double least = INFINITY, most = -INFINITY;
     for (size_t m = 0; m < plot->n; m++) {
@@ -170,7 +210,7 @@ void fracas_means_set_axes(const fracas_means_plot *plot, const char *sign, frac
     panel->x.nnames = plot->axes->nnames;
     panel->x.name = plot->axes->name;
     leave_room(plot->x, &panel->x);
-    if (panel->x.log || panel->y.log) chart->offers = FRACAS_AXES_LINEAR;
+    if ((panel->x.log || panel->y.log) && plot->n <= MOST_TWICE) chart->offers = FRACAS_AXES_LINEAR;
     if (fracas_means_normalised(plot))
         FRACAS_PRINT(panel->x.label, "strain rate \u03b5\u0307/\u03b5\u0307\u2080");
     else FRACAS_PRINT(panel->x.label, "%s", plot->axes->label);

@@ -155,9 +155,9 @@ function follow(svg, event) {
     return;
   }
   const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
-  for (const panel of svg.querySelectorAll(".panel")) {
-    const [from, to] = panel.dataset.y.split(" ").slice(3).map(Number);
-    if (at.y > from + 4 || at.y < to - 4) continue;
+  for (const panel of svg.querySelectorAll(".panel[data-y]")) {
+    const [from, to] = panel.dataset.y.split(" ").slice(3).map(Number), [left, right] = panel.dataset.x.split(" ").slice(3).map(Number);
+    if (at.y > from + 4 || at.y < to - 4 || at.x < left - 12 || at.x > right + 12) continue;
     const found = lineAt(panel, at.x, at.y);
     if (!found.path) break;
     showLine(panel, found, event);

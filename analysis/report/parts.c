@@ -163,7 +163,7 @@ fracas_err fracas_page_chart(fracas_page *page, fracas_chart *chart, fracas_err 
 {
     fracas_err err = built;
     if (!err && chart->npanels > 0) {
-        fracas_page_figure(page, chart->file, NULL);
+        fracas_page_figure(page, chart->file, chart->columns > 1 ? "row" : NULL);
         put_drawings(page, chart);
         fracas_page_figure_end(page, chart->title, chart->caption, chart->file, true, true);
         err = write_files(page, chart);
@@ -175,6 +175,8 @@ fracas_err fracas_page_chart(fracas_page *page, fracas_chart *chart, fracas_err 
 }
 
 /* ---- tables ---- */
+
+enum { MANY = 15 }; /* columns of a printed page; more are smaller */
 
 static void put_cells(const fracas_result_table *table, FILE *out)
 {
@@ -196,6 +198,14 @@ static void put_cells(const fracas_result_table *table, FILE *out)
     fputs("</tbody>\n", out);
 }
 
+static const char *class_of(bool text, bool many)
+{
+    return text && many ? " class=\"text many\""
+           : text       ? " class=\"text\""
+           : many       ? " class=\"many\""
+                        : "";
+}
+
 fracas_err fracas_page_table(fracas_page *page, const char *id, const char *title, bool text,
                              fracas_result_table *table, const char *const *legend,
                              fracas_err built)
@@ -208,7 +218,7 @@ fracas_err fracas_page_table(fracas_page *page, const char *id, const char *titl
         fprintf(page->out,
                 "</p>\n<div class=\"scroll fit\" tabindex=\"0\" role=\"region\" aria-label=\"Table "
                 "%d\"><table id=\"%s\"%s>\n",
-                page->tables, id, text ? " class=\"text\"" : "");
+                page->tables, id, class_of(text, table->columns > MANY));
         put_cells(table, page->out);
         fputs("</table></div>\n", page->out);
         if (legend && legend[0]) {

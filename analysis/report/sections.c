@@ -77,7 +77,7 @@ static fracas_err put_ordinate(fracas_page *page, const fracas_ordinate *ordinat
 {
     FRACAS_CLEARED(fracas_charts) charts = {0};
     TRY(fracas_figure_ordinate(page->analysis, ordinate, &charts));
-    if (!page->analysis->asked && charts.count > FEW_DRAWINGS) return FRACAS_OK;
+    if (!page->analysis->asked && charts.count + charts.left_out > FEW_DRAWINGS) return FRACAS_OK;
     if (charts.count == 0 && page->analysis->asked && *page->analysis->axes.key)
         fprintf(page->out, "<p>No point has <code>%s</code>.</p>\n", ordinate->key);
     for (size_t i = 0; i < charts.count; i++)

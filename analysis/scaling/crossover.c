@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/scaling/scaling.h"
 #include "analysis/data/room.h"
+#include "analysis/summary/study.h"
 #include "base/own.h"
 
 #include <gsl/gsl_errno.h>
@@ -10,6 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define NUMBER(key, doc, member) FRACAS_FIELD(fracas_size_crossover, NUMBER, key, "1", doc, member)
 #define INTERVAL(key, unit, doc, member) \
@@ -99,12 +101,16 @@ static double descend(fitter *of, double parameter[NPARAMETERS])
     return isfinite(parameter[SIZE] + parameter[RATE] + parameter[EXPONENT]) ? chi2 : NAN;
 }
 
-/* The least chi2 from a bend at each rate and two exponents. */
+enum { MOST_BENDS = 50 };
+
+/* The least chi2 from a bend at each rate, of many at MOST_BENDS of them, and two exponents. */
 static double search(fitter *of, double best[NPARAMETERS])
 {
     double least = NAN;
-    for (size_t i = 0; i < 2 * of->n; i++) {
-        double parameter[NPARAMETERS] = {of->y[0], of->x[i / 2], i % 2 ? 0 : log(0.5)};
+    const size_t bends = of->n < MOST_BENDS ? of->n : MOST_BENDS;
+    for (size_t i = 0; i < 2 * bends; i++) {
+        const double x = of->x[i / 2 * (of->n - 1) / (bends - 1)];
+        double parameter[NPARAMETERS] = {of->y[0], x, i % 2 ? 0 : log(0.5)};
         const double chi2 = descend(of, parameter);
         if (!isfinite(chi2) || chi2 >= least) continue;
         least = chi2;
@@ -306,13 +312,11 @@ double fracas_crossover_at(const fracas_size_crossover *crossover, double rate)
            (1 + pow(rate / crossover->rate.value, -crossover->exponent.value));
 }
 
-fracas_err fracas_size_crossovers(const struct fracas_analysis *analysis, bool intervals,
-                                  fracas_size_crossover **list, size_t *count)
+static fracas_err fit_all(const fracas_analysis *analysis, bool intervals,
+                          fracas_size_crossover **list, size_t *count)
 {
     fracas_size_series *series;
     size_t nseries;
-    *list = NULL;
-    *count = 0;
     TRY(fracas_size_series_create(analysis, &series, &nseries));
     fracas_size_crossover *made = calloc(nseries + 1, sizeof *made);
     fracas_err err = made ? FRACAS_OK : fracas_no_memory("the crossovers of the study");
@@ -323,4 +327,24 @@ fracas_err fracas_size_crossovers(const struct fracas_analysis *analysis, bool i
     if (err) free(made);
     else *list = made, *count = nseries;
     return err;
+}
+
+/* An analysis that keeps them has intervals in any case: the figures come first. */
+fracas_err fracas_size_crossovers(const fracas_analysis *analysis, bool intervals,
+                                  fracas_size_crossover **list, size_t *count)
+{
+    fracas_kept *kept = analysis->kept;
+    fracas_size_crossover *fitted = NULL;
+    *list = NULL;
+    *count = 0;
+    if (!kept) return fit_all(analysis, intervals, list, count);
+    if (!kept->crossovers) {
+        TRY(fit_all(analysis, true, &fitted, &kept->ncrossovers));
+        kept->crossovers = fitted;
+    }
+    *list = malloc((kept->ncrossovers + 1) * sizeof **list);
+    if (!*list) return fracas_no_memory("the crossovers of the study");
+    memcpy(*list, kept->crossovers, kept->ncrossovers * sizeof **list);
+    *count = kept->ncrossovers;
+    return FRACAS_OK;
 }

@@ -117,7 +117,7 @@ static fracas_err analyse(const char *study, const fracas_hash *campaign,
     for (size_t p = 0; p < npoints; p++) TRY(fracas_point_statistics_finish(&analysis->point[p]));
     TRY(read_histories(analysis));
     TRY(fracas_analysis_choose_points(analysis));
-    TRY(fracas_means_axes_create(analysis, NULL, NULL, &analysis->axes));
+    TRY(fracas_means_axes_create(analysis, NULL, NULL, NULL, &analysis->axes));
     return fracas_analysis_ordinates(analysis, NULL);
 }
 
@@ -126,7 +126,11 @@ fracas_err fracas_analysis_create(const char *study, const fracas_hash *campaign
 {
     *analysis = NULL;
     fracas_analysis *made = calloc(1, sizeof *made);
-    if (!made) return fracas_no_memory("an analysis");
+    if (made) made->kept = calloc(1, sizeof *made->kept);
+    if (!made || !made->kept) {
+        free(made);
+        return fracas_no_memory("an analysis");
+    }
     fracas_err err = analyse(study, campaign, table, made);
     if (err) fracas_analysis_destroy(made);
     else *analysis = made;
@@ -145,14 +149,17 @@ void fracas_analysis_destroy(fracas_analysis *analysis)
     fracas_means_axes_clear(&analysis->axes);
     free(analysis->drawn);
     fracas_results_close(analysis->results);
+    free(analysis->kept->crossovers);
+    free(analysis->kept);
     free(analysis->name);
     free(analysis);
 }
 
-fracas_err fracas_analysis_axes(fracas_analysis *analysis, const char *x, const char *series)
+fracas_err fracas_analysis_axes(fracas_analysis *analysis, const char *x, const char *series,
+                                const char *panels)
 {
     fracas_means_axes_clear(&analysis->axes);
-    return fracas_means_axes_create(analysis, x, series, &analysis->axes);
+    return fracas_means_axes_create(analysis, x, series, panels, &analysis->axes);
 }
 
 fracas_err fracas_analysis_ordinates(fracas_analysis *analysis, const char *list)

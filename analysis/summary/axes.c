@@ -17,6 +17,7 @@ void fracas_means_axes_clear(fracas_means_axes *axes)
     free(axes->value);
     free(axes->name);
     fracas_columns_clear(&axes->series);
+    fracas_columns_clear(&axes->panels);
     fracas_columns_clear(&axes->drawings);
     fracas_columns_clear(&axes->all);
     *axes = (fracas_means_axes){0};
@@ -216,7 +217,7 @@ static fracas_err choose(const fracas_analysis *analysis, fracas_means_axes *axe
     return FRACAS_OK;
 }
 
-/* ---- series and drawings ---- */
+/* ---- series, panels and drawings ---- */
 
 /* True if points of one abscissa, alike in the columns, differ in this one. */
 static bool parts(const fracas_analysis *analysis, const fracas_means_axes *axes, size_t column,
@@ -240,82 +241,142 @@ static fracas_err with_room(const fracas_analysis *analysis, fracas_columns *col
     return columns->column ? FRACAS_OK : fracas_no_memory("the series of a figure");
 }
 
-/* All columns that make series or drawings; `first`, if it is one, comes first. */
-static fracas_err find_columns(const fracas_analysis *analysis, size_t first,
-                               fracas_means_axes *axes)
+/* Columns by keys of a user; SIZE_MAX: none. */
+typedef struct {
+    size_t series, panels;
+} wanted;
+
+static void add_column(size_t column, fracas_columns *to)
 {
-    if (axes->rate && first == SIZE_MAX) {
-        fracas_columns_clear(&axes->all);
-        return fracas_columns_without_rate(analysis->table, &analysis->shown, &axes->all);
-    }
-    TRY(with_room(analysis, &axes->all));
-    if (first != SIZE_MAX) axes->all.column[axes->all.count++] = first;
-    for (size_t i = 0; i < analysis->shown.count; i++) {
-        const size_t column = analysis->shown.column[i];
-        if (column != first && parts(analysis, axes, column, &axes->all))
-            axes->all.column[axes->all.count++] = column;
-    }
-    return FRACAS_OK;
+    if (column != SIZE_MAX) to->column[to->count++] = column;
 }
 
+/* How many combinations of values the columns have. */
 static size_t classes_of(const fracas_analysis *analysis, const fracas_columns *columns,
                          size_t *class)
 {
     return fracas_columns_classes(analysis->table, columns, class);
 }
 
-/* The first of all columns with few enough values to be series; SIZE_MAX: none. */
+static size_t values_of(const fracas_analysis *analysis, size_t column, size_t *class)
+{
+    const fracas_columns one = {1, &column};
+    return classes_of(analysis, &one, class);
+}
+
+/* All columns that make series, panels or drawings. */
+static fracas_err find_columns(const fracas_analysis *analysis, const wanted *by,
+                               fracas_means_axes *axes)
+{
+    if (axes->rate && by->series == SIZE_MAX && by->panels == SIZE_MAX)
+        return fracas_columns_without_rate(analysis->table, &analysis->shown, &axes->all);
+    TRY(with_room(analysis, &axes->all));
+    add_column(by->series, &axes->all);
+    add_column(by->panels, &axes->all);
+    for (size_t i = 0; i < analysis->shown.count; i++) {
+        const size_t column = analysis->shown.column[i];
+        if (column != by->series && column != by->panels &&
+            parts(analysis, axes, column, &axes->all))
+            add_column(column, &axes->all);
+    }
+    return FRACAS_OK;
+}
+
+/* The first of all columns with 2 to `most` values, other than this one; SIZE_MAX: none. */
 static size_t few_values(const fracas_analysis *analysis, const fracas_means_axes *axes,
-                         size_t *class)
+                         size_t other, size_t most, size_t *class)
 {
     for (size_t i = 0; i < axes->all.count; i++) {
-        const fracas_columns one = {1, &axes->all.column[i]};
-        const size_t n = classes_of(analysis, &one, class);
-        if (n > 1 && n <= FRACAS_MEANS_SERIES) return axes->all.column[i];
+        const size_t column = axes->all.column[i];
+        const size_t n = column == other ? 0 : values_of(analysis, column, class);
+        if (n > 1 && n <= most) return column;
     }
     return SIZE_MAX;
 }
 
-/* Parts the columns into those of series, `by` alone if it is one, and those of drawings. */
-static fracas_err part_columns(const fracas_analysis *analysis, size_t by, fracas_means_axes *axes)
+/* True if each value of a column comes with each of the others. */
+static bool combined(const fracas_analysis *analysis, const fracas_means_axes *axes, size_t *class)
 {
-    OWNED size_t *class = calloc(analysis->table->npoints + 1, sizeof *class);
-    if (!class) return fracas_no_memory("the series of a figure");
-    if (by == SIZE_MAX && classes_of(analysis, &axes->all, class) > FRACAS_MEANS_SERIES)
-        by = few_values(analysis, axes, class);
+    size_t product = 1;
+    for (size_t i = 0; i < axes->all.count && product <= analysis->table->npoints; i++)
+        product *= values_of(analysis, axes->all.column[i], class);
+    return product == classes_of(analysis, &axes->all, class);
+}
+
+/* Completes what a user wants; false: all columns make series. */
+static bool choose_parts(const fracas_analysis *analysis, const fracas_means_axes *axes,
+                         size_t *class, wanted *by)
+{
+    const size_t count = axes->all.count;
+    const bool few = count == 0 || classes_of(analysis, &axes->all, class) <= FRACAS_MEANS_SERIES,
+               asked = by->series != SIZE_MAX || by->panels != SIZE_MAX;
+    if (!asked && few && (count < 2 || !combined(analysis, axes, class))) return false;
+    if (count == 1 && by->panels == SIZE_MAX && !few) {
+        *by = (wanted){SIZE_MAX, axes->all.column[0]};
+        return true;
+    }
+    if (by->series == SIZE_MAX)
+        by->series = few_values(analysis, axes, by->panels, FRACAS_MEANS_SERIES, class);
+    if (by->series == SIZE_MAX) /* in several drawings */
+        by->series = few_values(analysis, axes, by->panels, SIZE_MAX, class);
+    if (by->panels == SIZE_MAX)
+        by->panels = few_values(analysis, axes, by->series, FRACAS_MEANS_PANELS, class);
+    return true;
+}
+
+static fracas_err part_columns(const fracas_analysis *analysis, wanted by, size_t *class,
+                               fracas_means_axes *axes)
+{
+    const bool apart = choose_parts(analysis, axes, class, &by);
     TRY(with_room(analysis, &axes->series));
+    TRY(with_room(analysis, &axes->panels));
     TRY(with_room(analysis, &axes->drawings));
     for (size_t i = 0; i < axes->all.count; i++) {
         const size_t column = axes->all.column[i];
-        fracas_columns *to = by == SIZE_MAX || column == by ? &axes->series : &axes->drawings;
-        to->column[to->count++] = column;
+        add_column(column, !apart || column == by.series ? &axes->series
+                           : column == by.panels         ? &axes->panels
+                                                         : &axes->drawings);
     }
     return FRACAS_OK;
 }
 
-static fracas_err find_series(const fracas_analysis *analysis, const char *key, size_t *column)
+static fracas_err find_wanted(const fracas_analysis *analysis, const char *what, const char *key,
+                              size_t *column)
 {
     *column = SIZE_MAX;
     if (!key) return FRACAS_OK;
     *column = fracas_point_table_find(analysis->table, key);
-    if (*column == SIZE_MAX) return unknown(analysis, "series of the figures,", key, false);
-    if (!varies(analysis->table, *column)) return alike(analysis, "series of the figures,", key);
+    if (*column == SIZE_MAX) return unknown(analysis, what, key, false);
+    return varies(analysis->table, *column) ? FRACAS_OK : alike(analysis, what, key);
+}
+
+fracas_err fracas_analysis_check_axes(const char *x, const char *series, const char *panels)
+{
+    const struct {
+        const char *a, *b, *names;
+    } pair[] = {{x, series, "x and series"},
+                {x, panels, "x and panels"},
+                {series, panels, "series and panels"}};
+    for (size_t i = 0; i < sizeof pair / sizeof *pair; i++)
+        if (pair[i].a && pair[i].b && !strcmp(pair[i].a, pair[i].b))
+            return fracas_fail(FRACAS_USAGE, "`%s` is both %s of the figures; give another",
+                               pair[i].a, pair[i].names);
     return FRACAS_OK;
 }
 
 fracas_err fracas_means_axes_create(const fracas_analysis *analysis, const char *x,
-                                    const char *series, fracas_means_axes *axes)
+                                    const char *series, const char *panels, fracas_means_axes *axes)
 {
-    size_t by;
+    wanted by;
     const size_t npoints = analysis->table->npoints;
     *axes = (fracas_means_axes){.value = calloc(npoints + 1, sizeof *axes->value)};
-    if (!axes->value) return fracas_no_memory("the axes of a figure");
+    OWNED size_t *class = calloc(npoints + 1, sizeof *class);
+    if (!axes->value || !class) return fracas_no_memory("the axes of a figure");
     for (size_t p = 0; p < npoints; p++) axes->value[p] = NAN;
-    TRY(find_series(analysis, series, &by));
-    if (x && series && !strcmp(x, series))
-        return fracas_fail(FRACAS_USAGE, "`%s` is both x and series of the figures; give another",
-                           x);
+    TRY(find_wanted(analysis, "series of the figures,", series, &by.series));
+    TRY(find_wanted(analysis, "panels of the figures,", panels, &by.panels));
+    TRY(fracas_analysis_check_axes(x, series, panels));
     TRY(x ? take_key(analysis, x, axes) : choose(analysis, axes));
-    TRY(find_columns(analysis, by, axes));
-    return part_columns(analysis, by, axes);
+    TRY(find_columns(analysis, &by, axes));
+    return part_columns(analysis, by, class, axes);
 }

@@ -63,9 +63,9 @@ static bool read_number(const char **text, size_t *number)
 }
 
 /* Takes "3" or "3-7", which ends at a comma or with the text. */
-static fracas_err take_part(fracas_analysis *analysis, const char *list, const char **rest)
+static fracas_err take_part(size_t npoints, const char *list, const char **rest, size_t *from,
+                            size_t *to)
 {
-    const size_t npoints = analysis->table->npoints;
     const int length = (int)strcspn(*rest, ",");
     const char *at = *rest;
     size_t first = 0, last;
@@ -89,8 +89,25 @@ static fracas_err take_part(fracas_analysis *analysis, const char *list, const c
         return fracas_fail(FRACAS_USAGE,
                            "points `%s`: there is no point %zu: the study has points 0 to %zu",
                            list, last, npoints - 1);
-    for (size_t p = first; p <= last; p++) analysis->drawn[p] = true;
-    *rest = at;
+    *from = first;
+    *to = last;
+    *rest = *at ? at + 1 : at;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_points_listed(const char *list, size_t npoints, size_t **point, size_t *count)
+{
+    const char *rest = list;
+    size_t room = 0, first = 0, last = 0;
+    *point = NULL;
+    *count = 0;
+    do {
+        TRY(take_part(npoints, list, &rest, &first, &last));
+        for (size_t p = first; p <= last; p++) {
+            TRY(fracas_grow(point, sizeof **point, *count, &room, "a list of points"));
+            (*point)[(*count)++] = p;
+        }
+    } while (*rest || rest[-1] == ',');
     return FRACAS_OK;
 }
 
@@ -101,11 +118,9 @@ fracas_err fracas_analysis_points(fracas_analysis *analysis, const char *list)
     if (!strcmp(list, "all")) return FRACAS_OK;
     analysis->drawn = calloc(analysis->table->npoints + 1, sizeof *analysis->drawn);
     if (!analysis->drawn) return fracas_no_memory("the figures of the points");
-    const char *rest = list;
-    TRY(take_part(analysis, list, &rest));
-    while (*rest == ',') {
-        rest++;
-        TRY(take_part(analysis, list, &rest));
-    }
+    OWNED size_t *point = NULL;
+    size_t count;
+    TRY(fracas_points_listed(list, analysis->table->npoints, &point, &count));
+    for (size_t i = 0; i < count; i++) analysis->drawn[point[i]] = true;
     return FRACAS_OK;
 }

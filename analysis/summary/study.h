@@ -11,8 +11,15 @@
 #include "analysis/summary/statistics.h"
 #include "campaigns/store/results.h"
 
+/* Results that several parts of a report need and that take long. */
+typedef struct {
+    void *crossovers; /* an array of fracas_size_crossover; NULL: not yet fitted */
+    size_t ncrossovers;
+} fracas_kept;
+
 struct fracas_analysis {
-    char *name; /* for the study's folder */
+    fracas_kept *kept; /* NULL: each part computes them */
+    char *name;        /* for the study's folder */
     fracas_file_header header;
     const fracas_point_table *table;
     fracas_columns shown;   /* columns by which the points differ */
@@ -32,6 +39,10 @@ enum { FRACAS_ALL_DRAWN = 16, FRACAS_FEW_DRAWN = 6 };
 /* Chooses FRACAS_FEW_DRAWN points, whose mean counts are evenly ranked from the least to the
  * greatest, of more than FRACAS_ALL_DRAWN. */
 FRACAS_MUST_USE fracas_err fracas_analysis_choose_points(fracas_analysis *analysis);
+/* Points of a list, "3,17,20-25", in its order. FRACAS_USAGE, with the part that is wrong, for
+ * anything else. *point freed by the caller with free(), after an error too. */
+FRACAS_MUST_USE fracas_err fracas_points_listed(const char *list, size_t npoints, size_t **point,
+                                                size_t *count);
 /* Whether the point has figures of its own, and how many have. */
 bool fracas_analysis_draws(const fracas_analysis *analysis, size_t point);
 size_t fracas_analysis_ndrawn(const fracas_analysis *analysis);

@@ -364,6 +364,7 @@ static void write_report(fracas_json *json)
     begin_object(json, "report");
     write_type(json, "x", "string");
     write_type(json, "series", "string");
+    write_type(json, "panels", "string");
     fracas_json_object(json, "y");
     fracas_json_array(json, "anyOf");
     write_type(json, NULL, "string");

@@ -5,7 +5,7 @@
 
 #include <string.h>
 
-static const char *const key_names[] = {"x", "series", "y", NULL};
+static const char *const key_names[] = {"x", "series", "panels", "y", NULL};
 
 static bool is_key(const char *text)
 {
@@ -58,6 +58,7 @@ fracas_err fracas_report_keys_read(const fracas_file *file, const fracas_node *n
     TRY(fracas_file_check_keys(file, node, key_names, "`report`", &unknown));
     TRY(fracas_file_note(file, read_key(file, node, "x", &keys->x)));
     TRY(fracas_file_note(file, read_key(file, node, "series", &keys->series)));
+    TRY(fracas_file_note(file, read_key(file, node, "panels", &keys->panels)));
     return read_statistics(file, node, &keys->y);
 }
 
@@ -95,7 +96,8 @@ fracas_err fracas_report_keys_check(const fracas_file *file, const fracas_report
                                     const fracas_point_table *table)
 {
     TRY(fracas_file_note(file, check_key(file, "x", keys->x, true, table)));
-    return check_key(file, "series", keys->series, false, table);
+    TRY(fracas_file_note(file, check_key(file, "series", keys->series, false, table)));
+    return check_key(file, "panels", keys->panels, false, table);
 }
 
 void fracas_report_keys_write(const fracas_report_keys *keys, FILE *out)
@@ -103,9 +105,10 @@ void fracas_report_keys_write(const fracas_report_keys *keys, FILE *out)
     const char *between = "report: {";
     if (keys->x) fprintf(out, "%sx: %s", between, keys->x), between = ", ";
     if (keys->series) fprintf(out, "%sseries: %s", between, keys->series), between = ", ";
+    if (keys->panels) fprintf(out, "%spanels: %s", between, keys->panels), between = ", ";
     for (const char *y = keys->y; y; y = strchr(y, ',') ? strchr(y, ',') + 1 : NULL) {
         fprintf(out, "%s%s%.*s", y == keys->y ? between : ", ", y == keys->y ? "y: [" : "",
                 (int)strcspn(y, ","), y);
     }
-    if (keys->x || keys->series || keys->y) fputs(keys->y ? "]}\n" : "}\n", out);
+    if (keys->x || keys->series || keys->panels || keys->y) fputs(keys->y ? "]}\n" : "}\n", out);
 }

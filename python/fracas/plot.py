@@ -18,7 +18,7 @@ PANEL, SERIES, KIND, X, Y, LOW, HIGH = range(7)  # of a line
 
 
 def figure(study: Study, name: str, ax: Axes | None = None, panel: int = 1) -> Axes:
-    """Draws NAME.csv of the study's report as the report's figure of this name, or its second panel, and returns the axes.
+    """Draws NAME.csv of the study's report as the report's figure of this name, or another of its panels, and returns the axes.
 
     >>> fracas.plot.figure(study, "convergence-point-0")
     """
@@ -33,7 +33,7 @@ def figure(study: Study, name: str, ax: Axes | None = None, panel: int = 1) -> A
     lines = [list(row.values()) for row in rows if row["panel"] == panel]
     for (series, kind), of in groupby(lines, key=lambda line: (line[SERIES], line[KIND])):
         _draw(ax, series, kind, list(zip(*of)))
-    ax.set(xlabel=labels[0], ylabel=labels[1])
+    ax.set(xlabel=labels[0], ylabel=labels[1], title=rows[0].get("title") and lines[0][-1] or "")
     if not name.startswith(LINEAR):
         ax.set(xscale="log", yscale="linear" if name.startswith("convergence") else "log")
     elif panel == 2:

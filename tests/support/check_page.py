@@ -120,7 +120,7 @@ def check_names(panel, rows, drawn):
 
 def check_drawing(svg, rows):
     """Every mark, box and line of a drawing, panel by panel, against the rows of the CSV."""
-    panels = browser.execute_script("""return [...arguments[0].querySelectorAll('.panel')].map(panel => ({x: panel.dataset.x, y: panel.dataset.y,
+    panels = browser.execute_script("""return [...arguments[0].querySelectorAll('.panel[data-y]')].map(panel => ({x: panel.dataset.x, y: panel.dataset.y,
         series: [...panel.querySelectorAll('.series')].map(s => ({marks: [...s.querySelectorAll('.mark')].map(m => m.getAttribute('d')),
             boxes: [...s.querySelectorAll('.area')].map(b => b.getAttribute('d')), bars: s.querySelectorAll('.bar').length, lines: [...s.querySelectorAll('.line')].map(l => l.getAttribute('d'))}))}))""", svg)
     left = list(rows)
@@ -229,7 +229,7 @@ def check_axes(figure):
         assert seen(figure) == [choice]
         svg = one_of(f".drawing.{choice} svg", figure)
         assert svg.size["width"] > 200
-        panel = one_of(".panel", svg)
+        panel = all_of(".panel[data-y]", svg)[0]
         kinds = [panel.get_attribute("data-" + axis).split()[0] for axis in "xy"]
         assert kinds == {"own": ["log", "log"], "semilog": ["linear", "log"], "linear": ["linear", "linear"]}[choice]
     one_of("input.own", figure).send_keys(Keys.ARROW_RIGHT)
@@ -244,14 +244,19 @@ def check_values(figure):
     marks = all_of(".mark", svg)
     if marks:
         wanted = [row for row in rows if row["kind"] == "mark"]
+        covered = 0
         for mark, row in zip(marks, wanted):
             hover(mark)
+            if sys.argv[1] == "factors" and not browser.execute_script("return document.elementFromPoint(...arguments[0]) === arguments[1]", middle(mark), mark):
+                covered += 1  # sizes of several series are the same by a law
+                continue
             x, y = list(row.values())[3:5]
             numbers = [float(n.replace("−", "-")) for n in re.findall(r": (-?[\d.]+(?:e-?\d+)?)", tip())]
             named = not re.fullmatch(r"-?[\d.]+(?:e[-+]?\d+)?", x)
             assert f": {x}\n" in tip() if named else math.isclose(numbers.pop(0), float(x), rel_tol=6e-4), (tip(), row)
             assert math.isclose(numbers[0], float(y), rel_tol=6e-4, abs_tol=1e-12), (tip(), row)
             assert not all_of(":scope > title", mark)  # the browser's own would cover it
+        assert covered < len(marks) / 2
         hover(one_of("h1"))
         assert tip() is None
         browser.execute_script("arguments[0].focus()", marks[0])
@@ -417,7 +422,7 @@ try:
             check_axes(figure)
     check_widths()
     films = check_films()
-    assert films == {"rates": 0, "rings": 2, "converged": 0}[sys.argv[1]], films
+    assert films == {"rates": 0, "rings": 2, "factors": 0, "converged": 0}[sys.argv[1]], films
     pages = check_print(figures, tables)
     pdfs = check_pdfs()
     errors = browser.get_log("browser")

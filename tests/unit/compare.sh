@@ -68,10 +68,48 @@ expect 0 "$fracas" compare c d
 expect 0 "$fracas" compare a d
 ! grep -q "paired by replica" said || fail "paired though one study draws independent numbers"
 
+# Points of one study are compared as those of two studies with one point each.
+campaign low.yaml 8 "5e4 1/s"
+campaign high.yaml 8 "1e5 1/s"
+for which in low high; do expect 0 "$fracas" run $which.yaml --study $which; done
+expect 0 "$fracas" compare low high --json --by model
+cp said two.json
+expect 0 "$fracas" compare a --points 0,1 --json
+cp said one.json
+expect 0 "$fracas" compare a --points 1,0:0,1 --json
+/usr/bin/python3 - <<'PYTHON'
+import json, math
+two, one, both = (json.load(open(name)) for name in ("two.json", "one.json", "said"))
+(expected,), (found,) = two["points"], one["points"]
+assert one["listed"] == "0,1" and one["matched_by"] is None and one["a"]["name"] == one["b"]["name"] == "a" and one["a"]["unmatched"] == []
+assert (found["point_a"], found["point_b"], found["paired"]) == (0, 1, False) and found["differs"] == "loading.rate 5e4 | 1e5"
+assert found["values"] == expected["values"] and found["size_distribution"] == expected["size_distribution"]
+assert [(point["point_a"], point["point_b"]) for point in both["points"]] == [(1, 0), (0, 1)]
+back, there = (point["values"]["count"] for point in both["points"])
+assert math.isclose(back["difference"], -there["difference"]) and there["difference"] == found["values"]["count"]["difference"]
+assert there["p_holm"] >= there["p"]
+PYTHON
+expect 0 "$fracas" compare c --points 0,1
+said "A and B: points 0,1 of c"
+said "rate 5e4 1/s: point 0 of A and 1 of B, 8 and 8 realizations, paired by replica"
+said "they differ in loading.rate 5e4 | 1e5"
+
 # Statuses.
 expect 5 "$fracas" compare a nowhere
 expect 5 "$fracas" compare nowhere a
 expect 2 "$fracas" compare a
+expect 2 "$fracas" compare a b --points 0,1
+said "one argument too many"
+expect 2 "$fracas" compare a --points 0,1 --by model
+expect 2 "$fracas" compare a --points 0
+said "give two points or ranges as 3,17"
+expect 2 "$fracas" compare a --points 0,1,0
+expect 2 "$fracas" compare a --points 0,2
+said "there is no point 2: the study has points 0 to 1"
+expect 2 "$fracas" compare a --points 0-1,0
+said "2 on one side and 1 on the other"
+expect 2 "$fracas" compare a --points 0-1:0,0
+said "point 0 would be compared with itself"
 expect 2 "$fracas" compare a b --by loading.speed
 grep -q "loading.speed: the first study has no such column" said || fail "$(cat said)"
 expect 2 "$fracas" compare a b --by model

@@ -38,11 +38,24 @@ sweep:
 END
 expect 0 "$fracas" run rings.yaml --study rings
 
+# Three factors: small multiples.
+sed -n '/^sweep/q;p' rates.yaml > factors.yaml
+cat >> factors.yaml <<END
+sweep:
+  - loading.rate: [1e5 1/s, 3e5 1/s]
+  - material.young: [200 GPa, 275 GPa]
+  - cohesive.fracture_energy: [50 J/m2, 100 J/m2, 200 J/m2]
+replicas: 4
+output: {history: 20}
+END
+expect 0 "$fracas" run factors.yaml --study factors
+[ "$(cut -d, -f1,8 factors/report/count-against-rate.csv | sort -u | grep -c 'fracture energy')" = 3 ] || fail "no panels"
+
 # What fracas converge draws is such a page, too.
 sed 's/stop: quiet, end: 300 ns, quiet: 50 ns/stop: time, end: 300 ns/' rates.yaml > converged.yaml
 expect 0 "$fracas" converge converged.yaml --study converged --replicas 12
 
-for study in rates rings converged; do
+for study in rates rings factors converged; do
     /usr/bin/python3 "$source/tests/support/check_page.py" $study || fail "the page of $study"
 done
 

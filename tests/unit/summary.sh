@@ -15,12 +15,13 @@ cmp one/summary.json one/report/summary.json
 [ "$(wc -c < one/summary.json)" -lt 120000 ] || fail "a summary of $(wc -c < one/summary.json) bytes"
 
 # Keys of `report:` that the report would refuse are refused before anything is computed.
-for keys in 'y: [aspect, aspct]' 'x: aspct' 'x: loading.rate, series: loading.rate'; do
+for keys in 'y: [aspect, aspct]' 'x: aspct' 'x: loading.rate, series: loading.rate' \
+    'series: loading.rate, panels: loading.rate'; do
     { cat one.yaml; echo "report: {$keys}"; } > keys.yaml
     for command in 'plan keys.yaml' 'run keys.yaml --study keys'; do
         # shellcheck disable=SC2086
         expect 2 "$fracas" $command
-        said 'keys.yaml: `report`: .*\(aspct\|both x and series\)'
+        said 'keys.yaml: `report`: .*\(aspct\|both x and series\|both series and panels\)'
         [ ! -e keys ] || fail "a study was begun"
     done
 done
@@ -106,6 +107,11 @@ expect 0 "$fracas" report one --x size.mean --output elsewhere
 said '^report: elsewhere/index.html$'
 [ -f elsewhere/count-against-size-mean.svg ] && [ ! -e one/report/count-against-size-mean.svg ] || fail "not there, or in the study's report"
 expect 2 "$fracas" report one -o one/campaign.yaml
+expect 0 "$fracas" report one --x size.mean --panels loading.rate -o parted --quiet
+[ "$(sed 's|"[^"]*"||' parted/count-against-size-mean.csv | cut -d, -f1,8 | uniq | tr '\n' ' ')" = "panel,title 1,rate 1e5 1/s 2,rate 2e5 1/s " ] || fail "no panels"
+grep -A1 '"panels": \[' parted/summary.json | grep -q '"loading.rate"' || fail "the summary does not say by what panels are"
+expect 2 "$fracas" report one --panels geometry.length
+said 'panels of the figures, `geometry.length`: it is the same at all points'
 
 # What docs/how-to/open-results-with-python.md shows first prints as it says: a number with its unit, and the point's rate.
 sed -n '/^    import h5py$/,/^$/s/^    //p' "$source/docs/how-to/open-results-with-python.md" | sed 's|STUDY/|one/|' > example.py

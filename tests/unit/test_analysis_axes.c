@@ -6,7 +6,7 @@
 #include "campaigns/file/catalog.h"
 #include "tests/support/test.h"
 
-enum { RATES = 2, MODULI = 8, YOUNGS = 2, NPOINTS = RATES * MODULI * YOUNGS, NCOLUMNS = 6 };
+enum { RATES = 2, MODULI = 14, YOUNGS = 2, NPOINTS = RATES * MODULI * YOUNGS, NCOLUMNS = 6 };
 
 static const fracas_column column[NCOLUMNS] = {
     {"derived.strain_rate", "1/s", "", false}, {"derived.strength_modulus", "1", "", false},
@@ -47,19 +47,27 @@ static void clear(made *of)
     fracas_means_axes_clear(&of->analysis.axes);
 }
 
-static void assert_axes(made *of, const char *x, const char *series, const char *expected)
+static void assert_panels(made *of, const char *x, const char *series, const char *panels,
+                          const char *expected)
 {
     char text[256];
-    OK(fracas_analysis_axes(&of->analysis, x, series));
+    OK(fracas_analysis_axes(&of->analysis, x, series, panels));
     const fracas_means_axes *axes = &of->analysis.axes;
+    const struct {
+        const char *before;
+        const fracas_columns *columns;
+    } part[] = {{" by ", &axes->series}, {" in ", &axes->panels}, {" apart ", &axes->drawings}};
     FRACAS_PRINT(text, "%s", axes->key);
-    for (size_t i = 0; i < axes->series.count; i++)
-        fracas_append(text, sizeof text, i ? "," : " by ", "%s",
-                      column[axes->series.column[i]].path);
-    for (size_t i = 0; i < axes->drawings.count; i++)
-        fracas_append(text, sizeof text, i ? "," : " in ", "%s",
-                      column[axes->drawings.column[i]].path);
+    for (size_t k = 0; k < FRACAS_COUNT(part); k++)
+        for (size_t i = 0; i < part[k].columns->count; i++)
+            fracas_append(text, sizeof text, i ? "," : part[k].before, "%s",
+                          column[part[k].columns->column[i]].path);
     assert_string_equal(text, expected);
+}
+
+static void assert_axes(made *of, const char *x, const char *series, const char *expected)
+{
+    assert_panels(of, x, series, NULL, expected);
 }
 
 static void axes_are_chosen_by_what_varies(void **state)
@@ -98,20 +106,28 @@ static void wrong_keys_name_those_that_vary(void **state)
     static made of;
     make(2, 3, 1, &of);
     fracas_analysis *analysis = &of.analysis;
-    FAILS(fracas_analysis_axes(analysis, "strength.shap", NULL), FRACAS_USAGE,
+    FAILS(fracas_analysis_axes(analysis, "strength.shap", NULL, NULL), FRACAS_USAGE,
           "`strength.shap`: no parameter of the points and no statistic");
-    FAILS(fracas_analysis_axes(analysis, "geometry.thickness", NULL), FRACAS_USAGE,
+    FAILS(fracas_analysis_axes(analysis, "geometry.thickness", NULL, NULL), FRACAS_USAGE,
           "x of the figures, `geometry.thickness`: it is the same at all points; they differ in "
           "loading.rate, strength.shape");
-    FAILS(fracas_analysis_axes(analysis, NULL, "size.mean"), FRACAS_USAGE,
+    FAILS(fracas_analysis_axes(analysis, NULL, "size.mean", NULL), FRACAS_USAGE,
           "series of the figures, `size.mean`: no parameter of the points has this name");
-    FAILS(fracas_analysis_axes(analysis, "strength.shape", "strength.shape"), FRACAS_USAGE,
+    FAILS(fracas_analysis_axes(analysis, "strength.shape", "strength.shape", NULL), FRACAS_USAGE,
           "both x and series");
+    FAILS(fracas_analysis_axes(analysis, NULL, NULL, "strength.shap"), FRACAS_USAGE,
+          "panels of the figures, `strength.shap`: no parameter of the points has this name");
+    FAILS(fracas_analysis_axes(analysis, NULL, NULL, "material.young"), FRACAS_USAGE,
+          "panels of the figures, `material.young`: it is the same at all points");
+    FAILS(fracas_analysis_axes(analysis, "loading.rate", NULL, "loading.rate"), FRACAS_USAGE,
+          "both x and panels");
+    FAILS(fracas_analysis_axes(analysis, NULL, "loading.rate", "loading.rate"), FRACAS_USAGE,
+          "both series and panels");
     clear(&of);
 }
 
 /* Points of two rates and two Young's moduli against the Weibull modulus: two series in each of two
- * drawings with the same axes. Counts grow with the number of a point. */
+ * panels with the same axes. Counts grow with the number of a point. */
 static void other_parameters_make_small_multiples(void **state)
 {
     static made of;
@@ -120,13 +136,14 @@ static void other_parameters_make_small_multiples(void **state)
     assert_axes(&of, "strength.shape", "loading.rate",
                 "strength.shape by loading.rate in material.young");
     OK(fracas_figure_means(&of.analysis, FRACAS_MEANS_COUNT, &charts));
-    assert_true(charts.count == 2 && charts.left_out == 0);
-    assert_string_equal(charts.chart[0].title, "Mean number of fragments against Weibull modulus, "
-                                               "Young's modulus 70 GPa");
-    assert_string_equal(charts.chart[0].file, "count-against-strength-shape");
-    assert_string_equal(charts.chart[1].file, "count-against-strength-shape-2");
+    assert_true(charts.count == 1 && charts.left_out == 0);
+    assert_string_equal(charts.chart->title, "Mean number of fragments against Weibull modulus");
+    assert_string_equal(charts.chart->file, "count-against-strength-shape");
+    assert_true(strstr(charts.chart->caption, " A panel for each Young's modulus.") != NULL);
+    assert_true(charts.chart->npanels == 2 && charts.chart->columns == 2);
     for (size_t d = 0; d < 2; d++) {
-        const fracas_panel *panel = charts.chart[d].panel;
+        const fracas_panel *panel = &charts.chart->panel[d];
+        assert_string_equal(panel->title, d ? "Young's modulus 370 GPa" : "Young's modulus 70 GPa");
         assert_int_equal(panel->nseries, 4); /* marks and the line that joins them */
         assert_true(fabs(panel->x.show[0] - 2.76) < 1e-12 && fabs(panel->x.show[1] - 9.24) < 1e-12);
         assert_true(panel->y.show[0] == 8 && panel->y.show[1] == 23); /* 10 - 2 to 21 + 2 */
@@ -251,32 +268,90 @@ static void ordinates_have_figures(void **state)
     clear(&of);
 }
 
-/* Eight moduli against the rate: six series in one drawing, two in the next, each in its own
- * colour. */
+/* Series of a panel: their number, and the look of the first. */
+static size_t marks_of(const fracas_panel *panel, unsigned *look)
+{
+    size_t marks = 0;
+    for (size_t s = panel->nseries; s-- > 0;) {
+        if (panel->series[s].kind != FRACAS_MARKS) continue;
+        *look = panel->series[s].look;
+        marks++;
+    }
+    return marks;
+}
+
+/* Eight moduli against the rate: eight panels of one series, all in one colour. Of fourteen, twelve
+ * panels are in the first drawing and two in the next, all with the same axes. */
+static void many_values_make_panels(void **state)
+{
+    static made of;
+    for (size_t moduli = 8; moduli <= MODULI; moduli += 6) {
+        FRACAS_CLEARED(fracas_charts) charts = {0};
+        make(2, moduli, 1, &of);
+        assert_axes(&of, NULL, NULL, "derived.strain_rate in strength.shape");
+        OK(fracas_figure_means(&of.analysis, FRACAS_MEANS_SIZE, &charts));
+        assert_int_equal(charts.count, moduli > 12 ? 2 : 1);
+        for (size_t m = 0; m < moduli; m++) {
+            const fracas_chart *chart = &charts.chart[m / 12];
+            const fracas_panel *panel = &chart->panel[m % 12];
+            char title[64];
+            unsigned look;
+            FRACAS_PRINT(title, "Weibull modulus %zu", 3 * (1 + m));
+            assert_string_equal(panel->title, title);
+            assert_true(marks_of(panel, &look) == 1 && look == 0);
+            assert_memory_equal(panel->x.show, charts.chart->panel->x.show, sizeof panel->x.show);
+            assert_memory_equal(panel->y.show, charts.chart->panel->y.show, sizeof panel->y.show);
+        }
+        assert_int_equal(charts.chart->npanels, moduli > 12 ? 12 : moduli);
+        assert_int_equal(charts.chart->columns, 3);
+        if (moduli > 12)
+            assert_string_equal(charts.chart[1].title,
+                                "Mean fragment size against strain rate, continued");
+        clear(&of);
+    }
+    make(2, 8, 2, &of); /* series by the parameter with few values */
+    assert_axes(&of, NULL, NULL, "derived.strain_rate by material.young in strength.shape");
+    clear(&of);
+}
+
+/* A third axis makes panels although four series would go into one. */
+static void a_third_axis_makes_panels(void **state)
+{
+    static made of;
+    make(2, 2, 2, &of);
+    assert_axes(&of, NULL, NULL, "derived.strain_rate by material.young in strength.shape");
+    assert_panels(&of, NULL, NULL, "material.young",
+                  "derived.strain_rate by strength.shape in material.young");
+    assert_panels(&of, "strength.shape", NULL, "material.young",
+                  "strength.shape by loading.rate in material.young");
+    assert_panels(&of, NULL, NULL, "loading.rate",
+                  "derived.strain_rate by material.young in loading.rate apart strength.shape");
+    of.table.npoints = 3; /* not combined, as cases are */
+    assert_axes(&of, "strength.shape", NULL, "strength.shape by material.young");
+    clear(&of);
+}
+
+/* Eight moduli as series of two panels: six, and two in a second drawing, in their own colours. */
 static void six_series_are_the_most(void **state)
 {
     static made of;
     FRACAS_CLEARED(fracas_charts) charts = {0};
-    make(2, MODULI, 1, &of);
-    assert_axes(&of, NULL, NULL, "derived.strain_rate by strength.shape");
+    make(2, 8, 2, &of);
+    assert_panels(&of, NULL, "strength.shape", "material.young",
+                  "derived.strain_rate by strength.shape in material.young");
     OK(fracas_figure_means(&of.analysis, FRACAS_MEANS_SIZE, &charts));
     assert_int_equal(charts.count, 2);
     for (size_t d = 0; d < 2; d++) {
-        size_t marks = 0;
-        for (size_t s = 0; s < charts.chart[d].panel->nseries; s++) {
-            const fracas_series *series = &charts.chart[d].panel->series[s];
-            char name[64];
-            if (series->kind != FRACAS_MARKS) continue;
-            FRACAS_PRINT(name, "Weibull modulus %zu", 3 * (1 + 6 * d + marks));
-            assert_string_equal(series->name, name);
-            assert_true(series->look == 6 * d + marks && series->n == 2);
-            marks++;
+        const fracas_chart *chart = &charts.chart[d];
+        assert_int_equal(chart->npanels, 2);
+        assert_true(strstr(chart->caption, " At most 6 of 8 series: the others follow.") != NULL);
+        for (size_t p = 0; p < 2; p++) {
+            unsigned look;
+            assert_int_equal(marks_of(&chart->panel[p], &look), d ? 2 : 6);
+            assert_int_equal(look, 6 * d);
         }
-        assert_int_equal(marks, d ? 2 : 6);
     }
-    clear(&of);
-    make(2, MODULI, 2, &of); /* by the parameter with few values; the other one makes drawings */
-    assert_axes(&of, NULL, NULL, "derived.strain_rate by material.young in strength.shape");
+    assert_string_equal(charts.chart[1].title, "Mean fragment size against strain rate, continued");
     clear(&of);
 }
 
@@ -301,4 +376,5 @@ static void every_parameter_has_words(void **state)
 
 TESTS(axes_are_chosen_by_what_varies, wrong_keys_name_those_that_vary,
       other_parameters_make_small_multiples, statistics_are_ordinates, wrong_ordinates_are_refused,
-      ordinates_have_figures, six_series_are_the_most, every_parameter_has_words)
+      ordinates_have_figures, many_values_make_panels, a_third_axis_makes_panels,
+      six_series_are_the_most, every_parameter_has_words)

@@ -342,7 +342,7 @@ static void figure_of_rings(void **state)
     fracas_analysis analysis = {.table = &made.table, .point = point};
     OK(fracas_columns_create(&made.table, &analysis.shown));
     FRACAS_CLEARED(fracas_charts) charts = {0};
-    OK(fracas_means_axes_create(&analysis, NULL, NULL, &analysis.axes));
+    OK(fracas_means_axes_create(&analysis, NULL, NULL, NULL, &analysis.axes));
     OK(fracas_figure_means(&analysis, FRACAS_MEANS_SIZE, &charts));
     assert_int_equal(charts.count, 1);
     fracas_chart chart = charts.chart[0];
@@ -364,7 +364,7 @@ static void figure_of_rings(void **state)
     for (size_t p = 0; p < NPOINTS; p++)
         point[p].rate = p % 4 == 1 ? 1e4 * (double)p : 0; /* a ring that only spins has none */
     marks = 0;
-    OK(fracas_analysis_axes(&analysis, NULL, NULL));
+    OK(fracas_analysis_axes(&analysis, NULL, NULL, NULL));
     OK(fracas_figure_means(&analysis, FRACAS_MEANS_SIZE, &charts));
     chart = charts.chart[0];
     for (size_t s = 0; s < chart.panel[0].nseries; s++)
@@ -407,7 +407,7 @@ static void laws_of_mixed_series(void **state)
             point[p].scales.size = 1e-4 + (p % 2 ? table[i].odd : table[i].even) * (double)p;
         }
         FRACAS_CLEARED(fracas_charts) charts = {0};
-        OK(fracas_analysis_axes(&analysis, NULL, NULL));
+        OK(fracas_analysis_axes(&analysis, NULL, NULL, NULL));
         OK(fracas_figure_means(&analysis, FRACAS_MEANS_SIZE, &charts));
         const fracas_chart chart = charts.chart[0];
         size_t curves = 0;

@@ -84,7 +84,7 @@ static size_t curves_of(fracas_analysis *analysis, bool normalised, size_t *mark
     FRACAS_CLEARED(fracas_charts) charts = {0};
     size_t curves = 0;
     *marks = 0;
-    OK(fracas_analysis_axes(analysis, NULL, NULL));
+    OK(fracas_analysis_axes(analysis, NULL, NULL, NULL));
     OK(fracas_figure_means(analysis, normalised ? FRACAS_MEANS_NORMALISED : FRACAS_MEANS_SIZE,
                            &charts));
     fracas_means_axes_clear(&analysis->axes);

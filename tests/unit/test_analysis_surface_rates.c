@@ -118,7 +118,7 @@ static void figure_of_counts(void **state)
     fracas_analysis analysis;
     FRACAS_CLEARED(fracas_charts) charts = {0};
     make_plates(point, &analysis);
-    OK(fracas_analysis_axes(&analysis, NULL, NULL));
+    OK(fracas_analysis_axes(&analysis, NULL, NULL, NULL));
     OK(fracas_figure_means(&analysis, FRACAS_MEANS_COUNT, &charts));
     fracas_chart chart = charts.chart[0];
     assert_true(charts.count == 1 && chart.npanels == 1 && chart.panel[0].nseries == 3);
@@ -143,7 +143,7 @@ static void figure_of_counts(void **state)
     fracas_charts_clear(&charts);
     /* Without a rate against what varies; that is no strain rate, and has no powers. */
     for (size_t p = 0; p < NPOINTS; p++) point[p].rate = p ? NAN : 0;
-    OK(fracas_analysis_axes(&analysis, NULL, NULL));
+    OK(fracas_analysis_axes(&analysis, NULL, NULL, NULL));
     OK(fracas_figure_means(&analysis, FRACAS_MEANS_COUNT, &charts));
     chart = charts.chart[0];
     assert_string_equal(chart.file, "count-against-loading-rate");

@@ -488,7 +488,7 @@ static void test_report_keys(void **state)
     char put[200];
     snprintf(put, sizeof put, "%sreport: {x: size.mean, series: loading.rate}\n", sweep);
     OWN(fracas_campaign) plain = read_replaced("", sweep), *with = read_replaced("", put);
-    assert_true(!plain->report.x && !plain->report.series);
+    assert_true(!plain->report.x && !plain->report.series && !plain->report.panels);
     assert_string_equal(with->report.x, "size.mean");
     assert_true(fracas_hash_equal(&plain->hash, &with->hash));
     OK(fracas_campaign_extends(with, plain));
@@ -508,6 +508,11 @@ static void test_report_keys(void **state)
     OWN(fracas_campaign) one = read_replaced("", put);
     OWNED char *alone = write_text(one);
     assert_has(alone, "\nreport: {y: [aspect]}\n");
+    snprintf(put, sizeof put, "%sreport: {panels: loading.rate, y: aspect}\n", sweep);
+    OWN(fracas_campaign) panels = read_replaced("", put);
+    assert_string_equal(panels->report.panels, "loading.rate");
+    OWNED char *parted = write_text(panels);
+    assert_has(parted, "\nreport: {panels: loading.rate, y: [aspect]}\n");
 }
 
 /* A file that cannot be written is said. */

@@ -184,6 +184,69 @@ static void an_axis_may_have_names(void **state)
                      (beta + 0.2 * (beta - mesh))) < 0.2); /* each to 0.05 pixels */
 }
 
+/* Three panels beside each other: marks, from the least to the greatest abscissa, and a curve; the
+ * last one has no curve. */
+static void make_multiples(fracas_chart *chart)
+{
+    fracas_series *series;
+    fracas_chart_init(chart);
+    chart->columns = 2;
+    chart->width = FRACAS_CHART_MULTIPLES;
+    for (size_t p = 0; p < 3; p++) {
+        fracas_panel *panel = fracas_chart_add(chart, 190);
+        FRACAS_PRINT(panel->title, "modulus %zu", p + 1);
+        strcpy(panel->x.label, "rate [1/s]");
+        strcpy(panel->y.label, "size [mm]");
+        for (int curve = 0; curve < 2 - (p == 2); curve++) {
+            OK(fracas_panel_add(panel, curve ? FRACAS_CURVE : FRACAS_MARKS, (unsigned)curve, 2,
+                                &series));
+            strcpy(series->name, curve ? "law" : "radius 1 mm");
+            for (size_t i = 0; i < 2; i++) {
+                series->x[i] = i ? 5 : 0;
+                series->y[i] = (double)(i + p);
+                if (!curve) series->low[i] = series->high[i] = NAN;
+            }
+        }
+    }
+    fracas_charts_align(chart, 1);
+}
+
+/* Panels share axes, whose numbers and labels are at the edges, and a legend, whose entries act on
+ * all of them. Each has its title, also where a value is shown, and in the table. */
+static void small_multiples_share_axes_and_legend(void **state)
+{
+    OWNED char *page = written_of(make_multiples, write_page),
+               *table = written_of(make_multiples, fracas_chart_csv);
+    assert_int_equal(count_of(page, "<g class=\"panel\" data-x"), 3);
+    assert_int_equal(count_of(page, "<g class=\"entry"), 2);
+    assert_int_equal(count_of(page, "data-key=\"0.0\""), 4); /* with its entry */
+    assert_int_equal(count_of(page, "data-key=\"0.1\""), 3);
+    assert_int_equal(count_of(page, ">rate [1/s]</text>"), 1);
+    assert_int_equal(count_of(page, ">size [mm]</text>"), 1);
+    assert_int_equal(count_of(page, "data-x=\"linear 0 5 "), 3);
+    assert_int_equal(
+        count_of(page, "data-y=\"linear 0 4 ") + count_of(page, "data-y=\"linear 0 3 "), 3);
+    assert_int_equal(count_of(page, ">modulus 2</text>"), 1);
+    assert_int_equal(count_of(page, ">4</text>"), 2); /* below the last panel of each column */
+    assert_has(page, "<title>modulus 2; radius 1 mm; rate [1/s]: 0; size [mm]: 1.000</title>");
+    assert_has(table, "panel,series,kind,rate [1/s],size [mm],low,high,title\n"
+                      "1,radius 1 mm,mark,0,0,,,modulus 1\n");
+    assert_has(table, "\n3,radius 1 mm,mark,5,3,,,modulus 3\n");
+}
+
+/* The frame is beyond the ends of the scales, which have marks. */
+static void no_mark_is_on_the_frame(void **state)
+{
+    OWNED char *page = written_of(make_multiples, write_page);
+    const char *x = strstr(page, "data-x=\"linear 0 5 "), *y = strstr(page, "data-y=\"linear 0 ");
+    char frame[64];
+    char *end;
+    const double left = strtod(x + strlen("data-x=\"linear 0 5 "), &end), right = strtod(end, NULL);
+    const double bottom = strtod(y + strlen("data-y=\"linear 0 3 "), &end), top = strtod(end, NULL);
+    FRACAS_PRINT(frame, "d=\"M%.1f %.1fV%.1fH%.1f\"", left - 7, top - 7, bottom + 7, right + 7);
+    assert_has(page, frame);
+}
+
 /* ---- PDF ---- */
 
 static void put_file(const char *name, const char *text)
@@ -244,4 +307,5 @@ static void drawings_become_png(void **state)
 }
 
 TESTS_ALL(make_folder, remove_folder, the_csv_has_what_is_drawn, drawings_have_marks_bands_and_keys,
-          an_axis_may_have_names, drawings_become_pdf, drawings_become_png)
+          an_axis_may_have_names, small_multiples_share_axes_and_legend, no_mark_is_on_the_frame,
+          drawings_become_pdf, drawings_become_png)

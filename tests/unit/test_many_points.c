@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* ctest-labels: ci slow-sanitize */
-/* The report of 1000 points, at ten rates with 100 fracture energies: its page within 3 MB, its
- * files few, its summary short, all within 10 s of processor time (4 to 5 on a busy machine).
- * Points chosen by --points have figures and files, others none. */
+/* The report of 1000 points, of two and of three parameters and of a design, in which no two points
+ * have the same rate: its page within 3 MB, its files few, its summary short, all within 10 s of
+ * processor time (2 to 4 on a busy machine). Points chosen by --points have figures and files,
+ * others none. */
 #include "tests/support/report.h"
 
 #include "analysis/report/page.h"
@@ -60,24 +61,56 @@ static void report(const char *points)
     OK(fracas_report_write(analysis, folder, NULL, 0));
 }
 
-static void page_of_many_points(void **state)
+/* Writes the study into a folder of its own, and its report within the limits. */
+static void page_within_limits(const char *name)
 {
     char path[640];
-    large_study_init(&study, POINTS, REPLICAS, FRAGMENTS);
-    snprintf(folder, sizeof folder, "%s/many", report_root);
+    snprintf(folder, sizeof folder, "%s/%s", report_root, name);
     assert_int_equal(mkdir(folder, 0777), 0);
     snprintf(path, sizeof path, "%s/study.h5", folder);
     assert_int_equal(large_write(&study, path), FRACAS_OK);
     const double before = seconds();
     report(NULL);
     const double spent = seconds() - before;
-    print_message("%.1f s (at most %.0f), page %.2f MB, summary %.2f MB, %zu files\n", spent,
-                  most_seconds, 1e-6 * size_of("index.html"), 1e-6 * size_of("summary.json"),
+    print_message("%s: %.1f s (at most %.0f), page %.2f MB, summary %.2f MB, %zu files\n", name,
+                  spent, most_seconds, 1e-6 * size_of("index.html"), 1e-6 * size_of("summary.json"),
                   files_of(""));
     assert_true(spent <= most_seconds);
     assert_true(size_of("index.html") <= most_page);
     assert_true(size_of("summary.json") <= most_summary);
     assert_true(files_of("") <= FILES);
+}
+
+enum { ENERGY = 0, RATE = 3, VELOCITY = 7, YOUNG = 9 }; /* columns */
+
+/* Ten rates, ten fracture energies, ten moduli. */
+static void page_of_three_factors(void **state)
+{
+    large_study_init(&study, POINTS, REPLICAS, FRAGMENTS);
+    for (size_t p = 0; p < POINTS; p++) {
+        study.value[p][ENERGY].real = study.value[p][ENERGY + 1].real = 100 + (double)(p / 10 % 10);
+        study.value[p][YOUNG].real = 200e9 + 10e9 * (double)(p / 100);
+    }
+    page_within_limits("factors");
+}
+
+static void page_of_a_design(void **state)
+{
+    large_study_init(&study, POINTS, REPLICAS, FRAGMENTS);
+    for (size_t p = 0; p < POINTS; p++) {
+        const double rate = 1e4 * pow(1.003, (double)p);
+        study.value[p][RATE].real = rate;
+        study.value[p][VELOCITY].real = 8e-3 * rate;
+        study.value[p][ENERGY].real = study.value[p][ENERGY + 1].real = 100 + 1e-3 * (double)p;
+    }
+    page_within_limits("design");
+}
+
+/* Ten rates, a hundred fracture energies. */
+static void page_of_many_points(void **state)
+{
+    large_study_init(&study, POINTS, REPLICAS, FRAGMENTS);
+    page_within_limits("many");
 }
 
 /* Files of the six points that were chosen before are gone. */
@@ -100,5 +133,5 @@ static void wrong_points(void **state)
     FAILS(fracas_analysis_points(analysis, ""), FRACAS_USAGE, "is no number of a point");
 }
 
-TESTS_ALL(report_make_root, report_remove_root, page_of_many_points, points_that_are_asked_for,
-          wrong_points)
+TESTS_ALL(report_make_root, report_remove_root, page_of_three_factors, page_of_a_design,
+          page_of_many_points, points_that_are_asked_for, wrong_points)
