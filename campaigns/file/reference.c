@@ -37,7 +37,7 @@ static void write_param(const fracas_section *model, const fracas_param *param, 
                         : isnan(param->fallback) ? "**required**"
                                                  : fallback;
     if (param->type == FRACAS_BOOLEAN) given = param->fallback != 0.0 ? "true" : "false";
-    if (param->type == FRACAS_CHOICE && !param->optional)
+    if (param->type == FRACAS_CHOICE && !param->optional && !isnan(param->fallback))
         given = param->choices[(size_t)param->fallback]->name;
     if (param->type == FRACAS_ATTACHMENT && !isnan(param->fallback)) given = "none";
     fprintf(out, "| `%s` | %s | %s | %s | ", param->name, types[param->type],

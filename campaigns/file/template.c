@@ -96,7 +96,8 @@ static void write_kinds(const fracas_kind *model, const fracas_section *section,
 
 static void write_default(const fracas_param *param, char text[FRACAS_NUMBER_TEXT])
 {
-    if (param->optional || fracas_param_is_object(param)) strcpy(text, "...");
+    if (param->optional || fracas_param_is_object(param) || isnan(param->fallback))
+        strcpy(text, "...");
     else if (param->type == FRACAS_BOOLEAN) strcpy(text, param->fallback != 0 ? "true" : "false");
     else fracas_number_write(param->fallback, text);
 }
@@ -109,7 +110,7 @@ static void write_param(const fracas_kind *model, const fracas_section *section,
     if (!fracas_param_is_of(param, model)) return;
     if (!value) write_default(param, fallback);
     if (value) shown = value;
-    else if (param->type == FRACAS_CHOICE && !param->optional)
+    else if (param->type == FRACAS_CHOICE && !param->optional && !isnan(param->fallback))
         shown = param->choices[(size_t)param->fallback]->name;
     char entry[160];
     const bool pure = !strcmp(param->unit, "1");

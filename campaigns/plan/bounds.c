@@ -139,8 +139,8 @@ static double surface_opening_bound(const fracas_spec *spec, double extent)
     const fracas_stretch stretch = fracas_loading_traits_of(spec)->surface(spec, t);
     const double wave = wave_speed(spec) * t * (1 + nu) / sqrt(1 - nu * nu);
     const bool sudden = stretch.shock; /* edges open at their own velocity from the start */
-    return stretch.strain * fmax(1, fabs(ratio_of(&stretch))) *
-           (sudden ? extent : fmin(wave, extent));
+    const double most = fmax(1, fmax(fabs(stretch.ratio), fabs(stretch.ratio_z))); /* not NaN */
+    return stretch.strain * most * (sudden ? extent : fmin(wave, extent));
 }
 
 double fracas_opening_bound(const fracas_spec *spec, double stress, double extent)

@@ -357,10 +357,18 @@ WARNING(warn_steered, forecast->mesh.steered > STEERED && forecast->interfaces >
         "cracks will follow them: mesh it anew, by Gmsh's Mesh.Algorithm = 5",
         100 * forecast->mesh.steered)
 
-WARNING(warn_stretch, forecast->mesh.box[2] > 0 && !forecast->mesh.round, 1,
+/* An expansion whose third rate nobody has chosen. */
+static bool stretches_alike(const fracas_spec *spec)
+{
+    const fracas_stretch stretch = fracas_loading_traits_of(spec)->surface(spec, 0);
+    return stretch.moving && isnan(stretch.ratio_z);
+}
+
+WARNING(warn_stretch,
+        forecast->mesh.box[2] > 0 && !forecast->mesh.round && stretches_alike(&point->spec), 1,
         "the load moves each point by its place, along x, y and z, and the mesh file's body is no "
         "sphere about the origin: of %.3g by %.3g by %.3g m it grows along all three, a cylinder "
-        "along its axis as well",
+        "along its axis as well: give loading.ratio or ratio_z, 0 for none along y or z",
         forecast->mesh.box[0], forecast->mesh.box[1], forecast->mesh.box[2])
 
 fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {

@@ -4,10 +4,10 @@
 
 #include <math.h>
 
-#define COMPONENT(key, i, models)                                                                 \
-    FRACAS_BRACES(key, FRACAS_REAL, "m/s2", "force along " key " on a unit of mass, at the peak", \
-                  0, -INFINITY, INFINITY, false, offsetof(fracas_loading, body_force[i]),         \
-                  .only = models)
+#define COMPONENT(key, i, models)                                                             \
+    FRACAS_BRACES(key, FRACAS_REAL, "m/s2",                                                   \
+                  "force along " key " on a unit of mass, times its amplitude", 0, -INFINITY, \
+                  INFINITY, false, offsetof(fracas_loading, body_force[i]), .only = models)
 
 static const fracas_param params[] = {
     COMPONENT("x", 0, 0),

@@ -14,19 +14,22 @@ const fracas_kind fracas_front_x = {"x", "along x", .traits = &(const front_axis
                   fracas_front_z = {"z", "along z", .traits = &(const front_axis){2}};
 const fracas_kind *const fracas_front_axes[3] = {&fracas_front_x, &fracas_front_y, &fracas_front_z};
 
+bool fracas_load_has_front(const fracas_loading *loading)
+{
+    return fabs(loading->front) > 0; /* NaN: no */
+}
+
 /* (loads.2) */
 fracas_load_clock fracas_load_clock_at(const fracas_loading *loading, const double x[3])
 {
     fracas_load_clock clock = {0, loading->decay > 0 ? loading->decay : INFINITY};
-    if (!(fabs(loading->front) > 0)) return clock;
+    if (!fracas_load_has_front(loading)) return clock;
     const front_axis *axis =
         (loading->front_along ? loading->front_along : &fracas_front_x)->traits;
-    const double at = isnan(loading->front_at) ? 0 : loading->front_at,
-                 from = isnan(loading->front_from) ? at : loading->front_from;
-    clock.arrival = (x[axis->component] - at) / loading->front;
-    if (loading->decay_by_travel > 0)
-        clock.decay = fmax(0,
-                           loading->decay_by_travel * (x[axis->component] - from) / loading->front);
+    const double place = x[axis->component], at = isnan(loading->front_at) ? 0 : loading->front_at,
+                 travel = (place - loading->front_from) / loading->front; /* NaN: from far away */
+    clock.arrival = travel < 0 ? INFINITY : (place - at) / loading->front;
+    if (loading->decay_by_travel > 0) clock.decay = loading->decay_by_travel * travel;
     return clock;
 }
 
@@ -47,7 +50,7 @@ double fracas_load_amplitude(const fracas_loading *loading, const fracas_profile
     if (loading->duration > 0) amplitude *= 1 - since / loading->duration;
     if (history->count > 0) amplitude = fracas_profile_at(history, since);
     if (clock->decay < INFINITY)
-        amplitude *= clock->decay > 0 ? fracas_exp(-since / clock->decay) : since > 0 ? 0 : 1;
+        amplitude *= clock->decay > 0 ? fracas_exp(-since / clock->decay) : 0;
     return amplitude;
 }
 
@@ -61,7 +64,8 @@ double fracas_load_largest(const fracas_loading *loading, double t)
             largest = fmax(largest, fabs(history.place[p].value));
         return largest;
     }
-    return loading->duration > 0 ? fmax(1, t / loading->duration - 1) : 1;
+    if (!(loading->duration > 0)) return 1;
+    return fracas_load_has_front(loading) ? INFINITY : fmax(1, t / loading->duration - 1);
 }
 
 fracas_err fracas_load_check(const fracas_loading *loading)
@@ -73,8 +77,7 @@ fracas_err fracas_load_check(const fracas_loading *loading)
     const struct {
         const char *key;
         bool given;
-    } of_front[] = {{"front_along", loading->front_along != NULL},
-                    {"front_at", !isnan(loading->front_at)},
+    } of_front[] = {{"front_at", !isnan(loading->front_at)},
                     {"front_from", !isnan(loading->front_from)},
                     {"decay_by_travel", !isnan(loading->decay_by_travel)}};
     for (size_t k = 0; !front && k < FRACAS_COUNT(of_front); k++)
@@ -83,6 +86,9 @@ fracas_err fracas_load_check(const fracas_loading *loading)
                                "%s is given, but no front: give the speed of the front, `front: "
                                "2000 m/s`, or leave %s out",
                                of_front[k].key, of_front[k].key);
+    if (!isnan(loading->decay_by_travel) && isnan(loading->front_from))
+        return fracas_fail(FRACAS_USAGE, "decay_by_travel is given, but not front_from, from where "
+                                         "the front has travelled: give its coordinate");
     if (loading->history && !(isnan(loading->rise) && isnan(loading->duration)))
         return fracas_fail(FRACAS_USAGE,
                            "history and %s are both given: %s says how the load changes: leave the "

@@ -34,8 +34,8 @@ struct fracas_load {
     const char *(*edge)(const fracas_spec *spec);
 };
 
-/* When the load reaches a place, by its front [s], 0 without one; and the time constant of its
- * decay there [s], INFINITY without one. */
+/* When the load reaches a place, by its front [s], 0 without one, INFINITY where it never does; and
+ * the time constant of its decay there [s], INFINITY without one. */
 typedef struct {
     double arrival, decay;
 } fracas_load_clock;
@@ -51,7 +51,9 @@ FRACAS_MUST_USE fracas_err fracas_load_history(const fracas_loading *loading,
 double fracas_load_amplitude(const fracas_loading *loading, const fracas_profile *history,
                              const fracas_load_clock *clock, double t);
 
-/* Largest |a| until t. */
+bool fracas_load_has_front(const fracas_loading *loading);
+
+/* Largest |a| until t; INFINITY where it is unknown. */
 double fracas_load_largest(const fracas_loading *loading, double t);
 
 /* FRACAS_USAGE unless the keys of the amplitude go together. */
@@ -94,11 +96,11 @@ extern const fracas_kind *const fracas_front_axes[3];
          .offset = offsetof(fracas_loading, front),                                               \
          .optional = true},                                                                       \
         {FRACAS_ONE_OF("front_along", fracas_front_axes, offsetof(fracas_loading, front_along),   \
-                       "axis along which the front runs"),                                        \
-         .optional = true},                                                                       \
+                       "axis along which the front runs")},                                       \
         FRACAS_LOAD_PLACE("front_at", front_at, "coordinate of the front at t = 0; none is 0"),   \
-        FRACAS_LOAD_PLACE("front_from", front_from,                                               \
-                          "coordinate at which the front began to run; none is front_at"),        \
+        FRACAS_LOAD_PLACE(                                                                        \
+            "front_from", front_from,                                                             \
+            "coordinate at which the front began to run: nothing behind it is loaded"),           \
     {                                                                                             \
         .name = "decay_by_travel", .type = FRACAS_REAL, .unit = "1",                              \
         .doc = "time constant of its decay over the time that the front took from front_from",    \

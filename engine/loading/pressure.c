@@ -6,8 +6,9 @@
 
 static const fracas_param params[] = {
     {"pressure", FRACAS_REAL, "Pa",
-     "pressure at the peak, along the normal of the mid-surface: outward of spheres and cylinders, "
-     "of mesh files to the side from which triangles are counter-clockwise; negative: against it",
+     "pressure, times its amplitude, along the normal of the mid-surface: outward of spheres and "
+     "cylinders, of mesh files to the side from which most triangles are counter-clockwise; "
+     "negative: against it",
      FRACAS_REQUIRED, -INFINITY, INFINITY, false, offsetof(fracas_loading, pressure)},
     FRACAS_LOAD_AMPLITUDE,
 };
@@ -19,17 +20,21 @@ static void density(const fracas_spec *spec, const fracas_place *at, double dens
 
 static const fracas_load load = {.on = FRACAS_LOAD_ON_AREA, .density = density};
 
-/* A body of radius R: p t^2/(2 rho h R) as if it had no stiffness; twice the static strain of a tube while
- * whole, four times a sphere's. A surface without a radius may bend: no bound is known. */
+/* A body of radius R: p t^2/(2 rho h R) as if it had no stiffness; twice the static strain of a
+ * tube while whole, four times a sphere's. A surface without a radius may bend: no bound is known.
+ */
 static fracas_stretch surface(const fracas_spec *spec, double t)
 {
+    const bool front = fracas_load_has_front(&spec->loading);
     const double radius = spec->geometry.radius, h = spec->geometry.thickness,
                  p = fabs(spec->loading.pressure) * fracas_load_largest(&spec->loading, t);
     return (fracas_stretch){
         .strain = p == 0 ? 0 : p * t * t / (2 * spec->material.density * h * radius),
         .ratio = 1,
         .ratio_z = NAN,
-        .whole = 2 * p * radius * (1 - spec->material.poisson) / (spec->material.young * h)};
+        .whole = front
+                     ? 0
+                     : 2 * p * radius * (1 - spec->material.poisson) / (spec->material.young * h)};
 }
 
 const fracas_kind fracas_loading_pressure = {

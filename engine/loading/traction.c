@@ -16,16 +16,16 @@ static const fracas_kind left = {"left", "of a plate"}, right = {"right", "of a 
 static const fracas_kind *const edges[] = {&left,  &right,  &bottom, &top,    &inner,
                                            &outer, &edge_1, &edge_2, &edge_3, &edge_4};
 
-#define STRESS(key, member, what, models)                                                     \
-    FRACAS_BRACES(key, FRACAS_REAL, "Pa", what " at the peak", 0, -INFINITY, INFINITY, false, \
-                  offsetof(fracas_loading, member), .only = models)
+#define STRESS(key, member, what, models)                                                       \
+    FRACAS_BRACES(key, FRACAS_REAL, "Pa", what ", times its amplitude", 0, -INFINITY, INFINITY, \
+                  false, offsetof(fracas_loading, member), .only = models)
 
 static const fracas_param params[] = {
     {FRACAS_ONE_OF("edge", edges, offsetof(fracas_loading, edge),
                    "edge on which it acts, by its key in `geometry`"),
      .fallback = FRACAS_REQUIRED},
     STRESS("normal", traction[0], "stress outward in the surface, that pulls", 0),
-    STRESS("shear", traction[1], "stress along the edge, the body on its left,", 0),
+    STRESS("shear", traction[1], "stress along the edge, the body on its left", 0),
     STRESS("across", traction[2], "stress along the normal of the mid-surface", FRACAS_GROUP_SHELL),
     FRACAS_LOAD_AMPLITUDE,
 };

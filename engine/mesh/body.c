@@ -344,7 +344,8 @@ static fracas_err check_geometry(const void *section)
                        geometry->ends->name);
 }
 
-fracas_err fracas_shape_edge_tag(const fracas_kind *shape, const char *key, int32_t *tag)
+fracas_err fracas_shape_edge_tag(const fracas_kind *shape, const char *asked, const char *key,
+                                 int32_t *tag)
 {
     const size_t first = offsetof(fracas_geometry, edge[1]),
                  last = offsetof(fracas_geometry, edge[FRACAS_EDGES - 1]);
@@ -357,8 +358,9 @@ fracas_err fracas_shape_edge_tag(const fracas_kind *shape, const char *key, int3
         const size_t used = strlen(known);
         snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", param->name);
     }
-    return fracas_fail(FRACAS_USAGE, "%s is no edge that a campaign can name of the shape %s: %s%s",
-                       key, shape->name, *known ? "it has " : "it has none", known);
+    return fracas_fail(FRACAS_USAGE, "%s is %s, and the shape %s has %s%s: %s", asked, key,
+                       shape->name, *known ? "the edges " : "no edges that can be named", known,
+                       *known ? "name one of them" : "take another load, or a mesh file");
 }
 
 /* The names of a mesh file's physical groups are names of edge_1 to edge_4. */

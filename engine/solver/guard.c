@@ -56,10 +56,10 @@ fracas_err fracas_guard_check(fracas_guard *guard, const fracas_ledger *ledger,
     TRY(fracas_guard_beside(model, step, lane, &guard->beside));
     guard->measured = now;
     guard->whole = whole;
-    /* Idle motion may have many times the elastic energy of a whole body: the rounding of its sum
-     * is no drift. */
-    const double rounding = whole ? DBL_EPSILON * (double)model->elements * fabs(ledger->kinetic)
-                                  : 0;
+    /* Idle motion may have many times the elastic energy of a whole body: the rounding of its sum,
+     * and of the load's work over all steps, is no drift. */
+    const double terms = (double)model->elements + (double)now,
+                 rounding = whole ? DBL_EPSILON * terms * fabs(ledger->kinetic) : 0;
     *drifts = !(residual <= model->tolerance * (held + guard->beside) + rounding);
     return FRACAS_OK;
 }

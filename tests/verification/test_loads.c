@@ -152,6 +152,30 @@ static void traction_on_a_rim_pulls_and_turns(void **unused)
     assert_true(error[1] < 1e-4 && error[1] < error[0] / 10);
 }
 
+/* ---- loads that move nothing ---- */
+
+static void refuses(fracas_spec spec, const char *one, const char *other)
+{
+    fracas_model *model = NULL;
+    FAILS(fracas_model_create(&spec, &model), FRACAS_USAGE, one, other);
+}
+
+static void loads_that_move_nothing_are_refused(void **unused)
+{
+    fracas_spec strip = pulled(membrane_spec(&fracas_shape_plate, 1, 5), "right", 2e6, 0, 0);
+    strip.geometry.edge[2] = &fracas_edge_fixed;
+    refuses(strip, "traction", "free the edge");
+    strip.geometry.edge[2] = &fracas_edge_sliding; /* held along x */
+    refuses(strip, "traction", "free the edge");
+    strip.loading.traction[1] = 1;
+    fracas_model_destroy(distorted_model(strip, 0, 0));
+    refuses(pushed(&fracas_formulation_membrane, 0, 0, 5), "body-force", "are 0");
+    refuses(pulled(membrane_spec(&fracas_shape_annulus, 2, 3), "right", 1, 0, 0),
+            "loading.edge is right", "inner_edge, outer_edge");
+    refuses(pulled(pressed(&fracas_shape_sphere, 4, 0), "right", 1, 0, 0),
+            "no edges that can be named", "take another load");
+}
+
 /* ---- amplitudes ---- */
 
 static double amplitude(const fracas_loading *loading, double x, double t)
@@ -211,6 +235,7 @@ static void fronts_arrive_and_decay_by_their_travel(void **unused)
     l.decay_by_travel = 1.5;
     assert_true(near(amplitude(&l, 7, 3), exp(-1 / 4.5)));
     assert_true(near(amplitude(&l, 2, 0), exp(-0.5 / 0.75))); /* half a second after it passed */
+    assert_true(amplitude(&l, 0.5, 9) == 0);                  /* behind where it began */
     l.front = -2;                                             /* the other way: at -1 after 2 */
     l.front_from = 5;
     assert_true(amplitude(&l, -1, 1.99) == 0 && near(amplitude(&l, -1, 3), exp(-1 / 4.5)));
@@ -409,8 +434,8 @@ static void work_is_exact(void **unused)
     }
 }
 
-TESTS(a_history_is_linear_between_its_lines, pressure_on_an_octant_is_a_quarter_disk,
-      forces_on_plates_are_exact, traction_on_a_rim_pulls_and_turns,
-      amplitudes_rise_decay_and_change_sign, fronts_arrive_and_decay_by_their_travel,
-      a_sphere_under_pressure_breathes, bodies_fall_alike, a_pulled_strip_swings,
-      a_front_loads_what_it_has_passed, work_is_exact)
+TESTS(loads_that_move_nothing_are_refused, a_history_is_linear_between_its_lines,
+      pressure_on_an_octant_is_a_quarter_disk, forces_on_plates_are_exact,
+      traction_on_a_rim_pulls_and_turns, amplitudes_rise_decay_and_change_sign,
+      fronts_arrive_and_decay_by_their_travel, a_sphere_under_pressure_breathes, bodies_fall_alike,
+      a_pulled_strip_swings, a_front_loads_what_it_has_passed, work_is_exact)

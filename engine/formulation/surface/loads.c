@@ -126,7 +126,7 @@ fracas_err fracas_surface_loads_count(const fracas_model *model, size_t *count)
     if (!load || load->on != FRACAS_LOAD_ON_EDGE) return FRACAS_OK;
     const char *key = load->edge(&model->spec);
     int32_t tag;
-    TRY(fracas_shape_edge_tag(model->spec.geometry.shape, key, &tag));
+    TRY(fracas_shape_edge_tag(model->spec.geometry.shape, "loading.edge", key, &tag));
     *count = 0;
     for (size_t b = 0; b < surface->nborders; b++) *count += surface->border[b].tag == tag;
     if (*count > 0) return FRACAS_OK;
@@ -159,13 +159,14 @@ static void fill_edges(const fracas_model *model, fracas_surface_tables *t, int3
     }
 }
 
-void fracas_surface_loads_fill(const fracas_model *model, fracas_surface_tables *t)
+static void fill_loads(const fracas_model *model, fracas_surface_tables *t)
 {
     const fracas_load *load = load_of(model);
     int32_t tag = 0;
     if (!load) return;
     if (load->on == FRACAS_LOAD_ON_EDGE) {
-        if (!fracas_shape_edge_tag(model->spec.geometry.shape, load->edge(&model->spec), &tag))
+        if (!fracas_shape_edge_tag(model->spec.geometry.shape, "loading.edge",
+                                   load->edge(&model->spec), &tag))
             fill_edges(model, t, tag);
         return;
     }
@@ -175,4 +176,31 @@ void fracas_surface_loads_fill(const fracas_model *model, fracas_surface_tables 
         if (load->on == FRACAS_LOAD_ON_MASS) fill_mass_load(model, t, e, force);
         else fill_area(model, (size_t)t->body->dimension, e, force);
     }
+}
+
+/* Some component of a force moves a node; below a rounding of the largest it is none: shape
+ * functions of nodes off an edge. */
+static bool moves_any(const fracas_surface_tables *t)
+{
+    const size_t size = fracas_surface_unknowns(t);
+    double largest = 0, moving = 0;
+    for (size_t e = 0; e < t->nelements; e++)
+        for (size_t i = 0; t->load_row[e] > 0 && i < size; i++) {
+            const double force = fabs(t->load[(t->load_row[e] - 1) * size + i]);
+            largest = fmax(largest, force);
+            if (!(t->held[e] >> i & 1)) moving = fmax(moving, force);
+        }
+    return moving > 1e-9 * largest;
+}
+
+fracas_err fracas_surface_loads_fill(const fracas_model *model, fracas_surface_tables *t)
+{
+    if (!load_of(model)) return FRACAS_OK;
+    TRY(fracas_load_history(&model->spec.loading, &t->load_history));
+    fill_loads(model, t);
+    if (moves_any(t)) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "loading %s has no force where the body could move: all its components are "
+                       "0, or act on an edge that geometry holds: give it one, or free the edge",
+                       model->spec.loading.type->name);
 }

@@ -8,7 +8,9 @@
 /* Number of elements under load: 0 without one. FRACAS_USAGE where its edge does not exist. */
 FRACAS_MUST_USE fracas_err fracas_surface_loads_count(const fracas_model *model, size_t *count);
 
-/* Fills load_row, load and load_clock of tables whose masses are there. */
-void fracas_surface_loads_fill(const fracas_model *model, fracas_surface_tables *tables);
+/* Fills load_row, load, load_clock and load_history of tables whose masses are there. FRACAS_USAGE
+ * where the load moves nothing, or for its history. */
+FRACAS_MUST_USE fracas_err fracas_surface_loads_fill(const fracas_model *model,
+                                                     fracas_surface_tables *tables);
 
 #endif

@@ -321,9 +321,7 @@ static fracas_err fill(const fracas_model *model, fracas_surface_tables *t)
     TRY(fill_edges(model, t));
     for (size_t e = 0; e < t->nelements; e++) fill_element(model, t, e);
     for (size_t i = 0; i < t->ninterfaces; i++) fill_interface(model, t, i);
-    TRY(fracas_load_history(&model->spec.loading, &t->load_history));
-    fracas_surface_loads_fill(model, t);
-    return FRACAS_OK;
+    return fracas_surface_loads_fill(model, t);
 }
 
 fracas_err fracas_surface_tables_create(const fracas_model *model, fracas_surface_tables **tables)
