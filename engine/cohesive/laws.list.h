@@ -7,3 +7,4 @@
 #include "engine/cohesive/camacho_ortiz.h"
 #include "engine/cohesive/becker_noels.h"
 #include "engine/cohesive/trapezoid.h"
+#include "engine/cohesive/exponential.h"

@@ -279,13 +279,13 @@ static void two_triangles_crack_and_break_in_time(void **unused)
         const fracas_stream stream = {.seed = 4, .purpose = FRACAS_PURPOSE_MESH};
         double worst[3] = {0};
         int tried = 0, used = 0;
-        for (; used < 20 && tried < 20000; tried++) {
+        for (; used < 20 && tried < 80000; tried++) {
             double velocity[2][6];
             for (size_t i = 0; i < 12; i++)
                 velocity[i / 6][i % 6] =
                     2 * fracas_stream_uniform(&stream, (uint64_t)(12 * tried) + i) - 1;
             const double speed = 2 + 4 * fracas_stream_uniform(&stream, 1000000 + (uint64_t)tried);
-            const double strong = 250e6 + 1e6 * tried / 100,
+            const double strong = 250e6 + 1e6 * (tried % 20000) / 100,
                          weak = spec.strength_per_point ? 0.9 * strong : strong;
             const double strength[2] = {tried % 2 ? weak : strong, tried % 2 ? strong : weak};
             for (size_t i = 0; i < 12; i++) velocity[i / 6][i % 6] *= speed;
