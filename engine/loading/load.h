@@ -30,7 +30,8 @@ typedef struct {
 struct fracas_load {
     fracas_load_on on;
     void (*density)(const fracas_spec *spec, const fracas_place *at, double density[3]);
-    /* Key of the edge of the shape on which it acts; NULL of loads on areas and masses. */
+    /* Key of the edge of the shape on which it acts, NULL if none is named; NULL of loads on areas
+     * and masses. */
     const char *(*edge)(const fracas_spec *spec);
 };
 

@@ -224,9 +224,10 @@ static const fracas_param expansion[] = {
 static fracas_stretch expansion_surface(const fracas_spec *spec, double t)
 {
     const fracas_loading *loading = &spec->loading;
+    const bool shell = spec->formulation->groups & FRACAS_GROUP_SHELL;
     return (fracas_stretch){.strain = fabs(loading->rate) * t,
                             .ratio = loading->ratio,
-                            .ratio_z = loading->ratio_z,
+                            .ratio_z = shell ? loading->ratio_z : NAN,
                             .moving = true,
                             .shock = loading->start == &fracas_start_rest};
 }

@@ -41,7 +41,7 @@ static void density(const fracas_spec *spec, const fracas_place *at, double dens
 
 static const char *edge_of(const fracas_spec *spec)
 {
-    return spec->loading.edge->name;
+    return spec->loading.edge ? spec->loading.edge->name : NULL;
 }
 
 static const fracas_load load = {.on = FRACAS_LOAD_ON_EDGE, .density = density, .edge = edge_of};

@@ -126,6 +126,8 @@ fracas_err fracas_surface_loads_count(const fracas_model *model, size_t *count)
     if (!load || load->on != FRACAS_LOAD_ON_EDGE) return FRACAS_OK;
     const char *key = load->edge(&model->spec);
     int32_t tag;
+    if (!key)
+        return fracas_fail(FRACAS_USAGE, "loading.edge is not given: on which edge does it act?");
     TRY(fracas_shape_edge_tag(model->spec.geometry.shape, "loading.edge", key, &tag));
     *count = 0;
     for (size_t b = 0; b < surface->nborders; b++) *count += surface->border[b].tag == tag;
