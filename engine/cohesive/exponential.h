@@ -17,6 +17,16 @@ FRACAS_LAW(exponential, FLUX, FLUX, YES, YES)
 /* Its own numbers: e; for the kernels V, 1/(1 - e), 1/N. */
 enum { EXPONENTIAL_CUT, EXPONENTIAL_END, EXPONENTIAL_FALL, EXPONENTIAL_PER_AREA };
 
+/* l by G_c/p, and delta_c by 2 G_c/p  (cohesive.31) */
+static inline double exponential_length(const double *own)
+{
+    return own[EXPONENTIAL_PER_AREA] * (1 - own[EXPONENTIAL_CUT]);
+}
+static inline double exponential_opening(const double *own)
+{
+    return 0.5 * exponential_length(own) * own[EXPONENTIAL_END];
+}
+
 #if defined FRACAS_LAW_TABLES
 #include "base/elementary.h"
 
@@ -50,12 +60,6 @@ static void exponential_numbers(const fracas_cohesive *cohesive, double own[FRAC
 static void exponential_own(const fracas_spec *spec, double own[FRACAS_LAW_OWN])
 {
     exponential_numbers(&spec->cohesive, own);
-}
-
-/* l/(G_c/p), by (cohesive.31) */
-static double exponential_length(const double *own)
-{
-    return own[EXPONENTIAL_PER_AREA] / own[EXPONENTIAL_FALL];
 }
 
 static double exponential_fullness(const fracas_cohesive *cohesive)
@@ -157,7 +161,7 @@ typedef struct {
 /* The root of h(v) = v + r/y (exp(-v) - e) - S/y, of S above the `limit`, at most V.
  * h is convex and grows, for r < y (cohesive.7). The tangent at the v before, left of the root,
  * leads right of it. Newton's steps from there only fall, each at least halving the distance. A
- * lane stops where its next would not fall: that next stays the same, whatever other lanes need. */
+ * lane stops where its next would not fall, and stays there, whatever other lanes need. */
 LANES_FUNCTION vd exponential_root(const double *own, vd trial, vd p, vd y,
                                    const exponential_step *s)
 {
@@ -225,25 +229,15 @@ LANES_FUNCTION line_result line_exponential(const line_input *in)
 
 /* ---- surfaces (engine/cohesive/series.h) ---- */
 
-/* G_c (1 - e)/(N p) over G_c/p, and delta_c over 2 G_c/p  (cohesive.31) */
-LANES_FUNCTION double exponential_length_of(const double *own)
-{
-    return own[EXPONENTIAL_PER_AREA] * (1 - own[EXPONENTIAL_CUT]);
-}
-LANES_FUNCTION double exponential_opening_of(const double *own)
-{
-    return 0.5 * exponential_length_of(own) * own[EXPONENTIAL_END];
-}
-
 /* The law at one point; `state` is brought up to date. */
 LANES_FUNCTION plane_result plane_exponential(const plane_interface *at, const plane_input *in,
                                               int friction, series_state *state)
 {
     const double *own = at->own;
     const vd half = lanes_set(0.5), before = state->damage, was = exponential_fallen(own, before);
-    const double length = exponential_length_of(own), steepest = 2 * own[EXPONENTIAL_FALL] / length;
+    const double length = exponential_length(own), steepest = 2 * own[EXPONENTIAL_FALL] / length;
     const series_trial t = series_begin(at, in, friction, steepest, exponential_left(own, was),
-                                        before * lanes_set(exponential_opening_of(own)), state);
+                                        before * lanes_set(exponential_opening(own)), state);
     const vd y = t.energy * lanes_set(length) * at->k_n / t.p;
     exponential_step s = exponential_load(own, t.effective, t.p, y, before, was);
     if (friction) {
@@ -279,7 +273,7 @@ LANES_FUNCTION vd plane_opening_exponential(const plane_interface *at, const pla
     const plane_traction flux = plane_flux(at, in); /* the law carries it less friction */
     return lanes_sqrt(plane_onset(at, flux.n, flux.t)) * at->softness_n /
            (plane_critical_opening(at, lanes_load(point + SURFACE_PEAK * LANES)) *
-            lanes_set(exponential_opening_of(at->own)));
+            lanes_set(exponential_opening(at->own)));
 }
 #endif
 #endif
