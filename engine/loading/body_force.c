@@ -2,8 +2,6 @@
 /* Load `body-force`: the same on every unit of mass. */
 #include "engine/loading/load.h"
 
-#include <math.h>
-
 #define COMPONENT(key, i, models)                                                             \
     FRACAS_BRACES(key, FRACAS_REAL, "m/s2",                                                   \
                   "force along " key " on a unit of mass, times its amplitude", 0, -INFINITY, \
@@ -24,14 +22,8 @@ static void density(const fracas_spec *spec, const fracas_place *at, double dens
 
 static const fracas_load load = {.on = FRACAS_LOAD_ON_MASS, .density = density};
 
-/* A held body bends or waves reflect: no bound is known. */
-static fracas_stretch surface(const fracas_spec *spec, double t)
-{
-    (void)spec, (void)t;
-    return (fracas_stretch){.strain = INFINITY, .ratio = 1, .ratio_z = NAN};
-}
-
+/* Waves reflect, and held bodies bend: no bound is known. */
 const fracas_kind fracas_loading_body_force = {
     "body-force", "the same force on every unit of mass of a body at rest", FRACAS_PARAMS(params),
     .only = FRACAS_GROUP_SURFACES,
-    .traits = &(const fracas_loading_traits){.surface = surface, .load = &load}};
+    .traits = &(const fracas_loading_traits){.surface = fracas_load_unbounded, .load = &load}};

@@ -57,6 +57,9 @@ bool fracas_load_has_front(const fracas_loading *loading);
 /* Largest |a| until t; INFINITY where it is unknown. */
 double fracas_load_largest(const fracas_loading *loading, double t);
 
+/* Trait `surface` of a load without a known bound of the strain. */
+fracas_stretch fracas_load_unbounded(const fracas_spec *spec, double t);
+
 /* FRACAS_USAGE unless the keys of the amplitude go together. */
 FRACAS_MUST_USE fracas_err fracas_load_check(const fracas_loading *loading);
 

@@ -2,8 +2,6 @@
 /* Load `traction`: on the face of an edge, by its area at the start. */
 #include "engine/loading/load.h"
 
-#include <math.h>
-
 /* Keys of edges in the shapes' tables (engine/mesh/body.c). */
 static const fracas_kind left = {"left", "of a plate"}, right = {"right", "of a plate"},
                          bottom = {"bottom", "of a plate"}, top = {"top", "of a plate"},
@@ -46,14 +44,8 @@ static const char *edge_of(const fracas_spec *spec)
 
 static const fracas_load load = {.on = FRACAS_LOAD_ON_EDGE, .density = density, .edge = edge_of};
 
-/* Waves reflect, and plates bend: no bound is known. */
-static fracas_stretch surface(const fracas_spec *spec, double t)
-{
-    (void)spec, (void)t;
-    return (fracas_stretch){.strain = INFINITY, .ratio = 1, .ratio_z = NAN};
-}
-
+/* Waves reflect, and held bodies bend: no bound is known. */
 const fracas_kind fracas_loading_traction = {
     "traction", "a stress on one edge of a body at rest", FRACAS_PARAMS(params),
     .only = FRACAS_GROUP_SURFACES,
-    .traits = &(const fracas_loading_traits){.surface = surface, .load = &load}};
+    .traits = &(const fracas_loading_traits){.surface = fracas_load_unbounded, .load = &load}};

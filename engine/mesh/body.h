@@ -69,8 +69,8 @@ extern const fracas_section fracas_mesh_section;
 extern const fracas_kind fracas_spacing_uniform, fracas_spacing_graded, fracas_spacing_perturbed,
     fracas_spacing_triangles, fracas_spacing_given;
 
-/* Tag of the edges that a shape's key of `geometry` holds. FRACAS_USAGE, in which `asked` names the
- * parameter that has this key, lists those it has. */
+/* Tag of the edges of a shape, by their key in `geometry`. FRACAS_USAGE names the parameter
+ * `asked`, which has the key, and lists the shape's own. */
 FRACAS_MUST_USE fracas_err fracas_shape_edge_tag(const fracas_kind *shape, const char *asked,
                                                  const char *key, int32_t *tag);
 

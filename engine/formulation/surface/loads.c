@@ -118,20 +118,30 @@ static void fill_edge(const fracas_model *model, size_t dimension,
 
 /* ---- tables ---- */
 
+/* Tag of the edges under load; 0 of a load elsewhere. */
+FRACAS_MUST_USE static fracas_err find_edge(const fracas_model *model, int32_t *tag)
+{
+    const fracas_load *load = load_of(model);
+    *tag = 0;
+    if (load->on != FRACAS_LOAD_ON_EDGE) return FRACAS_OK;
+    const char *key = load->edge(&model->spec);
+    if (!key)
+        return fracas_fail(FRACAS_USAGE, "loading.edge is not given: on which edge does it act?");
+    return fracas_shape_edge_tag(model->spec.geometry.shape, "loading.edge", key, tag);
+}
+
 fracas_err fracas_surface_loads_count(const fracas_model *model, size_t *count)
 {
     const fracas_surface *surface = model->surface;
-    const fracas_load *load = load_of(model);
-    *count = load ? surface->nelements : 0;
-    if (!load || load->on != FRACAS_LOAD_ON_EDGE) return FRACAS_OK;
-    const char *key = load->edge(&model->spec);
     int32_t tag;
-    if (!key)
-        return fracas_fail(FRACAS_USAGE, "loading.edge is not given: on which edge does it act?");
-    TRY(fracas_shape_edge_tag(model->spec.geometry.shape, "loading.edge", key, &tag));
+    *count = load_of(model) ? surface->nelements : 0;
+    if (*count == 0) return FRACAS_OK;
+    TRY(find_edge(model, &tag));
+    if (tag == 0) return FRACAS_OK;
     *count = 0;
     for (size_t b = 0; b < surface->nborders; b++) *count += surface->border[b].tag == tag;
     if (*count > 0) return FRACAS_OK;
+    const char *key = load_of(model)->edge(&model->spec);
     return fracas_fail(FRACAS_USAGE,
                        "loading.edge is %s, but the mesh has no edge on its boundary of the "
                        "physical group %d: give the lines that number, or the group the name %s",
@@ -161,21 +171,12 @@ static void fill_edges(const fracas_model *model, fracas_surface_tables *t, int3
     }
 }
 
-static void fill_loads(const fracas_model *model, fracas_surface_tables *t)
+static void fill_elements(const fracas_model *model, fracas_surface_tables *t)
 {
-    const fracas_load *load = load_of(model);
-    int32_t tag = 0;
-    if (!load) return;
-    if (load->on == FRACAS_LOAD_ON_EDGE) {
-        if (!fracas_shape_edge_tag(model->spec.geometry.shape, "loading.edge",
-                                   load->edge(&model->spec), &tag))
-            fill_edges(model, t, tag);
-        return;
-    }
     for (size_t e = 0; e < t->nelements; e++) {
         const element_point middle = point_at(model->surface, e, 1.0 / 3, 1.0 / 3);
         double *force = row_of(model, t, e, middle.at.x);
-        if (load->on == FRACAS_LOAD_ON_MASS) fill_mass_load(model, t, e, force);
+        if (load_of(model)->on == FRACAS_LOAD_ON_MASS) fill_mass_load(model, t, e, force);
         else fill_area(model, (size_t)t->body->dimension, e, force);
     }
 }
@@ -197,9 +198,12 @@ static bool moves_any(const fracas_surface_tables *t)
 
 fracas_err fracas_surface_loads_fill(const fracas_model *model, fracas_surface_tables *t)
 {
+    int32_t tag;
     if (!load_of(model)) return FRACAS_OK;
     TRY(fracas_load_history(&model->spec.loading, &t->load_history));
-    fill_loads(model, t);
+    TRY(find_edge(model, &tag));
+    if (tag != 0) fill_edges(model, t, tag);
+    else fill_elements(model, t);
     if (moves_any(t)) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "loading %s has no force where the body could move: all its components are "
