@@ -16,13 +16,13 @@ typedef struct {
     size_t count;
 } fracas_profile;
 
-/* Words of its messages, and values that it takes. */
+/* Words of its messages, and its range. */
 typedef struct {
     const char *at, *unit, *value; /* "coordinate", "m", "factor" */
     bool positive;                 /* values are above 0; else any finite ones */
 } fracas_profile_form;
 
-/* FRACAS_USAGE for a line that does not belong to a profile: rising coordinates, none more than
+/* FRACAS_USAGE for a line of no profile: rising coordinates, none more than
  * twice, and finite values; and for a file without lines. FRACAS_ENVIRONMENT without memory. The
  * caller clears, whatever is returned. */
 FRACAS_MUST_USE fracas_err fracas_profile_read(const fracas_attachment *file,

@@ -125,7 +125,7 @@ static void name_columns(const fracas_means_plot *plot, const fracas_columns *co
                       fracas_column_words(plot->analysis->table, columns->column[i]));
 }
 
-/* Drawings that go on with more series or panels have nothing else to tell them apart. */
+/* Drawings with more series or panels of the same figure differ in nothing else. */
 static void name_drawing(const fracas_means_plot *plot, size_t drawing, fracas_chart *chart)
 {
     char label[128] = "";

@@ -74,7 +74,7 @@ FRACAS_MUST_USE fracas_err fracas_settings_add_section(const fracas_file *file,
 #define FRACAS_GREATEST 1e100
 bool fracas_setting_computable(double value);
 
-/* The number that fracas_param_set takes: of a choice its index, NaN where `param` has it not. */
+/* The number for fracas_param_set: of a choice its index, NaN where `param` has it not. */
 double fracas_setting_number(const fracas_setting *setting, const fracas_param *param);
 
 /* FRACAS_USAGE unless the value lies in the range or among the choices of `param`, and can be

@@ -63,7 +63,7 @@ static double concentration_of(const fracas_spec *spec, const holding *held, dou
     return shape->concentration ? shape->concentration(ratio) : 4;
 }
 
-/* Ratio of the sides' strains that is farthest from 1. */
+/* The ratio of the sides' strains farthest from 1. */
 static double ratio_of(const fracas_stretch *stretch)
 {
     const bool along_z = fabs(stretch->ratio_z - 1) > fabs(stretch->ratio - 1); /* NaN: no */
