@@ -53,7 +53,9 @@ begin
 kill -9 "$(named $starter)"
 end "the kill of the starter" TERM
 begin
-kill -9 $(ranks)
+pids=$(ranks)
+[ -n "$pids" ] || fail "there are no ranks to kill"
+kill -9 $pids 2>/dev/null || true # the starter may be faster with the others
 end "the kill of all ranks" TERM
 begin
 kill_session
