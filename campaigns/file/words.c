@@ -2,7 +2,9 @@
 #include "campaigns/file/words.h"
 
 #include "base/param.h"
+#include "campaigns/file/absent.list.h"
 
+#include <ctype.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -39,10 +41,17 @@ static size_t distance_of(const char *a, const char *b)
 /* Names of the keys in other programs and papers. */
 static const struct {
     const char *found, *word;
-} other_names[] = {{"E", "young"},         {"Young", "young"},           {"modulus", "young"},
-                   {"modulus", "shape"},   {"weibull_modulus", "shape"}, {"nu", "poisson"},
-                   {"rho", "density"},     {"G_c", "fracture_energy"},   {"Gc", "fracture_energy"},
-                   {"strain_rate", "rate"}};
+} other_names[] = {{"E", "young"},
+                   {"Young", "young"},
+                   {"modulus", "young"},
+                   {"modulus", "shape"},
+                   {"weibull_modulus", "shape"},
+                   {"nu", "poisson"},
+                   {"rho", "density"},
+                   {"G_c", "fracture_energy"},
+                   {"Gc", "fracture_energy"},
+                   {"strain_rate", "rate"},
+                   {"rod", "bar"}};
 
 static bool is_other_name(const char *found, const char *word)
 {
@@ -70,6 +79,25 @@ void fracas_words_add(fracas_words *words, const char *word)
     else words->list[words->used] = '\0';
 }
 
+#define ABSENT(words, sentence) {" " words " ", sentence},
+static const struct {
+    const char *words, *sentence;
+} absent[] = {FRACAS_ABSENT(ABSENT)};
+
+/* The sentence about a word for something that is not there; NULL: the word is none. */
+static const char *sentence_about(const char *found)
+{
+    char word[LONGEST + 3] = " ";
+    size_t used = 1;
+    for (; found[used - 1] && used <= LONGEST; used++)
+        word[used] = found[used - 1] == '-' ? '_' : (char)tolower((unsigned char)found[used - 1]);
+    if (used == 1 || found[used - 1] || strchr(found, ' ')) return NULL;
+    strcpy(word + used, " ");
+    for (size_t i = 0; i < FRACAS_COUNT(absent); i++)
+        if (strstr(absent[i].words, word)) return absent[i].sentence;
+    return NULL;
+}
+
 const char *fracas_words_hint(fracas_words *words, const char *label, ...)
 {
     char named[80];
@@ -77,8 +105,10 @@ const char *fracas_words_hint(fracas_words *words, const char *label, ...)
     va_start(arguments, label);
     vsnprintf(named, sizeof named, label, arguments);
     va_end(arguments);
-    const bool near = words->nearest != NULL;
-    snprintf(words->hint, sizeof words->hint, "; %s%s%s%s: %s", near ? "did you mean `" : "",
-             near ? words->nearest : "", near ? "`? " : "", named, words->list);
+    const char *not_there = sentence_about(words->found);
+    const bool near = words->nearest && !not_there;
+    snprintf(words->hint, sizeof words->hint, "; %s%s%s%s%s%s: %s", near ? "did you mean `" : "",
+             near ? words->nearest : "", near ? "`? " : "", not_there ? not_there : "",
+             not_there ? " (docs/limits.md). " : "", named, words->list);
     return words->hint;
 }

@@ -12,13 +12,14 @@ typedef struct {
     size_t distance;
     size_t used;
     char list[400];
-    char hint[600];
+    char hint[800];
 } fracas_words;
 
 void fracas_words_init(fracas_words *words, const char *found);
 void fracas_words_add(fracas_words *words, const char *word);
 /* "; did you mean `nearest`? LABEL: a, b, c", without the question if nothing is near; the label as
- * printf writes it. */
+ * printf writes it. A word for something that fracas does not have (absent.list.h) gets told what
+ * comes nearest. */
 const char *fracas_words_hint(fracas_words *words, const char *label, ...) FRACAS_PRINTF(2, 3);
 
 #endif

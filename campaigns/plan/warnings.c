@@ -78,6 +78,22 @@ WARNING(warn_lines, forecast->lines, 1,
         "interfaces are equally strong and the mesh is regular, so that cracks follow its lines: "
         "give mesh.amplitude, for instance 0.2")
 
+/* Fracture energies of ceramics, glasses, rocks and brittle polymers are below it [J/m2]; those of
+ * metals, most of it plastic work, are 5e3 to 1e5. */
+#define TOUGH 2e3
+
+static double toughness(const fracas_point *point, const fracas_forecast *forecast)
+{
+    return fracas_spec_fracture_energy(&point->spec, forecast->mean);
+}
+
+WARNING(
+    warn_tough, toughness(point, forecast) > TOUGH, toughness(point, forecast) / TOUGH,
+    "a fracture energy of %.3g kJ/m2 is a metal's or a tough polymer's, and nothing flows here: "
+    "bodies are elastic until they crack (docs/limits.md): is cohesive.%s in the unit meant?",
+    1e-3 * toughness(point, forecast),
+    point->spec.cohesive.fracture_energy > 0 ? "fracture_energy" : "critical_opening")
+
 /* Finds wrong units of young and density, which no other check compares. */
 WARNING(warn_wave,
         wave_speed(&point->spec.material) < SLOWEST || wave_speed(&point->spec.material) > FASTEST,
@@ -372,9 +388,9 @@ WARNING(warn_stretch,
         forecast->mesh.box[0], forecast->mesh.box[1], forecast->mesh.box[2])
 
 fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
-    warn_parts,     warn_unit,      warn_coarse,   warn_uniform,     warn_lines,   warn_weak_load,
-    warn_repeated,  warn_folds,     warn_zone,     warn_step,        warn_turned,  warn_passed,
-    warn_short,     warn_long,      warn_flat,     warn_weakest,     warn_wave,    warn_bending,
-    warn_few_steps, warn_never,     warn_shatters, warn_mesh_effect, warn_open,    warn_heats,
-    warn_undivided, warn_loose,     warn_inner,    warn_steered,     warn_stretch, warn_fast,
-    warn_whole,     warn_many_steps};
+    warn_parts,     warn_unit,       warn_coarse,   warn_uniform,     warn_lines,   warn_weak_load,
+    warn_repeated,  warn_folds,      warn_zone,     warn_step,        warn_turned,  warn_passed,
+    warn_short,     warn_long,       warn_flat,     warn_weakest,     warn_wave,    warn_bending,
+    warn_few_steps, warn_never,      warn_shatters, warn_mesh_effect, warn_open,    warn_heats,
+    warn_undivided, warn_loose,      warn_inner,    warn_steered,     warn_stretch, warn_fast,
+    warn_whole,     warn_many_steps, warn_tough};

@@ -481,7 +481,34 @@ static void plan_of_parts(void **state)
     }
 }
 
+/* The warning comes above 2 kJ/m2, of whichever key sets the fracture energy: with nitsche's line
+ * G_c = strength delta_c/2, 300 MPa 20 um/2 = 3 kJ/m2. */
+static void plan_of_a_metal(void **state)
+{
+    static const struct {
+        const char *energy, *said;
+    } table[] = {{"fracture_energy: 2 kJ/m2", NULL},
+                 {"fracture_energy: 2.1 kJ/m2", "a fracture energy of 2.1 kJ/m2 is a metal's"},
+                 {"critical_opening: 13 um", NULL},
+                 {"critical_opening: 20 um", "is cohesive.critical_opening in the unit meant?"}};
+    (void)state;
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
+        char text[600];
+        snprintf(
+            text, sizeof text,
+            "name: t\nseed: 7\nmodel: membrane\ngeometry: {shape: plate, width: 50 mm, height: "
+            "50 mm, thickness: 1 mm}\nmesh: {divisions: 4}\nmaterial: {young: 70e9, density: "
+            "2700, poisson: 0.3}\ncohesive: {%s}\nstrength: {distribution: uniform, minimum: "
+            "299e6, maximum: 301e6}\nloading: {rate: 1e3}\ntime: {end: 1e-5}\nreplicas: 1\n",
+            table[i].energy);
+        OWN(fracas_campaign) campaign = read_text(text);
+        OWNED char *plan = plan_text(campaign, 1, false);
+        if (table[i].said) assert_has(plan, table[i].said);
+        else assert_null(strstr(plan, "a metal's"));
+    }
+}
+
 TESTS(test_cost, test_text, test_json, test_summary, test_warnings, test_a_line_a_kind,
       test_strengths_that_the_mesh_changes, test_heavy_tail, test_flaws_of_small_elements,
       test_bound_of_a_rings_stress, test_warnings_of_rings, test_refused, test_refined,
-      test_refined_too_far, test_write_fails, plan_of_long_runs, plan_of_parts)
+      test_refined_too_far, test_write_fails, plan_of_long_runs, plan_of_parts, plan_of_a_metal)
