@@ -96,6 +96,9 @@ typedef struct {
     const fracas_kind *front_along;   /* x, y, z; NULL: x */
     double front_at, front_from;      /* m */
     double decay_by_travel;           /* 1 */
+    /* place of pressure and body-force; NaN: not given */
+    double spot, spot_decay; /* m */
+    double spot_at[3];       /* m */
 } fracas_loading;
 
 typedef struct {

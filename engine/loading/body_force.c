@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Load `body-force`: the same on every unit of mass. */
+/* Load `body-force`: on every unit of mass. */
 #include "engine/loading/load.h"
 
 #define COMPONENT(key, i, models)                                                             \
@@ -8,10 +8,8 @@
                   INFINITY, false, offsetof(fracas_loading, body_force[i]), .only = models)
 
 static const fracas_param params[] = {
-    COMPONENT("x", 0, 0),
-    COMPONENT("y", 1, 0),
-    COMPONENT("z", 2, FRACAS_GROUP_SHELL),
-    FRACAS_LOAD_AMPLITUDE,
+    COMPONENT("x", 0, 0), COMPONENT("y", 1, 0),  COMPONENT("z", 2, FRACAS_GROUP_SHELL),
+    FRACAS_LOAD_SPOT,     FRACAS_LOAD_AMPLITUDE,
 };
 
 static void density(const fracas_spec *spec, const fracas_place *at, double density[3])
@@ -24,6 +22,6 @@ static const fracas_load load = {.on = FRACAS_LOAD_ON_MASS, .density = density};
 
 /* Waves reflect, and held bodies bend: no bound is known. */
 const fracas_kind fracas_loading_body_force = {
-    "body-force", "the same force on every unit of mass of a body at rest", FRACAS_PARAMS(params),
+    "body-force", "a force on every unit of mass of a body at rest", FRACAS_PARAMS(params),
     .only = FRACAS_GROUP_SURFACES,
     .traits = &(const fracas_loading_traits){.surface = fracas_load_unbounded, .load = &load}};

@@ -19,6 +19,39 @@ bool fracas_load_has_front(const fracas_loading *loading)
     return fabs(loading->front) > 0; /* NaN: no */
 }
 
+/* (loads.5) */
+double fracas_load_spot(const fracas_loading *loading, const double x[3])
+{
+    if (!(loading->spot > 0)) return 1; /* NaN, or 0 of a load without these keys */
+    double squares = 0;
+    for (int i = 0; i < 3; i++) {
+        const double at = isnan(loading->spot_at[i]) ? 0 : loading->spot_at[i];
+        squares += (x[i] - at) * (x[i] - at);
+    }
+    const double beyond = sqrt(squares) - loading->spot;
+    if (beyond <= 0) return 1;
+    return loading->spot_decay > 0 ? fracas_exp(-beyond / loading->spot_decay) : 0;
+}
+
+/* FRACAS_USAGE unless the keys of the spot go together. */
+FRACAS_MUST_USE static fracas_err check_spot(const fracas_loading *loading)
+{
+    const struct {
+        const char *key;
+        double value;
+    } of_spot[] = {{"spot_decay", loading->spot_decay},
+                   {"spot_x", loading->spot_at[0]},
+                   {"spot_y", loading->spot_at[1]},
+                   {"spot_z", loading->spot_at[2]}};
+    for (size_t k = 0; !(loading->spot > 0) && k < FRACAS_COUNT(of_spot); k++)
+        if (fabs(of_spot[k].value) > 0)
+            return fracas_fail(FRACAS_USAGE,
+                               "%s is given, but no spot: give its radius, `spot: 5 mm`, or "
+                               "leave %s out",
+                               of_spot[k].key, of_spot[k].key);
+    return FRACAS_OK;
+}
+
 /* (loads.2) */
 fracas_load_clock fracas_load_clock_at(const fracas_loading *loading, const double x[3])
 {
@@ -77,6 +110,7 @@ fracas_stretch fracas_load_unbounded(const fracas_spec *spec, double t)
 fracas_err fracas_load_check(const fracas_loading *loading)
 {
     const bool front = !isnan(loading->front);
+    TRY(check_spot(loading));
     if (front && loading->front == 0)
         return fracas_fail(FRACAS_USAGE, "front is 0 m/s: it would never arrive: give its speed, "
                                          "or leave front out for a load that acts everywhere");

@@ -35,6 +35,10 @@ struct fracas_load {
     const char *(*edge)(const fracas_spec *spec);
 };
 
+/* Share of the load at a place: 1 up to spot from the middle of its spot, and exp(-(r - spot)/L) at
+ * a distance r beyond, L = spot_decay, or 0 without one; 1 everywhere without a spot  (loads.5) */
+double fracas_load_spot(const fracas_loading *loading, const double x[3]);
+
 /* When the load reaches a place, by its front [s], 0 without one, INFINITY where it never does; and
  * the time constant of its decay there [s], INFINITY without one. */
 typedef struct {
@@ -65,6 +69,25 @@ FRACAS_MUST_USE fracas_err fracas_load_check(const fracas_loading *loading);
 
 extern const fracas_kind fracas_front_x, fracas_front_y, fracas_front_z;
 extern const fracas_kind *const fracas_front_axes[3];
+
+/* The keys of the spot, before those of the amplitude. */
+#define FRACAS_LOAD_LENGTH(key, member, what)                                             \
+    FRACAS_BRACES(.name = key, .type = FRACAS_REAL, .unit = "m", .doc = what,             \
+                  .fallback = FRACAS_REQUIRED, .maximum = INFINITY, .minimum_open = true, \
+                  .offset = offsetof(fracas_loading, member), .optional = true)
+#define FRACAS_LOAD_MIDDLE(axis, i, models)                                               \
+    FRACAS_BRACES(.name = "spot_" axis, .type = FRACAS_REAL, .unit = "m",                 \
+                  .doc = axis " of the middle of the spot; none is 0",                    \
+                  .fallback = FRACAS_REQUIRED, .minimum = -INFINITY, .maximum = INFINITY, \
+                  .offset = offsetof(fracas_loading, spot_at[i]), .optional = true,       \
+                  .only = models)
+#define FRACAS_LOAD_SPOT                                                                         \
+    FRACAS_LOAD_LENGTH("spot", spot, "radius of a spot, in space: within it the load is whole"), \
+        FRACAS_LOAD_LENGTH("spot_decay", spot_decay,                                             \
+                           "length of its exponential decay beyond the spot; none: it ends "     \
+                           "there"),                                                             \
+        FRACAS_LOAD_MIDDLE("x", 0, 0), FRACAS_LOAD_MIDDLE("y", 1, 0),                            \
+        FRACAS_LOAD_MIDDLE("z", 2, FRACAS_GROUP_SHELL)
 
 /* The keys of the amplitude, last in a load's parameters. */
 #define FRACAS_LOAD_TIME(key, member, what)                                               \

@@ -10,6 +10,7 @@ static const fracas_param params[] = {
      "cylinders, of mesh files to the side from which most triangles are counter-clockwise; "
      "negative: against it",
      FRACAS_REQUIRED, -INFINITY, INFINITY, false, offsetof(fracas_loading, pressure)},
+    FRACAS_LOAD_SPOT,
     FRACAS_LOAD_AMPLITUDE,
 };
 
@@ -25,19 +26,20 @@ static const fracas_load load = {.on = FRACAS_LOAD_ON_AREA, .density = density};
  */
 static fracas_stretch surface(const fracas_spec *spec, double t)
 {
-    const bool front = fracas_load_has_front(&spec->loading);
+    const bool partial = fracas_load_has_front(&spec->loading) || spec->loading.spot > 0;
     const double radius = spec->geometry.radius, h = spec->geometry.thickness,
                  p = fabs(spec->loading.pressure) * fracas_load_largest(&spec->loading, t);
     return (fracas_stretch){
         .strain = p == 0 ? 0 : p * t * t / (2 * spec->material.density * h * radius),
         .ratio = 1,
         .ratio_z = NAN,
-        .whole = front
+        .whole = partial
                      ? 0
                      : 2 * p * radius * (1 - spec->material.poisson) / (spec->material.young * h)};
 }
 
 const fracas_kind fracas_loading_pressure = {
-    "pressure", "a pressure on one side of a body at rest: constant, or a pulse, or behind a front",
+    "pressure",
+    "a pressure on one side of a body at rest: constant, or a pulse, behind a front, on a spot",
     FRACAS_PARAMS(params), .only = FRACAS_GROUP_SHELL,
     .traits = &(const fracas_loading_traits){.surface = surface, .load = &load}};

@@ -25,6 +25,7 @@ static const fracas_param params[] = {
     STRESS("normal", traction[0], "stress outward in the surface, that pulls", 0),
     STRESS("shear", traction[1], "stress along the edge, the body on its left", 0),
     STRESS("across", traction[2], "stress along the normal of the mid-surface", FRACAS_GROUP_SHELL),
+    FRACAS_LOAD_SPOT,
     FRACAS_LOAD_AMPLITUDE,
 };
 

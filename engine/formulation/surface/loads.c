@@ -67,12 +67,20 @@ static element_point edge_point_at(const fracas_surface *surface,
 
 /* ---- forces ---- */
 
+/* d(x), whose share its spot gives  (loads.1), (loads.5) */
+static void density_at(const fracas_model *model, const fracas_place *at, double density[3])
+{
+    const double share = fracas_load_spot(&model->spec.loading, at->x);
+    load_of(model)->density(&model->spec, at, density);
+    for (int i = 0; i < 3; i++) density[i] *= share;
+}
+
 /* Adds weight N_k d to the forces on an element's nodes. */
 static void add_force(const fracas_model *model, size_t dimension, const element_point *p,
                       double weight, double *force)
 {
     double density[3];
-    load_of(model)->density(&model->spec, &p->at, density);
+    density_at(model, &p->at, density);
     for (size_t k = 0; k < model->surface->corners; k++)
         for (size_t i = 0; i < dimension; i++)
             force[dimension * k + i] += weight * p->shape[k] * density[i];
@@ -97,7 +105,7 @@ static void fill_mass_load(const fracas_model *model, const fracas_surface_table
     for (size_t l = 0; l < nodes; l++) {
         double density[3];
         const element_point p = point_at(model->surface, e, corner[l][0], corner[l][1]);
-        load_of(model)->density(&model->spec, &p.at, density);
+        density_at(model, &p.at, density);
         for (size_t k = 0; k < nodes; k++)
             for (size_t i = 0; i < dimension; i++)
                 force[dimension * k + i] += fracas_surface_mass(t, e, k, l) * density[i];
@@ -205,8 +213,10 @@ fracas_err fracas_surface_loads_fill(const fracas_model *model, fracas_surface_t
     if (tag != 0) fill_edges(model, t, tag);
     else fill_elements(model, t);
     if (moves_any(t)) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE,
-                       "loading %s has no force where the body could move: all its components are "
-                       "0, or act on an edge that geometry holds: give it one, or free the edge",
-                       model->spec.loading.type->name);
+    return fracas_fail(
+        FRACAS_USAGE,
+        "loading %s has no force where the body could move: all its components are "
+        "0, or act on an edge that geometry holds, or on a spot beside the body: give it one, "
+        "free the edge, or move the spot",
+        model->spec.loading.type->name);
 }
