@@ -71,6 +71,13 @@ typedef struct {
     const fracas_kind *own_choice; /* a choice of one law alone */
 } fracas_cohesive;
 
+/* Interfaces that are broken from the start lie along the straight line between two ends. Equal
+ * ends: none do. */
+typedef struct {
+    double from[3], to[3]; /* m; NaN: 0, and `from` */
+    double within;         /* m, from it at most; 0, NaN: fracas_notch_find */
+} fracas_notch;
+
 typedef struct {
     const fracas_kind *type;
     double rate;                    /* 1/s, imposed-rate, expansion */
@@ -125,6 +132,7 @@ typedef struct {
     fracas_mesh mesh;
     fracas_material material;
     fracas_cohesive cohesive;
+    fracas_notch notch;
     fracas_loading loading;
     fracas_time time;
     /* Frequencies of earlier models; this one's are added. No parameter; NULL: none. */

@@ -152,7 +152,8 @@ void fracas_surface_first_times(const fracas_record *record, fracas_surface_time
     *times = (fracas_surface_times){NAN, NAN, {NAN, NAN}};
     for (size_t i = 0; i < record->ninterface; i++) {
         times->onset = fmin(times->onset, record->interface[i].onset_time);
-        times->broken = fmin(times->broken, record->interface[i].break_time);
+        if (record->interface[i].break_time > 0) /* 0: before the start, in a notch */
+            times->broken = fmin(times->broken, record->interface[i].break_time);
     }
 }
 
@@ -178,7 +179,7 @@ static size_t list_breaks(const fracas_record *record, double *at)
 {
     size_t count = 0, kept = 0;
     for (size_t i = 0; i < record->ninterface; i++)
-        if (isfinite(record->interface[i].break_time))
+        if (record->interface[i].break_time > 0) /* NaN: never, 0: before the start */
             at[count++] = record->interface[i].break_time;
     qsort(at, count, sizeof *at, by_value);
     for (size_t i = 0; i < count; i++)

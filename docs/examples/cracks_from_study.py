@@ -39,7 +39,7 @@ with h5py.File(sys.argv[1]) as study:
         vector = node[ends[:, 1]] - node[ends[:, 0]]
         values = []
         for r in np.flatnonzero(of == p):
-            broken = np.isfinite(broke[offset[r]:offset[r + 1]])
+            broken = broke[offset[r]:offset[r + 1]] > 0  # 0: in a notch
             values.append((straight(ends[broken], vector[broken]), along(vector[broken]), along(vector)))
         n = len(values)
         half = student_quantile(0.975, n - 1) * np.std(values, axis=0, ddof=1) / math.sqrt(n)

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/formulation/formulation.h"
 
+#include "base/own.h"
 #include "engine/cohesive/law.h"
 #include "engine/element/triangle.h"
 #include "engine/mesh/body.h"
+#include "engine/mesh/notch.h"
 #include "engine/mesh/surface/surface.h"
 
 #include <math.h>
@@ -64,6 +66,19 @@ static fracas_err check_partners(const fracas_spec *spec)
     return FRACAS_OK;
 }
 
+static fracas_err find_notch(fracas_model *model)
+{
+    OWNED double(*position)[3] = NULL;
+    if (!model->surface) {
+        position = malloc((model->interfaces + 1) * sizeof *position);
+        if (!position) return fracas_no_memory("the notch of a body");
+        fracas_model_interface_positions(model, position);
+    }
+    const fracas_notch_places places = {model->surface, model->interfaces,
+                                        (const double(*)[3])position, model->element_size};
+    return fracas_notch_find(&model->spec.notch, &places, &model->notch, &model->nnotch);
+}
+
 fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
 {
     TRY(check_partners(spec));
@@ -75,6 +90,7 @@ fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)
     model->tolerance = 0.05;
     fracas_law_own(spec, model->own);
     TRY(model->formulation->model_init(model));
+    TRY(find_notch(model));
     model->spec.mesh.noise = NULL; /* the caller's, and done with, as is a file */
     model->spec.geometry.file = NULL;
     model->spec.frequencies = NULL;
@@ -92,6 +108,7 @@ void fracas_model_destroy(fracas_model *model)
     fracas_surface_destroy(model->surface);
     free(model->table);
     free(model->sizes);
+    free(model->notch);
     free(model);
 }
 

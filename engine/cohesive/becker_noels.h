@@ -16,6 +16,15 @@
 FRACAS_LAW(becker_noels, NO, NO, NO, RESULTANTS)
 #else
 #include "engine/cohesive/resultants.h"
+
+/* Own values of a Gauss point, from these on two each. */
+enum {
+    BECKER_NOELS_JUMP = 0, /* [u]_0 [m] */
+    BECKER_NOELS_TURN = 2, /* [Dt]_0 [1] */
+    BECKER_NOELS_N = 4,    /* N_0 [N/m] */
+    BECKER_NOELS_M = 6     /* M_0 [N] */
+};
+
 #if defined FRACAS_LAW_TABLES
 
 static const fracas_param becker_noels_params[] = {FRACAS_SURFACE_FRICTIONLESS};
@@ -25,17 +34,10 @@ const fracas_law fracas_law_becker_noels = {
         "linear softening of a shell's stress resultants, normal and shear scaled by those at "
         "onset (Becker and Noels' paper); gains energy on mixed paths, and no ENERGY_DRIFT ends "
         "it: for comparison"),
-    .open_ledger = true, .shares_of_onset = true, .fields = {RESULTANT_FIELDS, RESULTANT_FIELDS}};
+    .open_ledger = true, .shares_of_onset = true, .fields = {RESULTANT_FIELDS, RESULTANT_FIELDS},
+    .tension = RESULTANT_PLACE(BECKER_NOELS_N)};
 
 #else
-
-/* Own values of a Gauss point, from these on two each. */
-enum {
-    BECKER_NOELS_JUMP = 0, /* [u]_0 [m] */
-    BECKER_NOELS_TURN = 2, /* [Dt]_0 [1] */
-    BECKER_NOELS_N = 4,    /* N_0 [N/m] */
-    BECKER_NOELS_M = 6     /* M_0 [N] */
-};
 
 typedef struct {
     vd damage, peak;     /* D, p [Pa] */

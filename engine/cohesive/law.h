@@ -64,6 +64,9 @@ typedef struct {
      * path takes less than G_c. */
     bool shares_of_onset;
     int fields[2]; /* surfaces: values without, with friction, at most SURFACE_POINT_FIELDS_MOST */
+    /* Surfaces: where a Gauss point's values have a resultant that is its peak times the thickness
+     * after a break by tension alone; 0: nowhere. */
+    int tension;
     /* Chains. */
     double (*contact)(const fracas_cohesive *); /* contact stiffness over E/h, 1; NULL: at most 1 */
     /* Stiffness of contact of an interface of this sigma_c [Pa/m]; NULL: by `contact`. */

@@ -14,6 +14,11 @@ enum {
     RESULTANT_OWN = RESULTANT_LAYERS * RESULTANT_SHARE
 };
 
+/* Place of own value `which` among the values of a Gauss point. */
+#define RESULTANT_PLACE(which)                                             \
+    ((which) / RESULTANT_SHARE * RESULTANT_FIELDS + SURFACE_POINT_FIELDS + \
+     (which) % RESULTANT_SHARE)
+
 #ifndef FRACAS_LAW_TABLES
 #include "engine/cohesive/plane.h"
 
@@ -36,12 +41,9 @@ typedef struct {
     vmask breaks;                   /* in this step */
 } resultant_result;
 
-/* Place of own value `which` among the values of a Gauss point. */
 LANES_FUNCTION int resultant_place(int which)
 {
-    return (which / RESULTANT_SHARE * RESULTANT_FIELDS + SURFACE_POINT_FIELDS +
-            which % RESULTANT_SHARE) *
-           LANES;
+    return RESULTANT_PLACE(which) * LANES;
 }
 #endif
 

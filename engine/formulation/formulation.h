@@ -25,6 +25,8 @@ struct fracas_model {
     double wave_speed;                /* m/s, of longitudinal waves */
     double *table;                    /* the formulation's own; freed with the model */
     const struct fracas_chain *chain; /* fields of a chain's state; NULL of a surface */
+    uint32_t *notch; /* interfaces that are broken from the start, rising; freed with the model */
+    size_t nnotch;
     double *sizes; /* m, a chain's elements; NULL: all element_size; freed with the model */
     const struct fracas_surface *surface;     /* NULL of a chain; destroyed with the model */
     void *plan;                               /* the formulation's own, freed by plan_destroy */

@@ -124,6 +124,8 @@ fracas_err fracas_batch_begin(fracas_batch *batch)
         begin_lane(batch, l);
         for (size_t i = 0; step->onset_time && i < model->interfaces; i++)
             step->onset_time[i * width + l] = step->break_time[i * width + l] = NAN;
+        for (size_t n = 0; step->break_time && n < model->nnotch; n++)
+            step->break_time[model->notch[n] * width + l] = 0;
     }
     return FRACAS_OK;
 }
@@ -229,6 +231,21 @@ static fracas_err check_end(fracas_batch *batch, size_t l, fracas_outcome *outco
     return FRACAS_OK;
 }
 
+/* A notch is no result of the load: takes its interfaces out of the dissipated energy. */
+static fracas_err leave_out_notch(fracas_batch *batch, size_t l)
+{
+    fracas_lane *lane = &batch->lane[l];
+    double *dissipated = &batch->step.dissipated[l];
+    if (batch->model->nnotch == 0) return FRACAS_OK;
+    if (lane->steps == 0) {
+        lane->notched = *dissipated;
+        TRY(count_fragments(batch, l));
+        lane->settling.parted = lane->census.all - lane->census.held - 1;
+    }
+    *dissipated -= lane->notched;
+    return FRACAS_OK;
+}
+
 /* One lane after a step: ledger, history, stop. */
 static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *record)
 {
@@ -237,6 +254,7 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
     fracas_ledger *ledger = &lane->ledger;
     const bool cracked = step->cracked[l] > 0;
     fracas_outcome outcome;
+    TRY(leave_out_notch(batch, l));
     fracas_ledger_update(ledger, step, (int)l, lane->steps == 0);
     fracas_history_row row = {
         .time = step->time[l], .residual = ledger->residual, .broken = step->broken[l]};

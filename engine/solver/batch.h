@@ -23,6 +23,7 @@ typedef struct {
     double since;    /* s, ... since this time ... */
     int64_t paces; /* ... and how many: time = since + paces pace, without the round-off of a sum */
     double first_break; /* s, seen at this time; 0: none yet */
+    double notched;     /* J: dissipated, by the law, at a notch, before the start */
     int64_t counted;    /* breaks when the census was taken; -1: never */
     fracas_census census;
     bool running;

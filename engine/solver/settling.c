@@ -35,7 +35,8 @@ void fracas_settling_look(fracas_settling *settling, const fracas_model *model, 
     for (; fracas_settling_due(settling, since, model->time_step); settling->looks++)
         settling->seen[settling->looks % (FRACAS_LOOKS + 1)] = count;
     const int64_t half = settling->looks - 1 - FRACAS_LOOKS; /* look at half of this time */
-    const int64_t then = half < 0 ? 1 : settling->seen[half % (FRACAS_LOOKS + 1)];
+    const int64_t then = half < 0 ? 1 + settling->parted
+                                  : settling->seen[half % (FRACAS_LOOKS + 1)];
     settling->transits = since * model->wave_speed / census->size;
     settling->growth = count > 0 ? 1 - (double)then / (double)count : NAN;
 }

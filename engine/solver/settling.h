@@ -12,6 +12,7 @@ enum { FRACAS_LOOKS = 8 /* in each doubling of the time since onset */ };
 
 /* All 0 at first. */
 typedef struct {
+    int64_t parted;                 /* count before anything breaks, beyond 1 */
     int64_t looks;                  /* so far, look j from dt 2^(j/8) after the onset on */
     int64_t seen[FRACAS_LOOKS + 1]; /* count at look j, at [j % 9]; held fragments left out */
     double transits, growth;        /* k and Delta when they were last computed */

@@ -12,8 +12,11 @@
 
 FRACAS_KERNEL_TABLE(const fracas_bar_kernel, fracas_bar);
 
-static const fracas_chain chain = {
-    .fields = BAR_FIELDS, .damage = BAR_DAMAGE, .strength = BAR_STRENGTH, .law = BAR_LAW};
+static const fracas_chain chain = {.fields = BAR_FIELDS,
+                                   .damage = BAR_DAMAGE,
+                                   .strength = BAR_STRENGTH,
+                                   .law = BAR_LAW,
+                                   .open = BAR_LINK_OPEN};
 
 /* Where the background is at rest [m]  (bar.1). */
 static double middle_of(const fracas_model *model)

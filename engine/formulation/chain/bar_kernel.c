@@ -140,7 +140,7 @@ LANES_FUNCTION bar_link bar_rigid_link(bar_context *c, int uniform, size_t e,
                                        const bar_element *left, const bar_element *right)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), half = lanes_set(0.5),
-             two = lanes_set(2.0);
+             two = lanes_set(BAR_LINK_OPEN);
     double *at = c->state + e * BAR_FIELDS * LANES;
     vd before = lanes_load(at + BAR_DAMAGE * LANES), state = lanes_load(at + BAR_LAW * LANES);
     vd sigma_c = lanes_load(at + BAR_STRENGTH * LANES);

@@ -7,6 +7,9 @@
 #include "engine/cohesive/law.h"
 #include "engine/formulation/formulation.h"
 
+/* Values of BAR_LAW of a rigid link. */
+enum { BAR_LINK_CLOSED, BAR_LINK_EXCEEDED, BAR_LINK_OPEN };
+
 enum {
     BAR_W_LEFT, /* peculiar displacement of the element's left node [m]: u - rate t x */
     BAR_W_RIGHT,
@@ -14,7 +17,7 @@ enum {
     BAR_V_RIGHT,
     BAR_DAMAGE,   /* delta_max/delta_c of the interface */
     BAR_STRENGTH, /* sigma_c [Pa] */
-    BAR_LAW,      /* trait `constant`; rigid-link: 0 closed, 1 strength exceeded, 2 open */
+    BAR_LAW,      /* trait `constant`; rigid-link: BAR_LINK_CLOSED ... */
     BAR_FIELDS
 };
 

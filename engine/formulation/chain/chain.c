@@ -94,6 +94,11 @@ void fracas_chain_lane_init(const fracas_model *model, const fracas_step *step, 
             *fracas_chain_field(model, step, e, chain->law, lane) = law->constant(
                 &model->spec.cohesive, stiffness_of(model, e), strength);
     }
+    for (size_t n = 0; n < model->nnotch; n++) {
+        *fracas_chain_field(model, step, model->notch[n], chain->damage, lane) = 1;
+        if (!law->flux)
+            *fracas_chain_field(model, step, model->notch[n], chain->law, lane) = chain->open;
+    }
 }
 
 /* K > sigma_c/delta_c = sigma_c^2/(2 G_c), with K delta_c - sigma_c finite  (cohesive.7) */
@@ -128,7 +133,7 @@ fracas_err fracas_chain_check_strength(const fracas_model *model, double strengt
 fracas_err fracas_chain_count(const fracas_model *model, fracas_step *step, int lane,
                               fracas_census *census)
 {
-    const int64_t broken = step->broken[lane];
+    const int64_t broken = step->broken[lane] + (int64_t)model->nnotch;
     census->all = fracas_chain_is_closed(model) ? (broken > 1 ? broken : 1) : broken + 1;
     census->held = 0;
     census->size = fracas_spec_length(&model->spec) / (double)census->all;

@@ -14,7 +14,8 @@ typedef struct fracas_chain {
     int damage;    /* number of the field delta_max/delta_c of the interface; behind it are ... */
     int strength;  /* ... sigma_c [Pa], and ... */
     int law;       /* ... the law's constant */
-    double barred; /* value of `law` at an interface that can never open; 0: none has it */
+    double open;   /* value of `law` at a link that has opened; of laws without flux */
+    double barred; /* the same at an interface that can never open; 0: none has it */
 } fracas_chain;
 
 /* Fills elements, interfaces, lengths and mass of a model with elements of one length.

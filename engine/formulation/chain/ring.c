@@ -19,6 +19,7 @@ static const fracas_chain rigid_chain = {.fields = RING_FIELDS_STERSHIC,
                                          .damage = RING_DAMAGE,
                                          .strength = RING_STRENGTH,
                                          .law = RING_LAW,
+                                         .open = RING_LINK_OPEN,
                                          .barred = RING_LINK_BARRED};
 
 static bool has_flux(const fracas_model *model)

@@ -265,6 +265,20 @@ static double start_velocity(const fracas_model *model, size_t e, size_t i)
     return along[component] * model->spec.loading.rate * x[component];
 }
 
+/* Broken by tension before the start: its peak is any that its law can have, and stays. */
+static void begin_broken(const fracas_model *model, const fracas_surface_constants *c,
+                         const fracas_step *step, size_t interface, int lane)
+{
+    const double peak = 1; /* Pa */
+    const int layers = c->tables->body->layers, tension = fracas_law_of(&model->spec)->tension;
+    for (int p = 0; p < (int)fracas_surface_points(c->tables); p++) {
+        *point_value(c, step, interface, p, SURFACE_DAMAGE, lane) = 1;
+        *point_value(c, step, interface, p, SURFACE_PEAK, lane) = peak;
+        if (tension && p % layers == 0)
+            *point_value(c, step, interface, p, tension, lane) = peak * c->thickness;
+    }
+}
+
 void fracas_surface_lane_init(const fracas_model *model, const fracas_step *step, int lane)
 {
     const fracas_surface_constants c = fracas_surface_constants_of(model);
@@ -273,6 +287,7 @@ void fracas_surface_lane_init(const fracas_model *model, const fracas_step *step
     for (size_t e = 0; e < model->elements; e++)
         for (size_t i = 0; i < fracas_surface_unknowns(c.tables); i++)
             *element_value(&c, step, e, SURFACE_V, i, lane) = start_velocity(model, e, i);
+    for (size_t n = 0; n < model->nnotch; n++) begin_broken(model, &c, step, model->notch[n], lane);
 }
 
 /* ---- a step ---- */
@@ -403,8 +418,9 @@ fracas_err fracas_surface_count(const fracas_model *model, fracas_step *step, in
     const double surface_density = model->spec.material.density * model->spec.geometry.thickness;
     double area = model->mass / surface_density;
     *census = (fracas_census){.all = 1};
-    if (step->broken[lane] > 0) census->all = (int64_t)fracas_surface_partition(model, step, lane);
-    if (tables_of(model)->moves && step->broken[lane] > 0)
+    const bool parted = step->broken[lane] > 0 || model->nnotch > 0;
+    if (parted) census->all = (int64_t)fracas_surface_partition(model, step, lane);
+    if (tables_of(model)->moves && (step->broken[lane] > 0 || census->all > 1))
         TRY(count_held(model, step, census, &area));
     census->size = sqrt(area / (double)(census->all - census->held));
     return FRACAS_OK;
