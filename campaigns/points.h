@@ -70,13 +70,23 @@ static inline bool fracas_point_table_varies(const fracas_point_table *table, si
     return false;
 }
 
-/* Halving the elements of a bar or ring puts two interfaces in place of one. Without a size effect
- * the weaker of them has mean - deviation/sqrt(pi) (normal strengths; Weibull's 0.56 deviations as
- * well), and the count follows the square root of that, as measured in docs/results/sampling.md
- * (2^(-1/20) for modulus 10): it falls by this times deviation/mean. */
-#define FRACAS_MESH_EFFECT 0.28
-/* Share of the count from which a plan and a report name it: deviation/mean of 3.6 %, modulus 34.
- */
+/* Share of the count that a bar or ring loses where its elements are halved, of strengths without a
+ * least value and a size effect, by scatter = deviation/mean and e = rate/edot0 (scaling-laws.3),
+ * NaN without a rate. Two interfaces in place of one: the weaker has mean - deviation/sqrt(pi) of
+ * normal strengths (Weibull's: 0.56 deviations as well), and counts follow the strength^(1.3/(1 +
+ * 4.5 e^(2/3))), with the form of (scaling-laws.6). Right to a
+ * factor of 1.6, beside 1 %, for Weibull's of moduli 5 to 40; normal, lognormal and gamma ones of
+ * 10 % lose up to as much (docs/results/sampling.md). */
+static inline double fracas_mesh_effect(double scatter, double e)
+{
+    const double usual = 0.3;
+    return 0.75 * scatter / (1 + 4.5 * pow(e >= 0 ? e : usual, 2.0 / 3));
+}
+/* The same, up or down, of strengths with a least value above 0, at most (there). */
+#define FRACAS_MESH_EFFECT_BOUNDED 0.05
+/* Share of the count from which a plan and a report name it: deviation/mean of 4.0 %, modulus 30,
+ * at e = 0.3; above a least value that scatter. */
 #define FRACAS_MESH_EFFECT_NOTABLE 0.01
+#define FRACAS_SCATTER_NOTABLE 0.036
 
 #endif

@@ -190,6 +190,6 @@ fracas_prefix fracas_prefix_in(const char *unit, const double *value, size_t cou
 {
     const size_t symbol = strcspn(unit, " /0123456789");
     const bool takes = symbol > 0 && !isdigit((unsigned char)unit[symbol]) &&
-                       strncmp(unit, "kg", 2) != 0;
+                       strncmp(unit, "kg", 2) != 0 && strcmp(unit, "m/s2") != 0;
     return takes ? fracas_prefix_for(value, count) : (fracas_prefix){1, "", ""};
 }

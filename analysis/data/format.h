@@ -56,7 +56,8 @@ fracas_prefix fracas_prefix_for(const double *value, size_t count);
 /* The same of `count` values, each `stride` bytes after the last. */
 fracas_prefix fracas_prefix_over(const double *value, size_t stride, size_t count);
 /* The prefix of fracas_prefix_for where the unit takes one. It takes none without a symbol in front
- * ("1", "1/s"), with the prefix of kg, and where its first symbol has a power: 1 km2 is 1e6 m2. */
+ * ("1", "1/s"), with the prefix of kg, where its first symbol has a power (1 km2 is 1e6 m2), and of
+ * an acceleration: nobody reads Mm/s2. */
 fracas_prefix fracas_prefix_in(const char *unit, const double *value, size_t count);
 
 #endif

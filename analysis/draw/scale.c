@@ -73,13 +73,13 @@ static void add(fracas_tick *tick, size_t *count, double value, const char *labe
 }
 
 /* "10" with the exponent raised, after "2\u00b7" for a mantissa other than one. */
-static void power_label(int mantissa, int exponent, char *text, size_t size)
+static void power_label(double mantissa, int exponent, char *text, size_t size)
 {
     static const char *const raised[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
                                          "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
     char digits[16];
     FRACAS_PRINT(digits, "%d", exponent);
-    if (mantissa != 1) snprintf(text, size, "%d\u00b710", mantissa);
+    if (mantissa != 1) snprintf(text, size, "%.6g\u00b710", mantissa);
     else snprintf(text, size, "10");
     for (const char *d = digits; *d; d++)
         fracas_append(text, size, "", "%s", *d == '-' ? "\u207b" : raised[*d - '0']);
@@ -116,10 +116,14 @@ static size_t linear_ticks(const fracas_scale *scale, fracas_tick *tick)
     double step = linear_step(scale->low, scale->high);
     int decimals = (int)fmax(0, -floor(log10(step) + 1e-9));
     long first = lround(scale->low / step), last = lround(scale->high / step);
+    const double most = fmax(fabs(scale->low), fabs(scale->high));
+    const int exponent = most >= 1e6 ? (int)floor(log10(most) + 1e-9) : 0;
     size_t count = 0;
     for (long k = first; k <= last; k++) {
         char label[32];
-        FRACAS_PRINT(label, "%.*f", decimals, (double)k * step);
+        if (exponent > 0 && k != 0)
+            power_label((double)k * step / pow(10, exponent), exponent, label, sizeof label);
+        else FRACAS_PRINT(label, "%.*f", decimals, (double)k * step);
         add(tick, &count, (double)k * step, label);
     }
     return count;

@@ -42,6 +42,9 @@ void fracas_final_add(fracas_final *final, const fracas_record *record)
     final->bound += record->rest_bound;
     final->held += (double)record->fragments_held;
     final->seen += count;
+    for (size_t i = 0; i < record->nfragment; i++)
+        final->elements += (double)record->fragment[i].elements;
+    if (record->nfragment > 0) final->elements -= (double)record->fragments_held;
     final->onset += record->onset_time;
     final->end += record->end_time;
     if (record->dissipated > 0) final->vibrating += record->vibrating / record->dissipated;
@@ -57,6 +60,11 @@ static void shares_at(double k, double *low, double *high)
     const double part = fmin(1, (k - at[i - 1][0]) / (at[i][0] - at[i - 1][0]));
     *low = at[i - 1][1] + part * (at[i][1] - at[i - 1][1]);
     *high = at[i - 1][2] + part * (at[i][2] - at[i - 1][2]);
+}
+
+static double at_most(double count, const fracas_final *f)
+{
+    return f->elements > 0 && count > f->elements ? f->elements : count;
 }
 
 static void estimate(fracas_final *f)
@@ -77,12 +85,16 @@ static void estimate(fracas_final *f)
         f->count.low = f->seen / high;
         f->count.high = f->seen / low;
     }
+    f->count.value = at_most(f->count.value, f);
+    f->count.low = at_most(f->count.low, f);
+    f->count.high = at_most(f->count.high, f);
 }
 
 static fracas_finality judge(const fracas_final *f, const needs *need)
 {
     const bool chain = need == &of_chains;
-    if (f->bound == 0) return FRACAS_FINAL_YES; /* no energy pays for a break */
+    if (f->bound == 0) return FRACAS_FINAL_YES;            /* no energy pays for a break */
+    if (f->count.high <= f->seen) return FRACAS_FINAL_YES; /* all elements are apart */
     if (!(f->transits >= need->transits)) return FRACAS_FINAL_NO;
     if (chain && f->vibrating > creep_begins) return FRACAS_FINAL_CREEP;
     return f->growth <= growth_allowed && (!chain || f->rest <= rest_allowed * f->seen)
@@ -95,7 +107,7 @@ void fracas_final_count(fracas_final *f)
 {
     const double n = f->realizations;
     double *const mean[] = {&f->transits, &f->rest,      &f->variance, &f->bound, &f->held,
-                            &f->seen,     &f->vibrating, &f->onset,    &f->end};
+                            &f->seen,     &f->vibrating, &f->onset,    &f->end,   &f->elements};
     f->growth = f->seen > 0 ? f->growth / f->seen : NAN;
     for (size_t i = 0; i < FRACAS_COUNT(mean); i++) *mean[i] = n > 0 ? *mean[i] / n : NAN;
     f->count = (fracas_interval){.value = NAN, .low = NAN, .high = NAN};

@@ -24,6 +24,7 @@ typedef struct {
     double held;                  /* fragments on an edge that moves */
     double vibrating;             /* by the dissipated energy */
     double seen;                  /* N at the end */
+    double elements;              /* as many fragments, at most; 0: unknown */
     double onset, end;            /* s */
     double reach;          /* s, 40 (surfaces 60) transits after the onset, or twice the time */
     fracas_interval count; /* N_final; NaN where nothing has broken */

@@ -145,6 +145,23 @@ static void caption_of_panels(const fracas_means_plot *plot, fracas_chart *chart
     fracas_append(chart->caption, sizeof chart->caption, " ", "A panel for each %s.", words);
 }
 
+/* Points that the figure leaves out, as with a load without a strain rate. */
+static void caption_of_missing(const fracas_means_plot *plot, fracas_chart *chart)
+{
+    size_t missing = 0;
+    for (size_t p = 0; p < plot->analysis->table->npoints; p++) {
+        double low, high;
+        const double mean = fracas_ordinate_at(&plot->ordinate, &plot->analysis->point[p], &low,
+                                               &high);
+        missing += isfinite(mean) && !isfinite(plot->axes->value[p]);
+    }
+    if (missing > 0)
+        fracas_append(chart->caption, sizeof chart->caption, " ",
+                      missing == 1 ? "%zu point has no %.70s and is not drawn."
+                                   : "%zu points have no %.70s and are not drawn.",
+                      missing, plot->axes->words);
+}
+
 void fracas_means_name(const fracas_means_plot *plot, size_t drawing, fracas_chart *chart)
 {
     name_file(plot, drawing, chart);
@@ -156,6 +173,7 @@ void fracas_means_name(const fracas_means_plot *plot, size_t drawing, fracas_cha
     if (plot->of == FRACAS_MEANS_OTHER) caption_of_other(plot, chart);
     else if (plot->of == FRACAS_MEANS_COUNT) caption_of_count(plot, chart);
     else caption_of_size(plot, chart);
+    caption_of_missing(plot, chart);
     if (plot->axes->panels.count > 0) caption_of_panels(plot, chart);
     if (plot->nseries > FRACAS_MEANS_SERIES)
         fracas_append(chart->caption, sizeof chart->caption, " ",

@@ -117,6 +117,36 @@ static void warn_of_balance(const fracas_point_statistics *statistics, bool open
             fracas_digits(statistics->heated, 2).text);
 }
 
+/* Nothing is left to break: neither a longer run nor more replicas change the count. */
+static bool all_elements_apart(const fracas_point_statistics *statistics)
+{
+    return statistics->elements == 1; /* a quotient of two equal sums */
+}
+
+/* Elements come off held edges, most of all at their corners, where the stress grows with each
+ * refinement. */
+static void warn_of_sizes(const fracas_point_statistics *statistics, size_t p, warning_list *list)
+{
+    if (all_elements_apart(statistics)) {
+        warn(list, p, "apart", statistics->usable,
+             "each element is a fragment, so that the mesh decides the count, and no longer run "
+             "changes it: refine the mesh, or let strengths scatter more");
+        return;
+    }
+    if (statistics->elements < elements_limit)
+        warn(list, p, "elements", -statistics->elements,
+             "a mean fragment has %.1f elements (fewer than 10): refine the mesh",
+             statistics->elements);
+    if (statistics->dust_share > FRACAS_DUST_LIMIT)
+        warn(list, p, "dust", statistics->dust_share,
+             "%.1f %% of the fragments are dust, of so few elements that the mesh decides (more "
+             "than 5 %%): refine the mesh%s",
+             100 * statistics->dust_share,
+             statistics->surface ? ", unless the dust came off held edges, most of all at their "
+                                   "corners: no mesh mends that"
+                                 : "");
+}
+
 static void warn_of_point(const fracas_point_table *table,
                           const fracas_point_statistics *statistics, size_t p, warning_list *list)
 {
@@ -128,15 +158,16 @@ static void warn_of_point(const fracas_point_table *table,
              "energy created at breaks up to %s of the dissipated energy (more than 1e-2): refine "
              "the mesh or raise cohesive.beta",
              fracas_digits(statistics->created, 2).text);
-    if (statistics->elements < elements_limit)
-        warn(list, p, "elements", -statistics->elements,
-             "a mean fragment has %.1f elements (fewer than 10): refine the mesh",
-             statistics->elements);
-    if (statistics->dust_share > FRACAS_DUST_LIMIT)
-        warn(list, p, "dust", statistics->dust_share,
-             "%.1f %% of the fragments are dust, of so few elements that the mesh decides (more "
-             "than 5 %%): refine the mesh",
-             100 * statistics->dust_share);
+    warn_of_sizes(statistics, p, list);
+}
+
+/* True if chance is nowhere: one strength, or those of a file. The mesh is one of a point. */
+static bool replicas_are_equal(const fracas_point_table *table, size_t p)
+{
+    const size_t file = fracas_point_table_find(table, "strength.file");
+    const bool given = file != SIZE_MAX && *table->point[p].value[file].text &&
+                       isnan(fracas_columns_real(table, p, "derived.strength_mean"));
+    return given || isfinite(fracas_columns_real(table, p, "strength.value"));
 }
 
 /* The headline numbers with a half width above FRACAS_CONVERGED_WIDTH, or with different halves. */
@@ -187,15 +218,16 @@ static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning
 }
 
 /* (settled.8) */
-static void warn_of_final(const fracas_final *final, size_t p, warning_list *list)
+static void warn_of_final(const fracas_final *final, double dust_share, size_t p,
+                          warning_list *list)
 {
     const double least = 100 * (final->count.low / final->seen - 1),
                  most = 100 * (final->count.high / final->seen - 1);
     char range[128], text[512];
-    if (final->held > 0)
+    if (final->held > 0 && dust_share > 0) /* else these are large, as the body itself */
         warn(list, p, "held", final->held,
-             "%.4g fragments a body are pieces of an edge that moves with the load: these come off "
-             "one by one for ever, and their number is the mesh's: take them off the count",
+             "%.4g fragments a body are on an edge that moves with the load, where elements come "
+             "off one by one for ever: their number is the mesh's: take them off the count",
              final->held);
     if (least > 0)
         FRACAS_PRINT(range, "%s to %s", fracas_digits(least, 2).text, fracas_digits(most, 2).text);
@@ -256,18 +288,41 @@ static double scatter_of(const fracas_point_table *table, size_t p)
     return range / sqrt(12) / mean;              /* uniform */
 }
 
-/* On a finer mesh of a bar or ring, interfaces keep the strengths of this one's. */
-static void warn_of_mesh(const fracas_point_table *table, size_t p, warning_list *list)
+/* Whether the strengths go down to 0. Known of those with a modulus (weibull) or a sigma
+ * (lognormal). */
+typedef enum { LEAST_UNKNOWN, LEAST_ZERO, LEAST_ABOVE_ZERO } least_strength;
+
+static least_strength least_of(const fracas_point_table *table, size_t p)
 {
-    const double effect = FRACAS_MESH_EFFECT * scatter_of(table, p),
+    if (fracas_columns_real(table, p, "strength.minimum") > 0) return LEAST_ABOVE_ZERO;
+    const bool known = isfinite(fracas_columns_real(table, p, "derived.strength_modulus")) ||
+                       isfinite(fracas_columns_real(table, p, "strength.sigma"));
+    return known ? LEAST_ZERO : LEAST_UNKNOWN;
+}
+
+/* On a finer mesh of a bar or ring, interfaces keep the strengths of this one's. */
+static void warn_of_mesh(const fracas_analysis *analysis, size_t p, warning_list *list)
+{
+    const fracas_point_table *table = analysis->table;
+    const fracas_point_statistics *statistics = &analysis->point[p];
+    const least_strength least = least_of(table, p);
+    const double scatter = scatter_of(table, p),
+                 effect = fracas_mesh_effect(scatter, statistics->rate / statistics->scales.rate),
                  volume = fracas_columns_real(table, p, "derived.length") *
                           fracas_columns_real(table, p, "geometry.area") /
                           fracas_columns_real(table, p, "mesh.elements");
-    if (!(effect > FRACAS_MESH_EFFECT_NOTABLE) || !(volume > 0)) return;
-    warn(list, p, "mesh", effect,
-         "strengths scatter without a reference size: halving the elements lowers the count by "
-         "about %.1f %%: give strength.reference_volume, here %.6g mm3, for a count that stays",
-         100 * effect, 1e9 * volume);
+    const bool notable = least == LEAST_ABOVE_ZERO ? scatter > FRACAS_SCATTER_NOTABLE
+                                                   : effect > FRACAS_MESH_EFFECT_NOTABLE;
+    if (!notable || !(volume > 0)) return;
+    char moves[96];
+    if (least == LEAST_ZERO) FRACAS_PRINT(moves, "lowers the count by about %.1f %%", 100 * effect);
+    else
+        FRACAS_PRINT(moves, "moves the count by up to %.0f %%, of `uniform` mostly up",
+                     100 * FRACAS_MESH_EFFECT_BOUNDED);
+    warn(list, p, "mesh", least == LEAST_ZERO ? effect : scatter,
+         "strengths scatter without a reference size: halving the elements %s: give "
+         "strength.reference_volume, here %.6g mm3, for a count that stays",
+         moves, 1e9 * volume);
 }
 
 /* Points of the same strengths. */
@@ -374,13 +429,15 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
     for (size_t p = 0; p < npoints; p++) {
         warn_of_progress(analysis, p, &list);
         warn_of_point(analysis->table, &analysis->point[p], p, &list);
-        warn_of_final(&analysis->point[p].final, p, &list);
-        warn_of_convergence(&analysis->point[p], p, &list);
+        warn_of_final(&analysis->point[p].final, analysis->point[p].dust_share, p, &list);
+        if (!replicas_are_equal(analysis->table, p))
+            warn_of_convergence(&analysis->point[p], p, &list);
         warn_of_decision(fracas_analysis_decision(analysis, p), p, &list);
-        if (analysis->point[p].outcome[FRACAS_TIME_LIMIT] == 0) /* those are warned of already */
+        if (analysis->point[p].outcome[FRACAS_TIME_LIMIT] == 0 && /* warned of already */
+            !all_elements_apart(&analysis->point[p]))
             warn_of_end(&analysis->point[p].bands,
                         fracas_columns_real(analysis->table, p, "time.end"), p, &list);
-        warn_of_mesh(analysis->table, p, &list);
+        warn_of_mesh(analysis, p, &list);
         const double zones = fracas_columns_real(analysis->table, p, "cohesive.zone") /
                              analysis->point[p].size.mean;
         if (zones > zone_limit)

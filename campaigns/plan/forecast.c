@@ -155,6 +155,20 @@ static double transits_of(const fracas_spec *spec, double strength)
            grady_size(spec, strength);
 }
 
+/* Bounds on stress and opening until time.end, and whether a longer run raises them. */
+static void bound_stress(const fracas_spec *spec, const fracas_body_size *size,
+                         fracas_forecast *forecast)
+{
+    fracas_spec longer = *spec;
+    longer.time.end *= 2;
+    forecast->bound = fracas_stress_bound(spec, size);
+    forecast->available = fracas_opening_bound(spec, forecast->bound, size->extent);
+    const double stress = fracas_stress_bound(&longer, size),
+                 opening = fracas_opening_bound(&longer, stress, size->extent);
+    forecast->stress_grows = stress > forecast->bound * (1 + 1e-9);
+    forecast->opening_grows = opening > forecast->available * (1 + 1e-9);
+}
+
 /* Openings of breaks by the least factor of the strengths, and fragments there. By the strongest 1
  * % of strengths, whose openings are least, it is known that none breaks. `mean`, `strong`:
  * strength without the factor [Pa]. */
@@ -163,7 +177,6 @@ static void describe_breaks(const fracas_spec *spec, double mean, double strong,
 {
     const double weak = forecast->factor * mean;
     forecast->opening = fracas_spec_critical_opening(spec, weak);
-    forecast->available = fracas_opening_bound(spec, forecast->bound, forecast->extent);
     const bool any = forecast->interfaces > 0;
     forecast->unbroken = any && fracas_spec_critical_opening(spec, forecast->factor * strong) >
                                     forecast->available;
@@ -172,17 +185,35 @@ static void describe_breaks(const fracas_spec *spec, double mean, double strong,
     forecast->pieces = grady_size(spec, weak);
 }
 
-/* The part of the count that depends on the elements by the strengths. On surfaces it depends on
- * them with a reference as well (docs/results/sampling.md). */
-static double mesh_effect_of(const fracas_point *point, const fracas_model *model,
-                             fracas_extent extent)
+/* rate/edot0  (scaling-laws.3) */
+static double normalised_rate(const fracas_spec *spec, double strength)
+{
+    const double young = spec->material.young, strain = strength / young;
+    return fabs(fracas_spec_strain_rate(spec)) * fracas_spec_fracture_energy(spec, strength) /
+           (sqrt(young / spec->material.density) * strain * strain * strength);
+}
+
+/* True if the strengths have a least value above 0: ever rarer ones are no weaker. */
+static bool has_least(const fracas_point *point, fracas_extent extent)
+{
+    return strength_at(point, extent, 1e-300) > 0.999 * strength_at(point, extent, 1e-150);
+}
+
+/* The elements change the count by the strengths. On surfaces it depends on them with a
+ * reference as well (docs/results/sampling.md). */
+static void describe_mesh_effect(const fracas_point *point, const fracas_model *model,
+                                 fracas_extent extent, fracas_forecast *forecast)
 {
     const fracas_strength *strength = &point->strength;
     if (fracas_model_surface(model) || fracas_strength_has_size_effect(strength) ||
         strength->covariance || fracas_strength_is_given(strength))
-        return 0;
-    return FRACAS_MESH_EFFECT * fracas_strength_deviation(strength, extent) /
-           fracas_strength_mean(strength, extent);
+        return;
+    const bool bounded = has_least(point, extent);
+    if (bounded && forecast->scatter > FRACAS_SCATTER_NOTABLE)
+        forecast->mesh_effect_bounded = FRACAS_MESH_EFFECT_BOUNDED;
+    if (!bounded)
+        forecast->mesh_effect = fracas_mesh_effect(forecast->scatter,
+                                                   normalised_rate(&point->spec, forecast->mean));
 }
 
 /* Keeps the lesser of two groups, of which 0 is none, and its name. */
@@ -234,8 +265,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->lines = forecast->uniform && fracas_spacing_of(spec)->rows &&
                       spec->mesh.amplitude == 0;
     forecast->mean = mean;
-    forecast->bound = fracas_stress_bound(
-        spec, &(fracas_body_size){forecast->extent, reach, forecast->element});
+    bound_stress(spec, &(fracas_body_size){forecast->extent, reach, forecast->element}, forecast);
     forecast->spread = fracas_model_surface(model) && !fracas_law_of(spec)->flux
                            ? factor.most * strength_at(point, extent.mean, 0.99) -
                                  factor.least * strength_at(point, extent.mean, 0.01)
@@ -250,7 +280,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->long_safety = fracas_model_long_safety(model);
     if (fracas_shape_of(spec)->round) describe_ring(spec, forecast);
     forecast->volume = extent.mean.volume;
-    forecast->mesh_effect = mesh_effect_of(point, model, extent.mean);
+    describe_mesh_effect(point, model, extent.mean, forecast);
     forecast->factor = fmin(1, factor.least);
     describe_breaks(spec, mean / factor.mean, strength_at(point, extent.mean, 0.99), &factor,
                     forecast);

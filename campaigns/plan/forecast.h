@@ -36,19 +36,22 @@ typedef struct {
     double extent;              /* diagonal of the box around all interfaces [m] */
     bool flat;                  /* a factor of the strengths is the same at all interfaces */
     double volume;              /* a mean interface has [m3] */
-    double mesh_effect; /* share of the count that halved elements lose (FRACAS_MESH_EFFECT) */
-    double factor;      /* the least of the factors of the strengths; 1: none is below */
-    double opening;     /* critical opening there, at the mean strength [m] */
-    double available;   /* opening that the load can give an interface until time.end [m] */
-    bool unbroken;      /* at the strongest 1 % of strengths the opening there is larger ... */
-    bool whole;         /* ... also where the factor is largest */
-    double pieces;      /* size of fragments there, by Grady's law [m]; NaN without a strain rate */
-    double scatter;     /* standard deviation of the strengths by their mean */
+    double mesh_effect; /* share of the count that halved elements lose (fracas_mesh_effect) */
+    double mesh_effect_bounded; /* share lost or gained so above a least strength */
+    double factor;              /* the least of the factors of the strengths; 1: none is below */
+    double opening;             /* critical opening there, at the mean strength [m] */
+    double available;           /* opening that the load can give an interface until time.end [m] */
+    bool unbroken;  /* at the strongest 1 % of strengths the opening there is larger ... */
+    bool whole;     /* ... also where the factor is largest */
+    double pieces;  /* size of fragments there, by Grady's law [m]; NaN without a strain rate */
+    double scatter; /* standard deviation of the strengths by their mean */
     double fragments, history; /* rows of a realization */
     bool tried;                /* by realizations that were computed */
-    double ratio;   /* fragments by those of the scaling law, where some were tried; 0: none */
-    bool estimated; /* from a coarser mesh, without a check of strengths */
-    double bound;   /* on the stress in the uncracked body until time.end [Pa] */
+    double ratio;       /* fragments by those of the scaling law, where some were tried; 0: none */
+    bool estimated;     /* from a coarser mesh, without a check of strengths */
+    double bound;       /* on the stress in the uncracked body until time.end [Pa] */
+    bool stress_grows;  /* it is larger until twice that time ... */
+    bool opening_grows; /* ... and so is `available` */
 } fracas_forecast;
 
 /* The forecast of one point, without speed, time and bytes. FRACAS_USAGE if strengths from a file
@@ -83,7 +86,7 @@ typedef double fracas_plan_warning(const fracas_point *point, const fracas_forec
 double fracas_bending_steps(const fracas_spec *spec, double element);
 
 /* A run says the first of them itself before it begins: of meshes that make another body. */
-enum { FRACAS_PLAN_WARNINGS = 33, FRACAS_RUN_WARNINGS = 2, FRACAS_WARNING_TEXT = 400 /* bytes */ };
+enum { FRACAS_PLAN_WARNINGS = 34, FRACAS_RUN_WARNINGS = 2, FRACAS_WARNING_TEXT = 400 /* bytes */ };
 extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];
 /* One of them: no realization breaks. */
 fracas_plan_warning fracas_plan_warn_unbroken;

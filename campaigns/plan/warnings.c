@@ -20,7 +20,9 @@
 /* Remedy for a load too weak to crack the body. */
 static const char *harder(const fracas_point *point, const fracas_forecast *forecast)
 {
-    if (!fracas_loading_traits_of(&point->spec)->released) return "load it harder, or longer";
+    if (!fracas_loading_traits_of(&point->spec)->released)
+        return forecast->stress_grows ? "load it harder, or longer"
+                                      : "load it harder; a longer run does not help";
     return point->spec.time.end < forecast->turn ? "raise its velocity or time.end"
                                                  : "a free ring swings back: raise its velocity";
 }
@@ -197,9 +199,10 @@ WARNING(
     warn_never, never_breaks(forecast) && !forecast->whole, forecast->opening / forecast->available,
     "where strength.factor is %.2g interfaces break at an opening of %s "
     "= %.2g m, and until time.end the load opens none by more than %.2g m: they crack and never "
-    "break: raise the least factor to %.2g, or time.end, or give a smaller fracture_energy",
+    "break: raise the least factor to %.2g%s, or give a smaller fracture_energy",
     forecast->factor, opening_of(point), forecast->opening, forecast->available,
-    forecast->factor * forecast->opening / forecast->available)
+    forecast->factor * forecast->opening / forecast->available,
+    forecast->opening_grows ? ", or time.end" : "")
 
 /* The key of a load that says how hard it is: its first number. */
 static const char *load_key(const fracas_spec *spec)
@@ -213,12 +216,12 @@ static const char *load_key(const fracas_spec *spec)
 WARNING(
     warn_whole, never_breaks(forecast) && forecast->whole, forecast->opening / forecast->available,
     "interfaces break at an opening of %s = %.2g m, and until time.end the load opens none by more "
-    "than %.2g m: they crack and never break: is %s meant? A bare number is SI; or raise time.end "
-    "or loading.%s",
+    "than %.2g m: they crack and never break: is %s meant? A bare number is SI; or raise "
+    "%sloading.%s",
     opening_of(point), forecast->opening, forecast->available,
     point->spec.cohesive.fracture_energy > 0 ? "cohesive.fracture_energy in the unit (J/m2, kJ/m2)"
                                              : "cohesive.critical_opening in the unit (m, um)",
-    load_key(&point->spec))
+    forecast->opening_grows ? "time.end or " : "", load_key(&point->spec))
 
 double fracas_plan_warn_unbroken(const fracas_point *point, const fracas_forecast *forecast,
                                  char *text, size_t size)
@@ -241,13 +244,22 @@ WARNING(
     forecast->factor, forecast->pieces, forecast->element,
     pow(CRUSHED * forecast->element / forecast->pieces, 3) * forecast->factor)
 
+#define OF_THE_MESH                                                            \
+    "set strength.reference_volume: %.6g mm3, an interface's, with which the " \
+    "strengths of this mesh stay as they are"
+
 WARNING(
     warn_mesh_effect, forecast->mesh_effect > FRACAS_MESH_EFFECT_NOTABLE, forecast->mesh_effect,
     "strengths scatter by %.2g %% from interface to interface without a reference size: halving "
-    "the elements lowers the count by about %.1f %%: set strength.reference_volume: %.6g mm3, "
-    "an interface's, with which the strengths of this mesh stay as they are",
-    100 * forecast->mesh_effect / FRACAS_MESH_EFFECT, 100 * forecast->mesh_effect,
-    1e9 * forecast->volume)
+    "the elements lowers the count by about %.1f %%: " OF_THE_MESH,
+    100 * forecast->scatter, 100 * forecast->mesh_effect, 1e9 * forecast->volume)
+
+WARNING(
+    warn_mesh_effect_bounded, forecast->mesh_effect_bounded > 0, forecast->scatter,
+    "strengths scatter by %.2g %% above a least strength from interface to interface without a "
+    "reference size: halving the elements moves the count by up to %.0f %%, of `uniform` mostly "
+    "up: " OF_THE_MESH,
+    100 * forecast->scatter, 100 * forecast->mesh_effect_bounded, 1e9 * forecast->volume)
 
 /* Fewer resolve no wave, let alone a crack. */
 #define FEW_STEPS 10
@@ -388,9 +400,15 @@ WARNING(warn_stretch,
         forecast->mesh.box[0], forecast->mesh.box[1], forecast->mesh.box[2])
 
 fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
-    warn_parts,     warn_unit,       warn_coarse,   warn_uniform,     warn_lines,   warn_weak_load,
-    warn_repeated,  warn_folds,      warn_zone,     warn_step,        warn_turned,  warn_passed,
-    warn_short,     warn_long,       warn_flat,     warn_weakest,     warn_wave,    warn_bending,
-    warn_few_steps, warn_never,      warn_shatters, warn_mesh_effect, warn_open,    warn_heats,
-    warn_undivided, warn_loose,      warn_inner,    warn_steered,     warn_stretch, warn_fast,
-    warn_whole,     warn_many_steps, warn_tough};
+    warn_parts,       warn_unit,       warn_coarse,
+    warn_uniform,     warn_lines,      warn_weak_load,
+    warn_repeated,    warn_folds,      warn_zone,
+    warn_step,        warn_turned,     warn_passed,
+    warn_short,       warn_long,       warn_flat,
+    warn_weakest,     warn_wave,       warn_bending,
+    warn_few_steps,   warn_never,      warn_shatters,
+    warn_mesh_effect, warn_open,       warn_heats,
+    warn_undivided,   warn_loose,      warn_inner,
+    warn_steered,     warn_stretch,    warn_fast,
+    warn_whole,       warn_many_steps, warn_mesh_effect_bounded,
+    warn_tough};

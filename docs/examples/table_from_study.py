@@ -120,13 +120,15 @@ def residual_total(of, rows):
     return (of["residual"][total > 0] / total[total > 0]).max() if (total > 0).any() else math.nan
 
 
-def final(row, of):
+def final(row, of, pieces):
     """The final count (docs/theory/settled.md), from means over the realizations that cracked."""
     names = ("transits", "growth", "rest", "bound", "held", "vibrating", "count.value", "count.low", "count.high")
     row.update({"final." + name: math.nan for name in names})
     broke = of["broken"] > 0
     row["heated"] = (np.abs(of["residual_end"]) / of["vibrating"])[broke].max() if broke.any() else math.nan
-    of = {name: column[np.isfinite(of["transits"])] for name, column in of.items()}
+    cracked = np.isfinite(of["transits"])
+    most = np.array([piece["elements"].sum() for piece in pieces])[cracked] - of["fragments_held"][cracked]
+    of = {name: column[cracked] for name, column in of.items()}
     counts = of["fragments"] - of["fragments_held"]
     if not len(counts):
         return
@@ -144,6 +146,7 @@ def final(row, of):
         else:
             low, high = (np.interp(k, (0, 5, 10, 20), share) for share in ((0, 0.37, 0.64, 0.865), (0.5, 0.71, 0.84, 0.95)))
             values += [2 * seen / (low + high), seen / high, seen / low]
+        values[6:] = [min(value, most.mean()) for value in values[6:]]
     row.update(zip(("final." + name for name in names), values))
 
 
@@ -208,7 +211,7 @@ def row_of(point, p, realization, fragment, history):
     row["residual_total"] = residual_total(of, rows_of(*history, used))
     row["created"] = largest_ratio(of["created"], of["dissipated"])
     drift(row, of)
-    final(row, of)
+    final(row, of, pieces)
     elements, dust = (np.concatenate([piece[name] for piece in pieces] or [[]]) for name in ("elements", "dust"))
     row["elements"] = elements.mean() if len(elements) else math.nan
     row["dust_share"] = dust.mean() if len(dust) else math.nan

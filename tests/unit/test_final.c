@@ -88,6 +88,28 @@ static void surfaces_by_their_growth(void **unused)
     assert_true(near(f.count.low, 100 / 0.775) && near(f.count.high, 100 / 0.505));
 }
 
+/* Of 12 elements with 2 held ones there are at most 10 others: growth tells 1.5 times as many.
+ * Where all are apart, nothing more can come, however early. */
+static void never_more_than_elements(void **unused)
+{
+    fracas_fragment fragment[12];
+    fracas_record record = seen(10, 30, 0.5, NAN);
+    record.fragments_held = 2;
+    record.fragment = fragment;
+    record.nfragment = 10;
+    for (size_t i = 0; i < 12; i++) fragment[i] = (fracas_fragment){.elements = i < 2 ? 2 : 1};
+    fracas_final f = final_of(&record, 1);
+    assert_true(f.count.value == 10 && f.count.low == 8 && f.count.high == 10);
+    assert_true(f.verdict == FRACAS_FINAL_NO);
+    record.fragments = 12;
+    record.nfragment = 12;
+    fragment[0].elements = fragment[1].elements = 1;
+    record.transits = 5;
+    f = final_of(&record, 1);
+    assert_true(f.count.value == 10 && f.count.low == 10 && f.count.high == 10);
+    assert_true(f.verdict == FRACAS_FINAL_YES);
+}
+
 static void a_whole_body_has_no_final_count(void **unused)
 {
     const fracas_record record[] = {seen(1, NAN, NAN, NAN), seen(1, 3, 0, NAN)};
@@ -97,4 +119,5 @@ static void a_whole_body_has_no_final_count(void **unused)
     }
 }
 
-TESTS(chains_by_their_energies, surfaces_by_their_growth, a_whole_body_has_no_final_count)
+TESTS(chains_by_their_energies, surfaces_by_their_growth, never_more_than_elements,
+      a_whole_body_has_no_final_count)
