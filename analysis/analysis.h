@@ -62,12 +62,14 @@ FRACAS_MUST_USE fracas_err fracas_report_write(const fracas_analysis *analysis, 
 
 /* FRACAS_USAGE if the folder has a file that fracas_export_write would replace, and no report or
  * export wrote it. */
-FRACAS_MUST_USE fracas_err fracas_export_free(const char *folder, bool histories);
+FRACAS_MUST_USE fracas_err fracas_export_free(const fracas_analysis *analysis, const char *folder,
+                                              bool histories);
 
 /* A Frictionless Data Package in `folder`, made if it is not there: points.csv, realizations.csv,
- * fragments.csv, statistics.csv, energies.csv, convergence.csv, with `histories` histories.csv, and
- * at last datapackage.json, the schema of each (docs/formats/export.md). Equal bytes for equal
- * study.h5. FRACAS_USAGE if `folder` is a file, FRACAS_ENVIRONMENT if it cannot be made or written.
+ * fragments.csv, statistics.csv, energies.csv, convergence.csv, of a study with probes probes.csv,
+ * with `histories` histories.csv, and at last datapackage.json, the schema of each
+ * (docs/formats/export.md). Equal bytes for equal study.h5. FRACAS_USAGE if `folder` is a file,
+ * FRACAS_ENVIRONMENT if it cannot be made or written.
  */
 FRACAS_MUST_USE fracas_err fracas_export_write(const fracas_analysis *analysis, const char *folder,
                                                bool histories);

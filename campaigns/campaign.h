@@ -8,6 +8,7 @@
 #include "base/hash.h"
 #include "base/units.h"
 #include "campaigns/points.h"
+#include "engine/record.h"
 #include "engine/spec.h"
 #include "sampler/api/sampler.h"
 #include "sampler/sequential/sequential.h"
@@ -64,6 +65,7 @@ typedef struct fracas_campaign {
     uint64_t seed;
     bool common_random_numbers; /* replica r draws the same at every point */
     fracas_output output;       /* the same for all points */
+    fracas_probes probes;       /* the same */
     fracas_parallel parallel;
     fracas_wanted_fields fields;
     fracas_report_keys report;
@@ -71,7 +73,8 @@ typedef struct fracas_campaign {
     fracas_point *point;       /* plan order = file order of the sweep, last axis fastest */
     fracas_point_table table;  /* the same points as columns */
     fracas_attached *attached; /* two may have the same content */
-    fracas_hash hash; /* over seed, random numbers, output, hash and replicas of every point */
+    fracas_hash
+        hash; /* over seed, random numbers, output, probes, hash and replicas of every point */
     struct fracas_campaign_memory *memory;  /* owns all of the above */
     struct fracas_frequencies *frequencies; /* computed so far for its points */
 } fracas_campaign;

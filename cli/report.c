@@ -239,7 +239,7 @@ static fracas_err export(const fracas_arguments *arguments)
     TRY(fracas_output_folder_in(fracas_given(arguments, "to"), arguments->operand, "export",
                                 &folder));
     if (fracas_given(arguments, "to") || fracas_cli_alone(arguments->operand))
-        TRY(fracas_export_free(folder, histories));
+        TRY(fracas_export_free(analysis, folder, histories));
     TRY(fracas_export_write(analysis, folder, histories));
     printf("export: %s/datapackage.json\n", folder);
     return FRACAS_OK;
@@ -251,8 +251,9 @@ const fracas_command fracas_command_export = {
     .doc = "Writes the tables of STUDY as a Frictionless Data Package",
     .more = "\npoints.csv (parameters and statistics), realizations.csv, fragments.csv, "
             "statistics.csv (a line a number, with its unit),\n"
-            "energies.csv and convergence.csv (over time, and with the replicas), and "
-            "datapackage.json, which says of every column what it is: type, unit, meaning. For "
+            "energies.csv and convergence.csv (over time, and with the replicas), "
+            "probes.csv where the campaign has probes, and datapackage.json, which says of every "
+            "column what it is: type, unit, meaning. For "
             "pandas, R, or a data repository.\n",
     .options = export_options,
     .run = export,

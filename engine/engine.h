@@ -62,6 +62,11 @@ double fracas_model_period(const fracas_model *model);
  * this mesh (K <= sigma_c/delta_c). */
 FRACAS_MUST_USE fracas_err fracas_model_check_strength(const fracas_model *model, double strength);
 
+/* FRACAS_USAGE, with the nearest point of the body, for a probe that is farther from it than an
+ * element is long. */
+FRACAS_MUST_USE fracas_err fracas_model_check_probes(const fracas_model *model,
+                                                     const fracas_probes *probes);
+
 typedef struct {
     int64_t history; /* history rows, at equal intervals of time.end; 0: only the events */
     bool interfaces; /* keep one row an interface */
@@ -69,6 +74,7 @@ typedef struct {
     fracas_isa isa;  /* FRACAS_ISA_BEST: the best this CPU has */
     int parts;       /* threads for a surface, the same bits; 0: 1 */
     const struct fracas_batch_watch *watch; /* NULL: nobody; must outlive the batch */
+    const fracas_probes *probes;            /* NULL: none */
 } fracas_batch_options;
 
 /* Lanes of a batch of so many realizations, unless another width is asked for. */

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The record of one realization: a row of /realization, and its rows of /fragment, /history and
- * /interface. */
+/* The record of one realization: a row of /realization, and its rows of /fragment, /history,
+ * /interface and /probe. */
 #ifndef FRACAS_ENGINE_RECORD_H
 #define FRACAS_ENGINE_RECORD_H
 
 #include "engine/energies.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -46,6 +47,29 @@ typedef struct {
 
 #define FRACAS_MOST_HISTORY 1000000 /* intervals of time.end in a history: output.history */
 
+/* Points of the body whose motion is kept at the times of the history. */
+enum { FRACAS_MOST_PROBES = 16, FRACAS_PROBE_NAME = 32, FRACAS_PROBES_TEXT = 2048 };
+typedef struct {
+    char name[FRACAS_PROBE_NAME]; /* letters, digits, _ and - */
+    double place[3];              /* m, before any motion */
+} fracas_probe;
+typedef struct {
+    size_t count;
+    fracas_probe probe[FRACAS_MOST_PROBES];
+} fracas_probes;
+
+/* "tip 0.009 0 0; middle 0 0 0"; "" without a probe. */
+void fracas_probes_write(const fracas_probes *probes, char text[FRACAS_PROBES_TEXT]);
+/* The inverse, of numbers of 15 digits; false for any other text. */
+bool fracas_probes_parse(const char *text, fracas_probes *probes);
+
+typedef struct {
+    double time;            /* s */
+    int64_t probe;          /* its number, from 0 */
+    double displacement[3]; /* m, the background's included */
+    double velocity[3];     /* m/s, of central difference half a step later */
+} fracas_probe_row;
+
 typedef struct {
     double strength;   /* Pa; the least of its Gauss points */
     double damage;     /* delta_max/delta_c, 0 to 1 */
@@ -71,10 +95,12 @@ typedef struct {
     double transits, growth;
     double rest, rest_variance, rest_bound; /* ... R, its variance, B; NaN also of surfaces */
     double momentum[3]; /* kg m/s, of the peculiar motion, half a step after end_time */
-    size_t nfragment, nhistory, ninterface; /* rows below; nfragment == fragments unless FAILED */
-    fracas_fragment *fragment;              /* owned by the record, freed by fracas_record_clear */
+    /* rows below; nfragment == fragments unless FAILED */
+    size_t nfragment, nhistory, ninterface, nprobe;
+    fracas_fragment *fragment; /* owned by the record, freed by fracas_record_clear */
     fracas_history_row *history;
     fracas_interface_row *interface; /* NULL unless asked for */
+    fracas_probe_row *probe;         /* by history row and probe; NULL without probes */
 } fracas_record;
 
 /* An empty record of outcome FAILED, every value NaN and every count 0. */

@@ -76,7 +76,7 @@ int fracas_realizer_draw(const fracas_realizer *realizer, int64_t replica, doubl
 enum { MOST_THREADS = 1024 };
 
 struct fracas_realization {
-    fracas_stored_realization row; /* with the rows of its fragments, history and interfaces */
+    fracas_stored_realization row; /* with the rows of its parts */
 };
 
 void fracas_realization_close(fracas_realization *realization)
@@ -147,6 +147,7 @@ static const char *const names[FRACAS_TABLES] = {
     [FRACAS_TABLE_FRAGMENT] = "fragment",
     [FRACAS_TABLE_HISTORY] = "history",
     [FRACAS_TABLE_INTERFACE] = "interface",
+    [FRACAS_TABLE_PROBE] = "probe",
 };
 
 static bool is_table(int table)

@@ -135,41 +135,46 @@ static fracas_err put_package(const fracas_analysis *analysis, const fracas_csv_
     return FRACAS_OK;
 }
 
-/* Removes the files of an earlier package: the new one must not name them, and its histories are
- * others. */
+/* Removes the files of an earlier package: the new one must not name them, and its histories and
+ * probes are others. */
 static fracas_err remove_package(const char *folder)
 {
-    char histories[64];
+    char histories[64], probes[64];
     FRACAS_PRINT(histories, "%s.csv", fracas_csv_table_histories.name);
-    const char *const name[] = {package_file, histories};
-    for (size_t i = 0; i < 2; i++) {
+    FRACAS_PRINT(probes, "%s.csv", fracas_csv_table_probes.name);
+    const char *const name[] = {package_file, histories, probes};
+    for (size_t i = 0; i < 3; i++) {
         OWNED char *path = NULL;
         TRY(fracas_disk_join(folder, name[i], &path));
         const int reason = unlink(path) ? errno : 0;
         if (reason && reason != ENOENT)
             return fracas_fail_system(reason, "cannot replace %s", path);
-        if (reason) break; /* no package was there: histories would be somebody else's */
+        if (reason && i == 0) break; /* no package was there: the others are somebody else's */
     }
     return FRACAS_OK;
 }
 
-enum { TABLES = 7 };
+enum { ALWAYS = 6, TABLES = ALWAYS + 2 };
 
 /* The tables of an export, up to a NULL. */
-static void choose_tables(bool histories, const fracas_csv_table *table[TABLES + 1])
+static void choose_tables(const fracas_analysis *analysis, bool histories,
+                          const fracas_csv_table *table[TABLES + 1])
 {
-    const fracas_csv_table *const all[TABLES] = {
-        &fracas_csv_table_points,     &fracas_csv_table_realizations, &fracas_csv_table_fragments,
-        &fracas_csv_table_statistics, &fracas_csv_table_energies,     &fracas_csv_table_convergence,
-        &fracas_csv_table_histories};
-    for (size_t i = 0; i <= TABLES; i++)
-        table[i] = i < (histories ? TABLES : TABLES - 1) ? all[i] : NULL;
+    const fracas_csv_table *const all[ALWAYS] = {
+        &fracas_csv_table_points,    &fracas_csv_table_realizations,
+        &fracas_csv_table_fragments, &fracas_csv_table_statistics,
+        &fracas_csv_table_energies,  &fracas_csv_table_convergence};
+    size_t count = 0;
+    while (count < ALWAYS) table[count] = all[count], count++;
+    if (analysis->header.probes.count > 0) table[count++] = &fracas_csv_table_probes;
+    if (histories) table[count++] = &fracas_csv_table_histories;
+    table[count] = NULL;
 }
 
-fracas_err fracas_export_free(const char *folder, bool histories)
+fracas_err fracas_export_free(const fracas_analysis *analysis, const char *folder, bool histories)
 {
     const fracas_csv_table *table[TABLES + 1];
-    choose_tables(histories, table);
+    choose_tables(analysis, histories, table);
     TRY(fracas_output_free(folder, &(const char *){package_file}, 1));
     return fracas_csv_free(table, folder);
 }
@@ -178,7 +183,7 @@ fracas_err fracas_export_write(const fracas_analysis *analysis, const char *fold
 {
     const fracas_csv_table *table[TABLES + 1];
     fracas_output_file output;
-    choose_tables(histories, table);
+    choose_tables(analysis, histories, table);
     TRY(fracas_output_folder(folder));
     TRY(remove_package(folder));
     for (size_t i = 0; table[i]; i++) TRY(fracas_csv_file(table[i], analysis, folder));

@@ -19,17 +19,23 @@ static bool is_outcome(const fracas_store_column *column)
     return !strcmp(column->path, "/realization/outcome");
 }
 
+/* Its numbers are names of the study's probes. */
+static bool is_probe(const fracas_store_column *column)
+{
+    return !strcmp(column->path, "/probe/probe");
+}
+
 /* A column of a dataset, or three: momentum_x, momentum_y, momentum_z. */
 static void dataset_fields(const fracas_store_column *column, fracas_field_visit *visit,
                            void *context)
 {
-    const bool outcome = is_outcome(column);
+    const bool outcome = is_outcome(column), text = outcome || is_probe(column);
     fracas_field field = {.key = last_part(column->path),
-                          .type = outcome                          ? FRACAS_FIELD_TEXT
+                          .type = text                             ? FRACAS_FIELD_TEXT
                                   : column->type == FRACAS_FLOAT64 ? FRACAS_FIELD_NUMBER
                                                                    : FRACAS_FIELD_INTEGER,
-                          .unit = outcome ? "" : column->unit,
-                          .doc = column->description,
+                          .unit = text ? "" : column->unit,
+                          .doc = is_probe(column) ? "name of the probe" : column->description,
                           .outcome = outcome};
     if (column->width == 1) {
         visit(context, &field);
@@ -59,7 +65,8 @@ static void record_fields(const fracas_csv_table *table, const fracas_analysis *
         dataset_fields(&fracas_store_sets[table->set].column[c], visit, context);
 }
 
-static void put_values(const fracas_store_set *set, size_t first, const void *row, FILE *out)
+static void put_values(const fracas_store_set *set, size_t first, const void *row,
+                       const fracas_probes *probes, FILE *out)
 {
     for (size_t c = first; c < set->ncolumns; c++) {
         const fracas_store_column *column = &set->column[c];
@@ -67,6 +74,8 @@ static void put_values(const fracas_store_set *set, size_t first, const void *ro
         for (size_t i = 0; i < column->width; i++, value += sizeof(int64_t)) {
             if (column->type == FRACAS_FLOAT64)
                 fracas_csv_real(*(const double *)(const void *)value, out);
+            else if (is_probe(column))
+                fprintf(out, ",%s", probes->probe[*(const int64_t *)(const void *)value].name);
             else fprintf(out, ",%" PRId64, *(const int64_t *)(const void *)value);
         }
     }
@@ -86,6 +95,7 @@ static const void *rows_of(const fracas_csv_table *table, const fracas_stored_re
 
 typedef struct {
     const fracas_csv_table *table;
+    const fracas_probes *probes;
     FILE *out;
 } record_printer;
 
@@ -102,7 +112,7 @@ static fracas_err print_rows(void *context, fracas_result *result)
         fprintf(to->out, "%zu,%" PRId64 ",%s", result->point, result->replica,
                 fracas_outcome_name(record->outcome));
         if (numbered) fprintf(to->out, ",%zu", i);
-        put_values(set, numbered ? 0 : PLACE, row + i * set->row_size, to->out);
+        put_values(set, numbered ? 0 : PLACE, row + i * set->row_size, to->probes, to->out);
     }
     return FRACAS_OK;
 }
@@ -110,7 +120,7 @@ static fracas_err print_rows(void *context, fracas_result *result)
 static fracas_err record_rows(const fracas_csv_table *table, const fracas_analysis *analysis,
                               FILE *out)
 {
-    record_printer printer = {table, out};
+    record_printer printer = {table, &analysis->header.probes, out};
     return fracas_results_walk(analysis->results, table->parts, print_rows, &printer);
 }
 
@@ -146,4 +156,16 @@ const fracas_csv_table fracas_csv_table_histories = {
     .parts = FRACAS_READ_HISTORY,
     .number = "row",
     .number_doc = "number of the moment in the history of its realization, from 0",
+};
+const fracas_csv_table fracas_csv_table_probes = {
+    .name = "probes",
+    .doc = "A line a probe of a realization at a moment of its history",
+    .key = {"point", "replica", "row"},
+    .parent = &fracas_csv_table_realizations,
+    .fields = record_fields,
+    .rows = record_rows,
+    .set = FRACAS_SET_PROBE,
+    .parts = FRACAS_READ_PROBES,
+    .number = "row",
+    .number_doc = "number of the line among the probes of its realization, from 0",
 };

@@ -155,6 +155,7 @@ const fracas_figure fracas_figures[] = {
     {"fragments-over-time", "wide", true, fracas_figure_fragments},
     {"energies-over-time", "wide", true, fracas_figure_energies},
     {"energies-over-time", "wide", true, fracas_figure_bands},
+    {"probes-over-time", "wide", true, fracas_figure_probes},
     {"convergence", "small", true, fracas_figure_convergence},
     {NULL, NULL, false, NULL},
 };

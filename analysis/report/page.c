@@ -160,6 +160,7 @@ static const fracas_page_entry sections[] = {
     {"broken-surfaces", "Break-up over time", fracas_section_surfaces},
     {"fragments-over-time", "Fragments over time", NULL},
     {"energies-over-time", "Energies over time", NULL},
+    {"probes-over-time", "Probes over time", NULL},
     {"convergence", "Convergence with replicas", NULL},
     {"table-of-results", "Results", fracas_section_results},
     {"table-of-slopes", "Slopes", fracas_section_slopes},

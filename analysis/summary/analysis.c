@@ -58,8 +58,8 @@ static fracas_err begin_bands(history_reading *reading, size_t p)
                               &reading->collector);
 }
 
-/* Takes the history into the bands of its point; the history of the typical replica is also kept.
- */
+/* Takes the history into the bands of its point; history and probes of the typical replica are also
+ * kept. */
 static fracas_err add_history(void *context, fracas_result *result)
 {
     history_reading *reading = context;
@@ -71,8 +71,11 @@ static fracas_err add_history(void *context, fracas_result *result)
     if (result->row != statistics->typical_row || statistics->history) return FRACAS_OK;
     statistics->history = result->record.history;
     statistics->nhistory = result->record.nhistory;
+    statistics->probe = result->record.probe;
+    statistics->nprobe = result->record.nprobe;
     result->record.history = NULL;
-    result->record.nhistory = 0;
+    result->record.probe = NULL;
+    result->record.nhistory = result->record.nprobe = 0;
     return FRACAS_OK;
 }
 
@@ -81,8 +84,8 @@ static fracas_err read_histories(fracas_analysis *analysis)
     fracas_bands none = {0};
     history_reading reading = {
         .analysis = analysis, .point = SIZE_MAX, .collector = {.bands = &none}};
-    fracas_err err = fracas_results_walk(analysis->results, FRACAS_READ_HISTORY, add_history,
-                                         &reading);
+    fracas_err err = fracas_results_walk(
+        analysis->results, FRACAS_READ_HISTORY | FRACAS_READ_PROBES, add_history, &reading);
     fracas_bands_end(&reading.collector);
     return err;
 }

@@ -307,5 +307,6 @@ void fracas_point_statistics_clear(fracas_point_statistics *statistics)
     fracas_bands_clear(&statistics->bands);
     free(statistics->fragment_size);
     free(statistics->history);
+    free(statistics->probe);
     *statistics = (fracas_point_statistics){.typical_replica = -1, .broken_replica = -1};
 }

@@ -74,6 +74,8 @@ typedef struct {
     size_t broken_row;
     size_t nhistory;
     fracas_history_row *history; /* for that replica; NULL until someone reads it */
+    size_t nprobe;
+    fracas_probe_row *probe; /* the same */
 } fracas_point_statistics;
 
 /* A realization whose residual is a larger part of its largest energy is warned of; ENERGY_DRIFT

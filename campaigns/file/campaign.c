@@ -129,11 +129,13 @@ static fracas_err check_settings(const fracas_campaign *now, const fracas_campai
 {
     static const char *const random[] = {"independent", "common"}, *const boolean[] = {"false",
                                                                                        "true"};
-    char seed[2][32], history[2][32];
+    char seed[2][32], history[2][32], probes[2][FRACAS_PROBES_TEXT];
     const fracas_campaign *both[] = {before, now};
     for (int i = 0; i < 2; i++) {
         snprintf(seed[i], sizeof seed[i], "%" PRIu64, both[i]->seed);
         snprintf(history[i], sizeof history[i], "%" PRId64, both[i]->output.history);
+        fracas_probes_write(&both[i]->probes, probes[i]);
+        if (!*probes[i]) strcpy(probes[i], "nothing");
     }
     const struct {
         const char *path, *was, *is;
@@ -143,6 +145,7 @@ static fracas_err check_settings(const fracas_campaign *now, const fracas_campai
          random[now->common_random_numbers]},
         {"output.history", history[0], history[1]},
         {"output.interfaces", boolean[before->output.interfaces], boolean[now->output.interfaces]},
+        {"probes", probes[0], probes[1]},
     };
     for (size_t i = 0; i < FRACAS_COUNT(setting); i++)
         if (strcmp(setting[i].was, setting[i].is) != 0)

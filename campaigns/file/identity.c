@@ -28,6 +28,11 @@ static void write_campaign(const fracas_catalog *catalog, const fracas_campaign 
     fprintf(out, "seed=%" PRIu64 "\n", campaign->seed);
     if (campaign->common_random_numbers) fprintf(out, "random_numbers=common\n");
     write_values(catalog, false, campaign, out);
+    if (campaign->probes.count) {
+        char text[FRACAS_PROBES_TEXT];
+        fracas_probes_write(&campaign->probes, text);
+        fprintf(out, "probes=%s\n", text);
+    }
     size_t named = fracas_point_table_find(&campaign->table, "case");
     for (size_t p = 0; p < campaign->npoints; p++) {
         const char *name = named == SIZE_MAX ? "" : campaign->table.point[p].value[named].text;

@@ -379,6 +379,23 @@ static void write_report(fracas_json *json)
     fracas_json_close(json);
 }
 
+static void write_probes(fracas_json *json)
+{
+    fracas_json_object(json, "probes");
+    fracas_json_text(json, "description",
+                     "points whose displacement and velocity are kept: places [m] by name");
+    fracas_json_text(json, "type", "object");
+    fracas_json_integer(json, "minProperties", 1);
+    fracas_json_integer(json, "maxProperties", FRACAS_MOST_PROBES);
+    fracas_json_object(json, "additionalProperties");
+    fracas_json_text(json, "type", "array");
+    write_ref(json, "items", "pure");
+    fracas_json_integer(json, "minItems", 1);
+    fracas_json_integer(json, "maxItems", 3);
+    fracas_json_close(json);
+    fracas_json_close(json);
+}
+
 static void write_heading(fracas_json *json)
 {
     fracas_json_text(json, "$schema", "https://json-schema.org/draft/2020-12/schema");
@@ -403,6 +420,7 @@ static void write_schema(fracas_json *json, const fracas_catalog *catalog)
     write_ref(json, "replicas", "replicas");
     write_ref(json, "sweep", "sweep");
     write_report(json);
+    write_probes(json);
     write_sections(json, catalog);
     fracas_json_close(json);
     fracas_json_object(json, "$defs");

@@ -4,6 +4,7 @@
 
 #include "campaigns/file/chosen.h"
 #include "campaigns/file/identity.h"
+#include "campaigns/file/probes.h"
 #include "campaigns/file/report_keys.h"
 #include "campaigns/file/resolve.h"
 #include "campaigns/file/sweep.h"
@@ -14,8 +15,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const own_keys[] = {"name",  "seed",     "random_numbers",
-                                       "sweep", "replicas", "report"};
+static const char *const own_keys[] = {"name",     "seed",   "random_numbers", "sweep",
+                                       "replicas", "report", "probes"};
 
 /* The contents of a file. */
 typedef struct {
@@ -155,6 +156,9 @@ static fracas_err read_heading(reading *read, fracas_campaign *campaign)
                              read_random_numbers(file, node, &campaign->common_random_numbers)));
     node = fracas_node_find(file->root, "replicas");
     if (node) TRY(fracas_file_note(file, fracas_replicas_read(file, node, &read->replicas)));
+    node = fracas_node_find(file->root, "probes");
+    if (node)
+        TRY(fracas_file_note(file, fracas_campaign_probes_read(file, node, &campaign->probes)));
     node = fracas_node_find(file->root, "report");
     if (node) TRY(fracas_file_note(file, fracas_report_keys_read(file, node, &campaign->report)));
     return FRACAS_OK;

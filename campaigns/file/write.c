@@ -3,6 +3,7 @@
 #include "campaigns/campaign.h"
 
 #include "campaigns/file/catalog.h"
+#include "campaigns/file/probes.h"
 #include "campaigns/file/replicas.h"
 #include "campaigns/file/report_keys.h"
 
@@ -179,6 +180,7 @@ static void write_file(const fracas_catalog *catalog, const bool *base,
     for (size_t s = 0; s < catalog->nsections; s++)
         if (!catalog->section[s].table->hashed && !catalog->section[s].table->run)
             write_section(catalog, base, &catalog->section[s], campaign, out);
+    fracas_campaign_probes_write(&campaign->probes, out);
     fracas_report_keys_write(&campaign->report, out);
 }
 

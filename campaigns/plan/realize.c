@@ -25,7 +25,8 @@ void fracas_realizer_clear(fracas_realizer *realizer)
 fracas_batch_options fracas_campaign_batch(const fracas_campaign *campaign)
 {
     return (fracas_batch_options){.history = campaign->output.history,
-                                  .interfaces = campaign->output.interfaces};
+                                  .interfaces = campaign->output.interfaces,
+                                  .probes = &campaign->probes};
 }
 
 fracas_err fracas_realizer_sample(const fracas_realizer *realizer, int64_t replica, size_t stride,

@@ -113,7 +113,9 @@ double fracas_realization_bytes(const fracas_campaign *campaign, const fracas_fo
     const double interfaces = campaign->output.interfaces ? (double)forecast->interfaces : 0;
     return fracas_row_bytes(FRACAS_SET_REALIZATION) +
            forecast->fragments * fracas_row_bytes(FRACAS_SET_FRAGMENT) +
-           forecast->history * fracas_row_bytes(FRACAS_SET_HISTORY) +
+           forecast->history *
+               (fracas_row_bytes(FRACAS_SET_HISTORY) +
+                (double)campaign->probes.count * fracas_row_bytes(FRACAS_SET_PROBE)) +
            interfaces * fracas_row_bytes(FRACAS_SET_INTERFACE);
 }
 
@@ -132,6 +134,7 @@ static void count_rows(const fracas_campaign *campaign, const fracas_forecast *f
         rows[FRACAS_SET_REALIZATION] += count;
         rows[FRACAS_SET_FRAGMENT] += count * forecast[p].fragments;
         rows[FRACAS_SET_HISTORY] += count * forecast[p].history;
+        rows[FRACAS_SET_PROBE] += count * forecast[p].history * (double)campaign->probes.count;
         if (campaign->output.interfaces)
             rows[FRACAS_SET_INTERFACE] += count * (double)forecast[p].interfaces;
     }
@@ -139,6 +142,8 @@ static void count_rows(const fracas_campaign *campaign, const fracas_forecast *f
         rows[FRACAS_SET_REALIZATION] + 1;
     if (campaign->output.interfaces)
         rows[FRACAS_SET_INTERFACE_OFFSET] = rows[FRACAS_SET_REALIZATION] + 1;
+    if (campaign->probes.count > 0)
+        rows[FRACAS_SET_PROBE_OFFSET] = rows[FRACAS_SET_REALIZATION] + 1;
 }
 
 /* Meshes of the surfaces, by their numbers of faces and interfaces alone: a triangle has three

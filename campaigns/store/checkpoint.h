@@ -16,6 +16,7 @@ typedef struct {
     int64_t replica;
     uint64_t seed;
     int64_t history, interfaces; /* as fracas_file_header */
+    fracas_hash probes;          /* hash of their text */
     int64_t over;                /* 1: only the record is left to be written */
     int64_t steps;
     double time, end; /* s; time.end */
@@ -23,8 +24,8 @@ typedef struct {
 
 typedef struct fracas_checkpoint fracas_checkpoint;
 
-/* Begins the file of `head`, whose mark, version, seed, history and interfaces are set from the
- * header, under a temporary name; creates the folder. */
+/* Begins the file of `head`, whose mark, version, seed, history, interfaces and probes are set from
+ * the header, under a temporary name; creates the folder. */
 FRACAS_MUST_USE fracas_err fracas_checkpoint_create(const char *study,
                                                     const fracas_file_header *header,
                                                     fracas_checkpoint_head *head,

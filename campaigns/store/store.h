@@ -30,11 +30,12 @@
 typedef struct {
     fracas_hash campaign; /* campaign hash */
     uint64_t seed;
-    int64_t history;  /* as the campaign's output options say: equal intervals of time.end, */
-    bool interfaces;  /* and whether the file has an /interface group */
-    char version[32]; /* program version */
-    int64_t format;   /* format version of a file that was read; a writer has its own */
-    bool complete;    /* every realization of every point in the file is present */
+    int64_t history;      /* as the campaign's output options say: equal intervals of time.end, */
+    bool interfaces;      /* and whether the file has an /interface group */
+    char version[32];     /* program version */
+    int64_t format;       /* format version of a file that was read; a writer has its own */
+    bool complete;        /* every realization of every point in the file is present */
+    fracas_probes probes; /* the campaign's: with one the file has a /probe group */
 } fracas_file_header;
 
 /* Size and checksum of a finished file, as the index keeps them. */
@@ -128,7 +129,8 @@ enum {
     FRACAS_READ_FRAGMENTS = 1,
     FRACAS_READ_HISTORY = 2,
     FRACAS_READ_INTERFACES = 4,
-    FRACAS_READ_ALL = 7
+    FRACAS_READ_PROBES = 8,
+    FRACAS_READ_ALL = 15
 };
 /* Realization in row `row` (0 .. realizations-1): its point (index in the file's table), replica
  * and record; `record` initialised by the caller, cleared by the caller (and here before it is

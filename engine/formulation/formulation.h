@@ -53,6 +53,14 @@ typedef struct {
     void *plan;    /* freed by division_destroy; NULL: none */
 } fracas_division;
 
+/* A point of the body: an element's, by the values of its shape functions there. */
+typedef struct {
+    size_t element;
+    double weight[6]; /* by node */
+    double place[3];  /* m, before any motion */
+    double distance;  /* m, from what was asked for */
+} fracas_spot;
+
 /* One step of a batch, and the sums of its lanes so far. Arrays are [lane]. */
 typedef struct {
     int width; /* lanes of the batch: 1, 4, 8 */
@@ -152,6 +160,12 @@ struct fracas_formulation {
                        fracas_fragment *fragment);
     fracas_stress_array stress[FRACAS_STRESSES]; /* an element's; fewer: the last has no name */
     size_t (*interface_nodes)(const fracas_model *model);
+    /* The point of the body nearest to a place before any motion [m]; on interfaces, the element of
+     * the lowest number. */
+    void (*locate)(const fracas_model *model, const double place[3], fracas_spot *spot);
+    /* Displacement [m], the background's included, and velocity there [m/s], after a step. */
+    void (*motion_at)(const fracas_model *model, const fracas_step *step, int lane,
+                      const fracas_spot *spot, double displacement[3], double velocity[3]);
     /* Fills all of a lane's fields after a step but fragments. */
     void (*fields)(const fracas_model *model, const fracas_step *step, int lane,
                    fracas_fields *fields);

@@ -62,8 +62,10 @@ fracas_err fracas_batch_create(const fracas_model *model, size_t count,
         if (!*array[i]) return fracas_no_memory("a batch");
     }
     TRY(fracas_partition_init(&batch->step.partition, model->elements));
+    if (options->probes) TRY(fracas_spots_find(model, options->probes, &batch->spots));
     for (size_t l = 0; l < lanes; l++)
-        TRY(fracas_history_init(&batch->lane[l].history, options->history, model->spec.time.end));
+        TRY(fracas_history_init(&batch->lane[l].history, options->history, model->spec.time.end,
+                                fracas_spots_values(&batch->spots)));
     *out = batch;
     batch = NULL;
     return FRACAS_OK;
@@ -178,7 +180,9 @@ static fracas_err finish_lane(fracas_batch *batch, size_t l, fracas_outcome outc
     record->residual_end = ledger->residual;
     memcpy(record->energy, ledger->energy, sizeof record->energy);
     TRY(record_settling(batch, l, record));
-    TRY(fracas_history_harvest(&lane->history, record));
+    OWNED double *seen = NULL;
+    TRY(fracas_history_harvest(&lane->history, record, &seen));
+    TRY(fracas_spots_take(&batch->spots, seen, record));
     TRY(batch->model->formulation->harvest(batch->model, &batch->step, (int)l, record));
     return fracas_shapes_take(batch->model, &batch->step, (int)l, record);
 }
@@ -260,11 +264,14 @@ static fracas_err observe_lane(fracas_batch *batch, size_t l, fracas_record *rec
         .time = step->time[l], .residual = ledger->residual, .broken = step->broken[l]};
     memcpy(row.energy, ledger->energy, sizeof row.energy);
     TRY(check_end(batch, l, &outcome, &lane->running));
-    if (!lane->running || fracas_history_keeps(&lane->history, &row, cracked)) {
+    double seen[FRACAS_SPOTS_VALUES];
+    const bool kept = !lane->running || fracas_history_keeps(&lane->history, &row, cracked);
+    if (kept) {
         TRY(count_fragments(batch, l));
         row.fragments = lane->census.all;
+        fracas_spots_look(&batch->spots, batch->model, step, (int)l, seen);
     }
-    fracas_history_observe(&lane->history, lane->steps, &row, cracked);
+    fracas_history_observe(&lane->history, lane->steps, &row, cracked, kept ? seen : NULL);
     return lane->running ? FRACAS_OK : finish_lane(batch, l, outcome, record);
 }
 

@@ -8,6 +8,7 @@
 #include "engine/solver/guard.h"
 #include "engine/solver/history.h"
 #include "engine/solver/ledger.h"
+#include "engine/solver/probes.h"
 #include "engine/solver/settling.h"
 #include "engine/solver/stop.h"
 
@@ -34,6 +35,7 @@ struct fracas_batch {
     const fracas_model *model;
     size_t count; /* realizations; lanes beyond them repeat lane 0 */
     const fracas_batch_watch *watch;
+    fracas_spots spots; /* where its probes are */
     fracas_lane lane[FRACAS_LANES_MAX];
 };
 

@@ -25,14 +25,19 @@ static fracas_err transfer_history(fracas_history *history, bool load, fracas_tr
 {
     fracas_history copy = *history;
     copy.entry = NULL;
+    copy.value = NULL;
     TRY(transfer(context, &copy, sizeof copy));
     /* Each interval has been passed before it left a row: no count runs out of its memory. */
-    if (load && (copy.intervals != history->intervals || copy.next < 0 ||
-                 copy.next > copy.intervals + 1 || copy.count > (size_t)copy.next))
-        return fracas_fail(FRACAS_DAMAGED, "a state with a history of other intervals");
+    if (load && (copy.intervals != history->intervals || copy.width != history->width ||
+                 copy.next < 0 || copy.next > copy.intervals + 1 || copy.count > (size_t)copy.next))
+        return fracas_fail(FRACAS_DAMAGED, "a state with a history of other intervals or probes");
     copy.entry = history->entry;
+    copy.value = history->value;
     if (load) *history = copy;
-    return transfer(context, history->entry, history->count * sizeof *history->entry);
+    TRY(transfer(context, history->entry, history->count * sizeof *history->entry));
+    return history->width ? transfer(context, history->value,
+                                     fracas_history_values(history) * sizeof *history->value)
+                          : FRACAS_OK;
 }
 
 static fracas_err transfer_lane(fracas_batch *batch, size_t l, bool load, fracas_transfer *transfer,

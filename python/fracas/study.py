@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import re
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import cached_property
 from pathlib import Path
@@ -18,7 +18,8 @@ import numpy as np
 from .command import Error, PathLike, call_json, meanings
 from .table import Column, Table, flatten, from_rows
 
-ASKED_BY = {"interface": "output: {interfaces: true}", "mesh": "output: {interfaces: true} and a surface", "decision": "replicas: {until: ...}"}
+ASKED_BY = {"interface": "output: {interfaces: true}", "mesh": "output: {interfaces: true} and a surface", "decision": "replicas: {until: ...}",
+            "probe": "probes: {tip: [9 mm, 0]}"}
 
 
 def _connect(path: Path) -> sqlite3.Connection:
@@ -71,6 +72,12 @@ def _ranges(first: np.ndarray, last: np.ndarray) -> np.ndarray:
     return np.repeat(last - counts.cumsum(), counts) + np.arange(counts.sum())
 
 
+def probe_places(attributes: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    """Names and places of the probes, "tip 0.009 0 0; middle 0 0 0" in the attribute `probes` of a study."""
+    words = [probe.split() for probe in attributes.get("probes", "").split("; ") if probe]
+    return {name: np.array(place, float) for name, *place in words}
+
+
 class Realization:
     """What a study has of a realization, or what `fracas.realize` has computed.
 
@@ -108,6 +115,21 @@ class Realization:
         >>> realization.interfaces["strength"].min()
         """
         return self._table("interface")
+
+    @property
+    def probes(self) -> dict[str, Table]:
+        """Time, displacement and velocity of each probe by its name, if the campaign has probes; of `fracas.realize` by its number, "0".
+
+        >>> realization.probes["tip"]["displacement"][:, 0].max()
+        """
+        table = self._table("probe")
+        number = table["probe"]
+        names = list(probe_places(table.attributes)) or [str(n) for n in range(int(number.max(initial=-1)) + 1)]
+
+        def of(n: int) -> Table:
+            return Table("probe", {name: Column(lambda column=column: column.read()[number == n], column.unit, column.description)
+                                   for name, column in table.columns.items() if name != "probe"}, table.attributes)
+        return {name: of(n) for n, name in enumerate(names)}
 
 
 class Study:
@@ -292,6 +314,23 @@ class Study:
         >>> study.interfaces["strength"].min()
         """
         return self._ragged("interface")
+
+    @cached_property
+    def probes(self) -> Table:
+        """Displacements and velocities of the probes of all realizations, if the campaign has probes; `probe` is a number in `probe_places`.
+
+        >>> study.probes.frame("point", "replica", "time", "probe", "displacement")
+        """
+        return self._ragged("probe")
+
+    @property
+    def probe_places(self) -> dict[str, np.ndarray]:
+        """Place of each probe before any motion [m], by its name.
+
+        >>> study.probe_places["tip"]
+        array([0.009, 0.   , 0.   ])
+        """
+        return probe_places(self.attributes)
 
     @cached_property
     def decisions(self) -> Table:

@@ -18,8 +18,8 @@ import numpy as np
 
 OUTCOMES = ["FRAGMENTED", "INTACT", "TIME_LIMIT", "NONFINITE", "ENERGY_DRIFT", "FAILED"]
 KEYS = {"points": ["point"], "realizations": ["point", "replica"], "fragments": ["point", "replica", "fragment"],
-        "histories": ["point", "replica", "row"], "statistics": ["point", "key"], "energies": ["point", "time"], "convergence": ["point", "replicas"]}
-PARENTS = {"realizations": "points", "fragments": "realizations", "histories": "realizations", "statistics": "points",
+        "histories": ["point", "replica", "row"], "probes": ["point", "replica", "row"], "statistics": ["point", "key"], "energies": ["point", "time"], "convergence": ["point", "replicas"]}
+PARENTS = {"realizations": "points", "fragments": "realizations", "histories": "realizations", "probes": "realizations", "statistics": "points",
            "energies": "points", "convergence": "points"}
 
 
@@ -141,9 +141,12 @@ def check_units(resource, units):
 
 
 def check_parts(study, package, rows, name, group, number):
-    """fragments.csv and histories.csv: rows of a group by the realizations that they are of."""
+    """fragments.csv, histories.csv and probes.csv: rows of a group by the realizations that they are of."""
     offset = study[group + "/offset"][()]
     columns, units = columns_of(study[group], ("offset",))
+    if "probe" in columns:  # by its name, the first word of each
+        names = np.array([text.split()[0] for text in study.attrs["probes"].decode().split("; ")], "S")
+        columns["probe"] = list(names[columns["probe"]])
     of = np.repeat(np.arange(len(offset) - 1), np.diff(offset))
     realization, _ = columns_of(study["realization"])
     for key in ("point", "replica", "outcome"):
@@ -210,6 +213,9 @@ def check(study_folder, folder):
         check_parts(study, resources, rows, "fragments", "fragment", "fragment")
         if "histories" in rows:
             check_parts(study, resources, rows, "histories", "history", "row")
+        wanted(("probes" in rows) == ("probe" in study), "probes.csv is there, or is not")
+        if "probes" in rows:
+            check_parts(study, resources, rows, "probes", "probe", "row")
         columns, units = columns_of(study["point"])
         parameters = set(columns) | {"point"}
         compare("points", [{key: row[key] for key in row if key in columns} for row in rows["points"]], columns)

@@ -79,21 +79,25 @@ static void quiet_waits_after_the_first_onset(void **unused)
 }
 
 /* Ten steps of time 0.1, 0.2 ...: rows at 0, 0.5 and 1.0 (first step at or after), onset at step 3,
- * peak at step 7. */
+ * peak at step 7; each with the two values of its own step. */
 static void history_keeps_intervals_onset_peak_and_end(void **unused)
 {
     FRACAS_CLEARED(fracas_history) history;
     RECORD(record);
-    OK(fracas_history_init(&history, 2, 1.0));
+    OK(fracas_history_init(&history, 2, 1.0, 2));
     for (int step = 0; step <= 12; step++) {
         fracas_history_row row = {.time = 0.09 * step, .elastic = step == 7 ? 5 : 1, .cohesive = 1};
-        fracas_history_observe(&history, step, &row, step >= 3);
+        const double value[2] = {step, -step};
+        const bool kept = step == 12 || fracas_history_keeps(&history, &row, step >= 3);
+        fracas_history_observe(&history, step, &row, step >= 3, kept ? value : NULL);
     }
-    OK(fracas_history_harvest(&history, &record));
+    OWNED double *value = NULL;
+    OK(fracas_history_harvest(&history, &record, &value));
     const int expected[] = {0, 3, 6, 7, 12};
     assert_int_equal(record.nhistory, 5);
     for (int i = 0; i < 5; i++)
-        assert_true(fabs(record.history[i].time - 0.09 * expected[i]) < 1e-15);
+        assert_true(fabs(record.history[i].time - 0.09 * expected[i]) < 1e-15 &&
+                    value[2 * i] == expected[i] && value[2 * i + 1] == -expected[i]);
 }
 
 /* Two steps by hand: work is the trapezoid of power, the residual holds every term with its sign.

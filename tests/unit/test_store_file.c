@@ -86,6 +86,7 @@ static fracas_file_seal write_file_of(const char *path, int64_t replicas, size_t
     fracas_file_header header = sample_header();
     fracas_writer *writer;
     header.interfaces = interfaces;
+    if (shape) header.probes = (fracas_probes){1, {{"tip", {0.1, 0, 0}}}}; /* no rows of it */
     OK(fracas_writer_create(path, &header, &table, &writer));
     for (size_t p = 0; p < SAMPLE_POINTS; p++)
         for (int64_t r = 0; r < replicas; r++) {
@@ -224,6 +225,86 @@ static void records_come_back_bit_by_bit(void **state)
     int64_t replica;
     FAILS(fracas_reader_record(reader, SAMPLE_POINTS * REPLICAS, 0, &point, &replica, &record),
           FRACAS_BUG, "row 900");
+}
+
+/* A record with `rows` times of two probes. */
+static void probed_record(int64_t replica, size_t rows, fracas_record *record)
+{
+    uint64_t state = 77 + (uint64_t)replica;
+    fracas_record_init(record);
+    record->outcome = FRACAS_INTACT;
+    record->nprobe = 2 * rows;
+    record->probe = calloc(record->nprobe + 1, sizeof *record->probe);
+    for (size_t i = 0; i < record->nprobe; i++) {
+        record->probe[i].time = (double)(i / 2);
+        record->probe[i].probe = (int64_t)(i % 2);
+        sample_reals(&state, record->probe[i].displacement, 6);
+        sample_canonical(record->probe[i].displacement, 6);
+    }
+}
+
+static fracas_err read_probed(const char *path, const fracas_probes *wanted)
+{
+    OWN(fracas_reader) reader = NULL;
+    size_t point;
+    int64_t replica;
+    TRY(fracas_reader_open(path, &reader));
+    const fracas_file_header *header = fracas_reader_header(reader);
+    assert_memory_equal(&header->probes, wanted, sizeof *wanted);
+    for (size_t row = 0; row < 6; row++) {
+        FRACAS_CLEARED(fracas_record) found, made;
+        fracas_record_init(&found);
+        TRY(fracas_reader_record(reader, row, FRACAS_READ_PROBES, &point, &replica, &found));
+        probed_record(replica, 300 * row, &made);
+        assert_int_equal(found.nprobe, made.nprobe);
+        assert_memory_equal(found.probe, made.probe, made.nprobe * sizeof *made.probe);
+    }
+    return FRACAS_OK;
+}
+
+static void probes_come_back(void **state)
+{
+    const char *path = sample_path(folder, "a.h5");
+    fracas_point_row row[SAMPLE_POINTS];
+    const fracas_point_table table = sample_table(row, 6);
+    fracas_file_header header = sample_header();
+    header.probes = (fracas_probes){2, {{"tip", {0.1, -2e-300, 3}}, {"a-b_C", {0, 1.0 / 3, 0}}}};
+    header.probes.probe[1].place[1] = 0.333333333333333; /* 15 digits, as a campaign has */
+    for (int64_t wrong = 0; wrong < 2; wrong++) {
+        fracas_writer *writer;
+        fracas_file_seal seal;
+        OK(fracas_writer_create(path, &header, &table, &writer));
+        for (int64_t r = 0; r < 6; r++) {
+            FRACAS_CLEARED(fracas_record) record;
+            probed_record(r, 300 * (size_t)r, &record);
+            if (wrong && r == 3) record.probe[500].probe = 2;
+            record.fragments = record.nfragment = 1;
+            record.fragment = calloc(1, sizeof *record.fragment);
+            OK(fracas_writer_append(writer, 0, r, &record));
+        }
+        OK(fracas_writer_finish(writer, true, &seal));
+        if (wrong)
+            FAILS(read_probed(path, &header.probes), FRACAS_DAMAGED, "no probe of that number");
+        else OK(read_probed(path, &header.probes));
+    }
+}
+
+static void probes_are_texts(void **state)
+{
+    static const char *const wrong[] = {"none",      "a",         "a 1 2",   "a 1 2 3;b 1 2 3",
+                                        "a 1 2 3; ", "a 1 2 3 4", "a. 1 2 3"};
+    fracas_probes most = {FRACAS_MOST_PROBES}, back;
+    char text[FRACAS_PROBES_TEXT];
+    for (size_t p = 0; p < most.count; p++) { /* the longest there are */
+        snprintf(most.probe[p].name, FRACAS_PROBE_NAME, "%031zu", p);
+        for (int i = 0; i < 3; i++) most.probe[p].place[i] = -1.23456789012345e-100;
+    }
+    fracas_probes_write(&most, text);
+    assert_true(strlen(text) < FRACAS_PROBES_TEXT - 1 && fracas_probes_parse(text, &back));
+    assert_memory_equal(&most, &back, sizeof most);
+    assert_true(fracas_probes_parse("", &back) && back.count == 0);
+    for (size_t w = 0; w < sizeof wrong / sizeof *wrong; w++)
+        assert_false(fracas_probes_parse(wrong[w], &back));
 }
 
 static void header_and_points_come_back(void **state)
@@ -455,6 +536,8 @@ int fracas_test(void)
     }
     const struct CMUnitTest tests[] = {
         TEST(records_come_back_bit_by_bit),
+        TEST(probes_come_back),
+        TEST(probes_are_texts),
         TEST(header_and_points_come_back),
         TEST(same_calls_give_same_bytes),
         TEST(seal_is_that_of_the_bytes),

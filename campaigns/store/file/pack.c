@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A record as bytes: the struct with its pointers taken out, then its three arrays. For one program
+/* A record as bytes: the struct with its pointers taken out, then its arrays. For one program
  * on one machine. */
 #include "campaigns/store/file/schema.h"
 #include "campaigns/store/store.h"
@@ -26,6 +26,7 @@ static fracas_record scalars_of(const fracas_record *record)
     scalars.fragment = NULL;
     scalars.history = NULL;
     scalars.interface = NULL;
+    scalars.probe = NULL;
     return scalars;
 }
 

@@ -78,6 +78,19 @@ static fracas_err read_version(fracas_reader *reader, uint64_t oldest)
     return FRACAS_OK;
 }
 
+/* A file without probes has no attribute. */
+static fracas_err read_probes(fracas_reader *reader)
+{
+    bool has;
+    TRY(fracas_h5_has_attribute(&reader->h5, "/", "probes", &has));
+    if (!has) return FRACAS_OK;
+    OWNED char *text = NULL;
+    TRY(fracas_h5_get_text(&reader->h5, "/", "probes", &text));
+    if (fracas_probes_parse(text, &reader->header.probes) && reader->header.probes.count > 0)
+        return FRACAS_OK;
+    return damaged(reader, "probes", "they are no names with places");
+}
+
 static fracas_err read_header(fracas_reader *reader)
 {
     uint64_t history;
@@ -91,6 +104,7 @@ static fracas_err read_header(fracas_reader *reader)
     if (history > FRACAS_MOST_HISTORY) return damaged(reader, "history", "it is out of range");
     header->history = (int64_t)history;
     TRY(read_truth(reader, "interfaces", &header->interfaces));
+    TRY(read_probes(reader));
     TRY(read_text_attribute(reader, "program_version", sizeof header->version, header->version));
     return read_truth(reader, "complete", &header->complete);
 }
@@ -157,16 +171,26 @@ static fracas_err open_meshes(fracas_reader *reader)
     return FRACAS_OK;
 }
 
+/* A part of records that the header promises, or not. */
+static fracas_err check_part(fracas_reader *reader, bool promised, const char *attribute,
+                             const char *group, unsigned part)
+{
+    bool there = false;
+    char fault[80];
+    TRY(is_there(reader, group, &there));
+    snprintf(fault, sizeof fault, "the group %s is there when it must not be, or missing", group);
+    if (promised != there) return damaged(reader, attribute, fault);
+    if (!there) reader->parts &= ~part;
+    return FRACAS_OK;
+}
+
 static fracas_err open_records(fracas_reader *reader, unsigned parts)
 {
+    const fracas_file_header *header = &reader->header;
     reader->parts = parts;
     TRY(open_set(reader, FRACAS_SET_REALIZATION));
-    bool there = false;
-    TRY(is_there(reader, "/interface", &there));
-    if (reader->header.interfaces != there)
-        return damaged(reader, "interfaces",
-                       "the group /interface is there when it must not be, or missing");
-    if (!there) reader->parts &= ~(unsigned)FRACAS_READ_INTERFACES;
+    TRY(check_part(reader, header->interfaces, "interfaces", "/interface", FRACAS_READ_INTERFACES));
+    TRY(check_part(reader, header->probes.count > 0, "probes", "/probe", FRACAS_READ_PROBES));
     for (int p = 0; p < FRACAS_NPARTS; p++)
         if (reader->parts & 1u << p)
             TRY(open_ragged(reader, reader->set[FRACAS_SET_REALIZATION].rows,
@@ -336,6 +360,10 @@ static fracas_err load_parts(fracas_reader *reader, size_t row, unsigned parts,
         (uint64_t)record->fragments != record->nfragment)
         return damaged(reader, "/realization/fragments",
                        "it is not the number of rows in /fragment");
+    for (size_t i = 0; i < record->nprobe; i++)
+        if (record->probe[i].probe < 0 ||
+            (uint64_t)record->probe[i].probe >= reader->header.probes.count)
+            return damaged(reader, "/probe/probe", "there is no probe of that number");
     return FRACAS_OK;
 }
 

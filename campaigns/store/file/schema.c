@@ -35,6 +35,8 @@
 #define HISTORY(name, type, unit, meaning) HISTORY_SINCE(0, name, type, unit, meaning)
 #define INTERFACE(name, type, unit, meaning) \
     COLUMN("interface", name, type, unit, meaning, fracas_interface_row, name, 0)
+#define PROBE(name, type, unit, meaning) \
+    COLUMN("probe", name, type, unit, meaning, fracas_probe_row, name, 0)
 #define DECISION(name, type, stored, meaning) \
     COLUMN("decision", name, stored, "1", meaning, fracas_decision, name, 0),
 #define MESH(of, name, type, unit, meaning) \
@@ -116,6 +118,7 @@ static const fracas_store_column realization[] = {
 OFFSETS(fragment_offset, "/fragment/offset", "fragments of realization i are", "realizations");
 OFFSETS(history_offset, "/history/offset", "history of realization i is", "realizations");
 OFFSETS(interface_offset, "/interface/offset", "interfaces of realization i are", "realizations");
+OFFSETS(probe_offset, "/probe/offset", "probes of realization i are", "realizations");
 OFFSETS(mesh_node_offset, "/mesh/node_offset", "nodes of the mesh of point i are", "points");
 OFFSETS(mesh_element_offset, "/mesh/element_offset", "elements of the mesh of point i are",
         "points");
@@ -169,6 +172,15 @@ static const fracas_store_column interface[] = {
     INTERFACE(break_time, FLOAT64, "s", "time at which it broke, NaN if it never did"),
 };
 
+static const fracas_store_column probe[] = {
+    PROBE(time, FLOAT64, "s", "time of a row of /history, of which each probe has a row"),
+    PROBE(probe, INT8, "1", "number of the probe in the attribute `probes` of the file, from 0"),
+    PROBE(displacement, FLOAT64, "m", "displacement (x, y, z) of its point, background included"),
+    PROBE(velocity, FLOAT64, "m/s",
+          "velocity (x, y, z) of its point, background included, of central difference half a time "
+          "step later"),
+};
+
 static const fracas_store_column decision[] = {FRACAS_EACH_DECISION(DECISION)};
 
 static const fracas_store_column mesh_node[] = {
@@ -213,6 +225,8 @@ const fracas_store_set fracas_store_sets[FRACAS_NSETS] = {
     [FRACAS_SET_HISTORY] = SET(history, 512, fracas_history_row),
     [FRACAS_SET_INTERFACE_OFFSET] = SET(interface_offset, 256, int64_t),
     [FRACAS_SET_INTERFACE] = SET(interface, 2048, fracas_interface_row),
+    [FRACAS_SET_PROBE_OFFSET] = SET(probe_offset, 256, int64_t),
+    [FRACAS_SET_PROBE] = SET(probe, 512, fracas_probe_row),
     [FRACAS_SET_DECISION] = SET(decision, 64, fracas_decision),
     [FRACAS_SET_MESH_NODE_OFFSET] = SET(mesh_node_offset, 64, int64_t),
     [FRACAS_SET_MESH_NODE] = SET(mesh_node, 1024, fracas_stored_node),
@@ -237,14 +251,15 @@ _Static_assert(FRACAS_COUNT(realization) <= FRACAS_MAX_COLUMNS, "FRACAS_MAX_COLU
 const fracas_ragged fracas_record_parts[FRACAS_NPARTS] = {
     PART(fracas_record, FRAGMENT, "/fragment", fragment),
     PART(fracas_record, HISTORY, "/history", history),
-    PART(fracas_record, INTERFACE, "/interface", interface)};
+    PART(fracas_record, INTERFACE, "/interface", interface),
+    PART(fracas_record, PROBE, "/probe", probe)};
 const fracas_ragged fracas_mesh_parts[FRACAS_NMESH_PARTS] = {
     [FRACAS_MESH_NODES] = MESH_PART(NODE, node, nnodes),
     [FRACAS_MESH_ELEMENTS] = MESH_PART(ELEMENT, element, nelements),
     [FRACAS_MESH_INTERFACES] = MESH_PART(INTERFACE, interface, ninterfaces),
     [FRACAS_MESH_BORDERS] = MESH_PART(BORDER, border, nborders)};
 _Static_assert(FRACAS_READ_FRAGMENTS == 1 << 0 && FRACAS_READ_HISTORY == 1 << 1 &&
-                   FRACAS_READ_INTERFACES == 1 << 2,
+                   FRACAS_READ_INTERFACES == 1 << 2 && FRACAS_READ_PROBES == 1 << 3,
                "parts are in the order of their bits");
 
 const void *fracas_ragged_get(const fracas_ragged *ragged, const void *owner, size_t *count)

@@ -19,6 +19,7 @@ struct fracas_writer {
     char *path, *temporary;
     size_t npoints;
     bool interfaces; /* has an /interface group */
+    bool probes;     /* has a /probe group */
     bool decisions;  /* has a /decision group */
     bool meshes;     /* has a /mesh group */
     bool own_seal;   /* ends with a seal of its own */
@@ -31,6 +32,7 @@ static bool has_set(const fracas_writer *writer, int set)
 {
     if (set >= FRACAS_SET_MESH_NODE_OFFSET) return writer->meshes;
     if (set == FRACAS_SET_DECISION) return writer->decisions;
+    if (set >= FRACAS_SET_PROBE_OFFSET) return writer->probes;
     return writer->interfaces ||
            (set != FRACAS_SET_INTERFACE_OFFSET && set != FRACAS_SET_INTERFACE);
 }
@@ -103,6 +105,11 @@ static fracas_err write_header(const fracas_h5 *h5, const fracas_file_header *he
     TRY(fracas_h5_put_integer(h5, "/", "seed", H5T_STD_U64LE, header->seed));
     TRY(fracas_h5_put_integer(h5, "/", "history", H5T_STD_I64LE, (uint64_t)header->history));
     TRY(fracas_h5_put_integer(h5, "/", "interfaces", H5T_STD_I8LE, header->interfaces));
+    if (header->probes.count) {
+        char text[FRACAS_PROBES_TEXT];
+        fracas_probes_write(&header->probes, text);
+        TRY(fracas_h5_put_text(h5, "/", "probes", text));
+    }
     return fracas_h5_put_text(h5, "/", "program_version", header->version);
 }
 
@@ -147,6 +154,7 @@ fracas_err fracas_writer_create(const char *path, const fracas_file_header *head
     new->h5 = FRACAS_H5_CLOSED;
     new->npoints = table->npoints;
     new->interfaces = header->interfaces;
+    new->probes = header->probes.count > 0;
     new->path = strdup(path);
     if (!new->path) return fracas_no_memory("a file");
     TRY(fracas_disk_temporary(path, &new->temporary));

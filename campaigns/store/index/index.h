@@ -12,7 +12,11 @@
  *
  * The hash of a point does not hold it, so files and the index are compared by it. */
 
-enum { FRACAS_IDENTITY_VALUES = 4, FRACAS_IDENTITY_TEXT = 32, FRACAS_DIFFERENCE_TEXT = 128 };
+enum {
+    FRACAS_IDENTITY_VALUES = 5,
+    FRACAS_IDENTITY_TEXT = FRACAS_PROBES_TEXT,
+    FRACAS_DIFFERENCE_TEXT = 128
+};
 
 /* Names of the values, as attributes of the root group and as keys of `meta`. */
 extern const char *const fracas_identity_name[FRACAS_IDENTITY_VALUES];

@@ -26,8 +26,8 @@ static fracas_err write_meta(fracas_index *index, const char *key, const char *v
 
 /* ---- identity ---- */
 
-const char *const fracas_identity_name[FRACAS_IDENTITY_VALUES] = {"program_version", "seed",
-                                                                  "history", "interfaces"};
+const char *const fracas_identity_name[FRACAS_IDENTITY_VALUES] = {
+    "program_version", "seed", "history", "interfaces", "probes"};
 
 void fracas_identity_of(const fracas_file_header *header, fracas_identity *identity)
 {
@@ -35,6 +35,8 @@ void fracas_identity_of(const fracas_file_header *header, fracas_identity *ident
     snprintf(identity->value[1], FRACAS_IDENTITY_TEXT, "%" PRIu64, header->seed);
     snprintf(identity->value[2], FRACAS_IDENTITY_TEXT, "%" PRId64, header->history);
     snprintf(identity->value[3], FRACAS_IDENTITY_TEXT, "%d", header->interfaces);
+    if (header->probes.count) fracas_probes_write(&header->probes, identity->value[4]);
+    else snprintf(identity->value[4], FRACAS_IDENTITY_TEXT, "none");
 }
 
 bool fracas_identity_differs(const fracas_identity *found, const fracas_identity *wanted,
@@ -43,7 +45,8 @@ bool fracas_identity_differs(const fracas_identity *found, const fracas_identity
     for (int v = 0; v < FRACAS_IDENTITY_VALUES; v++) {
         const char *a = found->value[v], *b = wanted->value[v];
         if (!*a || !*b || strcmp(a, b) == 0) continue;
-        snprintf(text, FRACAS_DIFFERENCE_TEXT, "%s %s, not %s", fracas_identity_name[v], a, b);
+        snprintf(text, FRACAS_DIFFERENCE_TEXT, "%s %.40s, not %.40s", fracas_identity_name[v], a,
+                 b);
         return true;
     }
     return false;

@@ -34,6 +34,9 @@ static fracas_checkpoint_head head_of(const fracas_file_header *header, const fr
                                    .seed = header->seed,
                                    .history = header->history,
                                    .interfaces = header->interfaces};
+    char probes[FRACAS_PROBES_TEXT];
+    fracas_probes_write(&header->probes, probes);
+    head.probes = fracas_hash_of(probes, strlen(probes));
     memcpy(head.mark, mark, sizeof mark);
     memcpy(head.version, header->version, sizeof head.version);
     return head;
@@ -132,7 +135,8 @@ static fracas_err check_head(const fracas_checkpoint *c, const fracas_checkpoint
                            wanted->version);
     if (!fracas_hash_equal(&found->point, &wanted->point) || found->replica != wanted->replica ||
         found->seed != wanted->seed || found->history != wanted->history ||
-        found->interfaces != wanted->interfaces)
+        found->interfaces != wanted->interfaces ||
+        !fracas_hash_equal(&found->probes, &wanted->probes))
         return fracas_fail(FRACAS_DAMAGED, "%s: of another realization, seed or output", c->path);
     return FRACAS_OK;
 }

@@ -177,10 +177,12 @@ static fracas_err read_header(const fracas_index *index, const fracas_identity *
                               const fracas_hash *campaign, fracas_file_header *header)
 {
     *header = (fracas_file_header){.campaign = *campaign};
-    snprintf(header->version, sizeof header->version, "%s", identity->value[0]);
+    snprintf(header->version, sizeof header->version, "%.31s", identity->value[0]);
     header->seed = strtoull(identity->value[1], NULL, 10);
     header->history = strtoll(identity->value[2], NULL, 10);
     header->interfaces = !strcmp(identity->value[3], "1");
+    if (!fracas_probes_parse(identity->value[4], &header->probes)) /* "none", or none known */
+        header->probes = (fracas_probes){0};
     if (header->history >= 0 && header->history <= FRACAS_MOST_HISTORY) return FRACAS_OK;
     return fracas_fail(
         FRACAS_DAMAGED,

@@ -15,6 +15,7 @@ struct fracas_segments {
     char *index_path; /* for messages, when the index is closed */
     fracas_identity identity;
     uint64_t history;            /* most history rows of a record */
+    uint64_t probes;             /* rows of each */
     fracas_known_segments known; /* by id */
     bool *checked, *bad;         /* each of them */
     bool only_records;
@@ -34,6 +35,8 @@ fracas_err fracas_segments_create(const char *study, fracas_index *index,
     new->identity = *identity;
     new->only_records = only_records;
     new->history = strtoull(identity->value[2], NULL, 10) + 4;
+    fracas_probes probes;
+    if (fracas_probes_parse(identity->value[4], &probes)) new->probes = probes.count;
     TRY(fracas_index_segments_by_id(index, &new->known));
     new->index_path = strdup(index->path);
     new->checked = calloc(new->known.count + 1, sizeof *new->checked);
@@ -84,6 +87,8 @@ uint64_t fracas_segments_size(const fracas_segments *segments, const fracas_plac
     if (parts & FRACAS_READ_FRAGMENTS)
         bytes += (uint64_t)place->summary.fragments * sizeof(fracas_fragment);
     if (parts & FRACAS_READ_HISTORY) bytes += segments->history * sizeof(fracas_history_row);
+    if (parts & FRACAS_READ_PROBES)
+        bytes += segments->history * segments->probes * sizeof(fracas_probe_row);
     if (parts & FRACAS_READ_INTERFACES && segment) /* they are stored compactly */
         bytes += 2 * segment->seal.bytes / (uint64_t)(segment->rows + 1);
     return bytes;

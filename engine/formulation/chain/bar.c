@@ -290,6 +290,34 @@ static void bar_fields(const fracas_model *model, const fracas_step *step, int l
     }
 }
 
+static void bar_locate(const fracas_model *model, const double place[3], fracas_spot *spot)
+{
+    double start = 0;
+    for (size_t e = 0; e < model->elements; e++) {
+        const double h = fracas_chain_size(model, e), left = model->sizes ? start : h * (double)e;
+        const double ends[2][3] = {{left}, {left + h}};
+        fracas_chain_locate(model, e, ends, place, spot);
+        start += h;
+    }
+}
+
+/* (bar.1), (probes.2) */
+static void bar_motion_at(const fracas_model *model, const fracas_step *step, int lane,
+                          const fracas_spot *spot, double displacement[3], double velocity[3])
+{
+    const double rate = model->spec.loading.rate,
+                 background = rate * spot->place[0] - rate * middle_of(model);
+    double w = 0, v = 0;
+    for (int side = 0; side < 2; side++) {
+        w += spot->weight[side] *
+             *fracas_chain_field(model, step, spot->element, BAR_W_LEFT + side, lane);
+        v += spot->weight[side] *
+             *fracas_chain_field(model, step, spot->element, BAR_V_LEFT + side, lane);
+    }
+    memcpy(displacement, (double[3]){background * step->time[lane] + w}, 3 * sizeof w);
+    memcpy(velocity, (double[3]){background + v}, 3 * sizeof v);
+}
+
 static const fracas_kind *const goes_with[] = {&fracas_shape_bar, &fracas_spacing_uniform,
                                                &fracas_spacing_graded, &fracas_spacing_perturbed,
                                                &fracas_loading_imposed_rate};
@@ -308,4 +336,6 @@ const fracas_formulation fracas_formulation_bar = {
     .harvest = bar_harvest,
     .add_matter = bar_add_matter,
     .fields = bar_fields,
+    .locate = bar_locate,
+    .motion_at = bar_motion_at,
     FRACAS_CHAIN_FORMULATION};

@@ -197,6 +197,27 @@ size_t fracas_chain_interface_nodes(const fracas_model *model)
     return 1;
 }
 
+/* (probes.1) */
+void fracas_chain_locate(const fracas_model *model, size_t e, const double ends[2][3],
+                         const double place[3], fracas_spot *spot)
+{
+    double along = 0, square = 0, distance = 0, at[3];
+    for (int i = 0; i < 3; i++) {
+        const double side = ends[1][i] - ends[0][i];
+        along += side * (place[i] - ends[0][i]);
+        square += side * side;
+    }
+    const double s = fmin(1, fmax(0, along / square));
+    for (int i = 0; i < 3; i++) {
+        at[i] = (1 - s) * ends[0][i] + s * ends[1][i];
+        distance += (place[i] - at[i]) * (place[i] - at[i]);
+    }
+    distance = sqrt(distance);
+    if (e > 0 && !(distance < spot->distance - 1e-9 * fracas_chain_size(model, e))) return;
+    *spot = (fracas_spot){.element = e, .weight = {1 - s, s}, .distance = distance};
+    memcpy(spot->place, at, sizeof at);
+}
+
 /* Times are NaN where none are kept. */
 static fracas_interface_row row_of(const fracas_model *model, const fracas_step *step, int lane,
                                    size_t e)

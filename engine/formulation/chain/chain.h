@@ -110,6 +110,11 @@ size_t fracas_chain_interface_nodes(const fracas_model *model);
 void fracas_chain_add_cracks(const fracas_model *model, const fracas_step *step, int lane,
                              fracas_fragment *fragment);
 
+/* Takes the point of element e nearest to `place` where it is nearer than the spot, not only by a
+ * rounding; `ends` are the element's [m]. Element 0 is taken in any case. */
+void fracas_chain_locate(const fracas_model *model, size_t e, const double ends[2][3],
+                         const double place[3], fracas_spot *spot);
+
 /* Fills an interface's fields but its opening; elements have their places. */
 void fracas_chain_fill_interface(const fracas_model *model, const fracas_step *step, int lane,
                                  size_t interface, fracas_fields *fields);

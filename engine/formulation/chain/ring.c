@@ -295,6 +295,37 @@ static void ring_fields(const fracas_model *model, const fracas_step *step, int 
     }
 }
 
+/* Places before any motion are on the polygon. */
+static void ring_locate(const fracas_model *model, const double place[3], fracas_spot *spot)
+{
+    const double radius = vertex_radius(model);
+    for (size_t e = 0; e < model->elements; e++) {
+        double ends[2][3] = {{0}};
+        for (size_t side = 0; side < 2; side++) {
+            const double *table = model->table + (e + side) % model->elements * RING_TABLE;
+            ends[side][0] = radius * table[RING_COS];
+            ends[side][1] = radius * table[RING_SIN];
+        }
+        fracas_chain_locate(model, e, (const double(*)[3])ends, place, spot);
+    }
+}
+
+/* (probes.2) */
+static void ring_motion_at(const fracas_model *model, const fracas_step *step, int lane,
+                           const fracas_spot *spot, double displacement[3], double velocity[3])
+{
+    for (int i = 0; i < 3; i++) displacement[i] = velocity[i] = 0;
+    for (int side = 0; side < 2; side++) {
+        const int u = side ? RING_U_RIGHT : RING_U_LEFT, v = side ? RING_V_RIGHT : RING_V_LEFT;
+        for (int i = 0; i < 2; i++) {
+            displacement[i] += spot->weight[side] *
+                               *fracas_chain_field(model, step, spot->element, u + i, lane);
+            velocity[i] += spot->weight[side] *
+                           *fracas_chain_field(model, step, spot->element, v + i, lane);
+        }
+    }
+}
+
 static const fracas_kind *const goes_with[] = {&fracas_shape_ring,
                                                &fracas_spacing_uniform,
                                                &fracas_loading_imposed_rate,
@@ -315,4 +346,6 @@ const fracas_formulation fracas_formulation_ring = {
     .harvest = ring_harvest,
     .add_matter = ring_add_matter,
     .fields = ring_fields,
+    .locate = ring_locate,
+    .motion_at = ring_motion_at,
     FRACAS_CHAIN_FORMULATION};

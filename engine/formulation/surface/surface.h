@@ -378,6 +378,9 @@ size_t fracas_surface_element_nodes(const fracas_model *model);
 size_t fracas_surface_interface_nodes(const fracas_model *model);
 void fracas_surface_fields(const fracas_model *model, const fracas_step *step, int lane,
                            fracas_fields *fields);
+void fracas_surface_locate(const fracas_model *model, const double place[3], fracas_spot *spot);
+void fracas_surface_motion_at(const fracas_model *model, const fracas_step *step, int lane,
+                              const fracas_spot *spot, double displacement[3], double velocity[3]);
 
 /* All members of a formulation of surfaces but `stress` and `kind`, whose traits are the body. */
 #define FRACAS_SURFACE_FORMULATION                                                              \
@@ -391,6 +394,7 @@ void fracas_surface_fields(const fracas_model *model, const fracas_step *step, i
     .add_up = fracas_surface_add_up, .harvest = fracas_surface_harvest,                         \
     .element_nodes = fracas_surface_element_nodes, .add_matter = fracas_surface_add_matter,     \
     .add_cracks = fracas_surface_add_cracks, .interface_nodes = fracas_surface_interface_nodes, \
-    .fields = fracas_surface_fields
+    .fields = fracas_surface_fields, .locate = fracas_surface_locate,                           \
+    .motion_at = fracas_surface_motion_at
 
 #endif

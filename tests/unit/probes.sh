@@ -1,0 +1,82 @@
+# Probes of a campaign: what a run stores does not depend on lanes, processes or interruptions; readers, Python and the data package agree
+# with study.h5; a study keeps its probes; what is wrong has one message. Closed forms: verification/probes.
+. tests/support/campaigns.sh
+
+campaign plain.yaml 9 '2e4, 1e5'
+{ cat plain.yaml; echo 'probes: {left: [0], middle: [5.003 mm, 0], right: [10 mm]}'; } > probed.yaml
+
+# The same bytes whatever the lanes, processes, and after an interruption; beside the probes, the records of a run without them.
+expect 0 "$fracas" run probed.yaml --study one --jobs 1 --lanes 1
+expect 0 "$fracas" run probed.yaml --study two --jobs 2 --lanes 8 --shuffle
+cmp one/study.h5 two/study.h5 || fail "other bytes with 8 lanes"
+expect 0 "$fracas" run plain.yaml --study plain --jobs 2
+expect 0 "$fracas" verify --full one
+expect 0 "$fracas" replay one 1/4
+said 'the same bytes'
+expect 0 "$fracas" run one/campaign.yaml --study again --jobs 2
+cmp one/study.h5 again/study.h5 || fail "the resolved file gives other bytes"
+cp -r one partial
+rm partial/study.h5
+expect 0 "$fracas" report partial
+expect 0 "$fracas" merge partial
+cmp one/study.h5 partial/study.h5 || fail "the merge gives other bytes"
+rm -r one/report # made anew, from study.h5
+expect 0 "$fracas" report one
+[ -e one/report/probes-point-1.svg ] && grep -q 'id="probes-over-time"' one/report/index.html || fail "no figure"
+! grep -q probes-over-time plain/report/index.html || fail "a figure without probes"
+
+# A study keeps its probes.
+expect 5 "$fracas" run plain.yaml --study one
+said 'probes is left 0 0 0; middle 0.005003 0 0; right 0.01 0 0 in the study, but nothing in this campaign file'
+expect 5 "$fracas" run probed.yaml --study plain
+
+# Wrong ones.
+wrong()
+{
+    { cat plain.yaml; echo "probes: $1"; } > wrong.yaml
+    expect 2 "$fracas" plan wrong.yaml
+    said "$2"
+    [ "$(grep -c '^fracas:' said)" = 1 ] || fail "not one message for $1: $(cat said)"
+}
+wrong '{a: [11 mm]}' 'point 0: probe a at (0.011, 0, 0) m is 0.001 m away from the body, whose nearest point is (0.01, 0, 0) m'
+wrong '{a: 5 mm}' '`a`: found `5 mm`; expected one to three lengths x, y, z, as \[9 mm, 0\]'
+wrong '{a: [1, 2, 3, 4]}' 'expected one to three lengths'
+wrong '{a: [5 MPa]}' '`5 MPa` is a stress; expected a length'
+wrong '{a b: [0]}' '`a b` is no name of a probe'
+wrong '[a]' 'expected names with places'
+wrong '{}' 'expected names with places'
+wrong "{$(for i in $(seq 17); do printf 'p%d: [0], ' "$i"; done)}" 'found 17 probes; at most 16'
+
+/usr/bin/python3 -c 'import h5py' 2>/dev/null || { echo "skipped: python3-h5py is not installed"; exit 0; }
+expect 0 "$fracas" export one --histories
+/usr/bin/python3 "$source/tests/support/check_export.py" one
+PYTHONPATH=$source/python /usr/bin/python3 - <<'END'
+import csv
+
+import fracas
+import h5py
+import numpy as np
+
+with h5py.File("one/study.h5") as one, h5py.File("plain/study.h5") as plain:
+    assert "probe" not in plain and "probes" not in plain.attrs
+    for group in ("realization", "fragment", "history", "interface"):
+        for name in plain[group]:
+            assert one[group][name][()].tobytes() == plain[group][name][()].tobytes(), (group, name)
+study = fracas.open("one")
+places = study.probe_places
+assert list(places) == ["left", "middle", "right"] and places["middle"][0] == 0.005003
+rates = study.points["loading.rate"]
+for point in 0, 1:
+    for replica in range(9):
+        realization = study.realization(point, replica)
+        for name, probe in realization.probes.items():
+            time, u = probe["time"], probe["displacement"]
+            assert np.array_equal(time, realization.history["time"]) and not u[:, 1:].any()
+            # A wave of 1e4 m/s from the first crack has not arrived anywhere before the onset: rate x t, to rounding.
+            early = time <= realization["onset_time"]
+            assert early.sum() > (3 if point == 0 else 0)
+            error = np.abs(u[early, 0] - rates[point] * places[name][0] * time[early])
+            assert (error <= 1e-13 * rates[point] * 0.01 * time[early]).all(), (name, error.max())
+names = [line["probe"] for line in csv.DictReader(open("one/export/probes.csv"))]
+assert [list(places)[n] for n in study.probes["probe"]] == names
+END
