@@ -86,8 +86,8 @@ bool fracas_param_is_of(const fracas_param *param, const fracas_kind *model)
 fracas_err fracas_param_check_either(const char *takes, const char *const key[2],
                                      const double value[2], const char *example)
 {
-    const bool both = value[0] > 0 && value[1] > 0;
-    if (!both && (value[0] > 0 || value[1] > 0)) return FRACAS_OK;
+    const bool first = fabs(value[0]) > 0, second = fabs(value[1]) > 0, both = first && second;
+    if (first != second) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE, "%s either %s or %s, and %s given: %s%s%s", takes, key[0],
                        key[1], both ? "both are" : "neither is",
                        both ? "leave one out, or set it to 0 where a sweep would inherit it"

@@ -157,7 +157,7 @@ const char *fracas_param_text(const fracas_param *param, const void *section);
 /* True if points of this model (NULL: none is chosen) have the parameter. */
 bool fracas_param_is_of(const fracas_param *param, const fracas_kind *model);
 
-/* FRACAS_USAGE unless exactly one of two keys of a section is given: above 0, its default, so that
+/* FRACAS_USAGE unless exactly one of two keys of a section is given: not 0, its default, so that
  * a sweep can take it back. `takes` is who takes them, with its verb; `example` gives the first. */
 FRACAS_MUST_USE fracas_err fracas_param_check_either(const char *takes, const char *const key[2],
                                                      const double value[2], const char *example);

@@ -18,6 +18,7 @@ FRACAS_MUST_USE static fracas_err next_place(fracas_lines *lines, const fracas_p
                                              fracas_profile_place *p, bool *found)
 {
     char headings[64], line[64];
+    *p = (fracas_profile_place){0};
     *found = fracas_lines_next_row(lines);
     if (!*found) return FRACAS_OK;
     snprintf(headings, sizeof headings, "%s,%s", form->at, form->value);
@@ -64,6 +65,10 @@ fracas_err fracas_profile_read(const fracas_attachment *file, const fracas_profi
         if (!found) break;
         TRY(check_order(&lines, form, of, p.at));
         TRY(fracas_grow(&of->place, sizeof p, of->count, &room, "the lines of a file"));
+        if (of->count > 0) {
+            const fracas_profile_place *last = &of->place[of->count - 1];
+            p.integral = last->integral + 0.5 * (p.at - last->at) * (p.value + last->value);
+        }
         of->place[of->count++] = p;
     }
     if (of->count > 0) return FRACAS_OK;
@@ -71,18 +76,37 @@ fracas_err fracas_profile_read(const fracas_attachment *file, const fracas_profi
                        file->path, form->value, form->at, form->unit, form->value);
 }
 
+/* The last place at or below s, the first of all where there is none. */
+static size_t place_below(const fracas_profile *of, double s)
+{
+    size_t low = 0, high = of->count; /* p[low].at <= s < p[high].at, infinite beyond the last */
+    while (high - low > 1) {
+        const size_t middle = low + (high - low) / 2;
+        if (of->place[middle].at <= s) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
 /* (grading.2) */
 double fracas_profile_at(const fracas_profile *of, double s)
 {
     const fracas_profile_place *p = of->place;
     if (s < p[0].at) return p[0].value;
-    size_t low = 0, high = of->count; /* p[low].at <= s < p[high].at, infinite beyond the last */
-    while (high - low > 1) {
-        const size_t middle = low + (high - low) / 2;
-        if (p[middle].at <= s) low = middle;
-        else high = middle;
-    }
+    const size_t low = place_below(of, s), high = low + 1;
     if (high == of->count) return p[low].value;
     return p[low].value +
            (p[high].value - p[low].value) * ((s - p[low].at) / (p[high].at - p[low].at));
+}
+
+/* The integral from the first place to s. */
+static double integral_to(const fracas_profile *of, double s)
+{
+    const fracas_profile_place *p = &of->place[place_below(of, s)];
+    return p->integral + 0.5 * (s - p->at) * (p->value + fracas_profile_at(of, s));
+}
+
+double fracas_profile_integral(const fracas_profile *of, double s)
+{
+    return integral_to(of, s) - integral_to(of, 0);
 }

@@ -8,7 +8,7 @@
 #include "base/param.h"
 
 typedef struct {
-    double at, value;
+    double at, value, integral; /* from the first place to this one */
 } fracas_profile_place;
 
 typedef struct {
@@ -31,6 +31,9 @@ FRACAS_MUST_USE fracas_err fracas_profile_read(const fracas_attachment *file,
 /* Through its places (s_j, f_j): f_1 for s < s_1, f_m for s >= s_m, else f_j + (f_{j+1} - f_j) (s -
  * s_j)/(s_{j+1} - s_j) with s_j <= s < s_{j+1}; at a coordinate given twice the second holds. */
 double fracas_profile_at(const fracas_profile *of, double s);
+
+/* Its integral from 0 to s. */
+double fracas_profile_integral(const fracas_profile *of, double s);
 
 void fracas_profile_clear(fracas_profile *of);
 

@@ -86,17 +86,22 @@ typedef struct {
     double speed;                   /* rad/s, centrifugal */
     double ramp;                    /* s, centrifugal: time to reach it */
     double radial, circumferential; /* m/s, initial-velocity */
-    const fracas_kind *direction;   /* held-velocity, force: radial, circumferential */
-    double velocity;                /* m/s, held-velocity */
+    const fracas_kind *direction;   /* held-velocity, force: radial, circumferential; edge-motion:
+                                       outward, along, across */
+    double velocity;                /* m/s, held-velocity, edge-motion; 0 there: displacement */
     double acceleration;            /* m/s2, held-velocity */
     double force;                   /* N/m, force: per length of the ring */
     double force_rate;              /* N/(m s), force */
     double ratio_z;                 /* 1, expansion of shells: as ratio, along z; NaN: 1 */
     double pressure;                /* Pa, pressure */
     double body_force[3];           /* m/s2, body-force */
-    const fracas_kind *edge;        /* traction: on this edge */
+    const fracas_kind *edge;        /* traction, edge-motion: this edge */
+    const fracas_kind *second_edge; /* edge-motion: as the first; NULL: none */
+    double displacement;            /* m, edge-motion; 0: velocity */
+    const fracas_kind *rise_by;     /* edge-motion: smooth, linear */
     double traction[3]; /* Pa, traction: outward, along the edge, along the surface's normal */
-    /* amplitude of pressure, body-force, traction (engine/loading/load.h); NaN: not given */
+    /* amplitude of pressure, body-force, traction (engine/loading/load.h), of which edge-motion has
+     * rise and history; NaN: not given */
     double rise, decay, duration;     /* s */
     const fracas_attachment *history; /* times [s] and factors; NULL: none */
     double front;                     /* m/s */

@@ -90,12 +90,14 @@ typedef struct {
         double energy[FRACAS_ENERGIES][FRACAS_LANES_MAX];
     };
     double power[FRACAS_LANES_MAX];
-    /* the formulation's own: power of the drive at the velocities after the step before [W], square
-     * of the angular velocity [1/s2] */
+    /* the formulation's own: power of the drive at the velocities after the step before [W], of
+     * moved edges the force along their path [N]; square of the angular velocity [1/s2] */
     double driven[FRACAS_LANES_MAX];
     _Alignas(64) double spin[FRACAS_LANES_MAX];
     /* the same: amplitude of a load now, a step before  (loads.2) */
     _Alignas(64) double amplitude[FRACAS_LANES_MAX], amplitude_before[FRACAS_LANES_MAX];
+    /* the same: path of moved edges now and a step later [m]  (loads.6) */
+    _Alignas(64) double path[FRACAS_LANES_MAX], path_next[FRACAS_LANES_MAX];
     /* accumulated: counts of interfaces, time of the first onset [s, NaN] */
     double first_onset[FRACAS_LANES_MAX];
     int64_t cracked[FRACAS_LANES_MAX], broken[FRACAS_LANES_MAX];

@@ -24,4 +24,5 @@ static const fracas_load load = {.on = FRACAS_LOAD_ON_MASS, .density = density};
 const fracas_kind fracas_loading_body_force = {
     "body-force", "a force on every unit of mass of a body at rest", FRACAS_PARAMS(params),
     .only = FRACAS_GROUP_SURFACES,
-    .traits = &(const fracas_loading_traits){.surface = fracas_load_unbounded, .load = &load}};
+    .traits = &(const fracas_loading_traits){
+        .surface = fracas_load_unbounded, .load = &load, .check = fracas_load_check}};

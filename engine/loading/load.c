@@ -14,6 +14,18 @@ const fracas_kind fracas_front_x = {"x", "along x", .traits = &(const front_axis
                   fracas_front_z = {"z", "along z", .traits = &(const front_axis){2}};
 const fracas_kind *const fracas_front_axes[3] = {&fracas_front_x, &fracas_front_y, &fracas_front_z};
 
+/* Keys of edges in the shapes' tables (engine/mesh/body.c). */
+static const fracas_kind left = {"left", "of a plate"}, right = {"right", "of a plate"},
+                         bottom = {"bottom", "of a plate"}, top = {"top", "of a plate"},
+                         inner = {"inner_edge", "of an annulus"},
+                         outer = {"outer_edge", "of an annulus"},
+                         edge_1 = {"edge_1", "of a mesh file"},
+                         edge_2 = {"edge_2", "of a mesh file"},
+                         edge_3 = {"edge_3", "of a mesh file"},
+                         edge_4 = {"edge_4", "of a mesh file"};
+const fracas_kind *const fracas_load_edges[FRACAS_LOAD_EDGES] = {
+    &left, &right, &bottom, &top, &inner, &outer, &edge_1, &edge_2, &edge_3, &edge_4};
+
 bool fracas_load_has_front(const fracas_loading *loading)
 {
     return fabs(loading->front) > 0; /* NaN: no */

@@ -5,7 +5,9 @@
  *
  * A load is one file, with its parameters and its density, and a line in loading.c. The surface
  * integrates the density with the shape functions; masses, rotary inertia, reactions and the work
- * in the ledger follow for every body. */
+ * in the ledger follow for every body. A load with a path s(t) moves its edges instead:
+ *
+ *   u(x, t) = s(t) d(x)                                                             (loads.5) */
 #ifndef FRACAS_ENGINE_LOADING_LOAD_H
 #define FRACAS_ENGINE_LOADING_LOAD_H
 
@@ -15,7 +17,7 @@
 typedef enum {
     FRACAS_LOAD_ON_AREA, /* d in N/m2 of the mid-surface */
     FRACAS_LOAD_ON_MASS, /* d in m/s2 */
-    FRACAS_LOAD_ON_EDGE  /* d in N/m of an edge */
+    FRACAS_LOAD_ON_EDGE  /* d in N/m of an edge; of a motion without a unit */
 } fracas_load_on;
 
 /* Where a load acts. */
@@ -30,14 +32,22 @@ typedef struct {
 struct fracas_load {
     fracas_load_on on;
     void (*density)(const fracas_spec *spec, const fracas_place *at, double density[3]);
-    /* Key of the edge of the shape on which it acts, NULL if none is named; NULL of loads on areas
-     * and masses. */
-    const char *(*edge)(const fracas_spec *spec);
+    /* Key of the i-th edge of the shape on which it acts, from 0; NULL after the last. NULL of
+     * loads on areas and masses. */
+    const char *(*edge)(const fracas_spec *spec, int i);
+    /* Path of a motion, from s(0) = 0 [m]; NULL: a force. */
+    double (*path)(const fracas_loading *loading, const fracas_profile *history, double t);
 };
 
 /* Share of the load at a place: 1 up to spot from the middle of its spot, and exp(-(r - spot)/L) at
  * a distance r beyond, L = spot_decay, or 0 without one; 1 everywhere without a spot  (loads.5) */
 double fracas_load_spot(const fracas_loading *loading, const double x[3]);
+/* Names of edges, by their keys in the shapes' tables; `text` says what it does there. */
+enum { FRACAS_LOAD_EDGES = 10 };
+extern const fracas_kind *const fracas_load_edges[FRACAS_LOAD_EDGES];
+#define FRACAS_LOAD_EDGE(key, member, text)                                 \
+    FRACAS_ONE_OF(key, fracas_load_edges, offsetof(fracas_loading, member), \
+                  text ", by its key in `geometry`")
 
 /* When the load reaches a place, by its front [s], 0 without one, INFINITY where it never does; and
  * the time constant of its decay there [s], INFINITY without one. */
@@ -98,41 +108,40 @@ extern const fracas_kind *const fracas_front_axes[3];
     FRACAS_BRACES(.name = key, .type = FRACAS_REAL, .unit = "m", .doc = what,             \
                   .fallback = FRACAS_REQUIRED, .minimum = -INFINITY, .maximum = INFINITY, \
                   .offset = offsetof(fracas_loading, member), .optional = true)
-#define FRACAS_LOAD_AMPLITUDE                                                                     \
-    FRACAS_LOAD_TIME("rise", rise, "time in which it rises from 0, in proportion to time"),       \
-        FRACAS_LOAD_TIME("decay", decay, "time constant of its exponential decay"),               \
-        FRACAS_LOAD_TIME("duration", duration,                                                    \
-                         "time after which its sign changes: Friedlander's factor "               \
-                         "1 - t/duration"),                                                       \
-        {.name = "history",                                                                       \
-         .type = FRACAS_ATTACHMENT,                                                               \
-         .unit = "1",                                                                             \
-         .doc =                                                                                   \
-             "text whose lines begin with a time [s] and a factor, linear between two lines, in " \
-             "place of rise and duration",                                                        \
-         .offset = offsetof(fracas_loading, history),                                             \
-         .optional = true},                                                                       \
-        {.name = "front",                                                                         \
-         .type = FRACAS_REAL,                                                                     \
-         .unit = "m/s",                                                                           \
-         .doc = "speed of a front behind which the load acts: all times above count from its "    \
-                "arrival",                                                                        \
-         .fallback = FRACAS_REQUIRED,                                                             \
-         .minimum = -INFINITY,                                                                    \
-         .maximum = INFINITY,                                                                     \
-         .offset = offsetof(fracas_loading, front),                                               \
-         .optional = true},                                                                       \
-        {FRACAS_ONE_OF("front_along", fracas_front_axes, offsetof(fracas_loading, front_along),   \
-                       "axis along which the front runs")},                                       \
-        FRACAS_LOAD_PLACE("front_at", front_at, "coordinate of the front at t = 0; none is 0"),   \
-        FRACAS_LOAD_PLACE(                                                                        \
-            "front_from", front_from,                                                             \
-            "coordinate at which the front began to run: nothing behind it is loaded"),           \
-    {                                                                                             \
-        .name = "decay_by_travel", .type = FRACAS_REAL, .unit = "1",                              \
-        .doc = "time constant of its decay over the time that the front took from front_from",    \
-        .fallback = FRACAS_REQUIRED, .maximum = INFINITY, .minimum_open = true,                   \
-        .offset = offsetof(fracas_loading, decay_by_travel), .optional = true                     \
+#define FRACAS_LOAD_HISTORY(others)                                                              \
+    FRACAS_BRACES(.name = "history", .type = FRACAS_ATTACHMENT, .unit = "1",                     \
+                  .doc =                                                                         \
+                      "text whose lines begin with a time [s] and a factor, linear between two " \
+                      "lines, in place of " others,                                              \
+                  .offset = offsetof(fracas_loading, history), .optional = true)
+#define FRACAS_LOAD_AMPLITUDE                                                                   \
+    FRACAS_LOAD_TIME("rise", rise, "time in which it rises from 0, in proportion to time"),     \
+        FRACAS_LOAD_TIME("decay", decay, "time constant of its exponential decay"),             \
+        FRACAS_LOAD_TIME("duration", duration,                                                  \
+                         "time after which its sign changes: Friedlander's factor "             \
+                         "1 - t/duration"),                                                     \
+        FRACAS_LOAD_HISTORY("rise and duration"),                                               \
+        {.name = "front",                                                                       \
+         .type = FRACAS_REAL,                                                                   \
+         .unit = "m/s",                                                                         \
+         .doc = "speed of a front behind which the load acts: all times above count from its "  \
+                "arrival",                                                                      \
+         .fallback = FRACAS_REQUIRED,                                                           \
+         .minimum = -INFINITY,                                                                  \
+         .maximum = INFINITY,                                                                   \
+         .offset = offsetof(fracas_loading, front),                                             \
+         .optional = true},                                                                     \
+        {FRACAS_ONE_OF("front_along", fracas_front_axes, offsetof(fracas_loading, front_along), \
+                       "axis along which the front runs")},                                     \
+        FRACAS_LOAD_PLACE("front_at", front_at, "coordinate of the front at t = 0; none is 0"), \
+        FRACAS_LOAD_PLACE(                                                                      \
+            "front_from", front_from,                                                           \
+            "coordinate at which the front began to run: nothing behind it is loaded"),         \
+    {                                                                                           \
+        .name = "decay_by_travel", .type = FRACAS_REAL, .unit = "1",                            \
+        .doc = "time constant of its decay over the time that the front took from front_from",  \
+        .fallback = FRACAS_REQUIRED, .maximum = INFINITY, .minimum_open = true,                 \
+        .offset = offsetof(fracas_loading, decay_by_travel), .optional = true                   \
     }
 
 #endif

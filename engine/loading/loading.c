@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/loading/loading.h"
 
-#include "engine/loading/load.h"
-
 #include <math.h>
 
 const fracas_kind fracas_axis_radial = {"radial", "outward"};
@@ -265,14 +263,15 @@ const fracas_kind fracas_loading_centrifugal = {
 static const fracas_kind *const loadings[] = {
     &fracas_loading_imposed_rate, &fracas_loading_initial_velocity, &fracas_loading_held_velocity,
     &fracas_loading_force,        &fracas_loading_expansion,        &fracas_loading_centrifugal,
-    &fracas_loading_pressure,     &fracas_loading_body_force,       &fracas_loading_traction};
+    &fracas_loading_pressure,     &fracas_loading_body_force,       &fracas_loading_traction,
+    &fracas_loading_edge_motion};
 
 /* Members of other loadings are 0. */
 static fracas_err check_loading(const void *section)
 {
     const fracas_loading *loading = section;
     const fracas_loading_traits *traits = loading->type->traits;
-    return traits->load ? fracas_load_check(loading) : FRACAS_OK;
+    return traits->check ? traits->check(loading) : FRACAS_OK;
 }
 
 const fracas_section fracas_loading_section = {

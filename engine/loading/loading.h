@@ -47,7 +47,9 @@ typedef struct {
     fracas_stretch (*surface)(const fracas_spec *spec, double t);
     bool released;           /* the body moves freely after the start */
     bool body_force;         /* it acts on every unit of mass of a surface, by where that started */
-    const fracas_load *load; /* forces on a surface; NULL: none */
+    const fracas_load *load; /* forces on a surface, or motion of its edges; NULL: none */
+    /* Checks the section's values against each other; NULL: none. */
+    fracas_err (*check)(const fracas_loading *loading);
 } fracas_loading_traits;
 
 static inline const fracas_loading_traits *fracas_loading_traits_of(const fracas_spec *spec)
@@ -59,7 +61,7 @@ extern const fracas_section fracas_loading_section;
 extern const fracas_kind fracas_loading_imposed_rate, fracas_loading_initial_velocity,
     fracas_loading_held_velocity, fracas_loading_force, fracas_loading_expansion,
     fracas_loading_centrifugal, fracas_loading_pressure, fracas_loading_body_force,
-    fracas_loading_traction;
+    fracas_loading_traction, fracas_loading_edge_motion;
 extern const fracas_kind fracas_start_moving, fracas_start_rest;
 extern const fracas_kind fracas_axis_radial, fracas_axis_circumferential;
 

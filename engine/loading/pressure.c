@@ -42,4 +42,5 @@ const fracas_kind fracas_loading_pressure = {
     "pressure",
     "a pressure on one side of a body at rest: constant, or a pulse, behind a front, on a spot",
     FRACAS_PARAMS(params), .only = FRACAS_GROUP_SHELL,
-    .traits = &(const fracas_loading_traits){.surface = surface, .load = &load}};
+    .traits = &(const fracas_loading_traits){
+        .surface = surface, .load = &load, .check = fracas_load_check}};

@@ -2,26 +2,12 @@
 /* Load `traction`: on the face of an edge, by its area at the start. */
 #include "engine/loading/load.h"
 
-/* Keys of edges in the shapes' tables (engine/mesh/body.c). */
-static const fracas_kind left = {"left", "of a plate"}, right = {"right", "of a plate"},
-                         bottom = {"bottom", "of a plate"}, top = {"top", "of a plate"},
-                         inner = {"inner_edge", "of an annulus"},
-                         outer = {"outer_edge", "of an annulus"},
-                         edge_1 = {"edge_1", "of a mesh file"},
-                         edge_2 = {"edge_2", "of a mesh file"},
-                         edge_3 = {"edge_3", "of a mesh file"},
-                         edge_4 = {"edge_4", "of a mesh file"};
-static const fracas_kind *const edges[] = {&left,  &right,  &bottom, &top,    &inner,
-                                           &outer, &edge_1, &edge_2, &edge_3, &edge_4};
-
 #define STRESS(key, member, what, models)                                                       \
     FRACAS_BRACES(key, FRACAS_REAL, "Pa", what ", times its amplitude", 0, -INFINITY, INFINITY, \
                   false, offsetof(fracas_loading, member), .only = models)
 
 static const fracas_param params[] = {
-    {FRACAS_ONE_OF("edge", edges, offsetof(fracas_loading, edge),
-                   "edge on which it acts, by its key in `geometry`"),
-     .fallback = FRACAS_REQUIRED},
+    {FRACAS_LOAD_EDGE("edge", edge, "edge on which it acts"), .fallback = FRACAS_REQUIRED},
     STRESS("normal", traction[0], "stress outward in the surface, that pulls", 0),
     STRESS("shear", traction[1], "stress along the edge, the body on its left", 0),
     STRESS("across", traction[2], "stress along the normal of the mid-surface", FRACAS_GROUP_SHELL),
@@ -38,9 +24,9 @@ static void density(const fracas_spec *spec, const fracas_place *at, double dens
                       stress[2] * at->normal[i]);
 }
 
-static const char *edge_of(const fracas_spec *spec)
+static const char *edge_of(const fracas_spec *spec, int i)
 {
-    return spec->loading.edge ? spec->loading.edge->name : NULL;
+    return i == 0 && spec->loading.edge ? spec->loading.edge->name : NULL;
 }
 
 static const fracas_load load = {.on = FRACAS_LOAD_ON_EDGE, .density = density, .edge = edge_of};
@@ -49,4 +35,5 @@ static const fracas_load load = {.on = FRACAS_LOAD_ON_EDGE, .density = density, 
 const fracas_kind fracas_loading_traction = {
     "traction", "a stress on one edge of a body at rest", FRACAS_PARAMS(params),
     .only = FRACAS_GROUP_SURFACES,
-    .traits = &(const fracas_loading_traits){.surface = fracas_load_unbounded, .load = &load}};
+    .traits = &(const fracas_loading_traits){
+        .surface = fracas_load_unbounded, .load = &load, .check = fracas_load_check}};

@@ -6,9 +6,11 @@
 
 #include <math.h>
 
+/* The load of the model, but a motion. */
 static const fracas_load *load_of(const fracas_model *model)
 {
-    return fracas_loading_traits_of(&model->spec)->load;
+    const fracas_load *load = fracas_loading_traits_of(&model->spec)->load;
+    return load && !load->path ? load : NULL;
 }
 
 /* ---- places ---- */
@@ -63,6 +65,12 @@ static element_point edge_point_at(const fracas_surface *surface,
     *speed = normalize(p.at.along);
     cross(p.at.along, p.at.normal, p.at.outward);
     return p;
+}
+
+fracas_place fracas_surface_place_on(const fracas_surface *surface,
+                                     const fracas_surface_border *border, double s, double *speed)
+{
+    return edge_point_at(surface, border, s, speed).at;
 }
 
 /* ---- forces ---- */
@@ -126,16 +134,23 @@ static void fill_edge(const fracas_model *model, size_t dimension,
 
 /* ---- tables ---- */
 
-/* Tag of the edges under load; 0 of a load elsewhere. */
-FRACAS_MUST_USE static fracas_err find_edge(const fracas_model *model, int32_t *tag)
+fracas_err fracas_surface_load_tag(const fracas_model *model, int i, int32_t *tag)
 {
-    const fracas_load *load = load_of(model);
+    const fracas_load *load = fracas_loading_traits_of(&model->spec)->load;
+    const char *asked = i == 0 ? "loading.edge" : "loading.second_edge",
+               *key = load->edge ? load->edge(&model->spec, i) : NULL;
+    const fracas_surface *surface = model->surface;
     *tag = 0;
-    if (load->on != FRACAS_LOAD_ON_EDGE) return FRACAS_OK;
-    const char *key = load->edge(&model->spec);
-    if (!key)
+    if (load->on == FRACAS_LOAD_ON_EDGE && !key && i == 0)
         return fracas_fail(FRACAS_USAGE, "loading.edge is not given: on which edge does it act?");
-    return fracas_shape_edge_tag(model->spec.geometry.shape, "loading.edge", key, tag);
+    if (!key) return FRACAS_OK;
+    TRY(fracas_shape_edge_tag(model->spec.geometry.shape, asked, key, tag));
+    for (size_t b = 0; b < surface->nborders; b++)
+        if (surface->border[b].tag == *tag) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "%s is %s, but the mesh has no edge on its boundary of the physical group "
+                       "%d: give the lines that number, or the group the name %s",
+                       asked, key, (int)*tag, key);
 }
 
 fracas_err fracas_surface_loads_count(const fracas_model *model, size_t *count)
@@ -144,16 +159,11 @@ fracas_err fracas_surface_loads_count(const fracas_model *model, size_t *count)
     int32_t tag;
     *count = load_of(model) ? surface->nelements : 0;
     if (*count == 0) return FRACAS_OK;
-    TRY(find_edge(model, &tag));
+    TRY(fracas_surface_load_tag(model, 0, &tag));
     if (tag == 0) return FRACAS_OK;
     *count = 0;
     for (size_t b = 0; b < surface->nborders; b++) *count += surface->border[b].tag == tag;
-    if (*count > 0) return FRACAS_OK;
-    const char *key = load_of(model)->edge(&model->spec);
-    return fracas_fail(FRACAS_USAGE,
-                       "loading.edge is %s, but the mesh has no edge on its boundary of the "
-                       "physical group %d: give the lines that number, or the group the name %s",
-                       key, (int)tag, key);
+    return FRACAS_OK;
 }
 
 /* The forces of an element's row, which begins at its first use. */
@@ -209,7 +219,7 @@ fracas_err fracas_surface_loads_fill(const fracas_model *model, fracas_surface_t
     int32_t tag;
     if (!load_of(model)) return FRACAS_OK;
     TRY(fracas_load_history(&model->spec.loading, &t->load_history));
-    TRY(find_edge(model, &tag));
+    TRY(fracas_surface_load_tag(model, 0, &tag));
     if (tag != 0) fill_edges(model, t, tag);
     else fill_elements(model, t);
     if (moves_any(t)) return FRACAS_OK;

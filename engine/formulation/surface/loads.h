@@ -1,11 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Forces of a load on the nodes of a surface (docs/theory/loads.md). */
+/* Forces of a load on the nodes of a surface, and motion of its edges (docs/theory/loads.md). */
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_LOADS_H
 #define FRACAS_ENGINE_FORMULATION_SURFACE_LOADS_H
 
 #include "engine/formulation/surface/surface.h"
+#include "engine/loading/load.h"
 
-/* Number of elements under load: 0 without one. FRACAS_USAGE where its edge does not exist. */
+/* Tag of the i-th edge on which the load acts; 0: there is none. FRACAS_USAGE where the shape or
+ * the mesh has no such edge. */
+FRACAS_MUST_USE fracas_err fracas_surface_load_tag(const fracas_model *model, int i, int32_t *tag);
+
+/* A place at s in (0, 1) on an edge, and |dx/ds| there [m]. */
+fracas_place fracas_surface_place_on(const fracas_surface *surface,
+                                     const fracas_surface_border *border, double s, double *speed);
+
+/* Edges that the load moves: bits by tags; 0: none. FRACAS_USAGE as fracas_surface_load_tag. */
+FRACAS_MUST_USE fracas_err fracas_surface_moved_tags(const fracas_model *model, unsigned *tags);
+/* Number of elements with such an edge. */
+size_t fracas_surface_moved_count(const fracas_surface *surface, unsigned tags);
+/* Fills moved_row, direction and load_history of tables with `moved`. FRACAS_USAGE where the load
+ * moves a component that nothing holds, or none. */
+FRACAS_MUST_USE fracas_err fracas_surface_motion_fill(const fracas_model *model,
+                                                      fracas_surface_tables *tables);
+
+/* Number of elements under a force: 0 without one. FRACAS_USAGE where its edge does not exist. */
 FRACAS_MUST_USE fracas_err fracas_surface_loads_count(const fracas_model *model, size_t *count);
 
 /* Fills load_row, load, load_clock and load_history of tables whose masses are there. FRACAS_USAGE

@@ -2,6 +2,8 @@
 /* Sums of a surface over its blocks of elements. */
 #include "engine/formulation/surface/surface.h"
 
+#include "engine/loading/loading.h"
+
 #include <math.h>
 
 double fracas_surface_spin(const fracas_surface_constants *c, double time)
@@ -9,6 +11,12 @@ double fracas_surface_spin(const fracas_surface_constants *c, double time)
     const double share = c->ramp > 0 ? fmax(0.0, fmin(1.0, time / c->ramp)) : 1.0,
                  w = c->speed * share;
     return w * w;
+}
+
+double fracas_surface_path(const fracas_surface_constants *c, double time)
+{
+    const fracas_loading_traits *traits = c->loading->type->traits;
+    return c->tables->moved ? traits->load->path(c->loading, &c->tables->load_history, time) : 0;
 }
 
 /* Adds blocks of `size` sums in pairs, pairs of pairs, ...: the first one holds them all then. */
@@ -28,6 +36,16 @@ static double work_of(const fracas_surface_constants *c, const fracas_step *step
     return step->drift[l] * 0.5 * (before + step->spin[l]) * moment;
 }
 
+/* Work of moved edges since the step before [J], by the mean of their forces  (loads.8) */
+static double work_of_edges(const fracas_surface_constants *c, fracas_step *step, int l,
+                            double force)
+{
+    const double before = fracas_surface_path(c, step->time[l] - step->drift[l]),
+                 work = 0.5 * (step->driven[l] + force) * (step->path[l] - before);
+    step->driven[l] = force;
+    return work;
+}
+
 /* (membrane.8), (shell.11) */
 static void set_totals(const fracas_surface_constants *c, fracas_step *step, int l,
                        const double sum[SURFACE_SUMS])
@@ -43,6 +61,9 @@ static void set_totals(const fracas_surface_constants *c, fracas_step *step, int
     step->power[l] = sum[SURFACE_POWER];
     step->work[l] = c->tables->position ? work_of(c, step, l, sum[SURFACE_MOMENT])
                                         : sum[SURFACE_WORK];
+    if (!c->tables->moved) return;
+    step->power[l] = 0;
+    step->work[l] = work_of_edges(c, step, l, sum[SURFACE_POWER]);
 }
 
 void fracas_surface_totals(const fracas_surface_constants *c, fracas_step *step)

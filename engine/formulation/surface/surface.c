@@ -339,6 +339,8 @@ void fracas_surface_advance(const fracas_model *model, fracas_step *step)
         step->spin[l] = fracas_surface_spin(c, step->time[l]);
         step->amplitude[l] = amplitude_at(c, step->time[l]);
         step->amplitude_before[l] = amplitude_at(c, step->time[l] - step->drift[l]);
+        step->path[l] = fracas_surface_path(c, step->time[l]);
+        step->path_next[l] = fracas_surface_path(c, step->time[l] + step->kick[l]);
     }
     fracas_team_run(step->team, advance_part, &task);
     fracas_surface_totals(c, step);
@@ -388,6 +390,7 @@ size_t fracas_surface_partition(const fracas_model *model, fracas_step *step, in
 static bool is_pulled(const fracas_model *model, size_t e)
 {
     const fracas_surface_tables *t = tables_of(model);
+    if (t->moved && t->moved[e]) return true;
     const uint32_t moving = t->held[e] & ~t->fixed[e];
     for (size_t i = 0; moving >> i; i++)
         if (moving >> i & 1 && start_velocity(model, e, i) != 0) return true;

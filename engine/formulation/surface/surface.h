@@ -62,7 +62,8 @@ enum {
     SURFACE_SUMS_BY_TURN,
     SURFACE_KINETIC = SURFACE_SUMS_BY_TURN, /* twice the kinetic energy [J] */
     SURFACE_DAMPED,                         /* energy damped in this step [J] */
-    SURFACE_POWER,                          /* power of reactions [W] */
+    SURFACE_POWER,                          /* power of reactions [W]; where a load moves edges:
+                                               their force along the path [N] */
     SURFACE_MOMENT,                         /* membranes: sum of m r.du/dt of this step [kg m2/s] */
     SURFACE_WORK,                           /* work of the load in this step [J] */
     SURFACE_SUMS
@@ -122,6 +123,11 @@ typedef struct {
     double *load;                  /* [row][unknown] [N] */
     fracas_load_clock *load_clock; /* [row] */
     fracas_profile load_history;
+    /* Elements with edges that a load moves, u = s(t) d  (loads.5) */
+    size_t nmoved;
+    uint32_t *moved;     /* [element]: bits as of `held`, among them; NULL: no edge is moved */
+    uint32_t *moved_row; /* [element]: its row + 1; 0: none */
+    double *direction;   /* [row][unknown]: d, 0 of components not moved */
     /* A shell's edges whose director is held. */
     size_t nrims;
     double *rim;        /* [rim][body->rim_table] */
@@ -316,6 +322,8 @@ double fracas_surface_inverse_size(const fracas_surface *surface, size_t interfa
 
 /* w(t)^2, w = speed min(1, t/ramp): 0 where no body force acts [1/s2]. */
 double fracas_surface_spin(const fracas_surface_constants *constants, double time);
+/* s(t) of moved edges: 0 where no load moves any [m]  (loads.6) */
+double fracas_surface_path(const fracas_surface_constants *constants, double time);
 /* After a sweep: sums of all blocks to energies [J], those of the potential (membrane.8),
  * (shell.11), power [W] and work [J]. */
 void fracas_surface_totals(const fracas_surface_constants *constants, fracas_step *step);

@@ -8,6 +8,7 @@
  * forces on nodes and strains at those points: both are few. */
 
 #include "engine/formulation/surface/load_kernel.h"
+#include "engine/formulation/surface/motion_kernel.h"
 
 /* ---- interfaces ---- */
 
@@ -221,7 +222,8 @@ LANES_FUNCTION vd surface_spun(const double *table, const vd *x, const vd *y)
     return sum;
 }
 
-/* Accelerations by internal and body forces, 0 of held components; power of their reactions. */
+/* Accelerations by internal and body forces, 0 of held components; power of their reactions at
+ * `velocity`. */
 LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size_t e,
                                        const vd *velocity, const vd *force, vd *acceleration)
 {
@@ -266,6 +268,30 @@ LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size
         if (rotary) power += surface_twist(rotary, held, acceleration, velocity);
         surface_add(surface_at(surface_sums(c, e), SURFACE_POWER), power);
     }
+}
+
+/* The same of an element with moved components: the others get the inertia of these, too, and the
+ * power is that at velocity d: the force along the path  (loads.8). */
+__attribute__((noinline, cold)) static void surface_accelerate_moved(const surface_context *c,
+                                                                     int order, size_t e,
+                                                                     double *at, const vd *v,
+                                                                     vd *force, vd *acceleration)
+{
+    surface_lead lead;
+    surface_lead_moved(c, order, e, at, v, force, &lead);
+    if (BODY_DIMENSION == 3 && c->tables->rotary) { /* (shell.16) */
+        const double *table = c->tables->rotary + e * SURFACE_ROTARY_TABLE;
+        vd along[6];
+        surface_turning(table, lead.acceleration, along);
+        for (int k = 0; k < 6; k++) {
+            const vd moment = surface_row(table + SURFACE_ROTARY, k, along);
+            for (int i = 0; i < 3; i++)
+                force[3 * k + i] += lanes_set(table[SURFACE_TURNING + i]) * moment;
+        }
+    }
+    if (BODY_PLANE && order == 1) surface_accelerate(c, 1, e, lead.direction, force, acceleration);
+    else surface_accelerate(c, 2, e, lead.direction, force, acceleration);
+    for (int i = 0; i < BODY_SIZE(order); i++) acceleration[i] += lead.acceleration[i];
 }
 
 /* x.M y of an element, and the moment of M x. */
@@ -340,7 +366,9 @@ LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
     if (load.force)
         UNROLL_FOR (int i = 0; i < size; i++) force[i] -= load.now * lanes_set(load.force[i]);
     UNROLL_FOR (int i = 0; i < size; i++) v[i] = lanes_load(surface_at(at, SURFACE_V * size + i));
-    surface_accelerate(c, order, e, v, force, a);
+    if (law != SURFACE_OPERATOR && surface_is_moved(c, e))
+        surface_accelerate_moved(c, order, e, at, v, force, a);
+    else surface_accelerate(c, order, e, v, force, a);
     if (law == SURFACE_OPERATOR) {
         UNROLL_FOR (int i = 0; i < size; i++)
             lanes_store(surface_at(at, SURFACE_V * size + i), a[i]);
@@ -447,6 +475,7 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
         if (turn + 1 < part->turn + part->turns) surface_fetch_turn(c, order, turn + 1, part->join);
         if (!c->ghost && e % SURFACE_BLOCK == 0) surface_begin_block(c, e);
         if (law != SURFACE_OPERATOR) surface_drift(&s->motion, c->drift, BODY_SIZE(order), at);
+        if (law != SURFACE_OPERATOR && surface_is_moved(c, e)) surface_place_moved(c, order, e, at);
         surface_enter(c, order, e, at, surface_place(c, turn->slot));
         for (; join < part->join + turn->join_end; join++)
             if (s->friction || !surface_interface_forces(c, order, law, 1, join)) stirred(c, join);

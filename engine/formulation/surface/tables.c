@@ -28,7 +28,10 @@
     TABLE(position)        \
     TABLE(load_row)        \
     TABLE(load)            \
-    TABLE(load_clock)
+    TABLE(load_clock)      \
+    TABLE(moved)           \
+    TABLE(moved_row)       \
+    TABLE(direction)
 
 /* Their lengths; 0: there is none. */
 #define TABLE(name) size_t name;
@@ -39,7 +42,7 @@ typedef struct {
 
 typedef struct {
     bool consistent, rotary, positions; /* there are such tables */
-    size_t loads;                       /* rows of loads */
+    size_t loads, moved;                /* rows of loads, of moved edges */
 } optional;
 
 static lengths lengths_of(const fracas_surface_tables *t, optional has)
@@ -64,6 +67,9 @@ static lengths lengths_of(const fracas_surface_tables *t, optional has)
         .load_row = has.loads ? n : 0,
         .load = has.loads * nodes * (size_t)body->dimension,
         .load_clock = has.loads,
+        .moved = has.moved ? n : 0,
+        .moved_row = has.moved ? n : 0,
+        .direction = has.moved * nodes * (size_t)body->dimension,
     };
 }
 
@@ -91,7 +97,7 @@ static bool allocate(fracas_surface_tables *t, const lengths *length)
 
 static lengths own_lengths(const fracas_surface_tables *t)
 {
-    return lengths_of(t, (optional){t->consistent, t->rotary, t->position, t->nloads});
+    return lengths_of(t, (optional){t->consistent, t->rotary, t->position, t->nloads, t->nmoved});
 }
 
 size_t fracas_surface_tables_bytes(const fracas_surface_tables *t)
@@ -256,7 +262,7 @@ static fracas_err check_edge_tags(const fracas_model *model)
 }
 
 /* Held nodes, and rims, element by element: borders are sorted by element. */
-static fracas_err fill_edges(const fracas_model *model, fracas_surface_tables *t)
+static fracas_err fill_edges(const fracas_model *model, fracas_surface_tables *t, unsigned moved)
 {
     const fracas_surface_body *body = t->body;
     const int dimension = body->dimension;
@@ -266,18 +272,21 @@ static fracas_err fill_edges(const fracas_model *model, fracas_surface_tables *t
         const fracas_kind *kind = edge_kind(&model->spec, border->tag);
         const fracas_edge *edge = fracas_edge_of(kind);
         const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
+        const bool moves = border->tag > 0 && moved >> border->tag & 1;
         unsigned components = 0;
         uint32_t held = 0;
-        if (edge->held) TRY(body->hold_edge(model, border, kind, &components));
+        if (edge->held || moves) TRY(body->hold_edge(model, border, kind, &components));
         for (int n = 0; n < t->order + 1; n++) held |= components << dimension * (int)node[n];
         t->held[border->element] |= held;
-        if (!edge->moving) t->fixed[border->element] |= held;
+        if (moves) t->moved[border->element] |= held;
+        else if (!edge->moving) t->fixed[border->element] |= held;
         while (e < border->element) t->rim_from[++e] = (uint32_t)r;
         if (!edge->director) continue;
         t->rim_edge[r] = (uint8_t)k;
         body->fill_rim(model, border, t->rim + r++ * body->rim_table);
     }
     while (e < t->nelements) t->rim_from[++e] = (uint32_t)r;
+    for (e = 0; t->moved && e < t->nelements; e++) t->moved[e] &= ~t->fixed[e];
     return FRACAS_OK;
 }
 
@@ -315,10 +324,11 @@ static void fill_interface(const fracas_model *model, fracas_surface_tables *t, 
                          head + body->head + g * body->point_table);
 }
 
-static fracas_err fill(const fracas_model *model, fracas_surface_tables *t)
+static fracas_err fill(const fracas_model *model, fracas_surface_tables *t, unsigned moved)
 {
     TRY(check_edge_tags(model));
-    TRY(fill_edges(model, t));
+    TRY(fill_edges(model, t, moved));
+    TRY(fracas_surface_motion_fill(model, t));
     for (size_t e = 0; e < t->nelements; e++) fill_element(model, t, e);
     for (size_t i = 0; i < t->ninterfaces; i++) fill_interface(model, t, i);
     return fracas_surface_loads_fill(model, t);
@@ -337,14 +347,18 @@ fracas_err fracas_surface_tables_create(const fracas_model *model, fracas_surfac
         t->nrims += fracas_edge_of(edge_kind(&model->spec, surface->border[b].tag))->director;
     const fracas_time *time = &model->spec.time;
     size_t loads;
+    unsigned moved = 0;
     fracas_err err = fracas_surface_loads_count(model, &loads);
+    if (!err) err = fracas_surface_moved_tags(model, &moved);
     const lengths length = lengths_of(
         t, (optional){.consistent = fracas_mass_is_consistent(time),
                       .rotary = t->body->fill_rotary && time->rotary_inertia > 0,
                       .positions = fracas_loading_traits_of(&model->spec)->body_force,
-                      .loads = loads});
+                      .loads = loads,
+                      .moved = fracas_surface_moved_count(surface, moved)});
     if (!err)
-        err = allocate(t, &length) ? fill(model, t) : fracas_no_memory("the tables of a surface");
+        err = allocate(t, &length) ? fill(model, t, moved)
+                                   : fracas_no_memory("the tables of a surface");
     if (err) fracas_surface_tables_destroy(t);
     else *tables = t;
     return err;

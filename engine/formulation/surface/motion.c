@@ -1,0 +1,148 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Edges that a load moves: their nodes, and where to (docs/theory/loads.md). */
+#include "engine/formulation/surface/loads.h"
+
+#include "engine/loading/loading.h"
+#include "engine/mesh/body.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { EDGES_MOST = 2 }; /* edges of a load */
+#define NOTHING 1e-12    /* component that rounding leaves of a direction of length 1 */
+
+static bool is_moved(const fracas_surface_border *border, unsigned tags)
+{
+    return border->tag > 0 && border->tag < FRACAS_EDGES && (tags >> border->tag & 1);
+}
+
+fracas_err fracas_surface_moved_tags(const fracas_model *model, unsigned *tags)
+{
+    const fracas_load *load = fracas_loading_traits_of(&model->spec)->load;
+    *tags = 0;
+    for (int i = 0; load && load->path && i < EDGES_MOST; i++) {
+        int32_t tag;
+        TRY(fracas_surface_load_tag(model, i, &tag));
+        if (tag > 0) *tags |= 1u << tag;
+    }
+    return FRACAS_OK;
+}
+
+size_t fracas_surface_moved_count(const fracas_surface *surface, unsigned tags)
+{
+    size_t count = 0;
+    for (size_t b = 0; b < surface->nborders; b++) {
+        const fracas_surface_border *border = &surface->border[b];
+        const bool again = b > 0 && border[-1].element == border->element &&
+                           is_moved(border - 1, tags);
+        count += is_moved(border, tags) && !again;
+    }
+    return count;
+}
+
+/* Nodes of a border in its element: at s = 0, 1, and 1/2 of quadratic ones. */
+static void nodes_of(const fracas_surface_border *border, size_t node[3])
+{
+    node[0] = border->edge;
+    node[1] = (border->edge + 1) % 3;
+    node[2] = 3 + border->edge;
+}
+
+/* Adds to `sum` [node of the mesh] the directions of the borders of a tag: edges that are bent meet
+ * at nodes where their normals differ. */
+static void add_directions(const fracas_model *model, int32_t tag, double (*sum)[3])
+{
+    static const double at[3] = {0, 1, 0.5};
+    const fracas_surface *surface = model->surface;
+    const fracas_load *load = fracas_loading_traits_of(&model->spec)->load;
+    for (size_t b = 0; b < surface->nborders; b++) {
+        const fracas_surface_border *border = &surface->border[b];
+        size_t node[3];
+        if (border->tag != tag) continue;
+        nodes_of(border, node);
+        for (int n = 0; n < surface->order + 1; n++) {
+            double direction[3], speed;
+            const fracas_place place = fracas_surface_place_on(surface, border, at[n], &speed);
+            load->density(&model->spec, &place, direction);
+            double *to = sum[surface->element[border->element * surface->corners + node[n]]];
+            for (int i = 0; i < 3; i++) to[i] += direction[i];
+        }
+    }
+}
+
+static void normalize(double a[3])
+{
+    const double length = sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    for (int i = 0; i < 3; i++) a[i] = length > 0 ? a[i] / length : 0;
+}
+
+/* The direction at a node, of length 1; along an axis without what rounding leaves beside it. */
+static void direction_of(const double sum[3], double direction[3])
+{
+    for (int i = 0; i < 3; i++) direction[i] = sum[i];
+    normalize(direction);
+    for (int i = 0; i < 3; i++)
+        if (fabs(direction[i]) < NOTHING) direction[i] = 0;
+    normalize(direction);
+}
+
+static fracas_err not_held(const fracas_model *model, int32_t tag)
+{
+    const fracas_kind *kind = model->spec.geometry.edge[tag];
+    return fracas_fail(FRACAS_USAGE,
+                       "loading moves an edge with tag %d in a direction in which geometry, where "
+                       "it is %s, does not hold it: hold it otherwise, or leave it free: then all "
+                       "of it goes along",
+                       (int)tag, kind ? kind->name : "held by the shape");
+}
+
+/* The directions of the nodes of a tag's borders, by those of the mesh, into their rows. An edge
+ * around a corner has both borders in one element. */
+static fracas_err fill_tag(const fracas_model *model, fracas_surface_tables *t, int32_t tag,
+                           const double (*sum)[3], double *largest)
+{
+    const fracas_surface *surface = model->surface;
+    const size_t dimension = (size_t)t->body->dimension, size = fracas_surface_unknowns(t);
+    for (size_t b = 0; b < surface->nborders; b++) {
+        const fracas_surface_border *border = &surface->border[b];
+        const size_t e = border->element;
+        size_t node[3];
+        if (border->tag != tag) continue;
+        if (t->moved_row[e] == 0) t->moved_row[e] = (uint32_t)++t->nmoved;
+        double *row = t->direction + (t->moved_row[e] - 1) * size;
+        nodes_of(border, node);
+        for (int n = 0; n < surface->order + 1; n++) {
+            double direction[3];
+            direction_of(sum[surface->element[e * surface->corners + node[n]]], direction);
+            for (size_t i = 0; i < dimension; i++) {
+                const size_t unknown = dimension * node[n] + i;
+                const double moved = fabs(direction[i]);
+                if (moved > 0 && !(t->held[e] >> unknown & 1)) return not_held(model, tag);
+                if (!(t->moved[e] >> unknown & 1)) continue;
+                row[unknown] = direction[i];
+                *largest = fmax(*largest, moved);
+            }
+        }
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_surface_motion_fill(const fracas_model *model, fracas_surface_tables *t)
+{
+    double largest = 0;
+    if (!t->moved) return FRACAS_OK;
+    TRY(fracas_load_history(&model->spec.loading, &t->load_history));
+    for (int i = 0; i < EDGES_MOST; i++) {
+        int32_t tag;
+        TRY(fracas_surface_load_tag(model, i, &tag));
+        if (tag == 0) break;
+        OWNED double(*sum)[3] = calloc(model->surface->nnodes, sizeof *sum);
+        if (!sum) return fracas_no_memory("the edges that a load moves");
+        add_directions(model, tag, sum);
+        TRY(fill_tag(model, t, tag, (const double(*)[3])sum, &largest));
+    }
+    if (largest > 0) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "loading %s moves no node: others hold all of the edge: free one of them",
+                       model->spec.loading.type->name);
+}

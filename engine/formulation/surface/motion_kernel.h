@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The sweep of a surface over lanes: elements with edges that a load moves
+ * (docs/theory/loads.md). They are few: functions of their own, for any order. */
+#ifndef FRACAS_ENGINE_FORMULATION_SURFACE_MOTION_KERNEL_H
+#define FRACAS_ENGINE_FORMULATION_SURFACE_MOTION_KERNEL_H
+
+#include "engine/formulation/surface/kernel.h"
+
+/* Directions of an element's unknowns, 0 of those not moved, and the accelerations that lead
+ * moved ones along. */
+typedef struct {
+    vd direction[18], acceleration[18];
+} surface_lead;
+
+LANES_FUNCTION int surface_is_moved(const surface_context *c, size_t e)
+{
+    return __builtin_expect(c->tables->moved != NULL, 0) && c->tables->moved[e] != 0;
+}
+
+LANES_FUNCTION const double *surface_direction(const surface_context *c, int size, size_t e)
+{
+    return c->tables->direction + (c->tables->moved_row[e] - 1) * (size_t)size;
+}
+
+/* Places moved unknowns, u = s(t_n) d: no rounding of a step is left  (loads.5) */
+__attribute__((noinline, cold)) static void surface_place_moved(const surface_context *c, int order,
+                                                                size_t e, double *at)
+{
+    const int size = BODY_SIZE(order);
+    const double *direction = surface_direction(c, size, e);
+    const vd path = lanes_load(c->step->path + c->first);
+    for (int i = 0; i < size; i++)
+        if (c->tables->moved[e] >> i & 1)
+            lanes_store(surface_at(at, SURFACE_U * size + i), path * lanes_set(direction[i]));
+}
+
+/* Adds M x to the forces on an element's nodes. */
+LANES_FUNCTION void surface_add_inertia(const surface_context *c, int order, size_t e, const vd *x,
+                                        vd *force)
+{
+    const fracas_surface_tables *t = c->tables;
+    const int nodes = SURFACE_NODES(order);
+    const double *lumped = t->lumped + e * (size_t)(2 * nodes) + nodes,
+                 *consistent = BODY_PLANE && t->consistent
+                                   ? t->consistent + (3 * e + 2) * (size_t)(nodes * nodes)
+                                   : NULL;
+    for (int i = 0; i < BODY_SIZE(order); i++) {
+        const int k = i / BODY_DIMENSION;
+        if (!consistent) force[i] += lanes_set(lumped[k]) * x[i];
+        for (int l = 0; consistent && l < nodes; l++)
+            force[i] += lanes_set(consistent[k * nodes + l]) *
+                        x[BODY_DIMENSION * l + i % BODY_DIMENSION];
+    }
+}
+
+/* Acceleration of an unknown that goes on by `ahead` [m] in its next step, with its velocity v and
+ * a_n of Hulbert and Chung's scheme, of which it is (1 - am) a_{n+1} + am a_n  (loads.7) */
+LANES_FUNCTION vd surface_lead_by(const fracas_surface_motion *m, vd dt, vmask begins, vd ahead,
+                                  vd v, vd now)
+{
+    const vd needed = (ahead / dt - v) / dt;
+    if (!m->alpha) return needed;
+    const vd next = (needed - lanes_set(0.5 - m->b) * now) / lanes_set(m->b);
+    return lanes_select(begins, lanes_set(2.0) * needed, /* a_1 = a_0 */
+                        lanes_set(1.0 - m->alpha_m) * next + lanes_set(m->alpha_m) * now);
+}
+
+/* Fills `lead`, and adds the inertia that goes with it to the forces on the element, which then
+ * push its other unknowns, and are the reactions of moved ones. */
+__attribute__((noinline, cold)) static void surface_lead_moved(const surface_context *c, int order,
+                                                               size_t e, double *at, const vd *v,
+                                                               vd *force, surface_lead *lead)
+{
+    const fracas_surface_motion *m = &c->constants->motion;
+    const int size = BODY_SIZE(order);
+    const double *direction = surface_direction(c, size, e);
+    const vd path = lanes_load(c->step->path_next + c->first) -
+                    lanes_load(c->step->path + c->first);
+    for (int i = 0; i < size; i++) {
+        const vd none = lanes_set(0.0),
+                 now = m->alpha ? lanes_load(surface_at(at, SURFACE_A_NEXT * size + i)) : none;
+        lead->direction[i] = lead->acceleration[i] = none;
+        if (!(c->tables->moved[e] >> i & 1)) continue;
+        lead->direction[i] = lanes_set(direction[i]);
+        lead->acceleration[i] = surface_lead_by(m, c->kick, c->begins, path * lead->direction[i],
+                                                v[i], now);
+    }
+    surface_add_inertia(c, order, e, lead->acceleration, force);
+}
+
+#endif
