@@ -31,7 +31,7 @@ bool fracas_load_has_front(const fracas_loading *loading)
     return fabs(loading->front) > 0; /* NaN: no */
 }
 
-/* (loads.5) */
+/* (loads.9) */
 double fracas_load_spot(const fracas_loading *loading, const double x[3])
 {
     if (!(loading->spot > 0)) return 1; /* NaN, or 0 of a load without these keys */

@@ -40,8 +40,9 @@ struct fracas_load {
 };
 
 /* Share of the load at a place: 1 up to spot from the middle of its spot, and exp(-(r - spot)/L) at
- * a distance r beyond, L = spot_decay, or 0 without one; 1 everywhere without a spot  (loads.5) */
+ * a distance r beyond, L = spot_decay, or 0 without one; 1 everywhere without a spot  (loads.9) */
 double fracas_load_spot(const fracas_loading *loading, const double x[3]);
+
 /* Names of edges, by their keys in the shapes' tables; `text` says what it does there. */
 enum { FRACAS_LOAD_EDGES = 10 };
 extern const fracas_kind *const fracas_load_edges[FRACAS_LOAD_EDGES];

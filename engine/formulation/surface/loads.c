@@ -75,7 +75,7 @@ fracas_place fracas_surface_place_on(const fracas_surface *surface,
 
 /* ---- forces ---- */
 
-/* d(x), whose share its spot gives  (loads.1), (loads.5) */
+/* d(x), whose share its spot gives  (loads.1), (loads.9) */
 static void density_at(const fracas_model *model, const fracas_place *at, double density[3])
 {
     const double share = fracas_load_spot(&model->spec.loading, at->x);
