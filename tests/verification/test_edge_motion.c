@@ -47,10 +47,10 @@ static one_run begin_whole(fracas_spec spec, double distortion)
 
 static fracas_spec plate_of(const fracas_formulation *model)
 {
-    fracas_spec spec = membrane_spec(&fracas_shape_plate, 2, 4);
+    fracas_spec spec = membrane_spec(&fracas_shape_plate, 2, 5);
     if (model != &fracas_formulation_shell) return spec;
     spec = shell_spec(&fracas_shape_plate);
-    spec.mesh.divisions = 4;
+    spec.mesh.divisions = 5;
     return spec;
 }
 
@@ -165,7 +165,7 @@ static void check_places(fracas_spec spec, const double top[3], const double rig
     const fracas_step *step = &run.batch->step;
     const size_t dimension = (size_t)t->body->dimension, nodes = run.model->surface->corners;
     const double fixed[3] = {0};
-    size_t checked = 0;
+    size_t checked = 0, both = 0; /* elements with a fixed and a moved edge */
     double largest = 0;
     for (int s = 0; s < steps; s++) {
         step_run(&run);
@@ -174,6 +174,8 @@ static void check_places(fracas_spec spec, const double top[3], const double rig
         for (size_t b = 0; b < run.model->surface->nborders; b++) {
             const fracas_surface_border *border = &run.model->surface->border[b];
             const double *to = border->tag == 4 ? top : border->tag == 2 ? right : fixed;
+            both += b > 0 && border[-1].element == border->element &&
+                    border[-1].tag + border->tag == 5;
             const size_t node[3] = {border->edge, (border->edge + 1) % 3, 3 + border->edge};
             for (size_t n = 0; border->tag != 3 && n < (nodes == 6 ? 3 : 2); n++) {
                 const double *x = node_at(run.model, border->element, node[n]);
@@ -187,7 +189,7 @@ static void check_places(fracas_spec spec, const double top[3], const double rig
             }
         }
     }
-    assert_true(checked > 100 && largest > 0);
+    assert_true(checked > 100 && largest > 0 && both > 0);
     clear_run(&run);
 }
 

@@ -4,13 +4,13 @@
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_MOTION_KERNEL_H
 #define FRACAS_ENGINE_FORMULATION_SURFACE_MOTION_KERNEL_H
 
-#include "engine/formulation/surface/kernel.h"
+#include "engine/formulation/surface/rotary_kernel.h"
 
-/* Directions of an element's unknowns, 0 of those not moved, and the accelerations that lead
- * moved ones along. */
+/* An element's unknowns: velocities and forces in, accelerations out; directions, 0 of those not
+ * moved, and the accelerations that lead moved ones along. */
 typedef struct {
-    vd direction[18], acceleration[18];
-} surface_lead;
+    vd velocity[18], force[18], acceleration[18], direction[18], lead[18];
+} surface_moving;
 
 LANES_FUNCTION int surface_is_moved(const surface_context *c, size_t e)
 {
@@ -51,6 +51,15 @@ LANES_FUNCTION void surface_add_inertia(const surface_context *c, int order, siz
             force[i] += lanes_set(consistent[k * nodes + l]) *
                         x[BODY_DIMENSION * l + i % BODY_DIMENSION];
     }
+    if (BODY_DIMENSION < 3 || !t->rotary) return;
+    const double *rotary = t->rotary + e * SURFACE_ROTARY_TABLE; /* (shell.16) */
+    vd along[6];
+    surface_turning(rotary, x, along);
+    for (int k = 0; k < 6; k++) {
+        const vd moment = surface_row(rotary + SURFACE_ROTARY, k, along);
+        for (int i = 0; i < 3; i++)
+            force[3 * k + i] += lanes_set(rotary[SURFACE_TURNING + i]) * moment;
+    }
 }
 
 /* Acceleration of an unknown that goes on by `ahead` [m] in its next step, with its velocity v and
@@ -65,11 +74,10 @@ LANES_FUNCTION vd surface_lead_by(const fracas_surface_motion *m, vd dt, vmask b
                         lanes_set(1.0 - m->alpha_m) * next + lanes_set(m->alpha_m) * now);
 }
 
-/* Fills `lead`, and adds the inertia that goes with it to the forces on the element, which then
- * push its other unknowns, and are the reactions of moved ones. */
-__attribute__((noinline, cold)) static void surface_lead_moved(const surface_context *c, int order,
-                                                               size_t e, double *at, const vd *v,
-                                                               vd *force, surface_lead *lead)
+/* Finds directions and leading accelerations, and adds the inertia of these to the forces, which
+ * then push the other unknowns, and are the reactions of moved ones. */
+LANES_FUNCTION void surface_lead_moved(const surface_context *c, int order, size_t e, double *at,
+                                       surface_moving *of)
 {
     const fracas_surface_motion *m = &c->constants->motion;
     const int size = BODY_SIZE(order);
@@ -79,13 +87,13 @@ __attribute__((noinline, cold)) static void surface_lead_moved(const surface_con
     for (int i = 0; i < size; i++) {
         const vd none = lanes_set(0.0),
                  now = m->alpha ? lanes_load(surface_at(at, SURFACE_A_NEXT * size + i)) : none;
-        lead->direction[i] = lead->acceleration[i] = none;
+        of->direction[i] = of->lead[i] = none;
         if (!(c->tables->moved[e] >> i & 1)) continue;
-        lead->direction[i] = lanes_set(direction[i]);
-        lead->acceleration[i] = surface_lead_by(m, c->kick, c->begins, path * lead->direction[i],
-                                                v[i], now);
+        of->direction[i] = lanes_set(direction[i]);
+        of->lead[i] = surface_lead_by(m, c->kick, c->begins, path * of->direction[i],
+                                      of->velocity[i], now);
     }
-    surface_add_inertia(c, order, e, lead->acceleration, force);
+    surface_add_inertia(c, order, e, of->lead, of->force);
 }
 
 #endif

@@ -165,63 +165,6 @@ LANES_FUNCTION void surface_enter(surface_context *c, int order, size_t e, doubl
     BODY(strain)(c, order, e, at, slot);
 }
 
-/* Components along t of vectors at an element's nodes. */
-LANES_FUNCTION void surface_turning(const double *table, const vd *at, vd along[6])
-{
-    UNROLL_FOR (int k = 0; k < 6; k++)
-        along[k] = lanes_set(table[SURFACE_TURNING]) * at[3 * k] +
-                   lanes_set(table[SURFACE_TURNING + 1]) * at[3 * k + 1] +
-                   lanes_set(table[SURFACE_TURNING + 2]) * at[3 * k + 2];
-}
-
-/* Entry k of the product of a symmetric matrix and a vector. */
-LANES_FUNCTION vd surface_row(const double *matrix, int k, const vd along[6])
-{
-    vd sum = lanes_set(matrix[fracas_surface_entry(k, 0)]) * along[0];
-    UNROLL_FOR (int l = 1; l < 6; l++)
-        sum += lanes_set(matrix[fracas_surface_entry(k, l)]) * along[l];
-    return sum;
-}
-
-/* Rotary inertia's part of the accelerations  (shell.17) */
-LANES_FUNCTION void surface_turn(const double *table, const vd *force, vd *acceleration)
-{
-    vd along[6];
-    surface_turning(table, force, along);
-    UNROLL_FOR (int k = 0; k < 6; k++) {
-        const vd change = surface_row(table + SURFACE_ROTARY_INVERSE, k, along);
-        UNROLL_FOR (int i = 0; i < 3; i++)
-            acceleration[3 * k + i] -= lanes_set(table[SURFACE_TURNING + i]) * change;
-    }
-}
-
-/* Power of the reactions to it at held components. */
-LANES_FUNCTION vd surface_twist(const double *table, uint32_t held, const vd *acceleration,
-                                const vd *velocity)
-{
-    vd free[18], along[6], sum = lanes_set(0.0);
-    UNROLL_FOR (int i = 0; i < 18; i++) free[i] = held >> i & 1 ? lanes_set(0.0) : acceleration[i];
-    surface_turning(table, free, along);
-    UNROLL_FOR (int k = 0; k < 6; k++) {
-        const vd moment = surface_row(table + SURFACE_ROTARY, k, along);
-        for (int i = 0; i < 3; i++)
-            if (held >> (3 * k + i) & 1)
-                sum += lanes_set(table[SURFACE_TURNING + i]) * moment * velocity[3 * k + i];
-    }
-    return sum;
-}
-
-/* Product of the rotary inertia with vectors at its nodes, x.R y  (shell.18) */
-LANES_FUNCTION vd surface_spun(const double *table, const vd *x, const vd *y)
-{
-    vd before[6], then[6], sum = lanes_set(0.0);
-    surface_turning(table, x, before);
-    surface_turning(table, y, then);
-    UNROLL_FOR (int k = 0; k < 6; k++)
-        sum += surface_row(table + SURFACE_ROTARY, k, before) * then[k];
-    return sum;
-}
-
 /* Accelerations by internal and body forces, 0 of held components; power of their reactions at
  * `velocity`. */
 LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size_t e,
@@ -274,24 +217,29 @@ LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size
  * power is that at velocity d: the force along the path  (loads.8). */
 __attribute__((noinline, cold)) static void surface_accelerate_moved(const surface_context *c,
                                                                      int order, size_t e,
-                                                                     double *at, const vd *v,
-                                                                     vd *force, vd *acceleration)
+                                                                     double *at, surface_moving *of)
 {
-    surface_lead lead;
-    surface_lead_moved(c, order, e, at, v, force, &lead);
-    if (BODY_DIMENSION == 3 && c->tables->rotary) { /* (shell.16) */
-        const double *table = c->tables->rotary + e * SURFACE_ROTARY_TABLE;
-        vd along[6];
-        surface_turning(table, lead.acceleration, along);
-        for (int k = 0; k < 6; k++) {
-            const vd moment = surface_row(table + SURFACE_ROTARY, k, along);
-            for (int i = 0; i < 3; i++)
-                force[3 * k + i] += lanes_set(table[SURFACE_TURNING + i]) * moment;
-        }
+    surface_lead_moved(c, order, e, at, of);
+    if (BODY_PLANE && order == 1)
+        surface_accelerate(c, 1, e, of->direction, of->force, of->acceleration);
+    else surface_accelerate(c, 2, e, of->direction, of->force, of->acceleration);
+    for (int i = 0; i < BODY_SIZE(order); i++) of->acceleration[i] += of->lead[i];
+}
+
+/* Every element: those with moved components get copies, so that others keep their registers. */
+LANES_FUNCTION void surface_accelerate_any(const surface_context *c, int order, size_t e,
+                                           double *at, const vd *velocity, const vd *force,
+                                           vd *acceleration)
+{
+    const int size = BODY_SIZE(order);
+    if (!surface_is_moved(c, e)) {
+        surface_accelerate(c, order, e, velocity, force, acceleration);
+        return;
     }
-    if (BODY_PLANE && order == 1) surface_accelerate(c, 1, e, lead.direction, force, acceleration);
-    else surface_accelerate(c, 2, e, lead.direction, force, acceleration);
-    for (int i = 0; i < BODY_SIZE(order); i++) acceleration[i] += lead.acceleration[i];
+    surface_moving of;
+    UNROLL_FOR (int i = 0; i < size; i++) of.velocity[i] = velocity[i], of.force[i] = force[i];
+    surface_accelerate_moved(c, order, e, at, &of);
+    UNROLL_FOR (int i = 0; i < size; i++) acceleration[i] = of.acceleration[i];
 }
 
 /* x.M y of an element, and the moment of M x. */
@@ -366,10 +314,10 @@ LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
     if (load.force)
         UNROLL_FOR (int i = 0; i < size; i++) force[i] -= load.now * lanes_set(load.force[i]);
     UNROLL_FOR (int i = 0; i < size; i++) v[i] = lanes_load(surface_at(at, SURFACE_V * size + i));
-    if (law != SURFACE_OPERATOR && surface_is_moved(c, e))
-        surface_accelerate_moved(c, order, e, at, v, force, a);
-    else surface_accelerate(c, order, e, v, force, a);
-    if (law == SURFACE_OPERATOR) {
+    if (law != SURFACE_OPERATOR) {
+        surface_accelerate_any(c, order, e, at, v, force, a);
+    } else {
+        surface_accelerate(c, order, e, v, force, a);
         UNROLL_FOR (int i = 0; i < size; i++)
             lanes_store(surface_at(at, SURFACE_V * size + i), a[i]);
         return;
