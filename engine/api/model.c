@@ -69,7 +69,7 @@ static fracas_err check_partners(const fracas_spec *spec)
 static fracas_err find_notch(fracas_model *model)
 {
     OWNED double(*position)[3] = NULL;
-    if (!model->surface) {
+    if (!model->surface && fracas_notch_has_line(&model->spec.notch)) {
         position = malloc((model->interfaces + 1) * sizeof *position);
         if (!position) return fracas_no_memory("the notch of a body");
         fracas_model_interface_positions(model, position);

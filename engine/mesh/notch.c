@@ -35,11 +35,13 @@ static const fracas_param params[] = {
      .optional = true},
 };
 
+/* Keys that the model does not have are 0 at both ends. */
 static fracas_err check_notch(const void *section)
 {
     const fracas_notch *notch = section;
-    bool begins = !isnan(notch->within), ends = false;
+    bool begins = notch->within > 0, ends = false;
     for (int i = 0; i < 3; i++) {
+        if (notch->from[i] == 0 && notch->to[i] == 0) continue;
         begins = begins || !isnan(notch->from[i]);
         ends = ends || !isnan(notch->to[i]);
     }
@@ -250,28 +252,36 @@ static fracas_err find_on_surface(const line *l, const fracas_surface *surface, 
     return FRACAS_OK;
 }
 
-static void find_group(const fracas_surface *surface, bool *broken)
+/* NULL: there is none. */
+static const fracas_surface_group *group_of(const fracas_surface *surface)
 {
-    for (size_t g = 0; g < surface->ngroups; g++)
-        for (size_t i = 0; i < surface->ninterfaces; i++)
-            if (strcmp(surface->group[g].name, FRACAS_NOTCH_GROUP) == 0 &&
-                surface->interface[i].tag == surface->group[g].number)
-                broken[i] = true;
+    for (size_t g = 0; surface && g < surface->ngroups; g++)
+        if (strcmp(surface->group[g].name, FRACAS_NOTCH_GROUP) == 0) return &surface->group[g];
+    return NULL;
+}
+
+bool fracas_notch_has_line(const fracas_notch *notch)
+{
+    return line_of(notch, 0).length > 0;
 }
 
 fracas_err fracas_notch_find(const fracas_notch *notch, const fracas_notch_places *places,
                              uint32_t **interface, size_t *count)
 {
     const line l = line_of(notch, places->size);
-    OWNED bool *broken = calloc(places->interfaces + 1, sizeof *broken);
+    const fracas_surface_group *group = group_of(places->surface);
     *count = 0;
+    if (l.length == 0 && !group) return FRACAS_OK;
+    OWNED bool *broken = calloc(places->interfaces + 1, sizeof *broken);
     if (!broken) return fracas_no_memory("the notch of a body");
     if (l.length > 0) {
         if (places->surface) TRY(find_on_surface(&l, places->surface, broken));
         else TRY(find_in_chain(&l, places, broken));
     }
-    if (places->surface) find_group(places->surface, broken);
-    for (size_t i = 0; i < places->interfaces; i++) *count += broken[i];
+    for (size_t i = 0; i < places->interfaces; i++) {
+        if (group && places->surface->interface[i].tag == group->number) broken[i] = true;
+        *count += broken[i];
+    }
     if (*count == 0) return FRACAS_OK;
     *interface = malloc(*count * sizeof **interface);
     if (!*interface) return fracas_no_memory("the notch of a body");

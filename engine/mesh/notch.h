@@ -10,11 +10,14 @@
 
 extern const fracas_section fracas_notch_section;
 
+/* True if its ends are apart. */
+bool fracas_notch_has_line(const fracas_notch *notch);
+
 /* Where a body's interfaces are. */
 typedef struct {
     const fracas_surface *surface; /* NULL of a chain: ... */
     size_t interfaces;
-    const double (*position)[3]; /* ... the places of its interfaces [m] */
+    const double (*position)[3]; /* ... the places of its interfaces [m], if there is a line */
     double size;                 /* m, mean length of an element, of a surface's interface */
 } fracas_notch_places;
 

@@ -118,6 +118,8 @@ static void faults_have_distances(void **unused)
     assert_null(interface);
     notch = (fracas_notch){{-1, NAN, NAN}, {NAN, NAN, NAN}, NAN};
     FAILS(fracas_notch_section.check(&notch), FRACAS_USAGE, "give to_x, to_y or to_z");
+    notch.from[2] = notch.to[2] = 0; /* the model has no z */
+    FAILS(fracas_notch_section.check(&notch), FRACAS_USAGE, "give to_x, to_y or to_z");
     notch.to[0] = -1;
     OK(fracas_notch_section.check(&notch));
 }

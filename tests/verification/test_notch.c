@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* ctest-labels: slow-sanitize */
 /* Surfaces with interfaces that are broken from the start, against parts that fly, meshes with
  * doubled nodes and the stress intensity of an edge crack (docs/theory/meshes.md). */
 #include "tests/support/listed_laws.h"
