@@ -74,8 +74,9 @@ typedef struct {
 /* Interfaces that are broken from the start lie along the straight line between two ends. Equal
  * ends: none do. */
 typedef struct {
-    double from[3], to[3]; /* m; NaN: 0, and `from` */
-    double within;         /* m, from it at most; 0, NaN: fracas_notch_find */
+    double from[3], to[3];      /* m; NaN: 0, and `from` */
+    double within;              /* m, from it at most; 0, NaN: fracas_notch_find */
+    const fracas_kind *contact; /* surfaces: law, none; NULL: law */
 } fracas_notch;
 
 typedef struct {

@@ -76,7 +76,10 @@ static fracas_err find_notch(fracas_model *model)
     }
     const fracas_notch_places places = {model->surface, model->interfaces,
                                         (const double(*)[3])position, model->element_size};
-    return fracas_notch_find(&model->spec.notch, &places, &model->notch, &model->nnotch);
+    TRY(fracas_notch_find(&model->spec.notch, &places, &model->notch, &model->nnotch));
+    if (model->formulation->part_notch && !fracas_notch_touches(&model->spec.notch))
+        model->formulation->part_notch(model);
+    return FRACAS_OK;
 }
 
 fracas_err fracas_model_create(const fracas_spec *spec, fracas_model **out)

@@ -109,6 +109,8 @@ struct fracas_formulation {
     bool flat;        /* a surface in a plane z = const */
     /* Fills the model's sizes, mass, table and critical steps from its spec. */
     fracas_err (*model_init)(fracas_model *model);
+    /* Takes contact away from the model's notch; NULL: all notches have it. */
+    void (*part_notch)(fracas_model *model);
     /* Checks strengths, positive and finite already [Pa]. */
     fracas_err (*check_strength)(const fracas_model *model, double strength);
     /* Volume of the body that an interface stands for [m3]. */

@@ -15,6 +15,15 @@
                   .offset = offsetof(fracas_notch, place), .only = models, .optional = true)
 #define FLAT (FRACAS_GROUP_RING | FRACAS_GROUP_SURFACES)
 
+static const fracas_kind contact_law = {"law", "pressed faces touch as those that break do"},
+                         contact_none = {"none", "faces pass through each other"};
+static const fracas_kind *const contacts[] = {&contact_law, &contact_none};
+
+bool fracas_notch_touches(const fracas_notch *notch)
+{
+    return notch->contact != &contact_none;
+}
+
 static const fracas_param params[] = {
     END("from_x", from[0], 0, "x of one end of the line; none is 0"),
     END("from_y", from[1], FLAT, "y of this end; none is 0"),
@@ -33,6 +42,9 @@ static const fracas_param params[] = {
      .minimum_open = true,
      .offset = offsetof(fracas_notch, within),
      .optional = true},
+    {FRACAS_ONE_OF("contact", contacts, offsetof(fracas_notch, contact),
+                   "what faces do that are pressed together; none given is `law`"),
+     .only = FRACAS_GROUP_SURFACES, .optional = true},
 };
 
 /* Keys that the model does not have are 0 at both ends. */

@@ -13,6 +13,9 @@ extern const fracas_section fracas_notch_section;
 /* True if its ends are apart. */
 bool fracas_notch_has_line(const fracas_notch *notch);
 
+/* False: its faces pass through each other. */
+bool fracas_notch_touches(const fracas_notch *notch);
+
 /* Where a body's interfaces are. */
 typedef struct {
     const fracas_surface *surface; /* NULL of a chain: ... */

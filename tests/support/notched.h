@@ -29,8 +29,8 @@ static inline bool is_cracked(const fracas_surface *s, in_crack *crack, size_t i
 
 /* MSH 2.2: element e of the surface has the number e + 1. Borders are lines of the groups of their
  * tags. `doubled`: elements of which `beyond` is true have nodes of their own on the crack but for
- * its `tip`; else the crack's interfaces are lines of the group 9, named `name`. The caller frees.
- */
+ * its `tip`; else the crack's interfaces are lines of the group 9, named `name`, and another
+ * interface is one of the group 8. The caller frees. */
 typedef struct {
     in_crack *crack;
     bool doubled;
@@ -67,7 +67,8 @@ static inline char *write_cracked(const fracas_surface *s, const crack_file *how
         const double *x = s->node[n % s->nnodes];
         fprintf(out, "%zu %.17g %.17g %.17g\n", n + 1, x[0], x[1], x[2]);
     }
-    const size_t lines = s->nborders + (how->doubled ? 0 : cracked);
+    const size_t lines = s->nborders + (how->doubled ? 0 : cracked + 1);
+    bool other = true;
     fprintf(out, "$EndNodes\n$Elements\n%zu\n", s->nelements + lines);
     for (size_t e = 0; e < s->nelements; e++) {
         fprintf(out, "%zu %d 2 0 1", e + 1, s->order == 1 ? 2 : 9);
@@ -79,11 +80,15 @@ static inline char *write_cracked(const fracas_surface *s, const crack_file *how
     for (size_t b = 0; b < s->nborders + s->ninterfaces; b++) {
         const bool border = b < s->nborders;
         const size_t i = border ? 0 : b - s->nborders;
-        if (!border && (how->doubled || !is_cracked(s, how->crack, i))) continue;
+        const bool in = border || is_cracked(s, how->crack, i);
+        if (!border && (how->doubled || (!in && !other))) continue;
+        other = other && in;
         const size_t e = border ? s->border[b].element : s->interface[i].element[0];
         edge_ends(s, e, border ? s->border[b].edge : s->interface[i].edge[0], node);
         fprintf(out, "%zu %d 2 %" PRId32 " 1", ++number, s->order == 1 ? 1 : 8,
-                border ? s->border[b].tag : 9);
+                border ? s->border[b].tag
+                : in   ? 9
+                       : 8);
         for (int k = 0; k < s->order + 1; k++)
             fprintf(out, " %zu", number_in(s, how, on, e, node[k]));
         fputc('\n', out);

@@ -67,6 +67,8 @@ static double follow(const fracas_notch *notch, const fracas_surface *surface, d
 static void a_path_along_the_line(void **unused)
 {
     const fracas_notch row = between(-1, 0, 0.2, 0), slanted = between(-1, -0.35, 0.7, 0.4);
+    fracas_notch loose = slanted;
+    loose.within = 1; /* the line, not this, keeps the path in its place */
     for (int order = 1; order <= 2; order++) {
         size_t count;
         OWN(a_surface) even = surface_of(
@@ -75,6 +77,7 @@ static void a_path_along_the_line(void **unused)
         assert_true(follow(&row, even, 1e-12, &count) < 1e-12);
         assert_int_equal(count, 12);
         assert_true(follow(&slanted, even, 0.75 / DIVISIONS, &count) < 1.0 / DIVISIONS);
+        assert_true(follow(&loose, even, 0.75 / DIVISIONS, &count) < 1.0 / DIVISIONS);
         OWN(a_surface) moved = surface_moved(SHAPE_RECTANGLE, plate, DIVISIONS, order, 3, false);
         assert_true(follow(&row, moved, 0.6 / DIVISIONS, &count) < 0.6 / DIVISIONS);
         assert_int_equal(count, 12);
@@ -111,16 +114,17 @@ static void faults_have_distances(void **unused)
     notch = between(0, 0, 0.02, 0);
     FAILS(fracas_notch_find(&notch, &places, &interface, &count), FRACAS_USAGE, "0.02 m long",
           "refine the mesh");
-    notch = between(-1, -0.35, 0.7, 0.4);
+    notch = between(-1, -0.4, 0.7, 0.3);
     notch.within = 0.03;
-    FAILS(fracas_notch_find(&notch, &places, &interface, &count), FRACAS_USAGE, "0.03 m",
-          "raise notch.within");
+    FAILS(fracas_notch_find(&notch, &places, &interface, &count), FRACAS_USAGE,
+          "no interfaces lead from one end", "within 0.03 m", "raise notch.within");
     assert_null(interface);
     notch = (fracas_notch){{-1, NAN, NAN}, {NAN, NAN, NAN}, NAN};
     FAILS(fracas_notch_section.check(&notch), FRACAS_USAGE, "give to_x, to_y or to_z");
     notch.from[2] = notch.to[2] = 0; /* the model has no z */
     FAILS(fracas_notch_section.check(&notch), FRACAS_USAGE, "give to_x, to_y or to_z");
     notch.to[0] = -1;
+    assert_true(fracas_notch_touches(&notch));
     OK(fracas_notch_section.check(&notch));
 }
 

@@ -358,6 +358,7 @@ fracas_interface_row fracas_surface_interface_row(const fracas_model *model,
 /* ---- functions of the formulations ---- */
 
 FRACAS_MUST_USE fracas_err fracas_surface_model_init(fracas_model *model);
+void fracas_surface_part_notch(fracas_model *model);
 FRACAS_MUST_USE fracas_err fracas_surface_check_strength(const fracas_model *model,
                                                          double strength);
 double fracas_surface_interface_volume(const fracas_model *model, size_t interface);
@@ -392,7 +393,8 @@ void fracas_surface_motion_at(const fracas_model *model, const fracas_step *step
 
 /* All members of a formulation of surfaces but `stress` and `kind`, whose traits are the body. */
 #define FRACAS_SURFACE_FORMULATION                                                              \
-    .model_init = fracas_surface_model_init, .check_strength = fracas_surface_check_strength,   \
+    .model_init = fracas_surface_model_init, .part_notch = fracas_surface_part_notch,           \
+    .check_strength = fracas_surface_check_strength,                                            \
     .interface_volume = fracas_surface_interface_volume,                                        \
     .plan_destroy = fracas_surface_tables_destroy, .state_size = fracas_surface_state_size,     \
     .parts_most = fracas_surface_parts_most, .divide = fracas_surface_model_divide,             \
