@@ -68,6 +68,27 @@ static void a_cut_bar_is_two_bars(void **unused)
     }
 }
 
+/* Two steps after its first onset a cut bar has as many fragments as at the start: no growth, and
+ * the load has broken nothing. */
+static void parts_of_the_start_are_no_growth(void **unused)
+{
+    fracas_spec spec = free_bar(200, 0.05, 0);
+    spec.notch = (fracas_notch){.from = {0.0249}, .to = {0.0251, NAN, NAN}};
+    double onset = NAN;
+    for (int again = 0; again < 2; again++) {
+        OWN(fracas_model) model = make_model(&spec);
+        OWN(fracas_batch) batch = begun_with(model, 300e6);
+        model->spec.time.end = again ? onset + 1.5 * model->time_step : 400 * model->time_step;
+        RECORD(record);
+        while (batch->lane[0].running) step(batch, &record);
+        onset = record.onset_time;
+        if (!again) continue;
+        assert_int_equal(record.outcome, FRACAS_INTACT);
+        assert_int_equal(record.fragments, 2);
+        assert_true(record.cracked > 0 && record.broken == 0 && record.growth == 0);
+    }
+}
+
 /* Residual by the dissipated energy of a ring, cut at the angle 0 or whole. */
 static double open_ring(fracas_spec spec, bool cut)
 {
@@ -108,4 +129,4 @@ static void a_cut_ring_opens(void **unused)
     }
 }
 
-TESTS(a_cut_bar_is_two_bars, a_cut_ring_opens)
+TESTS(a_cut_bar_is_two_bars, parts_of_the_start_are_no_growth, a_cut_ring_opens)
