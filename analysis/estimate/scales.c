@@ -15,6 +15,49 @@ fracas_scales fracas_scales_of(double young, double density, double strength,
     return scales;
 }
 
+bool fracas_scales_same(const fracas_scales *a, const fracas_scales *b)
+{
+    const double round_off = 1e-9;
+    return fabs(a->size - b->size) <= round_off * a->size &&
+           fabs(a->rate - b->rate) <= round_off * a->rate;
+}
+
+/* (scaling-laws.17), (scaling-laws.18) */
+double fracas_piece_strength_at(const fracas_piece_strength *of, double s)
+{
+    const double above = of->mean - of->least, pieces = s / of->size, n = of->specimens;
+    return of->least + (isnan(of->exponent) ? above * (n + 1) / (n * pieces + 1)
+                                            : above * pow(pieces, -1 / of->exponent));
+}
+
+/* True if log(s0) grows less than log(s). Strengths fall as s^(-1/m) at most. Uniform ones, of
+ * range R: 2 R n < least (n + 1)^2 + R (n + 1) for all n. */
+static bool is_unique(const fracas_piece_strength *of, double power)
+{
+    const double round_off = 1e-9;
+    if (!isnan(of->exponent)) return of->exponent > power * (1 + round_off);
+    return (of->mean - of->least) * (of->specimens + 1) < 8 * of->least;
+}
+
+/* (scaling-laws.19), by halving log(s/size) */
+double fracas_piece_strength_find(const fracas_piece_strength *of, double young,
+                                  double fracture_energy, bool opening)
+{
+    const double power = opening ? 1 : 2; /* s0 as strength^-power */
+    double low = -200, high = 200;
+    if (!(of->mean > of->least) || !(of->size > 0) || !is_unique(of, power)) return NAN;
+    const double s0 = young * fracture_energy / (of->mean * of->mean);
+    if (!isfinite(s0)) return NAN;
+    while (high - low > 1e-14) {
+        const double x = (low + high) / 2;
+        if (x <= low || x >= high) break;
+        const double strength = fracas_piece_strength_at(of, of->size * exp(x));
+        const bool shorter = x < log(s0 / of->size) - power * log(strength / of->mean);
+        *(shorter ? &low : &high) = x;
+    }
+    return low < -199 || high > 199 ? NAN : fracas_piece_strength_at(of, of->size * exp(low));
+}
+
 /* (scaling-laws.4): the kinetic energy of expansion of a fragment pays for its surface. */
 static double grady(double e, double modulus)
 {

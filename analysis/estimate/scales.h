@@ -4,6 +4,8 @@
 #ifndef FRACAS_ANALYSIS_ESTIMATE_SCALES_H
 #define FRACAS_ANALYSIS_ESTIMATE_SCALES_H
 
+#include <stdbool.h>
+
 typedef struct {
     double time;    /* t0 [s] */
     double size;    /* s0 [m] */
@@ -16,6 +18,26 @@ typedef struct {
  * > 0 [Pa], fracture_energy Gc > 0 [J/m2]; a NaN argument gives NaN scales. The modulus is NaN. */
 fracas_scales fracas_scales_of(double young, double density, double strength,
                                double fracture_energy);
+
+/* Mean strengths of pieces of a chain that interfaces make up as weakest links. */
+typedef struct {
+    double mean, least; /* Pa, of an interface; 0 <= least < mean */
+    double size;        /* m of the chain that an interface stands for */
+    double exponent;    /* m of strengths - least = x (size/s)^(1/m); NaN: uniform */
+    double specimens;   /* uniform: in an interface, n of x (n + 1)/(n s/size + 1) */
+} fracas_piece_strength;
+
+/* Mean strength of a piece of length s > 0 [Pa]  (scaling-laws.17), (scaling-laws.18) */
+double fracas_piece_strength_at(const fracas_piece_strength *of, double s);
+
+/* Mean strength of a piece as long as its own s0 = young Gc/strength^2 [Pa]  (scaling-laws.19): one
+ * for all meshes. fracture_energy Gc [J/m2] is at the strength of an interface; in proportion to
+ * the strength if `opening`. NaN where there is no such piece, or there may be several. */
+double fracas_piece_strength_find(const fracas_piece_strength *of, double young,
+                                  double fracture_energy, bool opening);
+
+/* True if lines of scaling laws are the same but for round-off. */
+bool fracas_scales_same(const fracas_scales *a, const fracas_scales *b);
 
 typedef enum {
     FRACAS_LAW_ZMR,              /* Zhou, Molinari & Ramesh, APL 2006 */

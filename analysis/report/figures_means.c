@@ -228,10 +228,15 @@ static bool same_scales(const fracas_means_plot *plot, size_t series)
         const fracas_scales *scales = &fracas_means_statistics(plot, m)->scales;
         if (!mark_has_scales(plot, m) || (series != ALL_SERIES && plot->mark[m].series != series))
             continue;
-        if (first && (first->size != scales->size || first->rate != scales->rate)) return false;
+        if (first && !fracas_scales_same(first, scales)) return false;
         first = scales;
     }
     return true;
+}
+
+bool fracas_means_series_serves(const fracas_means_plot *plot, size_t series)
+{
+    return same_scales(plot, series);
 }
 
 /* True if the law is a number, and one curve of it serves all marks: Mott's only where all
@@ -242,7 +247,7 @@ static bool law_serves(const fracas_means_plot *plot, fracas_scaling_law_id law,
     if (!isfinite(fracas_scaling_laws[law].normalised(1, scales->modulus))) return false;
     for (size_t m = 0; law == FRACAS_LAW_MOTT && m < plot->n; m++)
         if (mark_has_scales(plot, m) &&
-            fracas_means_statistics(plot, m)->scales.modulus != scales->modulus)
+            !(fabs(fracas_means_statistics(plot, m)->scales.modulus / scales->modulus - 1) < 1e-9))
             return false;
     return true;
 }

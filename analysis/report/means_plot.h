@@ -33,6 +33,9 @@ typedef struct {
     size_t ncrossovers;
 } fracas_means_plot;
 
+/* True if one curve of a scaling law serves all marks of the series. */
+bool fracas_means_series_serves(const fracas_means_plot *plot, size_t series);
+
 static inline bool fracas_means_normalised(const fracas_means_plot *plot)
 {
     return plot->of == FRACAS_MEANS_NORMALISED;

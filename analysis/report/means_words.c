@@ -145,6 +145,45 @@ static void caption_of_panels(const fracas_means_plot *plot, fracas_chart *chart
     fracas_append(chart->caption, sizeof chart->caption, " ", "A panel for each %s.", words);
 }
 
+/* Chains of the figure by the strength of their scales, and those without scales. */
+static void caption_of_strengths(const fracas_means_plot *plot, fracas_chart *chart)
+{
+    size_t by[3] = {0}, without = 0;
+    for (size_t p = 0; p < plot->analysis->table->npoints; p++) {
+        const fracas_point_statistics *of = &plot->analysis->point[p];
+        if (!fracas_means_has(plot, p) || of->surface) continue;
+        const bool scales = isfinite(of->scales.size) && isfinite(of->scales.rate);
+        if (scales) by[of->strength_by]++;
+        without += !scales;
+    }
+    if (by[FRACAS_STRENGTH_OF_PIECE] > 0)
+        fracas_append(
+            chart->caption, sizeof chart->caption, " ",
+            "With a size effect the laws take the mean strength of a piece s\u2080 long.");
+    if (by[FRACAS_STRENGTH_OF_MESH] > 0)
+        fracas_append(chart->caption, sizeof chart->caption, " ",
+                      "Of %zu point%s they take an interface\u2019s, which a finer mesh makes "
+                      "stronger.",
+                      by[FRACAS_STRENGTH_OF_MESH], by[FRACAS_STRENGTH_OF_MESH] == 1 ? "" : "s");
+    if (without > 0)
+        fracas_append(chart->caption, sizeof chart->caption, " ",
+                      "%s %zu point%s without a mean strength.",
+                      fracas_means_normalised(plot) ? "Left out:" : "No law for", without,
+                      without == 1 ? "" : "s");
+}
+
+/* Series that no line of a law serves. */
+static void caption_of_series(const fracas_means_plot *plot, fracas_chart *chart)
+{
+    size_t without = 0;
+    for (size_t s = 0; s < plot->nseries; s++) without += !fracas_means_series_serves(plot, s);
+    if (without > 0 && !plot->same_scales && !fracas_means_normalised(plot))
+        fracas_append(chart->caption, sizeof chart->caption, " ",
+                      "No line of a law for %zu series, whose points differ in material or mean "
+                      "strength.",
+                      without);
+}
+
 /* Points that the figure leaves out, as with a load without a strain rate. */
 static void caption_of_missing(const fracas_means_plot *plot, fracas_chart *chart)
 {
@@ -173,6 +212,10 @@ void fracas_means_name(const fracas_means_plot *plot, size_t drawing, fracas_cha
     if (plot->of == FRACAS_MEANS_OTHER) caption_of_other(plot, chart);
     else if (plot->of == FRACAS_MEANS_COUNT) caption_of_count(plot, chart);
     else caption_of_size(plot, chart);
+    if (plot->axes->rate && (plot->of == FRACAS_MEANS_SIZE || fracas_means_normalised(plot))) {
+        caption_of_strengths(plot, chart);
+        caption_of_series(plot, chart);
+    }
     caption_of_missing(plot, chart);
     if (plot->axes->panels.count > 0) caption_of_panels(plot, chart);
     if (plot->nseries > FRACAS_MEANS_SERIES)

@@ -26,11 +26,6 @@ static int by_rate(const void *a, const void *b)
     return p->point < q->point ? -1 : 1;
 }
 
-static bool same_scales(const fracas_scales *a, const fracas_scales *b)
-{
-    return a->size == b->size && a->rate == b->rate;
-}
-
 static fracas_err gather(const fracas_analysis *analysis, const fracas_columns *others,
                          size_t first, fracas_size_series *series)
 {
@@ -45,7 +40,7 @@ static fracas_err gather(const fracas_analysis *analysis, const fracas_columns *
             !fracas_columns_same(analysis->table, others, p, first))
             continue;
         const fracas_estimate *size = &statistics->size;
-        if (!same_scales(&statistics->scales, &analysis->point[first].scales))
+        if (!fracas_scales_same(&statistics->scales, &analysis->point[first].scales))
             series->scales = none;
         series->point[series->n++] = (fracas_size_point){
             .point = p,

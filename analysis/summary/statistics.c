@@ -128,6 +128,60 @@ const char *fracas_outcome_name(int64_t outcome)
     return outcome >= 0 && outcome < FRACAS_NOUTCOMES ? name[outcome] : "?";
 }
 
+/* Strengths by the volume of pieces: Weibull's, of flaws that have a modulus, and uniform ones. An
+ * exponent and specimens of NaN: others. */
+static fracas_piece_strength pieces_of(const fracas_point_table *table, size_t p)
+{
+    const double least = fracas_columns_real(table, p, "strength.minimum"),
+                 modulus = fracas_columns_real(table, p, "derived.strength_modulus"),
+                 volume = fracas_columns_real(table, p, "strength.reference_volume"),
+                 flaws = fracas_columns_real(table, p, "strength.flaw_density");
+    fracas_piece_strength of = {
+        .mean = fracas_columns_real(table, p, "derived.strength_mean"),
+        .least = isfinite(least) ? least : 0,
+        .size = fracas_columns_real(table, p, "derived.length") /
+                fracas_columns_real(table, p, "mesh.elements"),
+        .specimens = NAN,
+    };
+    of.exponent = modulus * (of.mean - of.least) / of.mean;
+    if (isfinite(flaws)) /* by their power law: an interface may have none */
+        of.mean = of.least +
+                  (fracas_columns_real(table, p, "strength.maximum") - of.least) *
+                      tgamma(1 + 1 / of.exponent) *
+                      pow(flaws * fracas_columns_real(table, p, "geometry.area") * of.size,
+                          -1 / of.exponent);
+    if (isnan(modulus) && isfinite(fracas_columns_real(table, p, "strength.maximum")))
+        of.specimens = of.size * fracas_columns_real(table, p, "geometry.area") / volume;
+    return of;
+}
+
+/* By the strength of a piece s0 long where interfaces have a size effect, else by theirs. */
+static void find_scales(const fracas_point_table *table, size_t p,
+                        fracas_point_statistics *statistics)
+{
+    const double young = fracas_columns_real(table, p, "material.young"),
+                 density = fracas_columns_real(table, p, "material.density"),
+                 mean = fracas_columns_real(table, p, "derived.strength_mean"),
+                 modulus = fracas_columns_real(table, p, "derived.strength_modulus"),
+                 energy = fracas_columns_real(table, p, "derived.fracture_energy");
+    statistics->scales = fracas_scales_of(young, density, mean, energy);
+    statistics->scales.modulus = modulus;
+    const bool sized = isfinite(fracas_columns_real(table, p, "strength.reference_volume")) ||
+                       isfinite(fracas_columns_real(table, p, "strength.flaw_density"));
+    if (!sized || statistics->surface || isnan(mean)) return;
+    const fracas_piece_strength of = pieces_of(table, p);
+    const bool opening = fracas_columns_real(table, p, "cohesive.critical_opening") > 0;
+    const double strength = fracas_piece_strength_find(
+        &of, young, opening ? energy * of.mean / mean : energy, opening);
+    statistics->strength_by = isfinite(strength) ? FRACAS_STRENGTH_OF_PIECE
+                                                 : FRACAS_STRENGTH_OF_MESH;
+    if (isnan(strength)) return;
+    statistics->scales = fracas_scales_of(young, density, strength,
+                                          opening ? energy * strength / mean : energy);
+    statistics->scales.modulus = isnan(modulus) ? NAN
+                                                : of.exponent * strength / (strength - of.least);
+}
+
 void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
                                   fracas_point_statistics *statistics)
 {
@@ -140,10 +194,6 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
         .end = fracas_columns_real(table, point, "time.end"),
         .surface = fracas_columns_surface(table, point),
         .kept_at = {INFINITY, 0},
-        .scales = fracas_scales_of(fracas_columns_real(table, point, "material.young"),
-                                   fracas_columns_real(table, point, "material.density"),
-                                   fracas_columns_real(table, point, "derived.strength_mean"),
-                                   fracas_columns_real(table, point, "derived.fracture_energy")),
         .residual = NAN,
         .residual_total = NAN,
         .created = NAN,
@@ -155,7 +205,7 @@ void fracas_point_statistics_init(const fracas_point_table *table, size_t point,
         .broken_replica = -1,
     };
     memcpy(&statistics->seed, table->point[point].hash.byte, sizeof statistics->seed);
-    statistics->scales.modulus = modulus;
+    find_scales(table, point, statistics);
     statistics->without_mott = statistics->surface       ? "the law is of one dimension"
                                : !(statistics->rate > 0) ? "there is no strain rate"
                                : isnan(modulus)          ? without_modulus

@@ -17,6 +17,13 @@
 #include <stdbool.h>
 
 /* Sizes over s0, rates over edot0: the scales are of the mean strength and taken as known. */
+/* Whose mean strength scales and scaling laws take. */
+typedef enum {
+    FRACAS_STRENGTH_OF_INTERFACE, /* any: none has a size effect by volume */
+    FRACAS_STRENGTH_OF_PIECE,     /* a piece s0 long  (scaling-laws.19) */
+    FRACAS_STRENGTH_OF_MESH       /* an interface, which a finer mesh makes stronger */
+} fracas_strength_by;
+
 typedef struct {
     double rate;
     double size, size_half_width;            /* mean over replicas; Student's interval */
@@ -31,6 +38,7 @@ typedef struct {
     double end;    /* s, time.end */
     bool surface;  /* sizes are square roots of areas, and scaling laws say nothing */
     fracas_scales scales;
+    fracas_strength_by strength_by;  /* for the scales */
     double law[FRACAS_SCALING_LAWS]; /* m, mean size by each law; NaN of surfaces */
     const char *without_mott;        /* why the size by Mott's law is NaN; NULL: it is not */
 

@@ -161,13 +161,18 @@ static void warn_of_point(const fracas_point_table *table,
     warn_of_sizes(statistics, p, list);
 }
 
-/* True if chance is nowhere: one strength, or those of a file. The mesh is one of a point. */
+static bool has_text(const fracas_point_table *table, size_t p, const char *path)
+{
+    const size_t column = fracas_point_table_find(table, path);
+    return column != SIZE_MAX && *table->point[p].value[column].text;
+}
+
+/* True if chance is nowhere: one strength, or those of a file without an interpolation. The mesh is
+ * one of a point. */
 static bool replicas_are_equal(const fracas_point_table *table, size_t p)
 {
-    const size_t file = fracas_point_table_find(table, "strength.file");
-    const bool given = file != SIZE_MAX && *table->point[p].value[file].text &&
-                       isnan(fracas_columns_real(table, p, "derived.strength_mean"));
-    return given || isfinite(fracas_columns_real(table, p, "strength.value"));
+    return isfinite(fracas_columns_real(table, p, "strength.value")) ||
+           (has_text(table, p, "strength.file") && !has_text(table, p, "strength.interpolation"));
 }
 
 /* The headline numbers with a half width above FRACAS_CONVERGED_WIDTH, or with different halves. */
@@ -354,9 +359,11 @@ static size_t add_alike(const fracas_point_table *table, const size_t *column, s
     return g;
 }
 
-/* With a size effect the mean strength is an interface's, and scaling laws go with it. */
-static fracas_err warn_of_mean_strengths(const fracas_point_table *table, warning_list *list)
+/* With a size effect the mean strength is an interface's, and so is that of scaling laws where no
+ * piece has one. */
+static fracas_err warn_of_mean_strengths(const fracas_analysis *analysis, warning_list *list)
 {
+    const fracas_point_table *table = analysis->table;
     size_t count = 0, ngroups = 0;
     OWNED size_t *column = malloc((table->ncolumns + 1) * sizeof *column);
     OWNED alike *group = malloc((table->npoints + 1) * sizeof *group);
@@ -368,7 +375,9 @@ static fracas_err warn_of_mean_strengths(const fracas_point_table *table, warnin
         of[p] = add_alike(table, column, count, p, group, &ngroups);
     for (size_t p = 0; p < table->npoints; p++) {
         const alike *g = &group[of[p]];
-        if (!has_size_effect(table, p) || !(g->most > g->least * (1 + NOTABLE_MEAN))) continue;
+        if (!has_size_effect(table, p) || !(g->most > g->least * (1 + NOTABLE_MEAN)) ||
+            analysis->point[p].strength_by == FRACAS_STRENGTH_OF_PIECE)
+            continue;
         const double own = fracas_columns_real(table, p, "derived.strength_mean");
         warn(list, p, "strength", fabs(log(2 * own / (g->least + g->most))),
              "the mean strength is that of an interface, which a finer mesh makes smaller and "
@@ -446,7 +455,7 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
                  "size: shorten it",
                  zones);
     }
-    const fracas_err err = warn_of_mean_strengths(analysis->table, &list);
+    const fracas_err err = warn_of_mean_strengths(analysis, &list);
     if (err) {
         free(list.warning);
         return err;

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Fragment sizes of each point of a study by Mott's length x0 = sqrt(2 P_F/(rho gamma))/edot (docs/theory/scaling-laws.md).
+"""Fragment sizes of each point of a study by Mott's length x0 = sqrt(2 P_F/(rho gamma))/edot (docs/theory/scaling-laws.md), P_F the mean
+strength of an interface.
 
 usage: fracas report STUDY --json | mott_from_study.py STUDY/study.h5
 
@@ -16,9 +17,11 @@ import numpy as np
 from estimates_from_study import student_quantile
 
 with h5py.File(sys.argv[1]) as study:
+    strength, modulus, rate, young, density = (study["point/" + name][:] for name in (
+        "derived.strength_mean", "derived.strength_modulus", "derived.strain_rate", "material.young", "material.density"))
     of, offset, size = study["realization/point"][:], study["fragment/offset"][:], study["fragment/size"][:]
 for p, point in enumerate(json.load(sys.stdin)["points"]):
-    x0 = point["statistics"]["law.mott"] / math.sqrt(math.pi)
+    x0 = math.sqrt(2 / (modulus[p] * young[p] * density[p])) * strength[p] / rate[p]
     found = []
     for r in np.flatnonzero(of == p):
         s = size[offset[r]:offset[r + 1]] / x0

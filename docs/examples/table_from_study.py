@@ -58,6 +58,39 @@ def modulus_of(point, p):
     return m * mean / (mean - minimum)
 
 
+def piece_strength(point, p, modulus, fracture_energy):
+    """Mean strength of a piece s0 long, and its modulus, where interfaces have a size effect by volume (17 to 19); else None."""
+    def real(name):
+        return point[name][p] if name in point else math.nan
+    mean, least, volume = real("derived.strength_mean"), real("strength.minimum"), real("strength.reference_volume")
+    if math.isnan(mean) or math.isnan(volume) and math.isnan(real("strength.flaw_density")):
+        return None
+    power = 1 if real("cohesive.critical_opening") > 0 else 2
+    least = 0.0 if math.isnan(least) else least
+    h = length_of(point, p) / real("mesh.elements")
+    if math.isfinite(modulus):
+        m = modulus * (1 - least / mean)
+        if m <= power * (1 + 1e-9):
+            return None
+        above, density = mean - least, real("strength.flaw_density")
+        if math.isfinite(density):
+            flaws = density * real("geometry.area") * h
+            above = (real("strength.maximum") - least) * math.gamma(1 + 1 / m) * flaws ** (-1 / m)
+        strength_of = lambda s: least + above * (h / s) ** (1 / m)
+    else:
+        m, n = math.nan, h * real("geometry.area") / volume
+        if not (mean - least) * (n + 1) < 8 * least or math.isnan(real("strength.maximum")):
+            return None
+        strength_of = lambda s: least + (mean - least) * (n + 1) / (n * s / h + 1)
+    low, high = h * 1e-60, h * 1e60
+    for _ in range(400):
+        s = math.sqrt(low * high)
+        strength = strength_of(s)
+        energy = fracture_energy * (strength / mean if power == 1 else 1)
+        low, high = (s, high) if s * strength**2 < point["material.young"][p] * energy else (low, s)
+    return strength, m * strength / (strength - least), energy
+
+
 def laws(row, young, density, strength, fracture_energy, modulus, rate):
     """Scales and scaling laws of the mean size (docs/theory/scaling-laws.md)."""
     speed = math.sqrt(young / density)
@@ -215,8 +248,10 @@ def row_of(point, p, realization, fragment, history):
     elements, dust = (np.concatenate([piece[name] for piece in pieces] or [[]]) for name in ("elements", "dust"))
     row["elements"] = elements.mean() if len(elements) else math.nan
     row["dust_share"] = dust.mean() if len(dust) else math.nan
-    laws(row, point["material.young"][p], point["material.density"][p], point["derived.strength_mean"][p],
-         fracture_energy_of(point, p), modulus_of(point, p), math.nan if surface else rate)
+    strength, modulus, energy = point["derived.strength_mean"][p], modulus_of(point, p), fracture_energy_of(point, p)
+    if not surface:
+        strength, modulus, energy = piece_strength(point, p, modulus, energy) or (strength, modulus, energy)
+    laws(row, point["material.young"][p], point["material.density"][p], strength, energy, modulus, math.nan if surface else rate)
     found = estimates(row, pieces, lattice_of(point, p), surface, replicas, estimate)
     for o, name in enumerate(OUTCOMES):
         row[name] = (realization["outcome"][mine] == o).sum()

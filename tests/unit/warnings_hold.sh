@@ -39,6 +39,13 @@ quiet one 'raise replicas' 'equal replicas are to be more'
 quiet single 'raise replicas' 'one replica of one strength is not enough'
 says many 'raise replicas'
 
+seq 100 | awk '{print 200e6 + 2e6*$1}' > strengths.txt
+printf '%s\n' "$ring" 'strength: {distribution: file, file: strengths.txt}' 'replicas: 1' > file.yaml
+printf '%s\n' "$ring" 'strength: {distribution: empirical, file: strengths.txt}' 'replicas: 1' > measured.yaml
+for study in file measured; do expect 0 "$fracas" run $study.yaml --study $study --jobs 1; done
+quiet file 'raise replicas' 'one replica of given strengths is not enough'
+says measured 'raise replicas'
+
 # Each of its elements is a fragment: that is said, and nothing of more to come.
 says one 'each element is a fragment, so that the mesh decides the count'
 quiet one 'count not final' 'more than all elements are to come'

@@ -128,4 +128,47 @@ static void mott(void **state)
     assert_prints("%.2f", 50e-3 / fracas_scaling_law_at(FRACAS_LAW_MOTT, &scales, 1e4), "57.82");
 }
 
-TESTS(scales_of_the_reference_material, laws_as_printed, dimensional_forms, limits, mott)
+/* Pieces s0 long. Weibull's, s = E Gc/sigma^2 and sigma = mean (h/s)^(1/m): sigma^(1 - 2/m) = mean
+ * (h/(E Gc))^(1/m); with a critical opening Gc = G sigma/mean, and sigma^(1 - 1/m) = mean (h
+ * mean/(E G))^(1/m). The others fulfil their equation, whatever the mesh: h becomes 2 h. Logarithms
+ * of s are exact to 1e-14, strengths to 1e-13 with the powers of their definitions. */
+static void strengths_of_pieces(void **state)
+{
+    const double E = 275e9, G = 100, h = 2e-5, small = 1e-13;
+    for (double m = 2.5; m < 50; m *= 2) {
+        fracas_piece_strength of = {300e6, 0, h, m, NAN};
+        const double found = fracas_piece_strength_find(&of, E, G, false),
+                     closed = pow(300e6 * pow(h / (E * G), 1 / m), m / (m - 2)),
+                     opening = fracas_piece_strength_find(&of, E, G, true),
+                     closed_opening = pow(300e6 * pow(h * 300e6 / (E * G), 1 / m), m / (m - 1));
+        /* log(s) is off by 1e-14, amplified by m/(m - 2), here up to 5 */
+        assert_true(fabs(found / closed - 1) < small && fabs(opening / closed_opening - 1) < small);
+        of.least = 200e6;
+        const double above = fracas_piece_strength_find(&of, E, G, false),
+                     s0 = E * G / (above * above);
+        assert_true(fabs(above / (200e6 + 100e6 * pow(h / s0, 1 / m)) - 1) < small);
+        of.size = 2 * h;
+        of.mean = 200e6 + 100e6 * pow(2, -1 / m);
+        assert_true(fabs(fracas_piece_strength_find(&of, E, G, false) / above - 1) < small);
+    }
+    fracas_piece_strength uniform = {300e6, 200e6, h, NAN, 1}; /* 200 to 400 MPa */
+    const double found = fracas_piece_strength_find(&uniform, E, G, false),
+                 s0 = E * G / (found * found);
+    assert_true(fabs(found / (200e6 + 200e6 / (s0 / h + 1)) - 1) < small);
+    uniform = (fracas_piece_strength){200e6 + 200e6 / 3, 200e6, 2 * h, NAN, 2};
+    assert_true(fabs(fracas_piece_strength_find(&uniform, E, G, false) / found - 1) < small);
+    const fracas_piece_strength none[] = {
+        {300e6, 0, h, 2, NAN},       /* as strong as it is long: any s0, or none */
+        {300e6, 0, h, 1.5, NAN},     /* two */
+        {300e6, 10e6, h, NAN, 1},    /* 10 to 590 MPa: may have three */
+        {300e6, 0, h, NAN, NAN},     /* of no known form */
+        {NAN, 0, h, 10, NAN},        /* of a file */
+        {300e6, 0, NAN, 10, NAN},    /* of no mesh */
+        {300e6, 300e6, h, 10, NAN}}; /* no scatter */
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+        assert_true(isnan(fracas_piece_strength_find(&none[i], E, G, false)));
+    assert_true(isfinite(fracas_piece_strength_find(&none[0], E, G, true)));
+}
+
+TESTS(scales_of_the_reference_material, laws_as_printed, dimensional_forms, limits, mott,
+      strengths_of_pieces)
