@@ -89,5 +89,5 @@ for name, speed, surface in (("bar", 1e4, False), ("ring", 1e4, False), ("plate"
 END
 grep -q 'stop rule time: count not final' bar.said || fail "the bar that ends early: $(grep warning bar.said)"
 grep -q 'stop rule time: count not final' ring.said || fail "the ring that ends early: $(grep warning ring.said)"
-grep -q 'pieces of an edge that moves' held.said || fail "the held plate: $(grep warning held.said)"
-if grep -q 'pieces of an edge' plate.said; then fail "no edge of this plate is held"; fi
+grep -q 'on an edge that moves' held.said || fail "the held plate: $(grep warning held.said)"
+if grep -q 'on an edge that moves' plate.said; then fail "no edge of this plate is held"; fi
