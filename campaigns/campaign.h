@@ -17,8 +17,9 @@
 
 /* Output beside the records. Not part of a point's identity, but of the campaign's hash. */
 typedef struct {
-    int64_t history; /* equal intervals of time.end */
-    bool interfaces; /* /interface group */
+    int64_t history;              /* equal intervals of time.end */
+    bool interfaces;              /* /interface group */
+    const fracas_kind *reactions; /* edges: /reaction group; NULL: none */
 } fracas_output;
 
 /* How a run computes: the same results for all values. */

@@ -63,9 +63,9 @@ double fracas_model_period(const fracas_model *model);
 FRACAS_MUST_USE fracas_err fracas_model_check_strength(const fracas_model *model, double strength);
 
 /* FRACAS_USAGE, with the nearest point of the body, for a probe that is farther from it than an
- * element is long. */
+ * element is long; with `reactions` for a body without a held edge. */
 FRACAS_MUST_USE fracas_err fracas_model_check_probes(const fracas_model *model,
-                                                     const fracas_probes *probes);
+                                                     const fracas_probes *probes, bool reactions);
 
 typedef struct {
     int64_t history; /* history rows, at equal intervals of time.end; 0: only the events */
@@ -75,6 +75,7 @@ typedef struct {
     int parts;       /* threads for a surface, the same bits; 0: 1 */
     const struct fracas_batch_watch *watch; /* NULL: nobody; must outlive the batch */
     const fracas_probes *probes;            /* NULL: none */
+    bool reactions;                         /* keep the forces of held edges */
 } fracas_batch_options;
 
 /* Lanes of a batch of so many realizations, unless another width is asked for. */

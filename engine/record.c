@@ -33,6 +33,7 @@ void fracas_record_clear(fracas_record *record)
     free(record->history);
     free(record->interface);
     free(record->probe);
+    free(record->reaction);
     fracas_record_init(record);
 }
 

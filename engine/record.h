@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The record of one realization: a row of /realization, and its rows of /fragment, /history,
- * /interface and /probe. */
+ * /interface, /probe and /reaction. */
 #ifndef FRACAS_ENGINE_RECORD_H
 #define FRACAS_ENGINE_RECORD_H
 
@@ -58,6 +58,12 @@ typedef struct {
     fracas_probe probe[FRACAS_MOST_PROBES];
 } fracas_probes;
 
+typedef struct {
+    double time;     /* s */
+    int64_t edge;    /* its tag, 1 to 4; 0: all other edges */
+    double force[3]; /* N, of the edge on the body */
+} fracas_reaction_row;
+
 /* "tip 0.009 0 0; middle 0 0 0"; "" without a probe. */
 void fracas_probes_write(const fracas_probes *probes, char text[FRACAS_PROBES_TEXT]);
 /* The inverse, of numbers of 15 digits; false for any other text. */
@@ -96,11 +102,12 @@ typedef struct {
     double rest, rest_variance, rest_bound; /* ... R, its variance, B; NaN also of surfaces */
     double momentum[3]; /* kg m/s, of the peculiar motion, half a step after end_time */
     /* rows below; nfragment == fragments unless FAILED */
-    size_t nfragment, nhistory, ninterface, nprobe;
+    size_t nfragment, nhistory, ninterface, nprobe, nreaction;
     fracas_fragment *fragment; /* owned by the record, freed by fracas_record_clear */
     fracas_history_row *history;
     fracas_interface_row *interface; /* NULL unless asked for */
     fracas_probe_row *probe;         /* by history row and probe; NULL without probes */
+    fracas_reaction_row *reaction;   /* by history row and held edge; NULL unless asked for */
 } fracas_record;
 
 /* An empty record of outcome FAILED, every value NaN and every count 0. */

@@ -100,6 +100,7 @@ enum {
     FRACAS_TABLE_HISTORY,     /* a row for each event, and at equal times (output.history) */
     FRACAS_TABLE_INTERFACE,   /* a row for each interface, if output.interfaces asks for them */
     FRACAS_TABLE_PROBE,       /* a row for each row of history and probe */
+    FRACAS_TABLE_REACTION,    /* a row for each row of history and held edge (output.reactions) */
     FRACAS_TABLES
 };
 /* "realization", "fragment" ...: the group in study.h5; NULL for an unknown table. */

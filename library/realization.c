@@ -148,6 +148,7 @@ static const char *const names[FRACAS_TABLES] = {
     [FRACAS_TABLE_HISTORY] = "history",
     [FRACAS_TABLE_INTERFACE] = "interface",
     [FRACAS_TABLE_PROBE] = "probe",
+    [FRACAS_TABLE_REACTION] = "reaction",
 };
 
 static bool is_table(int table)

@@ -31,7 +31,7 @@ typedef struct fracas_csv_table {
  * study.h5. A line a statistic of a point, with its unit. */
 extern const fracas_csv_table fracas_csv_table_points, fracas_csv_table_realizations,
     fracas_csv_table_fragments, fracas_csv_table_histories, fracas_csv_table_probes,
-    fracas_csv_table_statistics;
+    fracas_csv_table_reactions, fracas_csv_table_statistics;
 
 /* A line a time of a point: its energies, mean and band; a number of replicas: the headline numbers
  * from the first 4, 8, 16, ... and from all; a slope of mean size against strain rate: `kind` line,

@@ -139,11 +139,12 @@ static fracas_err put_package(const fracas_analysis *analysis, const fracas_csv_
  * probes are others. */
 static fracas_err remove_package(const char *folder)
 {
-    char histories[64], probes[64];
+    char histories[64], probes[64], reactions[64];
     FRACAS_PRINT(histories, "%s.csv", fracas_csv_table_histories.name);
     FRACAS_PRINT(probes, "%s.csv", fracas_csv_table_probes.name);
-    const char *const name[] = {package_file, histories, probes};
-    for (size_t i = 0; i < 3; i++) {
+    FRACAS_PRINT(reactions, "%s.csv", fracas_csv_table_reactions.name);
+    const char *const name[] = {package_file, histories, probes, reactions};
+    for (size_t i = 0; i < 4; i++) {
         OWNED char *path = NULL;
         TRY(fracas_disk_join(folder, name[i], &path));
         const int reason = unlink(path) ? errno : 0;
@@ -154,7 +155,7 @@ static fracas_err remove_package(const char *folder)
     return FRACAS_OK;
 }
 
-enum { ALWAYS = 6, TABLES = ALWAYS + 2 };
+enum { ALWAYS = 6, TABLES = ALWAYS + 3 };
 
 /* The tables of an export, up to a NULL. */
 static void choose_tables(const fracas_analysis *analysis, bool histories,
@@ -167,6 +168,7 @@ static void choose_tables(const fracas_analysis *analysis, bool histories,
     size_t count = 0;
     while (count < ALWAYS) table[count] = all[count], count++;
     if (analysis->header.probes.count > 0) table[count++] = &fracas_csv_table_probes;
+    if (analysis->header.reactions) table[count++] = &fracas_csv_table_reactions;
     if (histories) table[count++] = &fracas_csv_table_histories;
     table[count] = NULL;
 }

@@ -169,3 +169,15 @@ const fracas_csv_table fracas_csv_table_probes = {
     .number = "row",
     .number_doc = "number of the line among the probes of its realization, from 0",
 };
+const fracas_csv_table fracas_csv_table_reactions = {
+    .name = "reactions",
+    .doc = "A line a held edge of a realization at a moment of its history",
+    .key = {"point", "replica", "row"},
+    .parent = &fracas_csv_table_realizations,
+    .fields = record_fields,
+    .rows = record_rows,
+    .set = FRACAS_SET_REACTION,
+    .parts = FRACAS_READ_REACTIONS,
+    .number = "row",
+    .number_doc = "number of the line among the reactions of its realization, from 0",
+};

@@ -127,8 +127,9 @@ static fracas_err point_missing(const fracas_campaign *now, const fracas_campaig
 
 static fracas_err check_settings(const fracas_campaign *now, const fracas_campaign *before)
 {
-    static const char *const random[] = {"independent", "common"}, *const boolean[] = {"false",
-                                                                                       "true"};
+    static const char *const random[] = {"independent", "common"},
+                             *const boolean[] = {"false", "true"},
+                             *const kept[] = {"nothing", "edges"};
     char seed[2][32], history[2][32], probes[2][FRACAS_PROBES_TEXT];
     const fracas_campaign *both[] = {before, now};
     for (int i = 0; i < 2; i++) {
@@ -145,6 +146,8 @@ static fracas_err check_settings(const fracas_campaign *now, const fracas_campai
          random[now->common_random_numbers]},
         {"output.history", history[0], history[1]},
         {"output.interfaces", boolean[before->output.interfaces], boolean[now->output.interfaces]},
+        {"output.reactions", kept[before->output.reactions != NULL],
+         kept[now->output.reactions != NULL]},
         {"probes", probes[0], probes[1]},
     };
     for (size_t i = 0; i < FRACAS_COUNT(setting); i++)

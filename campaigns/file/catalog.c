@@ -9,6 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const fracas_kind reactions_of_edges =
+                             {.name = "edges",
+                              .doc = "of each held edge of a surface, at the times of the history"},
+                         *const reactions[] = {&reactions_of_edges};
 static const fracas_param output_params[] = {
     {"history", FRACAS_INTEGER, "1",
      "equal intervals of time.end at which energies are kept; 0: only at onset, energy peak and "
@@ -17,6 +21,9 @@ static const fracas_param output_params[] = {
     {"interfaces", FRACAS_BOOLEAN, "1",
      "keep strength, damage, onset and break time of every interface", 0, 0, 1, false,
      offsetof(fracas_output, interfaces)},
+    {FRACAS_ONE_OF("reactions", reactions, offsetof(fracas_output, reactions),
+                   "forces to be kept over time"),
+     .optional = true},
 };
 static const fracas_section output_section = {
     .name = "output",

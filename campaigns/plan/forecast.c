@@ -306,7 +306,7 @@ static fracas_err forecast_with(const fracas_campaign *campaign, size_t index, b
     }
     TRY(fracas_point_model_like(campaign, index, &point.spec, model));
     TRY(describe(&point, *model, coarser > 1, forecast));
-    TRY(fracas_model_check_probes(*model, &campaign->probes));
+    TRY(fracas_model_check_probes(*model, &campaign->probes, campaign->output.reactions != NULL));
     forecast->parts = campaign->parallel.parts;
     if (coarser == 1) return FRACAS_OK;
     forecast->elements = llround((double)forecast->elements * coarser * coarser);
@@ -366,7 +366,9 @@ fracas_err fracas_plan_cost_with(const fracas_campaign *campaign, size_t point,
 {
     fracas_forecast forecast;
     fracas_err err = describe(&campaign->point[point], model, false, &forecast);
-    if (!err) err = fracas_model_check_probes(model, &campaign->probes);
+    if (!err)
+        err = fracas_model_check_probes(model, &campaign->probes,
+                                        campaign->output.reactions != NULL);
     if (err) return fracas_fail_within(err, "point %zu", point);
     if (words) warn_of(campaign, point, &forecast, words);
     *cost = (double)forecast.elements * (double)forecast.steps;

@@ -26,6 +26,7 @@ fracas_batch_options fracas_campaign_batch(const fracas_campaign *campaign)
 {
     return (fracas_batch_options){.history = campaign->output.history,
                                   .interfaces = campaign->output.interfaces,
+                                  .reactions = campaign->output.reactions != NULL,
                                   .probes = &campaign->probes};
 }
 

@@ -108,6 +108,12 @@ fracas_err fracas_rows_try(const fracas_campaign *campaign, size_t p, const frac
 
 /* ---- bytes ---- */
 
+/* Rows of reactions for each of the history: the edges that most bodies have. */
+static double reactions_of(const fracas_campaign *campaign)
+{
+    return campaign->output.reactions ? 2 : 0;
+}
+
 double fracas_realization_bytes(const fracas_campaign *campaign, const fracas_forecast *forecast)
 {
     const double interfaces = campaign->output.interfaces ? (double)forecast->interfaces : 0;
@@ -115,7 +121,8 @@ double fracas_realization_bytes(const fracas_campaign *campaign, const fracas_fo
            forecast->fragments * fracas_row_bytes(FRACAS_SET_FRAGMENT) +
            forecast->history *
                (fracas_row_bytes(FRACAS_SET_HISTORY) +
-                (double)campaign->probes.count * fracas_row_bytes(FRACAS_SET_PROBE)) +
+                (double)campaign->probes.count * fracas_row_bytes(FRACAS_SET_PROBE) +
+                reactions_of(campaign) * fracas_row_bytes(FRACAS_SET_REACTION)) +
            interfaces * fracas_row_bytes(FRACAS_SET_INTERFACE);
 }
 
@@ -135,6 +142,7 @@ static void count_rows(const fracas_campaign *campaign, const fracas_forecast *f
         rows[FRACAS_SET_FRAGMENT] += count * forecast[p].fragments;
         rows[FRACAS_SET_HISTORY] += count * forecast[p].history;
         rows[FRACAS_SET_PROBE] += count * forecast[p].history * (double)campaign->probes.count;
+        rows[FRACAS_SET_REACTION] += count * forecast[p].history * reactions_of(campaign);
         if (campaign->output.interfaces)
             rows[FRACAS_SET_INTERFACE] += count * (double)forecast[p].interfaces;
     }
@@ -142,6 +150,8 @@ static void count_rows(const fracas_campaign *campaign, const fracas_forecast *f
         rows[FRACAS_SET_REALIZATION] + 1;
     if (campaign->output.interfaces)
         rows[FRACAS_SET_INTERFACE_OFFSET] = rows[FRACAS_SET_REALIZATION] + 1;
+    if (campaign->output.reactions)
+        rows[FRACAS_SET_REACTION_OFFSET] = rows[FRACAS_SET_REALIZATION] + 1;
     if (campaign->probes.count > 0)
         rows[FRACAS_SET_PROBE_OFFSET] = rows[FRACAS_SET_REALIZATION] + 1;
 }

@@ -17,7 +17,8 @@ typedef struct {
     uint64_t seed;
     int64_t history, interfaces; /* as fracas_file_header */
     fracas_hash probes;          /* hash of their text */
-    int64_t over;                /* 1: only the record is left to be written */
+    int64_t reactions;
+    int64_t over; /* 1: only the record is left to be written */
     int64_t steps;
     double time, end; /* s; time.end */
 } fracas_checkpoint_head;

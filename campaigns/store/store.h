@@ -35,6 +35,7 @@ typedef struct {
     char version[32];     /* program version */
     int64_t format;       /* format version of a file that was read; a writer has its own */
     bool complete;        /* every realization of every point in the file is present */
+    bool reactions;       /* whether the file has a /reaction group */
     fracas_probes probes; /* the campaign's: with one the file has a /probe group */
 } fracas_file_header;
 
@@ -130,7 +131,8 @@ enum {
     FRACAS_READ_HISTORY = 2,
     FRACAS_READ_INTERFACES = 4,
     FRACAS_READ_PROBES = 8,
-    FRACAS_READ_ALL = 15
+    FRACAS_READ_REACTIONS = 16,
+    FRACAS_READ_ALL = 31
 };
 /* Realization in row `row` (0 .. realizations-1): its point (index in the file's table), replica
  * and record; `record` initialised by the caller, cleared by the caller (and here before it is

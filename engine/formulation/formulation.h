@@ -48,9 +48,10 @@ typedef struct {
 
 /* How the parts of a body are computed at once: the formulation's own plan. */
 typedef struct {
-    size_t parts;  /* 1: it is not divided */
-    size_t fields; /* doubles of a lane's memory: its state, then room within a step */
-    void *plan;    /* freed by division_destroy; NULL: none */
+    bool reactions; /* in: reactions are asked for */
+    size_t parts;   /* 1: it is not divided */
+    size_t fields;  /* doubles of a lane's memory: its state, then room within a step */
+    void *plan;     /* freed by division_destroy; NULL: none */
 } fracas_division;
 
 /* A point of the body: an element's, by the values of its shape functions there. */
@@ -170,6 +171,11 @@ struct fracas_formulation {
     /* Displacement [m], the background's included, and velocity there [m/s], after a step. */
     void (*motion_at)(const fracas_model *model, const fracas_step *step, int lane,
                       const fracas_spot *spot, double displacement[3], double velocity[3]);
+    /* Edges that hold the body, by their tags, rising; returns their number. NULL: it has none. */
+    size_t (*held_edges)(const fracas_model *model, int64_t tag[FRACAS_EDGES]);
+    /* Forces of these edges on the body after a step [N], where the division has `reactions`. */
+    void (*reactions)(const fracas_model *model, const fracas_step *step, int lane,
+                      double (*force)[3]);
     /* Fills all of a lane's fields after a step but fragments. */
     void (*fields)(const fracas_model *model, const fracas_step *step, int lane,
                    fracas_fields *fields);

@@ -35,7 +35,8 @@ static void *allocate(size_t doubles)
 static fracas_err divide(const fracas_model *model, int parts, fracas_step *step)
 {
     const fracas_formulation *f = model->formulation;
-    step->division = (fracas_division){.parts = 1, .fields = f->state_size(model)};
+    step->division.parts = 1;
+    step->division.fields = f->state_size(model);
     if (f->divide) TRY(f->divide(model, parts > 1 ? (size_t)parts : 1, &step->division));
     return fracas_team_create(step->division.parts, &step->team);
 }
@@ -55,6 +56,8 @@ fracas_err fracas_batch_create(const fracas_model *model, size_t count,
         .watch = options->watch,
         .step = {.width = width, .lanes = fracas_isa_lanes(isa, width), .isa = isa}};
     const size_t lanes = (size_t)width;
+    TRY(fracas_spots_find(model, options->probes, options->reactions, &batch->spots));
+    batch->step.division.reactions = options->reactions;
     TRY(divide(model, options->parts, &batch->step));
     double **const array[] = {&batch->step.state, &batch->step.onset_time, &batch->step.break_time};
     for (int i = 0; i < (options->interfaces ? 3 : 1); i++) {
@@ -62,7 +65,6 @@ fracas_err fracas_batch_create(const fracas_model *model, size_t count,
         if (!*array[i]) return fracas_no_memory("a batch");
     }
     TRY(fracas_partition_init(&batch->step.partition, model->elements));
-    if (options->probes) TRY(fracas_spots_find(model, options->probes, &batch->spots));
     for (size_t l = 0; l < lanes; l++)
         TRY(fracas_history_init(&batch->lane[l].history, options->history, model->spec.time.end,
                                 fracas_spots_values(&batch->spots)));

@@ -19,7 +19,7 @@ from .command import Error, PathLike, call_json, meanings
 from .table import Column, Table, flatten, from_rows
 
 ASKED_BY = {"interface": "output: {interfaces: true}", "mesh": "output: {interfaces: true} and a surface", "decision": "replicas: {until: ...}",
-            "probe": "probes: {tip: [9 mm, 0]}"}
+            "probe": "probes: {tip: [9 mm, 0]}", "reaction": "output: {reactions: edges}"}
 
 
 def _connect(path: Path) -> sqlite3.Connection:
@@ -130,6 +130,20 @@ class Realization:
             return Table("probe", {name: Column(lambda column=column: column.read()[number == n], column.unit, column.description)
                                    for name, column in table.columns.items() if name != "probe"}, table.attributes)
         return {name: of(n) for n, name in enumerate(names)}
+
+    @property
+    def reactions(self) -> dict[int, Table]:
+        """Time and force on the body of each held edge by its tag, if the campaign keeps reactions.
+
+        >>> realization.reactions[1]["force"][:, 0].min()
+        """
+        table = self._table("reaction")
+        edge = table["edge"]
+
+        def of(tag: int) -> Table:
+            return Table("reaction", {name: Column(lambda column=column: column.read()[edge == tag], column.unit, column.description)
+                                      for name, column in table.columns.items() if name != "edge"}, table.attributes)
+        return {int(tag): of(tag) for tag in np.unique(edge)}
 
 
 class Study:
@@ -322,6 +336,14 @@ class Study:
         >>> study.probes.frame("point", "replica", "time", "probe", "displacement")
         """
         return self._ragged("probe")
+
+    @cached_property
+    def reactions(self) -> Table:
+        """Forces of the held edges on the body, of all realizations, if the campaign keeps them.
+
+        >>> study.reactions.frame("point", "replica", "time", "edge", "force")
+        """
+        return self._ragged("reaction")
 
     @property
     def probe_places(self) -> dict[str, np.ndarray]:

@@ -18,8 +18,8 @@ import numpy as np
 
 OUTCOMES = ["FRAGMENTED", "INTACT", "TIME_LIMIT", "NONFINITE", "ENERGY_DRIFT", "FAILED"]
 KEYS = {"points": ["point"], "realizations": ["point", "replica"], "fragments": ["point", "replica", "fragment"],
-        "histories": ["point", "replica", "row"], "probes": ["point", "replica", "row"], "statistics": ["point", "key"], "energies": ["point", "time"], "convergence": ["point", "replicas"]}
-PARENTS = {"realizations": "points", "fragments": "realizations", "histories": "realizations", "probes": "realizations", "statistics": "points",
+        "histories": ["point", "replica", "row"], "probes": ["point", "replica", "row"], "reactions": ["point", "replica", "row"], "statistics": ["point", "key"], "energies": ["point", "time"], "convergence": ["point", "replicas"]}
+PARENTS = {"realizations": "points", "fragments": "realizations", "histories": "realizations", "probes": "realizations", "reactions": "realizations", "statistics": "points",
            "energies": "points", "convergence": "points"}
 
 
@@ -216,6 +216,9 @@ def check(study_folder, folder):
         wanted(("probes" in rows) == ("probe" in study), "probes.csv is there, or is not")
         if "probes" in rows:
             check_parts(study, resources, rows, "probes", "probe", "row")
+        wanted(("reactions" in rows) == ("reaction" in study), "reactions.csv is there, or is not")
+        if "reactions" in rows:
+            check_parts(study, resources, rows, "reactions", "reaction", "row")
         columns, units = columns_of(study["point"])
         parameters = set(columns) | {"point"}
         compare("points", [{key: row[key] for key in row if key in columns} for row in rows["points"]], columns)

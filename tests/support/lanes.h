@@ -13,6 +13,7 @@ static inline void assert_same_record(const fracas_record *a, const fracas_recor
     assert_memory_equal(a->fragment, b->fragment, a->nfragment * sizeof *a->fragment);
     assert_memory_equal(a->history, b->history, a->nhistory * sizeof *a->history);
     assert_memory_equal(a->interface, b->interface, a->ninterface * sizeof *a->interface);
+    assert_memory_equal(a->reaction, b->reaction, a->nreaction * sizeof *a->reaction);
     assert_memory_equal(a->probe, b->probe, a->nprobe * sizeof *a->probe);
 }
 

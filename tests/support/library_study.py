@@ -12,7 +12,7 @@ import numpy as np
 
 library, campaign_path, study_path = sys.argv[1:4]
 fracas = ctypes.CDLL(library)
-TABLES = 5
+TABLES = 6
 
 
 class Column(ctypes.Structure):
@@ -131,7 +131,7 @@ def check_errors(campaign, realizer, realization):
     refused("-1 threads", fracas.fracas_realizer_compute(realizer, byref(c_int64(0)), 1, None, -1, byref(handle)))
     refused("did you mean `fragments`", fracas.fracas_realization_number(realization, b"fragmentz", byref(number)))
     refused("`momentum` has 3 values", fracas.fracas_realization_number(realization, b"momentum", byref(number)))
-    refused("there is no table 5", fracas.fracas_table_find(TABLES, b"mass", byref(index)))
+    refused("there is no table 6", fracas.fracas_table_find(TABLES, b"mass", byref(index)))
     refused("has no column 99", fracas.fracas_table_column_at(0, 99, byref(Column())))
     refused("bytes, not 3", fracas.fracas_realization_get(realization, 0, 0, (ctypes.c_char * 3)(), 3))
 

@@ -25,6 +25,38 @@ expect 0 "$fracas" report one
 [ -e one/report/probes-point-1.svg ] && grep -q 'id="probes-over-time"' one/report/index.html || fail "no figure"
 ! grep -q probes-over-time plain/report/index.html || fail "a figure without probes"
 
+# Forces of held edges.
+cat > plate.yaml <<'END'
+name: plate
+seed: 3
+model: membrane
+geometry: {shape: plate, width: 5 mm, height: 5 mm, thickness: 1 mm, left: held, right: held}
+mesh: {divisions: 12, order: 2, amplitude: 0.1}
+material: {young: 275 GPa, density: 2750 kg/m3, poisson: 0.2}
+cohesive: {fracture_energy: 100 J/m2}
+strength: {distribution: weibull, minimum: 0, scale: 330 MPa, shape: 10}
+loading: {type: expansion, rate: 1e4 1/s}
+time: {stop: time, end: 0.2 us}
+replicas: 3
+output: {history: 20, interfaces: true, reactions: edges}
+END
+expect 0 "$fracas" run plate.yaml --study held --jobs 1 --lanes 1
+expect 0 "$fracas" run plate.yaml --study other --jobs 2 --lanes 8
+cmp held/study.h5 other/study.h5 || fail "other forces with 8 lanes"
+expect 0 "$fracas" run held/campaign.yaml --study third --jobs 2
+cmp held/study.h5 third/study.h5 || fail "the resolved file has no reactions"
+expect 0 "$fracas" verify --full held
+expect 0 "$fracas" replay held 0/2
+sed 's/, reactions: edges//' plate.yaml > free.yaml
+expect 5 "$fracas" run free.yaml --study held
+said 'output.reactions is edges in the study, but nothing in this campaign file'
+sed 's/, left: held, right: held//' plate.yaml > free.yaml
+expect 2 "$fracas" plan free.yaml
+said 'point 0: output.reactions asks for the forces of held edges, but no edge is held; leave it out, or hold one'
+sed 's/interfaces: true}/interfaces: true, reactions: edges}/' plain.yaml > free.yaml
+expect 2 "$fracas" plan free.yaml
+said 'point 0: output.reactions asks for the forces of held edges, but surfaces alone have edges; leave it out'
+
 # A study keeps its probes.
 expect 5 "$fracas" run plain.yaml --study one
 said 'probes is left 0 0 0; middle 0.005003 0 0; right 0.01 0 0 in the study, but nothing in this campaign file'
@@ -50,6 +82,8 @@ wrong "{$(for i in $(seq 17); do printf 'p%d: [0], ' "$i"; done)}" 'found 17 pro
 /usr/bin/python3 -c 'import h5py' 2>/dev/null || { echo "skipped: python3-h5py is not installed"; exit 0; }
 expect 0 "$fracas" export one --histories
 /usr/bin/python3 "$source/tests/support/check_export.py" one
+expect 0 "$fracas" export held
+/usr/bin/python3 "$source/tests/support/check_export.py" held
 PYTHONPATH=$source/python /usr/bin/python3 - <<'END'
 import csv
 
@@ -77,6 +111,13 @@ for point in 0, 1:
             assert early.sum() > (3 if point == 0 else 0)
             error = np.abs(u[early, 0] - rates[point] * places[name][0] * time[early])
             assert (error <= 1e-13 * rates[point] * 0.01 * time[early]).all(), (name, error.max())
+with fracas.open("held") as held:
+    forces = held.realization(0, 1).reactions
+    # Until the first onset edges that stretch a plate alike pull at it by the same force; later each has its own.
+    assert list(forces) == [1, 2] and len(held.reactions["force"]) == 2 * len(held.histories["time"])
+    early = forces[1]["time"] < held.realization(0, 1)["onset_time"]
+    left, right = (forces[tag]["force"][:, 0] for tag in (1, 2))
+    assert (left[1:] < 0).any() and np.abs(left + right)[early].max() < 0.02 * np.abs(left).max() < np.abs(left + right).max()
 names = [line["probe"] for line in csv.DictReader(open("one/export/probes.csv"))]
 assert [list(places)[n] for n in study.probes["probe"]] == names
 END

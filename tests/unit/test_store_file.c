@@ -86,7 +86,8 @@ static fracas_file_seal write_file_of(const char *path, int64_t replicas, size_t
     fracas_file_header header = sample_header();
     fracas_writer *writer;
     header.interfaces = interfaces;
-    if (shape) header.probes = (fracas_probes){1, {{"tip", {0.1, 0, 0}}}}; /* no rows of it */
+    header.reactions = shape != NULL; /* no rows of these, nor of the probe */
+    if (shape) header.probes = (fracas_probes){1, {{"tip", {0.1, 0, 0}}}};
     OK(fracas_writer_create(path, &header, &table, &writer));
     for (size_t p = 0; p < SAMPLE_POINTS; p++)
         for (int64_t r = 0; r < replicas; r++) {

@@ -175,7 +175,7 @@ static void probes_off_the_body_are_refused(void **unused)
           FRACAS_USAGE,
           "probe far at (0.01, 0, 0) m is 0.004 m away from the body, whose nearest "
           "point is (0.006, 0, 0) m");
-    FAILS(fracas_model_check_probes(model, &far), FRACAS_USAGE, "move it there");
+    FAILS(fracas_model_check_probes(model, &far, false), FRACAS_USAGE, "move it there");
     fracas_model_destroy(model);
 }
 

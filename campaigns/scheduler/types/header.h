@@ -14,6 +14,7 @@ static inline fracas_file_header fracas_campaign_header(const fracas_campaign *c
                                 .seed = campaign->seed,
                                 .history = campaign->output.history,
                                 .interfaces = campaign->output.interfaces,
+                                .reactions = campaign->output.reactions != NULL,
                                 .probes = campaign->probes,
                                 .version = FRACAS_VERSION};
 }

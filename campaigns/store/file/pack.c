@@ -27,6 +27,7 @@ static fracas_record scalars_of(const fracas_record *record)
     scalars.history = NULL;
     scalars.interface = NULL;
     scalars.probe = NULL;
+    scalars.reaction = NULL;
     return scalars;
 }
 

@@ -78,10 +78,12 @@ static fracas_err read_version(fracas_reader *reader, uint64_t oldest)
     return FRACAS_OK;
 }
 
-/* A file without probes has no attribute. */
+/* A file without probes or reactions has no attribute of them. */
 static fracas_err read_probes(fracas_reader *reader)
 {
     bool has;
+    TRY(fracas_h5_has_attribute(&reader->h5, "/", "reactions", &has));
+    if (has) TRY(read_truth(reader, "reactions", &reader->header.reactions));
     TRY(fracas_h5_has_attribute(&reader->h5, "/", "probes", &has));
     if (!has) return FRACAS_OK;
     OWNED char *text = NULL;
@@ -191,6 +193,7 @@ static fracas_err open_records(fracas_reader *reader, unsigned parts)
     TRY(open_set(reader, FRACAS_SET_REALIZATION));
     TRY(check_part(reader, header->interfaces, "interfaces", "/interface", FRACAS_READ_INTERFACES));
     TRY(check_part(reader, header->probes.count > 0, "probes", "/probe", FRACAS_READ_PROBES));
+    TRY(check_part(reader, header->reactions, "reactions", "/reaction", FRACAS_READ_REACTIONS));
     for (int p = 0; p < FRACAS_NPARTS; p++)
         if (reader->parts & 1u << p)
             TRY(open_ragged(reader, reader->set[FRACAS_SET_REALIZATION].rows,

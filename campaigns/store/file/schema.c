@@ -37,6 +37,8 @@
     COLUMN("interface", name, type, unit, meaning, fracas_interface_row, name, 0)
 #define PROBE(name, type, unit, meaning) \
     COLUMN("probe", name, type, unit, meaning, fracas_probe_row, name, 0)
+#define REACTION(name, type, unit, meaning) \
+    COLUMN("reaction", name, type, unit, meaning, fracas_reaction_row, name, 0)
 #define DECISION(name, type, stored, meaning) \
     COLUMN("decision", name, stored, "1", meaning, fracas_decision, name, 0),
 #define MESH(of, name, type, unit, meaning) \
@@ -119,6 +121,7 @@ OFFSETS(fragment_offset, "/fragment/offset", "fragments of realization i are", "
 OFFSETS(history_offset, "/history/offset", "history of realization i is", "realizations");
 OFFSETS(interface_offset, "/interface/offset", "interfaces of realization i are", "realizations");
 OFFSETS(probe_offset, "/probe/offset", "probes of realization i are", "realizations");
+OFFSETS(reaction_offset, "/reaction/offset", "reactions of realization i are", "realizations");
 OFFSETS(mesh_node_offset, "/mesh/node_offset", "nodes of the mesh of point i are", "points");
 OFFSETS(mesh_element_offset, "/mesh/element_offset", "elements of the mesh of point i are",
         "points");
@@ -181,6 +184,12 @@ static const fracas_store_column probe[] = {
           "step later"),
 };
 
+static const fracas_store_column reaction[] = {
+    REACTION(time, FLOAT64, "s", "time of a row of /history, of which each held edge has a row"),
+    REACTION(edge, INT8, "1", "tag of the edge, as /mesh/border_tag; 0: all others"),
+    REACTION(force, FLOAT64, "N", "force (x, y, z) of the edge on the body"),
+};
+
 static const fracas_store_column decision[] = {FRACAS_EACH_DECISION(DECISION)};
 
 static const fracas_store_column mesh_node[] = {
@@ -227,6 +236,8 @@ const fracas_store_set fracas_store_sets[FRACAS_NSETS] = {
     [FRACAS_SET_INTERFACE] = SET(interface, 2048, fracas_interface_row),
     [FRACAS_SET_PROBE_OFFSET] = SET(probe_offset, 256, int64_t),
     [FRACAS_SET_PROBE] = SET(probe, 512, fracas_probe_row),
+    [FRACAS_SET_REACTION_OFFSET] = SET(reaction_offset, 256, int64_t),
+    [FRACAS_SET_REACTION] = SET(reaction, 512, fracas_reaction_row),
     [FRACAS_SET_DECISION] = SET(decision, 64, fracas_decision),
     [FRACAS_SET_MESH_NODE_OFFSET] = SET(mesh_node_offset, 64, int64_t),
     [FRACAS_SET_MESH_NODE] = SET(mesh_node, 1024, fracas_stored_node),
@@ -252,14 +263,16 @@ const fracas_ragged fracas_record_parts[FRACAS_NPARTS] = {
     PART(fracas_record, FRAGMENT, "/fragment", fragment),
     PART(fracas_record, HISTORY, "/history", history),
     PART(fracas_record, INTERFACE, "/interface", interface),
-    PART(fracas_record, PROBE, "/probe", probe)};
+    PART(fracas_record, PROBE, "/probe", probe),
+    PART(fracas_record, REACTION, "/reaction", reaction)};
 const fracas_ragged fracas_mesh_parts[FRACAS_NMESH_PARTS] = {
     [FRACAS_MESH_NODES] = MESH_PART(NODE, node, nnodes),
     [FRACAS_MESH_ELEMENTS] = MESH_PART(ELEMENT, element, nelements),
     [FRACAS_MESH_INTERFACES] = MESH_PART(INTERFACE, interface, ninterfaces),
     [FRACAS_MESH_BORDERS] = MESH_PART(BORDER, border, nborders)};
 _Static_assert(FRACAS_READ_FRAGMENTS == 1 << 0 && FRACAS_READ_HISTORY == 1 << 1 &&
-                   FRACAS_READ_INTERFACES == 1 << 2 && FRACAS_READ_PROBES == 1 << 3,
+                   FRACAS_READ_INTERFACES == 1 << 2 && FRACAS_READ_PROBES == 1 << 3 &&
+                   FRACAS_READ_REACTIONS == 1 << 4,
                "parts are in the order of their bits");
 
 const void *fracas_ragged_get(const fracas_ragged *ragged, const void *owner, size_t *count)

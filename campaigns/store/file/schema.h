@@ -45,6 +45,8 @@ typedef enum {
     FRACAS_SET_INTERFACE,
     FRACAS_SET_PROBE_OFFSET, /* the same with probes */
     FRACAS_SET_PROBE,
+    FRACAS_SET_REACTION_OFFSET, /* the same with reactions */
+    FRACAS_SET_REACTION,
     FRACAS_SET_DECISION,         /* only in a study.h5 with points whose replicas a rule decided */
     FRACAS_SET_MESH_NODE_OFFSET, /* from here on only in a study.h5 with meshes of surfaces */
     FRACAS_SET_MESH_NODE,
@@ -76,7 +78,7 @@ typedef struct {
     size_t rows, count; /* offsets of the pointer to the rows and of their number in the owner */
 } fracas_ragged;
 
-enum { FRACAS_NPARTS = 4 };
+enum { FRACAS_NPARTS = 5 };
 extern const fracas_ragged fracas_record_parts[FRACAS_NPARTS]; /* by the bits of FRACAS_READ_ALL */
 enum {
     FRACAS_MESH_NODES,
@@ -93,7 +95,8 @@ const void *fracas_ragged_get(const fracas_ragged *ragged, const void *owner, si
 void fracas_ragged_set(const fracas_ragged *ragged, void *owner, void *rows, size_t count);
 
 /* A row of FRACAS_SET_REALIZATION in memory; rows of the others are fracas_fragment,
- * fracas_history_row, fracas_interface_row, fracas_probe_row, fracas_decision, those of
+ * fracas_history_row, fracas_interface_row, fracas_probe_row,
+ * fracas_reaction_row, fracas_decision, those of
  * campaigns/store/mesh.h, and an int64_t for the offsets. */
 typedef struct {
     int64_t point, replica;

@@ -20,6 +20,7 @@ struct fracas_writer {
     size_t npoints;
     bool interfaces; /* has an /interface group */
     bool probes;     /* has a /probe group */
+    bool reactions;  /* has a /reaction group */
     bool decisions;  /* has a /decision group */
     bool meshes;     /* has a /mesh group */
     bool own_seal;   /* ends with a seal of its own */
@@ -32,6 +33,7 @@ static bool has_set(const fracas_writer *writer, int set)
 {
     if (set >= FRACAS_SET_MESH_NODE_OFFSET) return writer->meshes;
     if (set == FRACAS_SET_DECISION) return writer->decisions;
+    if (set >= FRACAS_SET_REACTION_OFFSET) return writer->reactions;
     if (set >= FRACAS_SET_PROBE_OFFSET) return writer->probes;
     return writer->interfaces ||
            (set != FRACAS_SET_INTERFACE_OFFSET && set != FRACAS_SET_INTERFACE);
@@ -105,6 +107,7 @@ static fracas_err write_header(const fracas_h5 *h5, const fracas_file_header *he
     TRY(fracas_h5_put_integer(h5, "/", "seed", H5T_STD_U64LE, header->seed));
     TRY(fracas_h5_put_integer(h5, "/", "history", H5T_STD_I64LE, (uint64_t)header->history));
     TRY(fracas_h5_put_integer(h5, "/", "interfaces", H5T_STD_I8LE, header->interfaces));
+    if (header->reactions) TRY(fracas_h5_put_integer(h5, "/", "reactions", H5T_STD_I8LE, 1));
     if (header->probes.count) {
         char text[FRACAS_PROBES_TEXT];
         fracas_probes_write(&header->probes, text);
@@ -155,6 +158,7 @@ fracas_err fracas_writer_create(const char *path, const fracas_file_header *head
     new->npoints = table->npoints;
     new->interfaces = header->interfaces;
     new->probes = header->probes.count > 0;
+    new->reactions = header->reactions;
     new->path = strdup(path);
     if (!new->path) return fracas_no_memory("a file");
     TRY(fracas_disk_temporary(path, &new->temporary));

@@ -13,7 +13,7 @@
  * The hash of a point does not hold it, so files and the index are compared by it. */
 
 enum {
-    FRACAS_IDENTITY_VALUES = 5,
+    FRACAS_IDENTITY_VALUES = 6,
     FRACAS_IDENTITY_TEXT = FRACAS_PROBES_TEXT,
     FRACAS_DIFFERENCE_TEXT = 128
 };

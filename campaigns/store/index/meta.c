@@ -27,7 +27,7 @@ static fracas_err write_meta(fracas_index *index, const char *key, const char *v
 /* ---- identity ---- */
 
 const char *const fracas_identity_name[FRACAS_IDENTITY_VALUES] = {
-    "program_version", "seed", "history", "interfaces", "probes"};
+    "program_version", "seed", "history", "interfaces", "probes", "reactions"};
 
 void fracas_identity_of(const fracas_file_header *header, fracas_identity *identity)
 {
@@ -35,6 +35,7 @@ void fracas_identity_of(const fracas_file_header *header, fracas_identity *ident
     snprintf(identity->value[1], FRACAS_IDENTITY_TEXT, "%" PRIu64, header->seed);
     snprintf(identity->value[2], FRACAS_IDENTITY_TEXT, "%" PRId64, header->history);
     snprintf(identity->value[3], FRACAS_IDENTITY_TEXT, "%d", header->interfaces);
+    snprintf(identity->value[5], FRACAS_IDENTITY_TEXT, "%d", header->reactions);
     if (header->probes.count) fracas_probes_write(&header->probes, identity->value[4]);
     else snprintf(identity->value[4], FRACAS_IDENTITY_TEXT, "none");
 }

@@ -33,7 +33,8 @@ static fracas_checkpoint_head head_of(const fracas_file_header *header, const fr
                                    .replica = replica,
                                    .seed = header->seed,
                                    .history = header->history,
-                                   .interfaces = header->interfaces};
+                                   .interfaces = header->interfaces,
+                                   .reactions = header->reactions};
     char probes[FRACAS_PROBES_TEXT];
     fracas_probes_write(&header->probes, probes);
     head.probes = fracas_hash_of(probes, strlen(probes));
@@ -135,7 +136,7 @@ static fracas_err check_head(const fracas_checkpoint *c, const fracas_checkpoint
                            wanted->version);
     if (!fracas_hash_equal(&found->point, &wanted->point) || found->replica != wanted->replica ||
         found->seed != wanted->seed || found->history != wanted->history ||
-        found->interfaces != wanted->interfaces ||
+        found->interfaces != wanted->interfaces || found->reactions != wanted->reactions ||
         !fracas_hash_equal(&found->probes, &wanted->probes))
         return fracas_fail(FRACAS_DAMAGED, "%s: of another realization, seed or output", c->path);
     return FRACAS_OK;

@@ -181,6 +181,7 @@ static fracas_err read_header(const fracas_index *index, const fracas_identity *
     header->seed = strtoull(identity->value[1], NULL, 10);
     header->history = strtoll(identity->value[2], NULL, 10);
     header->interfaces = !strcmp(identity->value[3], "1");
+    header->reactions = !strcmp(identity->value[5], "1");
     if (!fracas_probes_parse(identity->value[4], &header->probes)) /* "none", or none known */
         header->probes = (fracas_probes){0};
     if (header->history >= 0 && header->history <= FRACAS_MOST_HISTORY) return FRACAS_OK;

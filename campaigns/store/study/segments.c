@@ -89,6 +89,10 @@ uint64_t fracas_segments_size(const fracas_segments *segments, const fracas_plac
     if (parts & FRACAS_READ_HISTORY) bytes += segments->history * sizeof(fracas_history_row);
     if (parts & FRACAS_READ_PROBES)
         bytes += segments->history * segments->probes * sizeof(fracas_probe_row);
+    if (parts & FRACAS_READ_REACTIONS && !strcmp(segments->identity.value[5], "1")) {
+        enum { EDGES = 5 }; /* at most */
+        bytes += segments->history * EDGES * sizeof(fracas_reaction_row);
+    }
     if (parts & FRACAS_READ_INTERFACES && segment) /* they are stored compactly */
         bytes += 2 * segment->seal.bytes / (uint64_t)(segment->rows + 1);
     return bytes;

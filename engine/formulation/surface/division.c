@@ -189,6 +189,8 @@ void fracas_surface_division_destroy(void *p)
         for (size_t k = 0; k < FRACAS_COUNT(owned); k++) free(owned[k]);
     }
     free(division->part);
+    free(division->kept_row);
+    free(division->hold);
     free(division);
 }
 
@@ -199,7 +201,20 @@ static size_t first_of(const fracas_surface_tables *t, size_t block)
     return e < t->nelements ? e : t->nelements;
 }
 
-static fracas_err make_parts(maker *m, fracas_surface_division *division)
+/* Rows of held elements behind all else. */
+static fracas_err keep_held(const fracas_surface_tables *t, fracas_surface_division *division)
+{
+    uint32_t rows = 0;
+    division->kept = division->fields;
+    division->kept_row = calloc(t->nelements, sizeof *division->kept_row);
+    if (!division->kept_row) return fracas_no_memory("the reactions of a body");
+    for (size_t e = 0; e < t->nelements; e++)
+        if (t->held[e]) division->kept_row[e] = ++rows;
+    division->fields += 2 * rows * fracas_surface_unknowns(t);
+    return FRACAS_OK;
+}
+
+static fracas_err make_parts(maker *m, bool reactions, fracas_surface_division *division)
 {
     const fracas_surface_tables *t = m->constants->tables;
     const size_t blocks = fracas_surface_blocks(t);
@@ -210,6 +225,7 @@ static fracas_err make_parts(maker *m, fracas_surface_division *division)
     }
     division->sums = m->place;
     division->fields = m->place + blocks * SURFACE_SUMS;
+    if (reactions) TRY(keep_held(t, division));
     if (division->fields <= UINT32_MAX) return FRACAS_OK;
     return fracas_fail(
         FRACAS_ENVIRONMENT,
@@ -218,7 +234,7 @@ static fracas_err make_parts(maker *m, fracas_surface_division *division)
 }
 
 fracas_err fracas_surface_division_create(const fracas_surface_constants *c, size_t parts,
-                                          fracas_surface_division **out)
+                                          bool reactions, fracas_surface_division **out)
 {
     const size_t blocks = fracas_surface_blocks(c->tables);
     fracas_surface_division *division = calloc(1, sizeof *division);
@@ -228,7 +244,8 @@ fracas_err fracas_surface_division_create(const fracas_surface_constants *c, siz
     maker m;
     fracas_err err = maker_init(&m, c);
     if (!err)
-        err = division->part ? make_parts(&m, division) : fracas_no_memory("the parts of a body");
+        err = division->part ? make_parts(&m, reactions, division)
+                             : fracas_no_memory("the parts of a body");
     maker_clear(&m);
     if (err) fracas_surface_division_destroy(division);
     else *out = division;

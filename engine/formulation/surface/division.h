@@ -53,17 +53,31 @@ typedef struct {
     fracas_surface_copy *copy;
 } fracas_surface_part;
 
+/* Components of an element that an edge holds. */
+typedef struct {
+    uint32_t element;
+    uint32_t edge; /* number among the body's held edges */
+    uint32_t held; /* bit dimension node + component */
+} fracas_surface_hold;
+
 typedef struct {
     size_t parts;
     fracas_surface_part *part;
     size_t sums;   /* place of the sums of all blocks */
     size_t fields; /* a lane's, in a group's memory */
+    /* Forces and accelerations of elements with held nodes, for reactions: place of the first row,
+     * and of each element the number of its row + 1, 0: it has none. NULL: nobody asks for any. */
+    size_t kept;
+    uint32_t *kept_row; /* [element] */
+    size_t holds;
+    fracas_surface_hold *hold; /* sorted by their edges */
 } fracas_surface_division;
 
-/* Divides a body into `parts`, or as many as it has blocks. FRACAS_ENVIRONMENT without memory. */
+/* Divides a body into `parts`, or as many as it has blocks; with `reactions` it keeps forces of
+ * held elements. FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err
 fracas_surface_division_create(const struct fracas_surface_constants *constants, size_t parts,
-                               fracas_surface_division **division);
+                               bool reactions, fracas_surface_division **division);
 void fracas_surface_division_destroy(void *division); /* NULL is allowed */
 
 #endif

@@ -57,6 +57,7 @@ typedef struct {
     fracas_step *step;
     int first;            /* the step's lane of lane 0 here */
     int ghost;            /* 1 in the turn of a ghost */
+    int keeps;            /* 1 where forces of held elements are kept */
     double *state, *sums; /* memory of these lanes */
     const double *strengths;
     size_t element_size, interface_size;  /* doubles */

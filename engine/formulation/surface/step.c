@@ -27,8 +27,8 @@ fracas_err fracas_surface_operator_open(const fracas_model *model, int contact,
     op->constants.point_fields = 0; /* no law: interfaces have no state */
     op->constants.speed = 0;
     fracas_surface_division *division;
-    TRY(fracas_surface_division_create(&op->constants, 1, &division));
-    op->step.division = (fracas_division){1, division->fields, division};
+    TRY(fracas_surface_division_create(&op->constants, 1, false, &division));
+    op->step.division = (fracas_division){.parts = 1, .fields = division->fields, .plan = division};
     op->step.state = calloc(division->fields, sizeof *op->step.state);
     if (!op->step.state) return fracas_no_memory("the critical time step");
     *out = op;

@@ -215,8 +215,15 @@ fracas_err fracas_surface_model_divide(const fracas_model *model, size_t parts,
 {
     const fracas_surface_constants c = fracas_surface_constants_of(model);
     fracas_surface_division *division;
-    TRY(fracas_surface_division_create(&c, parts, &division));
-    *out = (fracas_division){division->parts, division->fields, division};
+    TRY(fracas_surface_division_create(&c, parts, out->reactions, &division));
+    fracas_err err = out->reactions ? fracas_surface_holds_fill(model, division) : FRACAS_OK;
+    if (err) {
+        fracas_surface_division_destroy(division);
+        return err;
+    }
+    out->parts = division->parts;
+    out->fields = division->fields;
+    out->plan = division;
     return FRACAS_OK;
 }
 

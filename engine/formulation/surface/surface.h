@@ -292,6 +292,8 @@ static inline double fracas_surface_mass(const fracas_surface_tables *t, size_t 
 /* Tables of model->surface and model->spec, checked. The caller destroys. */
 FRACAS_MUST_USE fracas_err fracas_surface_tables_create(const fracas_model *model,
                                                         fracas_surface_tables **tables);
+/* Components that hold each node of a border's edge, as bits; 0: it is free. */
+unsigned fracas_surface_held_by(const fracas_model *model, const fracas_surface_border *border);
 void fracas_surface_tables_destroy(void *tables); /* NULL is allowed */
 size_t fracas_surface_tables_bytes(const fracas_surface_tables *tables);
 /* Equal for equal tables of the linear operator. */
@@ -387,6 +389,12 @@ size_t fracas_surface_element_nodes(const fracas_model *model);
 size_t fracas_surface_interface_nodes(const fracas_model *model);
 void fracas_surface_fields(const fracas_model *model, const fracas_step *step, int lane,
                            fracas_fields *fields);
+/* Fills the holds of a division. */
+FRACAS_MUST_USE fracas_err fracas_surface_holds_fill(const fracas_model *model,
+                                                     fracas_surface_division *division);
+size_t fracas_surface_held_edges(const fracas_model *model, int64_t tag[FRACAS_EDGES]);
+void fracas_surface_reactions(const fracas_model *model, const fracas_step *step, int lane,
+                              double (*force)[3]);
 void fracas_surface_locate(const fracas_model *model, const double place[3], fracas_spot *spot);
 void fracas_surface_motion_at(const fracas_model *model, const fracas_step *step, int lane,
                               const fracas_spot *spot, double displacement[3], double velocity[3]);
@@ -405,6 +413,7 @@ void fracas_surface_motion_at(const fracas_model *model, const fracas_step *step
     .element_nodes = fracas_surface_element_nodes, .add_matter = fracas_surface_add_matter,     \
     .add_cracks = fracas_surface_add_cracks, .interface_nodes = fracas_surface_interface_nodes, \
     .fields = fracas_surface_fields, .locate = fracas_surface_locate,                           \
-    .motion_at = fracas_surface_motion_at
+    .motion_at = fracas_surface_motion_at, .held_edges = fracas_surface_held_edges,             \
+    .reactions = fracas_surface_reactions
 
 #endif

@@ -298,6 +298,20 @@ __attribute__((noinline)) static void surface_damp(const surface_context *c, int
     else surface_damp_of(c, 2, e, at, last);
 }
 
+/* Keeps forces and accelerations of an element with held nodes, for its reactions (probes.3). */
+__attribute__((noinline, cold)) static void
+surface_keep(const surface_context *c, int size, size_t e, const vd *force, const vd *acceleration)
+{
+    const fracas_surface_division *division = c->step->division.plan;
+    if (division->kept_row[e] == 0) return;
+    double *row = c->state +
+                  (division->kept + (division->kept_row[e] - 1) * (size_t)(2 * size)) * LANES;
+    for (int i = 0; i < size; i++) {
+        lanes_store(surface_at(row, i), force[i]);
+        lanes_store(surface_at(row, size + i), acceleration[i]);
+    }
+}
+
 /* Forces and kick of an element, and its share of kinetic energy. */
 LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
                                    const fracas_surface_finish *finish)
@@ -322,6 +336,7 @@ LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
             lanes_store(surface_at(at, SURFACE_V * size + i), a[i]);
         return;
     }
+    if (__builtin_expect(c->keeps, 0)) surface_keep(c, size, e, force, a);
     const int alpha = c->constants->motion.alpha;
     vd last[18], moment;
     if (alpha) {
@@ -400,6 +415,7 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
                                .tables = s->tables,
                                .step = step,
                                .first = first,
+                               .keeps = division->kept_row != NULL,
                                .state = state,
                                .sums = state + division->sums * LANES,
                                .element_size = fracas_surface_element_fields(s) * LANES,

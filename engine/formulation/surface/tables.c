@@ -241,6 +241,15 @@ static const fracas_kind *edge_kind(const fracas_spec *spec, int32_t tag)
     return kind ? kind : &fracas_edge_free;
 }
 
+unsigned fracas_surface_held_by(const fracas_model *model, const fracas_surface_border *border)
+{
+    const fracas_surface_body *body = model->formulation->kind.traits;
+    const fracas_kind *kind = edge_kind(&model->spec, border->tag);
+    unsigned components = 0;
+    if (!fracas_edge_of(kind)->held || body->hold_edge(model, border, kind, &components)) return 0;
+    return components;
+}
+
 /* Each edge of a mesh file held by the campaign must exist. */
 static fracas_err check_edge_tags(const fracas_model *model)
 {
