@@ -245,8 +245,11 @@ unsigned fracas_surface_held_by(const fracas_model *model, const fracas_surface_
 {
     const fracas_surface_body *body = model->formulation->kind.traits;
     const fracas_kind *kind = edge_kind(&model->spec, border->tag);
-    unsigned components = 0;
-    if (!fracas_edge_of(kind)->held || body->hold_edge(model, border, kind, &components)) return 0;
+    unsigned components = 0, moved = 0;
+    const bool moves = !fracas_surface_moved_tags(model, &moved) && border->tag > 0 &&
+                       border->tag < FRACAS_EDGES && moved >> border->tag & 1;
+    if (!(fracas_edge_of(kind)->held || moves) || body->hold_edge(model, border, kind, &components))
+        return 0;
     return components;
 }
 
