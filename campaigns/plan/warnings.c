@@ -96,6 +96,22 @@ WARNING(
     1e-3 * toughness(point, forecast),
     point->spec.cohesive.fracture_energy > 0 ? "fracture_energy" : "critical_opening")
 
+/* Both ends of a notch are given, and in one place. y and z of models without them are 0. */
+static bool notch_is_a_point(const fracas_notch *notch)
+{
+    bool given = !isnan(notch->to[0]);
+    for (int i = 0; i < 3; i++) {
+        const double from = isnan(notch->from[i]) ? 0 : notch->from[i];
+        if (!isnan(notch->to[i]) && notch->to[i] != from) return false;
+        given = given || (!isnan(notch->to[i]) && notch->to[i] != 0);
+    }
+    return given;
+}
+
+WARNING(warn_notch, notch_is_a_point(&point->spec.notch), 1,
+        "both ends of the notch are in one place, so that nothing is broken from the start: move "
+        "them apart (a bar or ring breaks the interface nearest to the line between them)")
+
 /* Finds wrong units of young and density, which no other check compares. */
 WARNING(warn_wave,
         wave_speed(&point->spec.material) < SLOWEST || wave_speed(&point->spec.material) > FASTEST,
@@ -411,4 +427,4 @@ fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
     warn_undivided,   warn_loose,      warn_inner,
     warn_steered,     warn_stretch,    warn_fast,
     warn_whole,       warn_many_steps, warn_mesh_effect_bounded,
-    warn_tough};
+    warn_tough,       warn_notch};

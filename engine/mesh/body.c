@@ -360,7 +360,10 @@ fracas_err fracas_shape_edge_tag(const fracas_kind *shape, const char *asked, co
     }
     return fracas_fail(FRACAS_USAGE, "%s is %s, and the shape %s has %s%s: %s", asked, key,
                        shape->name, *known ? "the edges " : "no edges that can be named", known,
-                       *known ? "name one of them" : "take another load, or a mesh file");
+                       !*known ? "take another load, or a mesh file"
+                       : ((const fracas_shape *)shape->traits)->from_file
+                           ? "name one of them; a name in the mesh file is a key of geometry alone"
+                           : "name one of them");
 }
 
 /* The names of a mesh file's physical groups are names of edge_1 to edge_4. */

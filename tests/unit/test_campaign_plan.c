@@ -520,7 +520,34 @@ static void plan_of_a_metal(void **state)
     }
 }
 
+/* A notch between two ends in one place breaks nothing, and no one may take it for a cut. */
+static void plan_of_a_notch(void **state)
+{
+    static const struct {
+        const char *notch;
+        bool said;
+    } table[] = {{"from_x: 5 mm, to_x: 5 mm", true},
+                 {"from_x: 4.9 mm, to_x: 5.1 mm", false},
+                 {"to_x: 0", true},
+                 {"", false}};
+    (void)state;
+    for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
+        char text[600];
+        snprintf(text, sizeof text,
+                 "name: t\nseed: 7\nmodel: bar\ngeometry: {ends: free, length: 20 mm}\nmesh: "
+                 "{elements: 100}\nmaterial: {young: 70e9, density: 2700}\ncohesive: "
+                 "{fracture_energy: 100}\nstrength: {distribution: uniform, minimum: 290e6, "
+                 "maximum: 310e6}\nnotch: {%s}\nloading: {rate: 1e4}\ntime: {end: 1e-6}\n"
+                 "replicas: 1\n",
+                 table[i].notch);
+        OWN(fracas_campaign) campaign = read_text(text);
+        OWNED char *plan = plan_text(campaign, 1, false);
+        assert_true((strstr(plan, "both ends of the notch") != NULL) == table[i].said);
+    }
+}
+
 TESTS(test_cost, test_text, test_json, test_summary, test_warnings, test_a_line_a_kind,
       test_strengths_that_the_mesh_changes, test_heavy_tail, test_flaws_of_small_elements,
       test_bound_of_a_rings_stress, test_warnings_of_rings, test_refused, test_refined,
-      test_refined_too_far, test_write_fails, plan_of_long_runs, plan_of_parts, plan_of_a_metal)
+      test_refined_too_far, test_write_fails, plan_of_long_runs, plan_of_parts, plan_of_a_metal,
+      plan_of_a_notch)

@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { EDGES_MOST = 2 }; /* edges of a load */
 #define NOTHING 1e-12    /* component that rounding leaves of a direction of length 1 */
@@ -86,20 +87,42 @@ static void direction_of(const double sum[3], double direction[3])
     normalize(direction);
 }
 
+/* Key of the load's edge of a tag. */
+static const char *key_of(const fracas_model *model, int32_t tag)
+{
+    const fracas_load *load = fracas_loading_traits_of(&model->spec)->load;
+    for (int i = 0; i < EDGES_MOST; i++) {
+        int32_t found;
+        if (!fracas_surface_load_tag(model, i, &found) && found == tag)
+            return load->edge(&model->spec, i);
+    }
+    return "none";
+}
+
 static fracas_err not_held(const fracas_model *model, int32_t tag)
 {
     const fracas_kind *kind = model->spec.geometry.edge[tag];
     return fracas_fail(FRACAS_USAGE,
-                       "loading moves an edge with tag %d in a direction in which geometry, where "
-                       "it is %s, does not hold it: hold it otherwise, or leave it free: then all "
-                       "of it goes along",
-                       (int)tag, kind ? kind->name : "held by the shape");
+                       "loading moves the edge %s in a direction in which geometry, where it is "
+                       "%s, does not hold it: hold it otherwise, or leave it free: then all of it "
+                       "goes along",
+                       key_of(model, tag), kind ? kind->name : "held by the shape");
+}
+
+/* Adds to a direction the part of another edge's beside it: a corner of two edges that move goes
+ * with both. */
+static void go_along(double direction[3], const double other[3])
+{
+    double along = 0;
+    for (int i = 0; i < 3; i++) along += direction[i] * other[i];
+    for (int i = 0; i < 3; i++) direction[i] += other[i] - along * direction[i];
 }
 
 /* The directions of the nodes of a tag's borders, by those of the mesh, into their rows. An edge
- * around a corner has both borders in one element. */
+ * around a corner has both borders in one element. `others`: of the other edge, NULL: there is
+ * none. */
 static fracas_err fill_tag(const fracas_model *model, fracas_surface_tables *t, int32_t tag,
-                           const double (*sum)[3], double *largest)
+                           const double (*sum)[3], const double (*others)[3], double *largest)
 {
     const fracas_surface *surface = model->surface;
     const size_t dimension = (size_t)t->body->dimension, size = fracas_surface_unknowns(t);
@@ -112,11 +135,15 @@ static fracas_err fill_tag(const fracas_model *model, fracas_surface_tables *t, 
         double *row = t->direction + (t->moved_row[e] - 1) * size;
         nodes_of(border, node);
         for (int n = 0; n < surface->order + 1; n++) {
-            double direction[3];
-            direction_of(sum[surface->element[e * surface->corners + node[n]]], direction);
+            const uint32_t at = surface->element[e * surface->corners + node[n]];
+            double own[3], direction[3], other[3] = {0};
+            direction_of(sum[at], own);
+            if (others) direction_of(others[at], other);
+            memcpy(direction, own, sizeof own);
+            go_along(direction, other);
             for (size_t i = 0; i < dimension; i++) {
                 const size_t unknown = dimension * node[n] + i;
-                const double moved = fabs(direction[i]);
+                const double moved = fabs(own[i]);
                 if (moved > 0 && !(t->held[e] >> unknown & 1)) return not_held(model, tag);
                 if (!(t->moved[e] >> unknown & 1)) continue;
                 row[unknown] = direction[i];
@@ -130,17 +157,20 @@ static fracas_err fill_tag(const fracas_model *model, fracas_surface_tables *t, 
 fracas_err fracas_surface_motion_fill(const fracas_model *model, fracas_surface_tables *t)
 {
     double largest = 0;
+    int32_t tag[EDGES_MOST];
     if (!t->moved) return FRACAS_OK;
     TRY(fracas_load_history(&model->spec.loading, &t->load_history));
-    for (int i = 0; i < EDGES_MOST; i++) {
-        int32_t tag;
-        TRY(fracas_surface_load_tag(model, i, &tag));
-        if (tag == 0) break;
-        OWNED double(*sum)[3] = calloc(model->surface->nnodes, sizeof *sum);
-        if (!sum) return fracas_no_memory("the edges that a load moves");
-        add_directions(model, tag, sum);
-        TRY(fill_tag(model, t, tag, (const double(*)[3])sum, &largest));
-    }
+    for (int i = 0; i < EDGES_MOST; i++) TRY(fracas_surface_load_tag(model, i, &tag[i]));
+    OWNED double(*sum)[3] = calloc(EDGES_MOST * model->surface->nnodes, sizeof *sum);
+    if (!sum) return fracas_no_memory("the edges that a load moves");
+    double(*const second)[3] = sum + model->surface->nnodes;
+    add_directions(model, tag[0], sum);
+    if (tag[1] != 0) add_directions(model, tag[1], second);
+    TRY(fill_tag(model, t, tag[0], (const double(*)[3])sum,
+                 tag[1] ? (const double(*)[3])second : NULL, &largest));
+    if (tag[1] != 0)
+        TRY(fill_tag(model, t, tag[1], (const double(*)[3])second, (const double(*)[3])sum,
+                     &largest));
     if (largest > 0) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "loading %s moves no node: others hold all of the edge: free one of them",
