@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Words for things that fracas does not have: those of other programs, between spaces and in small
- * letters, and what comes nearest. docs/limits.md says more.
+/* Names in other programs for things beyond fracas, between spaces and in small letters; and the
+ * nearest thing here. docs/limits.md says more.
  * X(words, sentence) */
 #define FRACAS_ABSENT(X)                                                                           \
     X("yield yield_stress yield_strength hardening plastic plasticity elastoplastic j2 von_mises " \

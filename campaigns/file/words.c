@@ -84,7 +84,7 @@ static const struct {
     const char *words, *sentence;
 } absent[] = {FRACAS_ABSENT(ABSENT)};
 
-/* The sentence about a word for something that is not there; NULL: the word is none. */
+/* The sentence about a name in absent.list.h; NULL: it has none. */
 static const char *sentence_about(const char *found)
 {
     char word[LONGEST + 3] = " ";

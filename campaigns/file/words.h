@@ -18,8 +18,7 @@ typedef struct {
 void fracas_words_init(fracas_words *words, const char *found);
 void fracas_words_add(fracas_words *words, const char *word);
 /* "; did you mean `nearest`? LABEL: a, b, c", without the question if nothing is near; the label as
- * printf writes it. A word for something that fracas does not have (absent.list.h) gets told what
- * comes nearest. */
+ * printf writes it. A name in absent.list.h gets its sentence instead. */
 const char *fracas_words_hint(fracas_words *words, const char *label, ...) FRACAS_PRINTF(2, 3);
 
 #endif

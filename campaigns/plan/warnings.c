@@ -80,8 +80,8 @@ WARNING(warn_lines, forecast->lines, 1,
         "interfaces are equally strong and the mesh is regular, so that cracks follow its lines: "
         "give mesh.amplitude, for instance 0.2")
 
-/* Fracture energies of ceramics, glasses, rocks and brittle polymers are below it [J/m2]; those of
- * metals, most of it plastic work, are 5e3 to 1e5. */
+/* Fracture energies of ceramics, glasses, rocks and brittle polymers are below it [J/m2]; metals
+ * have 5e3 to 1e5, most of it plastic work. */
 #define TOUGH 2e3
 
 static double toughness(const fracas_point *point, const fracas_forecast *forecast)

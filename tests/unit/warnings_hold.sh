@@ -46,7 +46,7 @@ for study in file measured; do expect 0 "$fracas" run $study.yaml --study $study
 quiet file 'raise replicas' 'one replica of given strengths is not enough'
 says measured 'raise replicas'
 
-# Each of its elements is a fragment: that is said, and nothing of more to come.
+# Each of its elements is a fragment: the report says so, and nothing of more to come.
 says one 'each element is a fragment, so that the mesh decides the count'
 quiet one 'count not final' 'more than all elements are to come'
 quiet one 'dust' 'dust beside elements that are all apart'

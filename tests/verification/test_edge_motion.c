@@ -2,37 +2,25 @@
 /* ctest-labels: ci slow-sanitize */
 /* Edges that move as prescribed: their places, closed forms of bodies that do not crack, and the
  * work of their forces (docs/theory/loads.md). */
-#include "engine/loading/load.h"
+#include "tests/support/loads.h"
 #include "tests/support/membrane_elastic.h"
 #include "tests/support/shell.h"
 #include "tests/support/test.h"
 
 /* ---- bodies ---- */
 
-/* The choice of this name for a key of the load; of the last table with the key. */
-static const fracas_kind *choice(const char *key, const char *name)
-{
-    const fracas_kind *load = &fracas_loading_edge_motion, *found = NULL;
-    for (size_t p = 0; p < load->nparams; p++)
-        for (size_t c = 0; strcmp(load->params[p].name, key) == 0 && c < load->params[p].nchoices;
-             c++)
-            if (strcmp(load->params[p].choices[c]->name, name) == 0)
-                found = load->params[p].choices[c];
-    assert_non_null(found);
-    return found;
-}
-
 /* Displaced smoothly by `displacement` in `rise`; second NULL: the one edge alone. */
 static fracas_spec moved(fracas_spec spec, const char *edge, const char *second,
                          const char *direction, double displacement, double rise)
 {
     spec.loading = (fracas_loading){.type = &fracas_loading_edge_motion,
-                                    .edge = choice("edge", edge),
-                                    .second_edge = second ? choice("second_edge", second) : NULL,
-                                    .direction = choice("direction", direction),
+                                    .edge = motion_choice("edge", edge),
+                                    .second_edge = second ? motion_choice("second_edge", second)
+                                                          : NULL,
+                                    .direction = motion_choice("direction", direction),
                                     .displacement = displacement,
                                     .rise = rise,
-                                    .rise_by = choice("rise_by", "smooth")};
+                                    .rise_by = motion_choice("rise_by", "smooth")};
     return spec;
 }
 
@@ -86,7 +74,7 @@ static void paths_rise_as_told(void **unused)
     near(path_at(l, 1), 3 * 2 * (2.5 / 16 - 3.0 / 32 + 1.0 / 64));
     near(path_at(l, 2), 3);
     near(path_at(l, 3), 6);
-    l.rise_by = choice("rise_by", "linear");
+    l.rise_by = motion_choice("rise_by", "linear");
     near(path_at(l, 1), 0.75);
     near(path_at(l, 3), 6);
     l.rise = NAN;
@@ -211,9 +199,9 @@ static void edges_are_where_they_are_told_to_be(void **unused)
             spec.time.integrator = schemes[s];
             spec.geometry.edge[1] = &fracas_edge_fixed;
             check_places(spec, (double[]){0, 1, 0}, (double[]){1, 0, 0}, 300);
-            spec.loading.direction = choice("direction", "along"); /* the body on the left */
+            spec.loading.direction = motion_choice("direction", "along"); /* the body on the left */
             check_places(spec, (double[]){-1, 0, 0}, (double[]){0, 1, 0}, 300);
-            spec.loading.direction = choice("direction", "across");
+            spec.loading.direction = motion_choice("direction", "across");
             if (m) check_places(spec, (double[]){0, 0, 1}, (double[]){0, 0, 1}, 300);
         }
 }
@@ -429,7 +417,7 @@ static void work_is_exact(void **unused)
         cases[3].geometry.edge[4] = &fracas_edge_sliding;
         cases[3].time.mass = cases[4].time.mass = &fracas_mass_consistent;
         cases[4].loading.velocity = 1;
-        cases[4].loading.rise_by = choice("rise_by", "linear");
+        cases[4].loading.rise_by = motion_choice("rise_by", "linear");
         cases[5].geometry.edge[1] = &fracas_edge_fixed;
         for (int c = 0; c < 6; c++) {
             cases[c].time.integrator = schemes[s > 0];

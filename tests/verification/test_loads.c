@@ -2,27 +2,12 @@
 /* ctest-labels: ci slow-sanitize */
 /* Forces on surfaces: their sums, closed forms of bodies that do not crack, and their work
  * (docs/theory/loads.md). */
-#include "engine/loading/load.h"
+#include "tests/support/loads.h"
 #include "tests/support/membrane_elastic.h"
 #include "tests/support/shell.h"
 #include "tests/support/test.h"
 
 /* ---- bodies ---- */
-
-static fracas_loading no_pulse(const fracas_kind *type)
-{
-    return (fracas_loading){.type = type,
-                            .rise = NAN,
-                            .decay = NAN,
-                            .duration = NAN,
-                            .front = NAN,
-                            .front_at = NAN,
-                            .front_from = NAN,
-                            .decay_by_travel = NAN,
-                            .spot = NAN,
-                            .spot_decay = NAN,
-                            .spot_at = {NAN, NAN, NAN}};
-}
 
 static fracas_spec pressed(const fracas_kind *shape, int64_t divisions, double pressure)
 {
@@ -30,7 +15,7 @@ static fracas_spec pressed(const fracas_kind *shape, int64_t divisions, double p
     spec.geometry.part = &fracas_part_octant;
     spec.geometry.thickness = 0.02;
     spec.mesh.divisions = divisions;
-    spec.loading = no_pulse(&fracas_loading_pressure);
+    spec.loading = bare_load(&fracas_loading_pressure);
     spec.loading.pressure = pressure;
     return spec;
 }
@@ -40,7 +25,7 @@ static fracas_spec pushed(const fracas_formulation *model, double x, double y, d
     fracas_spec spec = model == &fracas_formulation_shell
                            ? pressed(&fracas_shape_plate, 4, 0)
                            : membrane_spec(&fracas_shape_plate, 2, 4);
-    spec.loading = no_pulse(&fracas_loading_body_force);
+    spec.loading = bare_load(&fracas_loading_body_force);
     memcpy(spec.loading.body_force, (double[3]){x, y, z}, sizeof spec.loading.body_force);
     return spec;
 }
@@ -50,7 +35,7 @@ static fracas_spec pulled(fracas_spec spec, const char *edge, double normal, dou
 {
     static const fracas_kind right = {"right", ""},
                              outer = {"outer_edge", ""}, *const edges[] = {&right, &outer};
-    spec.loading = no_pulse(&fracas_loading_traction);
+    spec.loading = bare_load(&fracas_loading_traction);
     for (size_t k = 0; k < FRACAS_COUNT(edges); k++)
         if (strcmp(edges[k]->name, edge) == 0) spec.loading.edge = edges[k];
     memcpy(spec.loading.traction, (double[3]){normal, shear, across}, sizeof spec.loading.traction);
@@ -135,7 +120,7 @@ static void a_spot_has_the_force_of_its_profile(void **unused)
     }
     print_message("spot: force within %.1e, %.1e\n", error[0], error[1]);
     assert_true(error[1] < 1e-3 && error[1] < error[0]);
-    fracas_loading lost = no_pulse(&fracas_loading_pressure);
+    fracas_loading lost = bare_load(&fracas_loading_pressure);
     lost.spot_at[0] = 1;
     FAILS(fracas_load_check(&lost), FRACAS_USAGE, "spot_x is given", "give its radius");
     fracas_spec push = pushed(&fracas_formulation_membrane, 2, 0, 0);
@@ -226,7 +211,7 @@ static bool near(double a, double b)
 
 static void amplitudes_rise_decay_and_change_sign(void **unused)
 {
-    fracas_loading l = no_pulse(&fracas_loading_pressure);
+    fracas_loading l = bare_load(&fracas_loading_pressure);
     assert_true(amplitude(&l, 0, 0) == 1 && amplitude(&l, 0, 1e9) == 1);
     l.rise = 2;
     assert_true(amplitude(&l, 0, 0) == 0 && amplitude(&l, 0, 0.5) == 0.25 &&
@@ -242,7 +227,7 @@ static void a_history_is_linear_between_its_lines(void **unused)
 {
     static const char text[] = "time,pressure\n0,0.5\n2,1\n2,-3\n4,0\n";
     const fracas_attachment file = {.path = "h.csv", .text = text, .size = sizeof text - 1};
-    fracas_loading l = no_pulse(&fracas_loading_pressure);
+    fracas_loading l = bare_load(&fracas_loading_pressure);
     l.history = &file;
     assert_true(amplitude(&l, 0, 0) == 0.5 && amplitude(&l, 0, 1) == 0.75 &&
                 amplitude(&l, 0, 2) == -3 && amplitude(&l, 0, 3) == -1.5 &&
@@ -256,7 +241,7 @@ static void a_history_is_linear_between_its_lines(void **unused)
  * its travel). */
 static void fronts_arrive_and_decay_by_their_travel(void **unused)
 {
-    fracas_loading l = no_pulse(&fracas_loading_pressure);
+    fracas_loading l = bare_load(&fracas_loading_pressure);
     l.front = 2;
     l.front_along = &fracas_front_y;
     l.front_at = 3;
@@ -408,7 +393,7 @@ static double lift(const one_run *run)
  *   dw/dt = F/(8 sqrt(D m)) [1 - s/(2 pi c t)],   D = E h^3/(12 (1 - nu^2)), m = rho h, c =
  * sqrt(D/m), s the mean of r^2 over the load: from the Hankel transform dw/dt = int q^(k) sin(k^2 c
  * t)/(m c k) dk, q^ = F/(2 pi) (1 - k^2 s/4 + ...). The term of k^4 is 0, that of k^6 at most 1e-3.
- * What the edges send back of waves slower than k = 2/sqrt(s) comes after c t = a sqrt(s)/2 =
+ * Echoes from the edges of waves slower than k = 2/sqrt(s) come after c t = a sqrt(s)/2 =
  * 0.011, a half of a side. */
 static double lift_error(int64_t divisions)
 {

@@ -4,6 +4,7 @@
  * doubled nodes and the stress intensity of an edge crack (docs/theory/meshes.md). */
 #include "engine/mesh/notch.h"
 #include "tests/support/listed_laws.h"
+#include "tests/support/loads.h"
 #include "tests/support/membrane_elastic.h"
 #include "tests/support/notched.h"
 #include "tests/support/shell.h"
@@ -255,16 +256,10 @@ static double energy_with(double depth, int64_t divisions)
     spec.notch = (fracas_notch){.from = {-WIDTH / 2}, .to = {(depth - 0.5) * WIDTH}};
     const double passage = WIDTH / sqrt(spec.material.young / spec.material.density),
                  bending = 2 * M_PI / 3.516 * 4 * sqrt(12) * passage, rise = 2 * bending;
-    spec.loading = (fracas_loading){.type = &fracas_loading_traction,
-                                    .edge = &top,
-                                    .traction = {PULL},
-                                    .rise = rise,
-                                    .decay = NAN,
-                                    .duration = NAN,
-                                    .front = NAN,
-                                    .front_at = NAN,
-                                    .front_from = NAN,
-                                    .decay_by_travel = NAN};
+    spec.loading = bare_load(&fracas_loading_traction);
+    spec.loading.edge = &top;
+    spec.loading.traction[0] = PULL;
+    spec.loading.rise = rise;
     spec.time.end = 1;
     one_run run = begin_run(distorted_model(spec, 0, 0), 1, STRONG);
     double sum = 0, count = 0;

@@ -1,24 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Probes: the point of a body nearest to a place, and its motion against closed forms
  * (docs/theory/probes.md). */
-#include "engine/loading/load.h"
 #include "tests/support/lanes.h"
+#include "tests/support/loads.h"
 #include "tests/support/membrane_elastic.h"
 #include "tests/support/ring.h"
 #include "tests/support/shell.h"
 #include "tests/support/test.h"
-
-static fracas_loading no_pulse(const fracas_kind *type)
-{
-    return (fracas_loading){.type = type,
-                            .rise = NAN,
-                            .decay = NAN,
-                            .duration = NAN,
-                            .front = NAN,
-                            .front_at = NAN,
-                            .front_from = NAN,
-                            .decay_by_travel = NAN};
-}
 
 static fracas_spot spot_of(const fracas_model *model, double x, double y, double z)
 {
@@ -210,7 +198,7 @@ static void bodies_fall(void **unused)
     const fracas_probes probes = {3, {{"a", {0.1, -0.2, 0}}, {"b", {0.5, 0.5, 0}}, {"c", {0}}}};
     fracas_spec spec = shell_spec(&fracas_shape_plate);
     spec.mesh.divisions = 4;
-    spec.loading = no_pulse(&fracas_loading_body_force);
+    spec.loading = bare_load(&fracas_loading_body_force);
     memcpy(spec.loading.body_force, push, sizeof push);
     spec.time.end = 0.3;
     RECORD(record);
@@ -237,7 +225,7 @@ static void a_sphere_breathes(void **unused)
     spec.geometry.part = &fracas_part_octant;
     spec.geometry.thickness = 0.02;
     spec.mesh.divisions = 16;
-    spec.loading = no_pulse(&fracas_loading_pressure);
+    spec.loading = bare_load(&fracas_loading_pressure);
     spec.loading.pressure = 1;
     const double omega = sqrt(2 * 200 / (0.7 * 2)), most = 2 / (2 * 0.02 * omega * omega);
     spec.time.end = 2 * M_PI / omega;

@@ -1,22 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Forces of held edges: the balance of momentum, step by step, and closed forms
  * (docs/theory/probes.md). */
-#include "engine/loading/load.h"
 #include "tests/support/lanes.h"
+#include "tests/support/loads.h"
 #include "tests/support/membrane_elastic.h"
 #include "tests/support/shell.h"
 #include "tests/support/test.h"
 
 static fracas_spec loaded(fracas_spec spec, const fracas_kind *type)
 {
-    spec.loading = (fracas_loading){.type = type,
-                                    .rise = NAN,
-                                    .decay = NAN,
-                                    .duration = NAN,
-                                    .front = NAN,
-                                    .front_at = NAN,
-                                    .front_from = NAN,
-                                    .decay_by_travel = NAN};
+    spec.loading = bare_load(type);
     return spec;
 }
 
@@ -129,20 +122,7 @@ static void check_momentum(fracas_spec spec, double strength, int64_t steps, siz
     fracas_model_destroy(model);
 }
 
-/* The choice of this name for a key of edge-motion. */
-static const fracas_kind *choice(const char *key, const char *name)
-{
-    const fracas_kind *load = &fracas_loading_edge_motion, *found = NULL;
-    for (size_t p = 0; p < load->nparams; p++)
-        for (size_t c = 0; strcmp(load->params[p].name, key) == 0 && c < load->params[p].nchoices;
-             c++)
-            if (strcmp(load->params[p].choices[c]->name, name) == 0)
-                found = load->params[p].choices[c];
-    assert_non_null(found);
-    return found;
-}
-
-/* A free edge that a load moves is held by it: its forces are those that lead it along. */
+/* A free edge moved by a load is held by it: its forces lead it along. */
 static void momentum_changes_by_edges_that_move(void **unused)
 {
     for (int shell = 0; shell < 2; shell++) {
@@ -150,9 +130,9 @@ static void momentum_changes_by_edges_that_move(void **unused)
         spec.geometry.edge[1] = &fracas_edge_fixed;
         spec.loading = (fracas_loading){
             .type = &fracas_loading_edge_motion,
-            .edge = choice("edge", "right"),
-            .direction = choice("direction", shell ? "across" : "along"),
-            .rise_by = choice("rise_by", "smooth"),
+            .edge = motion_choice("edge", "right"),
+            .direction = motion_choice("direction", shell ? "across" : "along"),
+            .rise_by = motion_choice("rise_by", "smooth"),
             .displacement = shell ? 0.01 : 1e-6,
             .rise = shell ? 0.5 : 2e-6};
         spec.cohesive.fracture_energy = 1e12;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Edges that a load moves: their nodes, and where to (docs/theory/loads.md). */
+/* Edges moved by a load: their nodes, and where to (docs/theory/loads.md). */
 #include "engine/formulation/surface/loads.h"
 
 #include "engine/loading/loading.h"
@@ -10,7 +10,7 @@
 #include <string.h>
 
 enum { EDGES_MOST = 2 }; /* edges of a load */
-#define NOTHING 1e-12    /* component that rounding leaves of a direction of length 1 */
+#define NOTHING 1e-12    /* component of a direction of length 1 by rounding alone */
 
 static bool is_moved(const fracas_surface_border *border, unsigned tags)
 {
@@ -77,7 +77,7 @@ static void normalize(double a[3])
     for (int i = 0; i < 3; i++) a[i] = length > 0 ? a[i] / length : 0;
 }
 
-/* The direction at a node, of length 1; along an axis without what rounding leaves beside it. */
+/* The direction at a node, of length 1; along an axis without rounding beside it. */
 static void direction_of(const double sum[3], double direction[3])
 {
     for (int i = 0; i < 3; i++) direction[i] = sum[i];
@@ -109,8 +109,8 @@ static fracas_err not_held(const fracas_model *model, int32_t tag)
                        key_of(model, tag), kind ? kind->name : "held by the shape");
 }
 
-/* Adds to a direction the part of another edge's beside it: a corner of two edges that move goes
- * with both. */
+/* Adds to a direction the part of another edge's beside it: a corner of two moved edges goes with
+ * both. */
 static void go_along(double direction[3], const double other[3])
 {
     double along = 0;

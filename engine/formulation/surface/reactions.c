@@ -6,13 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Tags of mesh files beyond those that a campaign names are one: all others. */
+/* A mesh file's tags beyond the campaign's keys are one: all others. */
 static int64_t edge_of(const fracas_surface_border *border)
 {
     return border->tag > 0 && border->tag < FRACAS_EDGES ? border->tag : 0;
 }
 
-/* The components of an element that a border holds. */
+/* Components of an element held by a border. */
 static uint32_t held_at(const fracas_model *model, const fracas_surface_border *border)
 {
     const fracas_surface_tables *t = model->plan;
@@ -37,7 +37,7 @@ size_t fracas_surface_held_edges(const fracas_model *model, int64_t tag[FRACAS_E
     return count;
 }
 
-/* Components of border b that no edge of a lower tag holds, and no earlier border of its own. */
+/* Components of border b but those of an edge of a lower tag, or an earlier border of its own. */
 static uint32_t held_alone(const fracas_model *model, size_t b)
 {
     const fracas_surface *surface = model->surface;
@@ -70,7 +70,7 @@ fracas_err fracas_surface_holds_fill(const fracas_model *model, fracas_surface_d
     return FRACAS_OK;
 }
 
-/* Forces and accelerations of an element that the sweep kept. */
+/* Forces and accelerations of an element, kept by the sweep. */
 typedef struct {
     double force[SURFACE_UNKNOWNS_MOST], acceleration[SURFACE_UNKNOWNS_MOST];
 } kept;
