@@ -154,7 +154,8 @@ static void check_example(const char *example)
     fracas_campaign *plain;
     char coarse[200];
     const char *file = example, *name = strrchr(example, '/') + 1;
-    if (!strncmp(name, "sphere", 6) || !strncmp(name, "plate", 5)) {
+    if (!strncmp(name, "sphere", 6) || !strncmp(name, "plate", 5) ||
+        !strncmp(name, "cylinder", 8)) {
         coarsen(example, coarse);
         file = coarse;
     }
