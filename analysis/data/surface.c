@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-static fracas_err check(const fracas_stored_mesh *mesh, const fracas_record *record)
+fracas_err fracas_surface_check(const fracas_stored_mesh *mesh, const fracas_record *record)
 {
     if (record->ninterface == mesh->ninterfaces) return FRACAS_OK;
     return fracas_fail(FRACAS_DAMAGED,
@@ -49,7 +49,7 @@ fracas_err fracas_surface_state_create(const fracas_stored_mesh *mesh, const fra
                                        double time, fracas_surface_state *state)
 {
     *state = (fracas_surface_state){.time = time};
-    TRY(check(mesh, record));
+    TRY(fracas_surface_check(mesh, record));
     state->interface = malloc(mesh->ninterfaces + 1);
     if (!state->interface) return fracas_no_memory("the interfaces of a surface");
     for (size_t i = 0; i < mesh->ninterfaces; i++) {
@@ -70,27 +70,22 @@ void fracas_surface_state_clear(fracas_surface_state *state)
 
 /* ---- a crack through the width ---- */
 
-typedef struct {
-    double time;
-    size_t interface;
-} breaking;
-
 static int by_time(const void *a, const void *b)
 {
-    const breaking *x = a, *y = b;
+    const fracas_surface_break *x = a, *y = b;
     if (x->time != y->time) return x->time < y->time ? -1 : 1;
     return (x->interface > y->interface) - (x->interface < y->interface);
 }
 
-/* Broken interfaces in the order in which they broke; freed by the caller. */
-static fracas_err sort_breaks(const fracas_record *record, breaking **sorted, size_t *count)
+fracas_err fracas_surface_breaks(const fracas_record *record, fracas_surface_break **sorted,
+                                 size_t *count)
 {
     *count = 0;
     *sorted = malloc((record->ninterface + 1) * sizeof **sorted);
     if (!*sorted) return fracas_no_memory("the broken interfaces of a surface");
     for (size_t i = 0; i < record->ninterface; i++)
         if (isfinite(record->interface[i].break_time))
-            (*sorted)[(*count)++] = (breaking){record->interface[i].break_time, i};
+            (*sorted)[(*count)++] = (fracas_surface_break){record->interface[i].break_time, i};
     qsort(*sorted, *count, sizeof **sorted, by_time);
     return FRACAS_OK;
 }
@@ -115,8 +110,8 @@ static bool mark_sides(const fracas_stored_mesh *mesh, const int64_t tag[2], uin
 }
 
 /* Lets the interfaces break one after the other until a crack touches both sides. */
-static double break_through(const fracas_stored_mesh *mesh, const breaking *sorted, size_t count,
-                            fracas_partition *cracks, uint8_t *touches)
+static double break_through(const fracas_stored_mesh *mesh, const fracas_surface_break *sorted,
+                            size_t count, fracas_partition *cracks, uint8_t *touches)
 {
     for (size_t i = 0; i < count; i++) {
         const int64_t *node = mesh->interface[sorted[i].interface].node;
@@ -136,12 +131,12 @@ fracas_err fracas_surface_through(const fracas_stored_mesh *mesh, const fracas_r
     FRACAS_CLEARED(fracas_partition) cracks = {0};
     size_t count = 0;
     *time = NAN;
-    TRY(check(mesh, record));
-    OWNED breaking *sorted = NULL;
+    TRY(fracas_surface_check(mesh, record));
+    OWNED fracas_surface_break *sorted = NULL;
     OWNED uint8_t *touches = calloc(mesh->nnodes + 1, 1);
     if (!touches) return fracas_no_memory("the vertices of a surface");
     if (!mark_sides(mesh, tag, touches)) return FRACAS_OK;
-    TRY(sort_breaks(record, &sorted, &count));
+    TRY(fracas_surface_breaks(record, &sorted, &count));
     TRY(fracas_partition_init(&cracks, mesh->nnodes));
     *time = break_through(mesh, sorted, count, &cracks, touches);
     return FRACAS_OK;
@@ -162,7 +157,7 @@ fracas_err fracas_surface_times_of(const fracas_stored_mesh *mesh, const fracas_
 {
     static const int64_t pair[2][2] = {{1, 2}, {3, 4}};
     fracas_surface_first_times(record, times);
-    TRY(check(mesh, record));
+    TRY(fracas_surface_check(mesh, record));
     for (int k = 0; k < 2; k++)
         TRY(fracas_surface_through(mesh, record, pair[k], &times->through[k]));
     return FRACAS_OK;

@@ -35,6 +35,20 @@ FRACAS_MUST_USE fracas_err fracas_surface_state_create(const fracas_stored_mesh 
                                                        fracas_surface_state *state);
 void fracas_surface_state_clear(fracas_surface_state *state);
 
+/* FRACAS_DAMAGED if the interfaces of the record are not those of the mesh. */
+FRACAS_MUST_USE fracas_err fracas_surface_check(const fracas_stored_mesh *mesh,
+                                                const fracas_record *record);
+
+typedef struct {
+    double time; /* s; 0: before the start, in a notch */
+    size_t interface;
+} fracas_surface_break;
+
+/* Broken interfaces in the order in which they broke, equal times by their numbers; *sorted freed
+ * by the caller. */
+FRACAS_MUST_USE fracas_err fracas_surface_breaks(const fracas_record *record,
+                                                 fracas_surface_break **sorted, size_t *count);
+
 /* *time: the earliest at which broken interfaces, connected by common vertices, reach from the
  * borders with one tag to those with the other: a crack through the width. NaN if they never do, if
  * there is no border of one of the tags, and if a vertex is on borders of both. */
