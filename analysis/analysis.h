@@ -60,19 +60,25 @@ FRACAS_MUST_USE fracas_err fracas_analysis_write_json(const fracas_analysis *ana
 FRACAS_MUST_USE fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study,
                                                const char *folder, int refresh);
 
+/* Tables of a package beside those that every package has. */
+typedef struct {
+    bool histories; /* histories.csv */
+    bool cracks;    /* cracks.csv and breaks.csv, of surfaces that keep their interfaces */
+} fracas_export_more;
+
 /* FRACAS_USAGE if the folder has a file that fracas_export_write would replace, and no report or
  * export wrote it. */
 FRACAS_MUST_USE fracas_err fracas_export_free(const fracas_analysis *analysis, const char *folder,
-                                              bool histories);
+                                              fracas_export_more more);
 
 /* A Frictionless Data Package in `folder`, made if it is not there: points.csv, realizations.csv,
  * fragments.csv, statistics.csv, energies.csv, convergence.csv, of a study with probes probes.csv,
- * with `histories` histories.csv, and at last datapackage.json, the schema of each
- * (docs/formats/export.md). Equal bytes for equal study.h5. FRACAS_USAGE if `folder` is a file,
+ * `more`, and at last datapackage.json, the schema of each (docs/formats/export.md). Equal bytes
+ * for equal study.h5. FRACAS_USAGE if `folder` is a file, or for cracks of a study without them,
  * FRACAS_ENVIRONMENT if it cannot be made or written.
  */
 FRACAS_MUST_USE fracas_err fracas_export_write(const fracas_analysis *analysis, const char *folder,
-                                               bool histories);
+                                               fracas_export_more more);
 
 /* The keys of a point's "statistics" in the JSON summary: the table of docs/formats/summary.md. */
 void fracas_analysis_reference(FILE *out);

@@ -227,11 +227,13 @@ const fracas_command fracas_command_report = {
 static const fracas_option export_options[] = {
     {"to", "DIR", "where to (STUDY/export)"},
     {"histories", NULL, "energies over time of every realization, too: histories.csv"},
+    {"cracks", NULL, "lengths, tips and speeds of cracks of surfaces, too: cracks.csv, breaks.csv"},
     {0}};
 
 static fracas_err export(const fracas_arguments *arguments)
 {
-    const bool histories = fracas_given(arguments, "histories") != NULL;
+    const fracas_export_more more = {.histories = fracas_given(arguments, "histories") != NULL,
+                                     .cracks = fracas_given(arguments, "cracks") != NULL};
     OWN(fracas_campaign) campaign = NULL;
     OWN(fracas_analysis) analysis = NULL;
     OWNED char *folder = NULL;
@@ -239,8 +241,8 @@ static fracas_err export(const fracas_arguments *arguments)
     TRY(fracas_output_folder_in(fracas_given(arguments, "to"), arguments->operand, "export",
                                 &folder));
     if (fracas_given(arguments, "to") || fracas_cli_alone(arguments->operand))
-        TRY(fracas_export_free(analysis, folder, histories));
-    TRY(fracas_export_write(analysis, folder, histories));
+        TRY(fracas_export_free(analysis, folder, more));
+    TRY(fracas_export_write(analysis, folder, more));
     printf("export: %s/datapackage.json\n", folder);
     return FRACAS_OK;
 }

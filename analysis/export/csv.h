@@ -41,6 +41,8 @@ extern const fracas_csv_table fracas_csv_table_energies, fracas_csv_table_conver
 /* A line a change of means from one value of a parameter to the next: in all settings of the
  * others, and in each. */
 extern const fracas_csv_table fracas_csv_table_effects;
+/* A line a crack, and a line a break, of surfaces that keep their interfaces. */
+extern const fracas_csv_table fracas_csv_table_cracks, fracas_csv_table_breaks;
 
 /* Every column. */
 void fracas_csv_fields(const fracas_csv_table *table, const fracas_analysis *analysis,

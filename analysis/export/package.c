@@ -135,30 +135,42 @@ static fracas_err put_package(const fracas_analysis *analysis, const fracas_csv_
     return FRACAS_OK;
 }
 
+/* Tables that not every package has. */
+enum { SOMETIMES = 5 };
+static const fracas_csv_table *const sometimes[SOMETIMES] = {
+    &fracas_csv_table_probes, &fracas_csv_table_reactions, &fracas_csv_table_histories,
+    &fracas_csv_table_cracks, &fracas_csv_table_breaks};
+
+/* *there: false if no such file was. */
+static fracas_err remove_file(const char *folder, const char *name, bool *there)
+{
+    OWNED char *path = NULL;
+    TRY(fracas_disk_join(folder, name, &path));
+    const int reason = unlink(path) ? errno : 0;
+    *there = !reason;
+    return reason && reason != ENOENT ? fracas_fail_system(reason, "cannot replace %s", path)
+                                      : FRACAS_OK;
+}
+
 /* Removes the files of an earlier package: the new one must not name them, and its histories and
- * probes are others. */
+ * probes are others. Where no package was, the others are somebody else's. */
 static fracas_err remove_package(const char *folder)
 {
-    char histories[64], probes[64], reactions[64];
-    FRACAS_PRINT(histories, "%s.csv", fracas_csv_table_histories.name);
-    FRACAS_PRINT(probes, "%s.csv", fracas_csv_table_probes.name);
-    FRACAS_PRINT(reactions, "%s.csv", fracas_csv_table_reactions.name);
-    const char *const name[] = {package_file, histories, probes, reactions};
-    for (size_t i = 0; i < 4; i++) {
-        OWNED char *path = NULL;
-        TRY(fracas_disk_join(folder, name[i], &path));
-        const int reason = unlink(path) ? errno : 0;
-        if (reason && reason != ENOENT)
-            return fracas_fail_system(reason, "cannot replace %s", path);
-        if (reason && i == 0) break; /* no package was there: the others are somebody else's */
+    bool there;
+    TRY(remove_file(folder, package_file, &there));
+    for (size_t i = 0; there && i < SOMETIMES; i++) {
+        char name[64];
+        bool had;
+        FRACAS_PRINT(name, "%s.csv", sometimes[i]->name);
+        TRY(remove_file(folder, name, &had));
     }
     return FRACAS_OK;
 }
 
-enum { ALWAYS = 6, TABLES = ALWAYS + 3 };
+enum { ALWAYS = 6, TABLES = ALWAYS + SOMETIMES };
 
 /* The tables of an export, up to a NULL. */
-static void choose_tables(const fracas_analysis *analysis, bool histories,
+static void choose_tables(const fracas_analysis *analysis, fracas_export_more more,
                           const fracas_csv_table *table[TABLES + 1])
 {
     const fracas_csv_table *const all[ALWAYS] = {
@@ -167,25 +179,48 @@ static void choose_tables(const fracas_analysis *analysis, bool histories,
         &fracas_csv_table_energies,  &fracas_csv_table_convergence};
     size_t count = 0;
     while (count < ALWAYS) table[count] = all[count], count++;
-    if (analysis->header.probes.count > 0) table[count++] = &fracas_csv_table_probes;
-    if (analysis->header.reactions) table[count++] = &fracas_csv_table_reactions;
-    if (histories) table[count++] = &fracas_csv_table_histories;
+    const bool has[SOMETIMES] = {analysis->header.probes.count > 0, analysis->header.reactions,
+                                 more.histories, more.cracks, more.cracks};
+    for (size_t i = 0; i < SOMETIMES; i++)
+        if (has[i]) table[count++] = sometimes[i];
     table[count] = NULL;
 }
 
-fracas_err fracas_export_free(const fracas_analysis *analysis, const char *folder, bool histories)
+fracas_err fracas_export_free(const fracas_analysis *analysis, const char *folder,
+                              fracas_export_more more)
 {
     const fracas_csv_table *table[TABLES + 1];
-    choose_tables(analysis, histories, table);
+    choose_tables(analysis, more, table);
     TRY(fracas_output_free(folder, &(const char *){package_file}, 1));
     return fracas_csv_free(table, folder);
 }
 
-fracas_err fracas_export_write(const fracas_analysis *analysis, const char *folder, bool histories)
+/* FRACAS_USAGE for cracks of a study without them. */
+static fracas_err check_cracks(const fracas_analysis *analysis)
+{
+    if (!fracas_analysis_any_surface(analysis))
+        return fracas_fail(FRACAS_USAGE, "bars and rings have no cracks that run: leave --cracks "
+                                         "out; where they broke is in /interface of study.h5");
+    if (!analysis->header.interfaces)
+        return fracas_fail(FRACAS_USAGE,
+                           "the study keeps no interfaces, by which cracks are known: "
+                           "set `output: {interfaces: true}` and run it into another "
+                           "folder, or leave --cracks out");
+    if (fracas_results_partial(analysis->results))
+        return fracas_fail(FRACAS_INTERRUPTED,
+                           "meshes, which cracks run along, are in study.h5, and "
+                           "the study has none yet: finish its run first, or "
+                           "leave --cracks out");
+    return FRACAS_OK;
+}
+
+fracas_err fracas_export_write(const fracas_analysis *analysis, const char *folder,
+                               fracas_export_more more)
 {
     const fracas_csv_table *table[TABLES + 1];
     fracas_output_file output;
-    choose_tables(analysis, histories, table);
+    if (more.cracks) TRY(check_cracks(analysis));
+    choose_tables(analysis, more, table);
     TRY(fracas_output_folder(folder));
     TRY(remove_package(folder));
     for (size_t i = 0; table[i]; i++) TRY(fracas_csv_file(table[i], analysis, folder));

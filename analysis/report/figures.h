@@ -65,6 +65,9 @@ fracas_figure_draw fracas_figure_energies;
 /* Displacements of the probes in the point's typical replica over time, a panel a component that
  * moves. */
 fracas_figure_draw fracas_figure_probes;
+/* Length of all cracks and of the longest in the point's typical replica over time, and the speed
+ * of its tip over that of Rayleigh waves. */
+fracas_figure_draw fracas_figure_cracks;
 /* Energies of all usable realizations over time: mean and band of each. */
 fracas_figure_draw fracas_figure_bands;
 /* The headline numbers of the point from its first 4, 8, 16, ... replicas, over their values from

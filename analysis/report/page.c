@@ -161,6 +161,7 @@ static const fracas_page_entry sections[] = {
     {"fragments-over-time", "Fragments over time", NULL},
     {"energies-over-time", "Energies over time", NULL},
     {"probes-over-time", "Probes over time", NULL},
+    {"cracks-over-time", "Cracks over time", NULL},
     {"convergence", "Convergence with replicas", NULL},
     {"table-of-results", "Results", fracas_section_results},
     {"table-of-slopes", "Slopes", fracas_section_slopes},

@@ -18,8 +18,8 @@ import numpy as np
 
 OUTCOMES = ["FRAGMENTED", "INTACT", "TIME_LIMIT", "NONFINITE", "ENERGY_DRIFT", "FAILED"]
 KEYS = {"points": ["point"], "realizations": ["point", "replica"], "fragments": ["point", "replica", "fragment"],
-        "histories": ["point", "replica", "row"], "probes": ["point", "replica", "row"], "reactions": ["point", "replica", "row"], "statistics": ["point", "key"], "energies": ["point", "time"], "convergence": ["point", "replicas"]}
-PARENTS = {"realizations": "points", "fragments": "realizations", "histories": "realizations", "probes": "realizations", "reactions": "realizations", "statistics": "points",
+        "histories": ["point", "replica", "row"], "cracks": ["point", "replica", "number"], "breaks": ["point", "replica", "row"], "probes": ["point", "replica", "row"], "reactions": ["point", "replica", "row"], "statistics": ["point", "key"], "energies": ["point", "time"], "convergence": ["point", "replicas"]}
+PARENTS = {"realizations": "points", "fragments": "realizations", "histories": "realizations", "cracks": "realizations", "breaks": "realizations", "probes": "realizations", "reactions": "realizations", "statistics": "points",
            "energies": "points", "convergence": "points"}
 
 

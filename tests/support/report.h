@@ -83,7 +83,7 @@ static inline void report_analyse(const char *folder)
     assert_int_equal(fclose(out), 0);
     OK(fracas_report_write(analysis, folder, NULL, 0));
     snprintf(path, sizeof path, "%s/export", folder);
-    OK(fracas_export_write(analysis, path, true));
+    OK(fracas_export_write(analysis, path, (fracas_export_more){.histories = true}));
 }
 
 /* The temporary folder of the test. With FRACAS_KEEP set in the environment it is kept, for a look

@@ -1,0 +1,81 @@
+# Cracks of surfaces over time: tables of the data package against study.h5, the figure of the report, and what has none.
+# Closed forms: verification/cracks.
+. tests/support/campaigns.sh
+
+cat > plate.yaml <<'YAML'
+name: plate
+seed: 3
+model: membrane
+geometry: {shape: plate, width: 5 mm, height: 5 mm, thickness: 1 mm}
+mesh: {divisions: 12, amplitude: 0.1}
+material: {young: 275 GPa, density: 2750 kg/m3, poisson: 0.2}
+cohesive: {fracture_energy: 100 J/m2}
+strength: {distribution: weibull, minimum: 0, scale: 330 MPa, shape: 10}
+notch: {from_x: -2.5 mm, to_x: -1 mm, from_y: 0, to_y: 0}
+loading: {type: expansion, rate: 2e4 1/s}
+time: {stop: time, end: 0.4 us}
+replicas: 2
+output: {history: 20, interfaces: true}
+sweep:
+  - mesh.divisions: [12, 14]
+YAML
+sed 's/, interfaces: true//' plate.yaml > without.yaml
+sed '/^notch/d; s/^model: membrane/model: shell/' plate.yaml > shell.yaml
+campaign bar.yaml 3 '1e5'
+expect 0 "$fracas" run plate.yaml --study plate --jobs 2
+expect 0 "$fracas" run without.yaml --study without --jobs 2
+expect 0 "$fracas" run shell.yaml --study shell --jobs 2
+expect 0 "$fracas" run bar.yaml --study bar --jobs 2
+
+# What has no cracks to tell; a package without them names none.
+expect 2 "$fracas" export bar --cracks
+said 'bars and rings have no cracks that run: leave --cracks out'
+expect 2 "$fracas" export without --cracks
+said 'the study keeps no interfaces, by which cracks are known: set `output: {interfaces: true}`'
+cp -r plate partial
+rm partial/study.h5
+expect 3 "$fracas" export partial --cracks
+said 'finish its run first, or leave --cracks out'
+expect 0 "$fracas" export plate --cracks
+cp -r plate/export first
+expect 0 "$fracas" export plate
+[ ! -e plate/export/cracks.csv ] && [ ! -e plate/export/breaks.csv ] || fail "the cracks of the package of before"
+expect 0 "$fracas" export shell --cracks
+
+expect 0 "$fracas" report plate
+expect 0 "$fracas" report without
+[ -e plate/report/cracks-point-1.svg ] && grep -q 'id="cracks-over-time"' plate/report/index.html || fail "no figure"
+! grep -q cracks-over-time without/report/index.html || fail "a figure without interfaces"
+
+/usr/bin/python3 -c 'import h5py' 2>/dev/null || { echo "skipped: python3-h5py is not installed"; exit 0; }
+/usr/bin/python3 "$source/tests/support/check_export.py" plate first
+/usr/bin/python3 "$source/tests/support/check_export.py" shell
+/usr/bin/python3 - <<'END_OF_CHECK' || fail "the numbers of cracks"
+import csv
+import h5py
+import numpy as np
+
+for name, folder in ("plate", "first"), ("shell", "shell/export"):
+    cracks, breaks = [list(csv.DictReader(open(f"{folder}/{table}.csv"))) for table in ("cracks", "breaks")]
+    with h5py.File(f"{name}/study.h5") as study:
+        mesh, every, one = study["mesh"], study["interface"], study["realization"]
+        for i, (point, replica) in enumerate(zip(one["point"], one["replica"])):
+            rows = slice(*every["offset"][i : i + 2])
+            place = mesh["node_position"][slice(*mesh["node_offset"][point : point + 2])]
+            node = mesh["interface_node"][slice(*mesh["interface_offset"][point : point + 2])]
+            size = np.linalg.norm(place[node[:, 1]] - place[node[:, 0]], axis=1)
+            time = every["break_time"][rows]
+            broken, notch = time > 0, time == 0
+            assert broken.sum() > 20 and (notch.sum() > 3) == (name == "plate")
+            of = [[row for row in table if (row["point"], row["replica"]) == (str(point), str(replica))] for table in (cracks, breaks)]
+            order = np.lexsort((np.arange(len(time)), time))
+            order = order[broken[order]]
+            assert [int(row["interface"]) for row in of[1]] == list(order)
+            # Sums of some 300 lengths, 15 digits.
+            assert np.allclose([float(row["length"]) for row in of[1]], np.cumsum(size[order]), rtol=1e-12, atol=0)
+            ends = [row for row in of[0] if not row["met"]] # which have the lengths of those that they met
+            assert abs(sum(float(row["length"]) for row in ends) / size[broken].sum() - 1) < 1e-12
+            assert abs(sum(float(row["notch"]) for row in ends) - size[notch].sum()) < 1e-12 * size.sum()
+            assert sum(int(row["breaks"]) for row in ends) == broken.sum()
+            assert all(float(row["extent"] or 0) < float(row["reach"]) * (1 + 1e-12) for row in ends if row["extent"])
+END_OF_CHECK
