@@ -1,3 +1,4 @@
+# ctest-sanitize
 # What summary.json has of fits, convergence and energies is what fits.csv, convergence.csv and energies.csv have: every number, none that is
 # not there, and a wrong one is found. Fits of other realizations are left out and counted, those of the same are found though their point has another number.
 . tests/support/campaigns.sh

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ctest-labels: slow-sanitize */
 /* Cracked interfaces of a shell, whatever its nodes do: tractions, what the flux carries, energies
  * and forces against the law written once more for one layer and kinematics written once more from
  * the nodes (docs/theory/shell.md, docs/theory/cohesive.md). */
