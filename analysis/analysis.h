@@ -60,7 +60,7 @@ FRACAS_MUST_USE fracas_err fracas_analysis_write_json(const fracas_analysis *ana
 FRACAS_MUST_USE fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study,
                                                const char *folder, int refresh);
 
-/* Tables of a package beside those that every package has. */
+/* Further tables of a package. */
 typedef struct {
     bool histories; /* histories.csv */
     bool cracks;    /* cracks.csv and breaks.csv, of surfaces that keep their interfaces */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Interfaces break one after the other. A vertex is reached by the break that leads to it from a
- * crack; these breaks are the way of the crack, a tree. Where two cracks meet, the way goes on into
+/* Interfaces break one after the other. A break leads from a crack to a vertex: such breaks
+ * are the way of the crack, a tree. Where two cracks meet, the way goes on into
  * the younger one from there. Equations: docs/theory/cracks.md. */
 #include "analysis/data/cracks.h"
 
@@ -99,7 +99,7 @@ static double slope_to(const growth *of, int64_t v, size_t least, size_t most)
 
 /* ---- the end of a crack ---- */
 
-/* Sets start and tip, and what lies between them, from the way as it is. */
+/* Sets start, tip, extent and speed from the way as it is. */
 static void finish_crack(growth *to, size_t number)
 {
     fracas_crack *crack = &to->cracks->crack[number];
@@ -121,7 +121,7 @@ static void end_crack(growth *to, size_t number, size_t older, double time)
     finish_crack(to, number);
     crack->met = older;
     crack->met_time = time;
-    into->start_time = fmin(into->start_time, crack->start_time); /* NaN: a notch that stayed */
+    into->start_time = fmin(into->start_time, crack->start_time); /* NaN: a notch without breaks */
     into->fastest = fmax(into->fastest, crack->fastest);
     into->breaks += crack->breaks;
     into->branches += crack->branches;
@@ -174,7 +174,7 @@ static void unite(growth *to, int64_t a, int64_t b, size_t crack)
     to->vertex[fracas_partition_root(&to->sets, (uint32_t)a)].crack = (int64_t)crack;
 }
 
-/* The way goes on from `from` over interface i to `v` and all that the crack of v has behind it:
+/* The way goes on from `from` over interface i to `v` and into the whole crack of v:
  * distances count from the start of the older crack. */
 static void reroute(growth *to, size_t crack, int64_t from, int64_t v, size_t i)
 {
@@ -273,8 +273,8 @@ static void add_break(growth *to, size_t i, double time)
 
 /* ---- all of them ---- */
 
-/* They break at once, and no way is longer by them. Those that met one another are one: the numbers
- * of the others are given again. */
+/* They break at once, and no way is longer by them. Notches in touch are one; numbers of the
+ * others are given again. */
 static void add_notches(growth *to, const fracas_surface_break *sorted, size_t count)
 {
     fracas_cracks *cracks = to->cracks;

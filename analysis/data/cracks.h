@@ -28,7 +28,7 @@ typedef struct {
 /* A set of broken interfaces connected by vertices, from its first break until the end, or until it
  * met an older one. */
 typedef struct {
-    double start_time, end_time; /* s, of its first and last break; NaN of a notch that stays */
+    double start_time, end_time; /* s, of its first and last break; NaN of a notch without breaks */
     double start[3];             /* m, where the way to its tip begins; NaN of such a notch */
     int64_t breaks, branches;    /* branches: vertices of three or more broken interfaces */
     double length, notch;        /* m, broken after and before the start */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cracks of surfaces over time: of each realization that keeps its interfaces. */
+/* Cracks of surfaces over time, where a realization keeps its interfaces. */
 #include "analysis/export/csv.h"
 
 #include "analysis/data/cracks.h"
@@ -7,20 +7,23 @@
 #include <inttypes.h>
 #include <stdio.h>
 
+#define REALIZATION                                                                            \
+    {"point", FRACAS_FIELD_INDEX, "1", "number of the point, from 0"},                         \
+    {                                                                                          \
+        "replica", FRACAS_FIELD_INTEGER, "1", "number of the realization at its point, from 0" \
+    }
 static const fracas_field crack_place[] = {
-    {"point", FRACAS_FIELD_INDEX, "1", "number of the point, from 0"},
-    {"replica", FRACAS_FIELD_INTEGER, "1", "number of the realization at its point, from 0"},
+    REALIZATION,
     {"number", FRACAS_FIELD_INDEX, "1", "number of the crack in its realization, from 0"},
 };
 static const fracas_field break_place[] = {
-    {"point", FRACAS_FIELD_INDEX, "1", "number of the point, from 0"},
-    {"replica", FRACAS_FIELD_INTEGER, "1", "number of the realization at its point, from 0"},
+    REALIZATION,
     {"row", FRACAS_FIELD_INDEX, "1", "number of the break in its realization, from 0"},
 };
 static const fracas_fields of_crack = FRACAS_FIELDS(crack_place),
                            of_break = FRACAS_FIELDS(break_place);
 
-/* The mesh of the point that was read last. */
+/* With the mesh of the last point. */
 typedef struct {
     const fracas_csv_table *table;
     fracas_results *results;

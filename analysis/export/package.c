@@ -135,7 +135,7 @@ static fracas_err put_package(const fracas_analysis *analysis, const fracas_csv_
     return FRACAS_OK;
 }
 
-/* Tables that not every package has. */
+/* Tables of some packages alone. */
 enum { SOMETIMES = 5 };
 static const fracas_csv_table *const sometimes[SOMETIMES] = {
     &fracas_csv_table_probes, &fracas_csv_table_reactions, &fracas_csv_table_histories,

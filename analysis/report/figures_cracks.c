@@ -9,7 +9,7 @@
 
 enum { MOST = 160 }; /* values of a curve */
 
-/* Place of the i-th value that is drawn among all; the last is drawn. */
+/* Place among all of the i-th drawn value; the last is drawn. */
 static size_t thinned(size_t i, size_t drawn, size_t count)
 {
     return drawn < count ? (i + 1) * count / drawn - 1 : i;

@@ -79,3 +79,24 @@ for name, folder in ("plate", "first"), ("shell", "shell/export"):
             assert sum(int(row["breaks"]) for row in ends) == broken.sum()
             assert all(float(row["extent"] or 0) < float(row["reach"]) * (1 + 1e-12) for row in ends if row["extent"])
 END_OF_CHECK
+
+# The figure draws one realization's breaks, and its last; speeds are over the c_R of its caption.
+/usr/bin/python3 - <<'END_OF_CHECK' || fail "the figure of cracks"
+import csv
+import re
+
+caption = re.search(r'id="cracks-point-1".*?<figcaption>(.*?)</figcaption>', open("plate/report/index.html", encoding="utf-8").read(), re.S).group(1)
+replica = re.search(r"Replica (\d+),", caption).group(1)
+rayleigh = float(re.search(r"= ([\d.e+]+) m/s", caption).group(1))
+# Plane stress, nu = 0.2: the root of x^3 - 8 x^2 + 17.6 x - 9.6 in (0, 1) is 0.819359.
+assert abs(rayleigh / (0.819359 * 275e9 / 2.4 / 2750) ** 0.5 - 1) < 1e-4, rayleigh
+breaks = [row for row in csv.DictReader(open("first/breaks.csv")) if (row["point"], row["replica"]) == ("1", replica)]
+drawn = list(csv.reader(open("plate/report/cracks-point-1.csv")))[1:]
+for panel, name, column, scale, digits in ("1", "all cracks", "length", 1e3, 1e-9), ("2", "tip of the longest crack", "speed", 1 / rayleigh, 1e-3):
+    curve = [(float(row[3]), float(row[4])) for row in drawn if row[:2] == [panel, name]]
+    wanted = [(1e9 * float(row["time"]), scale * float(row[column])) for row in breaks if row[column]]
+    assert len(curve) > 5, (name, len(curve))
+    for x, y in curve:
+        assert any(abs(x / t - 1) < 1e-9 and abs(y / value - 1) < digits for t, value in wanted), (name, x, y, wanted[:3])
+    assert panel == "2" or abs(curve[-1][1] / wanted[-1][1] - 1) < 1e-9
+END_OF_CHECK
