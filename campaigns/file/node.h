@@ -9,13 +9,15 @@
 
 #include <stddef.h>
 
+enum { FRACAS_LONGEST_TEXT = 200 }; /* bytes of a scalar */
+
 /* FRACAS_UNREADABLE: a value that is refused already. */
 typedef enum { FRACAS_SCALAR, FRACAS_LIST, FRACAS_MAP, FRACAS_UNREADABLE } fracas_node_type;
 
 typedef struct fracas_node {
     fracas_node_type type;
     int line, column;          /* its place, from 1; a column counts characters */
-    const char *text;          /* scalar: at most 200 bytes of UTF-8 without control characters */
+    const char *text;          /* scalar: UTF-8 without control characters, within the above */
     struct fracas_node *key;   /* entry of a map: the scalar before the colon */
     struct fracas_node *first; /* entries of a list or map, in file order */
     struct fracas_node *next;  /* the next entry beside this one */

@@ -260,7 +260,11 @@ static fracas_err name_case(const reading *read, size_t index, const char **name
         memcpy(joined + length, part, strlen(part));
         *name = joined;
     }
-    return FRACAS_OK;
+    if (strlen(*name) <= FRACAS_LONGEST_TEXT) return FRACAS_OK;
+    return fracas_file_error(&read->file, fracas_node_find(read->file.root, "sweep"),
+                             "point %zu is named %.40s..., by its cases together, with %zu "
+                             "letters; at most are %d: give them shorter names",
+                             index, *name, strlen(*name), FRACAS_LONGEST_TEXT);
 }
 
 static fracas_err repeated(const reading *read, size_t earlier, size_t later)

@@ -170,18 +170,44 @@ fracas_err fracas_setting_integer(const fracas_file *file, const char *key, cons
                              node->text, minimum, maximum);
 }
 
+enum { LONGEST_NAME = 100 };
+
+/* True of `length` characters fit for a name. */
+static bool is_name(const char *text, size_t length)
+{
+    static const char allowed[] =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
+    return length > 0 && length <= LONGEST_NAME && strspn(text, allowed) >= length &&
+           !strchr("._-", *text);
+}
+
 fracas_err fracas_setting_name(const fracas_file *file, const fracas_node *node, const char **name)
 {
-    static const char *const allowed =
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-";
     TRY(want_scalar(file, "name", node, "a word"));
     *name = node->text;
-    if (strlen(*name) <= 100 && strspn(*name, allowed) == strlen(*name) && !strchr("._-", **name))
-        return FRACAS_OK;
+    if (is_name(*name, strlen(*name))) return FRACAS_OK;
     return fracas_file_error(
         file, node,
         "`name`: found `%s`; a name is made of up to 100 letters a-z A-Z, digits, "
         "`.`, `_` and `-`, and starts with a letter or digit",
+        *name);
+}
+
+fracas_err fracas_setting_case_name(const fracas_file *file, const fracas_node *node,
+                                    const char **name)
+{
+    TRY(want_scalar(file, "name", node, "a word"));
+    *name = node->text;
+    for (const char *part = *name;; part++) {
+        const size_t length = strcspn(part, "/");
+        if (!is_name(part, length)) break;
+        part += length;
+        if (!*part) return FRACAS_OK;
+    }
+    return fracas_file_error(
+        file, node,
+        "`name`: found `%s`; the name of a case is made of up to 100 letters a-z A-Z, digits, "
+        "`.`, `_` and `-`, and starts with a letter or digit; `/` joins the names of several axes",
         *name);
 }
 

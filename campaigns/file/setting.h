@@ -47,6 +47,10 @@ FRACAS_MUST_USE fracas_err fracas_setting_kind(const fracas_file *file, const ch
 FRACAS_MUST_USE fracas_err fracas_setting_name(const fracas_file *file, const fracas_node *node,
                                                const char **name);
 
+/* The name of a case: such names, joined by '/' as those of several axes are. */
+FRACAS_MUST_USE fracas_err fracas_setting_case_name(const fracas_file *file,
+                                                    const fracas_node *node, const char **name);
+
 /* Adds a copy of `setting`. FRACAS_USAGE if its leaf is set already. */
 FRACAS_MUST_USE fracas_err fracas_settings_add(const fracas_file *file,
                                                const fracas_setting *setting,

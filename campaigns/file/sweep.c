@@ -198,7 +198,7 @@ static fracas_err read_case_entry(const fracas_file *file, const fracas_node *en
     static const char *const own[] = {"name", "replicas", NULL};
     fracas_target set;
     if (strcmp(entry->key->text, "name") == 0)
-        return fracas_setting_name(file, entry, &choice->name);
+        return fracas_setting_case_name(file, entry, &choice->name);
     if (strcmp(entry->key->text, "replicas") == 0)
         return fracas_replicas_read(file, entry, &choice->replicas);
     TRY(fracas_target_find(file, entry, own, &set));

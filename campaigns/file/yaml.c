@@ -13,7 +13,13 @@
 #include <yaml.h>
 
 /* Enough for the resolved file of the largest campaign, each point with values of its own. */
-enum { MAX_BYTES = 16 << 20, MAX_NODES = 1000000, MAX_DEPTH = 16, MAX_TEXT = 200, MAX_KEYS = 500 };
+enum {
+    MAX_BYTES = 16 << 20,
+    MAX_NODES = 1000000,
+    MAX_DEPTH = 16,
+    MAX_TEXT = FRACAS_LONGEST_TEXT,
+    MAX_KEYS = 500
+};
 
 typedef struct {
     const char *name; /* the file's */

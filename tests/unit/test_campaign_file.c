@@ -443,6 +443,9 @@ static void test_round_trip(void **state)
         "sweep:\n  - zip:\n      material.young: [0.1 GPa, 0.3 GPa]\n      time.stop: [quiet, "
         "time]\n",
         "random_numbers: common\nsweep:\n  - loading.rate: [1e3, 2e3]\n",
+        /* names of two axes, joined in the resolved file, and such a name */
+        ("sweep:\n  - cases: [{name: a, loading.rate: 1e3}, {name: b, loading.rate: 2e3}]\n"
+         "  - cases: [{name: a, mesh.elements: 10}, {name: b/c, mesh.elements: 11}]\n"),
         ("sweep:\n  - design: {type: latin-hypercube, points: 20, parameters: {mesh.elements: "
          "{distribution: lognormal, median: 1e4, sigma: 1}, material.young: {distribution: normal, "
          "mean: 270 GPa, deviation: 10 GPa}}}\n  - strength.maximum: [301 MPa, 302 MPa]\n"
