@@ -60,6 +60,7 @@ typedef struct {
     size_t nchoices;
     unsigned only; /* models with this parameter: those of one of these groups, bits; 0: all */
     bool optional; /* no default: without it NaN or NULL; not for FRACAS_INTEGER, FRACAS_BOOLEAN */
+    const char *keys_of; /* FRACAS_CHOICE among keys of this section: names of its `rename`, too */
 } fracas_param;
 
 struct fracas_kind {

@@ -14,8 +14,9 @@ typedef struct {
     fracas_campaign *campaign; /* being made */
     const fracas_catalog *catalog;
     const fracas_node *root;
-    fracas_faults *faults; /* NULL: the first error ends the reading */
-    bool *doubtful;        /* a flag a leaf, see fracas_file_doubt; NULL: none is */
+    fracas_faults *faults;     /* NULL: the first error ends the reading */
+    bool *doubtful;            /* a flag a leaf, see fracas_file_doubt; NULL: none is */
+    const fracas_node *within; /* the case or zip being read; NULL: none */
 } fracas_file;
 
 /* FRACAS_USAGE with "name:line:column: ..." of the node. */

@@ -100,7 +100,7 @@ static void write_param(fracas_json *json, const fracas_param *param)
     fracas_json_text(json, "description", doc);
     if (param->type == FRACAS_BOOLEAN) fracas_json_text(json, "type", "boolean");
     else if (param->type == FRACAS_CHOICE)
-        write_names(json, "enum", param->choices, param->nchoices);
+        write_names(json, param->keys_of ? "examples" : "enum", param->choices, param->nchoices);
     else if (param->type == FRACAS_ATTACHMENT) fracas_json_text(json, "type", "string");
     else if (param->type == FRACAS_NUMBERS) {
         fracas_json_text(json, "type", "array");
@@ -257,6 +257,21 @@ static void write_axis_values(fracas_json *json, const char *name, bool number)
     fracas_json_close(json);
 }
 
+/* Closes an object whose keys are paths: names in the files of a section make others. */
+static void end_paths(fracas_json *json, const fracas_catalog *catalog)
+{
+    char pattern[80];
+    fracas_json_close(json);
+    fracas_json_object(json, "patternProperties");
+    for (size_t s = 0; s < catalog->nsections; s++) {
+        if (!catalog->section[s].table->rename) continue;
+        snprintf(pattern, sizeof pattern, "^%s\\.", catalog->section[s].table->name);
+        fracas_json_boolean(json, pattern, true);
+    }
+    fracas_json_close(json);
+    fracas_json_close(json);
+}
+
 static void write_axes(fracas_json *json, const fracas_catalog *catalog)
 {
     for (size_t i = 0; i < catalog->nleaves; i++)
@@ -285,7 +300,7 @@ static void write_case(fracas_json *json, const fracas_catalog *catalog)
     for (size_t s = 0; s < catalog->nsections; s++)
         if (!is_leaf(catalog, catalog->section[s].table))
             write_ref(json, catalog->section[s].table->name, catalog->section[s].table->name);
-    end_object(json);
+    end_paths(json, catalog);
 }
 
 /* Keys of all distributions of an uncertain parameter. */
@@ -347,13 +362,13 @@ static void write_sweep(fracas_json *json, const fracas_catalog *catalog)
     write_design(json);
     begin_object(json, "zip");
     write_axes(json, catalog);
-    end_object(json);
+    end_paths(json, catalog);
     begin_object(json, "axis");
     write_ref(json, "zip", "zip");
     write_list_of(json, "cases", "case");
     write_ref(json, "design", "design");
     write_axes(json, catalog);
-    end_object(json);
+    end_paths(json, catalog);
     write_list_of(json, "sweep", "axis");
 }
 

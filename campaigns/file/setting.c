@@ -3,6 +3,7 @@
 
 #include "campaigns/file/attach.h"
 #include "campaigns/file/expression.h"
+#include "campaigns/file/names.h"
 #include "campaigns/file/words.h"
 
 #include <inttypes.h>
@@ -18,39 +19,46 @@ static fracas_err want_scalar(const fracas_file *file, const char *key, const fr
     return fracas_file_expected(file, node, key, expected);
 }
 
-/* The index of the kind with the name in `node`. */
-static fracas_err read_name(const fracas_file *file, const char *key, const fracas_node *node,
-                            const fracas_kind *const *kinds, size_t count, double *which)
+/* The one of `count` kinds with this name, the text of `node` or what it stands for; `words`: other
+ * names that are allowed. */
+static fracas_err find_kind(const fracas_file *file, const char *key, const fracas_node *node,
+                            const char *name, const fracas_kind *const *kinds, size_t count,
+                            fracas_words *words, const fracas_kind **kind)
 {
-    fracas_words words;
-    TRY(want_scalar(file, key, node, "a name"));
-    fracas_words_init(&words, node->text);
     for (size_t k = 0; k < count; k++) {
-        *which = (double)k;
-        if (strcmp(kinds[k]->name, node->text) == 0) return FRACAS_OK;
-        fracas_words_add(&words, kinds[k]->name);
+        *kind = kinds[k];
+        if (strcmp(kinds[k]->name, name) == 0) return FRACAS_OK;
+        fracas_words_add(words, kinds[k]->name);
     }
     return fracas_file_error(file, node, "unknown %s `%s`%s", key, node->text,
-                             fracas_words_hint(&words, "%s can be", key));
+                             fracas_words_hint(words, "%s can be", key));
 }
 
 fracas_err fracas_setting_kind(const fracas_file *file, const char *key, const fracas_node *node,
                                const fracas_kind *const *kinds, size_t count,
                                const fracas_kind **kind)
 {
-    double which;
-    TRY(read_name(file, key, node, kinds, count, &which));
-    *kind = kinds[(size_t)which];
-    return FRACAS_OK;
+    fracas_words words;
+    TRY(want_scalar(file, key, node, "a name"));
+    fracas_words_init(&words, node->text);
+    return find_kind(file, key, node, node->text, kinds, count, &words, kind);
 }
 
-/* Kinds of a section may have other choices for the same key: one of any. */
+/* Kinds of a section may have other choices for the same key: one of any. A choice of keys of a
+ * section takes the names of its files, too. */
 static fracas_err read_choice(const fracas_file *file, const fracas_leaf *leaf,
                               const fracas_node *node, const fracas_kind **kind)
 {
     const fracas_kind *choice[FRACAS_MOST_CHOICES];
     const size_t count = fracas_leaf_choices(leaf, choice);
-    return fracas_setting_kind(file, leaf->key, node, choice, count, kind);
+    const char *of = leaf->param->keys_of, *name = fracas_node_text(node);
+    const fracas_file_section *section = of ? fracas_catalog_section(file->catalog, of) : NULL;
+    fracas_words words;
+    TRY(want_scalar(file, leaf->key, node, "a name"));
+    fracas_words_init(&words, node->text);
+    if (section) TRY(fracas_name_to_key(file, section, NULL, node, &name));
+    if (section) TRY(fracas_names_add(file, section, NULL, "", &words));
+    return find_kind(file, leaf->key, node, name, choice, count, &words, kind);
 }
 
 static fracas_err read_boolean(const fracas_file *file, const char *key, const fracas_node *node,
@@ -278,25 +286,23 @@ static void doubt_key(const fracas_file *file, const fracas_file_section *sectio
     if (kind || (!nearest && !elsewhere)) fracas_file_doubt_section(file, section, kind);
 }
 
-/* `of`: a file of the section, whose names stand for keys; NULL: none. */
+/* `node`: the map of the section, with the entry. */
 static fracas_err unknown_key(const fracas_file *file, const fracas_file_section *section,
-                              const fracas_node *entry, const fracas_attachment *of)
+                              const fracas_node *node, const fracas_node *entry)
 {
     const fracas_catalog *catalog = file->catalog;
     const fracas_node *key = entry->key;
-    char name[16][FRACAS_RENAMED]; /* as long as `words` */
     fracas_words words;
     fracas_words_init(&words, key->text);
-    const char *home = NULL; /* another section with this key */
+    TRY(fracas_names_add(file, section, node, "", &words));
+    const char *name = words.nearest, *home = NULL; /* another section with this key */
     for (size_t i = 0; i < catalog->nleaves; i++) {
         if (catalog->leaf[i].section == section) fracas_words_add(&words, catalog->leaf[i].key);
         else if (strcmp(catalog->leaf[i].key, key->text) == 0)
             home = catalog->leaf[i].section->table->name;
     }
     const char *nearest = words.nearest;
-    for (size_t i = 0; of && i < FRACAS_COUNT(name) && section->table->renames(of, i, name[i]); i++)
-        fracas_words_add(&words, name[i]);
-    if (words.nearest != nearest) nearest = NULL; /* a name, of any key */
+    if (nearest == name) nearest = NULL; /* a name, of any key */
     if (home) words.nearest = nearest = NULL;
     doubt_key(file, section, entry, nearest, home != NULL);
     if (entry->type == FRACAS_UNREADABLE) return fracas_file_untold(file);
@@ -325,47 +331,15 @@ static fracas_err no_section(const fracas_file *file, const fracas_file_section 
                              fracas_words_hint(&words, "write its keys below it, indented"));
 }
 
-/* The file of `kind` in the section `node` is *of; NULL: none is named. */
-static fracas_err attachment_of(const fracas_file *file, const fracas_kind *kind,
-                                const fracas_node *node, const void **of)
-{
-    *of = NULL;
-    for (size_t p = 0; p < kind->nparams; p++) {
-        const fracas_param *param = &kind->params[p];
-        const fracas_node *path = fracas_node_find(node, param->name);
-        if (param->type == FRACAS_ATTACHMENT && path && path->type == FRACAS_SCALAR)
-            return fracas_attachment_read(file, param->name, path, of);
-    }
-    return FRACAS_OK;
-}
-
-/* The kind named in the section `node`; NULL: none. */
-static const fracas_kind *named_kind(const fracas_section *table, const fracas_node *node)
-{
-    const fracas_node *selector = fracas_node_find(node, fracas_section_selector(table));
-    for (size_t k = 0; selector && k < table->nkinds; k++)
-        if (strcmp(table->kinds[k]->name, fracas_node_text(selector)) == 0) return table->kinds[k];
-    return NULL;
-}
-
-/* The leaf of an entry; a key unknown to the kind may be a name in a file of the section. NULL
- * where the file cannot be read: reading its own key says so. */
+/* The leaf of an entry; a key unknown to the kind may be a name in a file of the section. */
 static fracas_err leaf_of(const fracas_file *file, const fracas_file_section *section,
                           const fracas_node *node, const fracas_node *entry,
                           const fracas_leaf **leaf)
 {
-    const fracas_section *table = section->table;
     const char *key = entry->key->text;
-    const fracas_kind *kind = table->rename ? named_kind(table, node) : NULL;
-    const void *of = NULL;
-    if (kind && strcmp(key, fracas_section_selector(table)) != 0 &&
-        !fracas_section_param(table, kind, NULL, key)) {
-        if (attachment_of(file, kind, node, &of)) return FRACAS_OK;
-        const fracas_err err = of ? table->rename(of, &key) : FRACAS_OK;
-        if (err) return err == FRACAS_USAGE ? fracas_file_error_within(file, entry->key, key) : err;
-    }
+    TRY(fracas_name_to_key(file, section, node, entry->key, &key));
     *leaf = fracas_catalog_key(file->catalog, section, key);
-    return *leaf ? FRACAS_OK : unknown_key(file, section, entry, of);
+    return *leaf ? FRACAS_OK : unknown_key(file, section, node, entry);
 }
 
 fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_file_section *section,

@@ -3,6 +3,7 @@
 
 #include "base/elementary.h"
 #include "campaigns/file/design.h"
+#include "campaigns/file/names.h"
 #include "campaigns/file/words.h"
 
 #include <math.h>
@@ -187,8 +188,10 @@ static fracas_err read_zip(const fracas_file *file, const fracas_node *zip, frac
     if (zip->type != FRACAS_MAP || zip->count == 0)
         return fracas_file_expected(file, zip, "zip",
                                     "paths with their values, below it and indented");
+    fracas_file within = *file;
+    within.within = zip;
     for (const fracas_node *values = zip->first; values; values = values->next)
-        TRY(fracas_file_note(file, add_path(file, values, axis)));
+        TRY(fracas_file_note(file, add_path(&within, values, axis)));
     return FRACAS_OK;
 }
 
@@ -213,8 +216,10 @@ static fracas_err read_case(const fracas_file *file, const fracas_node *node, fr
         return fracas_file_error(file, node,
                                  "a case: found %s; expected `name:`, `replicas:` or sections",
                                  fracas_node_found(node, found));
+    fracas_file within = *file;
+    within.within = node;
     for (const fracas_node *entry = node->first; entry; entry = entry->next)
-        TRY(fracas_file_note(file, read_case_entry(file, entry, choice)));
+        TRY(fracas_file_note(file, read_case_entry(&within, entry, choice)));
     return FRACAS_OK;
 }
 
@@ -394,6 +399,28 @@ static const char *path_of_key(const fracas_catalog *catalog, const char *key, c
     return found == 1 ? path : other;
 }
 
+/* The paths that names in files of the section make. */
+static fracas_err add_names(const fracas_file *file, const fracas_file_section *section,
+                            fracas_words *words)
+{
+    char before[80];
+    snprintf(before, sizeof before, "%s.", section->table->name);
+    return fracas_names_add(file, section, NULL, before, words);
+}
+
+/* The leaf of section.name; NULL: it is unknown. */
+static fracas_err find_leaf(const fracas_file *file, const fracas_node *key,
+                            const fracas_leaf **leaf)
+{
+    const fracas_file_section *section = section_before_dot(file->catalog, key->text);
+    *leaf = fracas_catalog_leaf(file->catalog, key->text);
+    if (!section) return FRACAS_OK;
+    const char *name = strchr(key->text, '.') + 1, *means = name;
+    TRY(fracas_name_to_key(file, section, NULL, key, &means));
+    if (means != name) *leaf = fracas_catalog_key(file->catalog, section, means);
+    return FRACAS_OK;
+}
+
 static fracas_err unknown_path(const fracas_file *file, const fracas_node *entry,
                                const char *const *also)
 {
@@ -402,6 +429,7 @@ static fracas_err unknown_path(const fracas_file *file, const fracas_node *entry
     const fracas_file_section *inside = section_before_dot(catalog, key->text);
     fracas_words words;
     fracas_words_init(&words, key->text);
+    if (inside) TRY(add_names(file, inside, &words));
     for (size_t i = 0; i < catalog->nleaves; i++)
         if (catalog->leaf[i].section->table->hashed &&
             (!inside || catalog->leaf[i].section == inside))
@@ -424,7 +452,8 @@ fracas_err fracas_target_find(const fracas_file *file, const fracas_node *entry,
                               const char *const *also, fracas_target *found)
 {
     const fracas_node *key = entry->key;
-    *found = (fracas_target){.leaf = fracas_catalog_leaf(file->catalog, key->text)};
+    *found = (fracas_target){0};
+    TRY(find_leaf(file, key, &found->leaf));
     if (!found->leaf) found->section = fracas_catalog_section(file->catalog, key->text);
     if (strcmp(key->text, "replicas") == 0)
         return fracas_file_error(

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { LONGEST = 64 };
+enum { LONGEST = 96 };
 
 /* Number of inserted, deleted, replaced letters and swapped neighbours between two words, of which
  * `b`, a known one, has at most LONGEST letters. */

@@ -48,7 +48,8 @@ enum { FRACAS_LOAD_EDGES = 10 };
 extern const fracas_kind *const fracas_load_edges[FRACAS_LOAD_EDGES];
 #define FRACAS_LOAD_EDGE(key, member, text)                                 \
     FRACAS_ONE_OF(key, fracas_load_edges, offsetof(fracas_loading, member), \
-                  text ", by its key in `geometry`")
+                  text ", by its key in `geometry`"),                       \
+        .keys_of = "geometry"
 
 /* When the load reaches a place, by its front [s], 0 without one, INFINITY where it never does; and
  * the time constant of its decay there [s], INFINITY without one. */

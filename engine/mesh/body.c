@@ -344,9 +344,33 @@ static fracas_err check_geometry(const void *section)
                        geometry->ends->name);
 }
 
-fracas_err fracas_shape_edge_tag(const fracas_kind *shape, const char *asked, const char *key,
-                                 int32_t *tag)
+/* Lists the names that an edge can have: keys of the shape, or names of the mesh file's groups. */
+static fracas_err no_such_edge(const fracas_geometry *geometry, const char *asked, const char *key,
+                               const char *known)
 {
+    char names[400] = "", name[FRACAS_RENAMED];
+    const fracas_attachment *mesh = geometry->file;
+    if (!((const fracas_shape *)geometry->shape->traits)->from_file || !mesh)
+        return fracas_fail(FRACAS_USAGE, "%s is %s, and the shape %s has %s%s: %s", asked, key,
+                           geometry->shape->name,
+                           *known ? "the edges " : "no edges that can be named", known,
+                           *known ? "name one of them" : "take another load, or a mesh file");
+    for (size_t i = 0; fracas_gmsh_group_name(mesh->text, mesh->size, i, name); i++) {
+        const size_t used = strlen(names), room = sizeof names - used;
+        if (used + strlen(name) + 5 > sizeof names) break;
+        snprintf(names + used, room, "%s\"%s\"", used ? ", " : "", name);
+    }
+    return fracas_fail(FRACAS_USAGE,
+                       "%s is %s, and the mesh file %s has no physical group of curves of this "
+                       "name: %s%s; name one of them, or %s",
+                       asked, key, mesh->path, *names ? "it has " : "none has a name", names,
+                       known);
+}
+
+fracas_err fracas_shape_edge_tag(const fracas_geometry *geometry, const char *asked,
+                                 const char *key, int32_t *tag)
+{
+    const fracas_kind *shape = geometry->shape;
     const size_t first = offsetof(fracas_geometry, edge[1]),
                  last = offsetof(fracas_geometry, edge[FRACAS_EDGES - 1]);
     char known[160] = "";
@@ -358,12 +382,7 @@ fracas_err fracas_shape_edge_tag(const fracas_kind *shape, const char *asked, co
         const size_t used = strlen(known);
         snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", param->name);
     }
-    return fracas_fail(FRACAS_USAGE, "%s is %s, and the shape %s has %s%s: %s", asked, key,
-                       shape->name, *known ? "the edges " : "no edges that can be named", known,
-                       !*known ? "take another load, or a mesh file"
-                       : ((const fracas_shape *)shape->traits)->from_file
-                           ? "name one of them; a name in the mesh file is a key of geometry alone"
-                           : "name one of them");
+    return no_such_edge(geometry, asked, key, known);
 }
 
 /* The names of a mesh file's physical groups are names of edge_1 to edge_4. */

@@ -70,8 +70,8 @@ extern const fracas_kind fracas_spacing_uniform, fracas_spacing_graded, fracas_s
     fracas_spacing_triangles, fracas_spacing_given;
 
 /* Tag of the edges of a shape, by their key in `geometry`. FRACAS_USAGE names the parameter
- * `asked`, which has the key, and lists the shape's own. */
-FRACAS_MUST_USE fracas_err fracas_shape_edge_tag(const fracas_kind *shape, const char *asked,
+ * `asked`, which has the key, and lists the shape's own, and the names in its mesh file. */
+FRACAS_MUST_USE fracas_err fracas_shape_edge_tag(const fracas_geometry *geometry, const char *asked,
                                                  const char *key, int32_t *tag);
 
 static inline const fracas_shape *fracas_shape_of(const fracas_spec *spec)

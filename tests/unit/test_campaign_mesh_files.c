@@ -144,6 +144,171 @@ static void test_names_of_groups(void **state)
     unlink(path);
 }
 
+/* ---- names of groups in the sweep and in the loading ---- */
+
+typedef struct {
+    char first[40], second[40]; /* paths of two mesh files */
+} meshes;
+
+static void write_meshes(meshes *of)
+{
+    static const char *const names[2] = {"1 2 \"lower side\"\n1 1 \"left\"\n1 3 \"right\"",
+                                         "1 1 \"lower side\"\n1 2 \"left\"\n1 3 \"right\""};
+    char *const path[2] = {of->first, of->second};
+    for (int m = 0; m < 2; m++) {
+        char section[200];
+        snprintf(section, sizeof section,
+                 "$EndMeshFormat\n$PhysicalNames\n3\n%s\n$EndPhysicalNames\n", names[m]);
+        OWNED char *mesh = replace(two_triangles, "$EndMeshFormat\n", section);
+        make_path(path[m]);
+        write_bytes(path[m], mesh, strlen(mesh));
+    }
+}
+
+/* The first mesh, nothing held but by `keys`, with this loading and sweep, in which A and B are the
+ * two files. */
+static char *named_campaign(const meshes *of, const char *keys, const char *loading,
+                            const char *sweep)
+{
+    OWNED char *plain = file_campaign(of->first,
+                                      "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n"),
+               *held = replace(plain, ", edge_2: held, edge_3: fixed", keys),
+               *loaded = replace(held, "loading: {rate: 1e4 1/s}", loading);
+    char *text = NULL;
+    size_t size;
+    FILE *out = open_memstream(&text, &size);
+    fputs(loaded, out);
+    for (const char *at = sweep; *at; at++)
+        if (*at == 'A' || *at == 'B') fputs(*at == 'A' ? of->first : of->second, out);
+        else fputc(*at, out);
+    fclose(out);
+    return text;
+}
+
+#define PULLED "loading: {type: edge-motion, edge: right, displacement: 1 um, rise: 1 us}"
+#define RATE "loading: {rate: 1e4 1/s}"
+
+/* A name stands for the key of its group, whatever another shape calls so, at each place. */
+static void test_names_in_a_sweep(void **state)
+{
+    static const struct {
+        const char *keys, *loading, *sweep;
+        const char *path[2], *value[2]; /* of both points */
+    } named[] = {
+        {"",
+         RATE,
+         "sweep:\n  - geometry.left: [held, fixed]\n",
+         {"geometry.edge_1", "geometry.edge_1"},
+         {"held", "fixed"}},
+        {"",
+         RATE,
+         "sweep:\n  - geometry.lower side: [held, fixed]\n",
+         {"geometry.edge_2", "geometry.edge_2"},
+         {"held", "fixed"}},
+        {"",
+         RATE,
+         "sweep:\n  - geometry: [{left: held}, {lower side: held}]\n",
+         {"geometry.edge_1", "geometry.edge_2"},
+         {"held", "held"}},
+        {", left: held",
+         PULLED,
+         "sweep:\n  - loading.edge: [left, edge_2]\n",
+         {"loading.edge", "loading.edge"},
+         {"edge_1", "edge_2"}},
+        {"",
+         PULLED,
+         "sweep:\n  - loading.second_edge: [left, lower side]\n",
+         {"loading.edge", "loading.second_edge"},
+         {"edge_3", "edge_2"}},
+        {"",
+         "loading: {type: traction, edge: lower side, normal: 1 MPa}",
+         "sweep:\n  - loading.normal: [1, 2]\n",
+         {"loading.edge", "loading.edge"},
+         {"edge_2", "edge_2"}},
+        {"",
+         PULLED,
+         "sweep:\n  - zip:\n      geometry.left: [held, fixed]\n      loading.edge: [right, "
+         "left]\n",
+         {"loading.edge", "loading.edge"},
+         {"edge_3", "edge_1"}},
+        /* beside its own file, a name is that file's; without one, it is one in all */
+        {"",
+         RATE,
+         "sweep:\n  - cases:\n    - {geometry.left: held, geometry.file: A}\n"
+         "    - {geometry: {left: held, file: B}}\n",
+         {"geometry.edge_1", "geometry.edge_2"},
+         {"held", "held"}},
+        {"",
+         "loading: {type: traction, normal: 1 MPa}",
+         "sweep:\n  - cases:\n    - {loading.edge: left, geometry.file: A}\n"
+         "    - {geometry.file: B, loading: {edge: left}}\n",
+         {"loading.edge", "loading.edge"},
+         {"edge_1", "edge_2"}},
+        {"",
+         PULLED,
+         "sweep:\n  - geometry.file: [A, B]\n",
+         {"loading.edge", "loading.edge"},
+         {"edge_3", "edge_3"}},
+    };
+    meshes of;
+    write_meshes(&of);
+    for (size_t i = 0; i < FRACAS_COUNT(named); i++) {
+        OWNED char *text = named_campaign(&of, named[i].keys, named[i].loading, named[i].sweep);
+        OWN(fracas_campaign) campaign = read_text(text);
+        assert_int_equal(campaign->npoints, 2);
+        for (size_t p = 0; p < 2; p++)
+            assert_string_equal(at(campaign, p, named[i].path[p])->text, named[i].value[p]);
+    }
+    unlink(of.first);
+    unlink(of.second);
+}
+
+/* A name that no file has, that one file has not, and that is two keys in two files. */
+static void test_wrong_names(void **state)
+{
+    static const struct {
+        const char *keys, *loading, *sweep, *said;
+    } wrong[] = {
+        {"", RATE, "sweep:\n  - geometry.lover side: [held, free]\n",
+         "unknown path `geometry.lover side` in the sweep; did you mean `geometry.lower side`? "
+         "paths in geometry: geometry.lower side, geometry.left, geometry.right, "},
+        {"", "loading: {type: traction, edge: rigth, normal: 1 MPa}", "",
+         "unknown edge `rigth`; did you mean `right`? edge can be: lower side, left, right, "},
+        {"", RATE, "sweep:\n  - geometry.left: [held, free]\n  - geometry.file: [A, B]\n",
+         "`left` is edge_1 in /tmp/"},
+        {", left: held", RATE, "sweep:\n  - geometry.file: [A, B]\n", "`left` is edge_1 in /tmp/"},
+        {"", RATE, "sweep:\n  - geometry.left: [held, free]\n  - geometry.edge_1: [held, free]\n",
+         "is swept by two axes"},
+        {"", RATE, "sweep:\n  - geometry.left: [helt, free]\n", "did you mean `held`"},
+        {"", RATE,
+         "sweep:\n  - geometry.left: [held, free]\n  - geometry.file: [A, " FRACAS_SOURCE_DIR
+         "/tests/data/gmsh/plate-order1-msh22-text.msh]\n",
+         "`left`: the mesh file's physical group of this name has the number 11"},
+        {"", RATE, "sweep:\n  - geometry.file: [A, /none.msh]\n  - geometry.left: [held, free]\n",
+         "cannot open /none.msh"},
+    };
+    meshes of;
+    write_meshes(&of);
+    for (size_t i = 0; i < FRACAS_COUNT(wrong); i++) {
+        OWNED char *text = named_campaign(&of, wrong[i].keys, wrong[i].loading, wrong[i].sweep);
+        char path[40];
+        fracas_campaign *none;
+        make_path(path);
+        write_bytes(path, text, strlen(text));
+        FAILS(fracas_campaign_read(path, &none), FRACAS_USAGE, wrong[i].said);
+        unlink(path);
+    }
+    OWNED char *text = named_campaign(&of, "",
+                                      "loading: {type: traction, edge: bottom, normal: 1 MPa}", "");
+    OWN(fracas_campaign) campaign = read_text(text); /* the key of a plate */
+    double cost;
+    FAILS(fracas_plan_cost(campaign, 0, &cost, NULL), FRACAS_USAGE,
+          "has no physical group of curves of this name: it has \"lower side\", \"left\", "
+          "\"right\"; name one of them, or edge_1, edge_2");
+    unlink(of.first);
+    unlink(of.second);
+}
+
 /* The plate is 2 by 1 units; its groups 11 and 12 have no key of their own. */
 static void test_unit(void **state)
 {
@@ -302,6 +467,6 @@ static void test_warnings_of_a_run(void **state)
     unlink(path);
 }
 
-TESTS_ALL(read_file, free_file, test_file, test_names_of_groups, test_page_example, test_unit,
-          test_no_mesh, test_plan_of_parts, test_plan_of_file, test_no_interface,
-          test_warnings_of_a_run)
+TESTS_ALL(read_file, free_file, test_file, test_names_of_groups, test_names_in_a_sweep,
+          test_wrong_names, test_page_example, test_unit, test_no_mesh, test_plan_of_parts,
+          test_plan_of_file, test_no_interface, test_warnings_of_a_run)

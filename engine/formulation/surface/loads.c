@@ -144,7 +144,7 @@ fracas_err fracas_surface_load_tag(const fracas_model *model, int i, int32_t *ta
     if (load->on == FRACAS_LOAD_ON_EDGE && !key && i == 0)
         return fracas_fail(FRACAS_USAGE, "loading.edge is not given: on which edge does it act?");
     if (!key) return FRACAS_OK;
-    TRY(fracas_shape_edge_tag(model->spec.geometry.shape, asked, key, tag));
+    TRY(fracas_shape_edge_tag(&model->spec.geometry, asked, key, tag));
     for (size_t b = 0; b < surface->nborders; b++)
         if (surface->border[b].tag == *tag) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
