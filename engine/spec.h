@@ -79,6 +79,20 @@ typedef struct {
     const fracas_kind *contact; /* surfaces: law, none; NULL: law */
 } fracas_notch;
 
+/* How a surface starts, beside its load. NaN: not given; 0: none. */
+typedef struct {
+    double velocity[3];    /* m/s */
+    double spin;           /* rad/s, about an axis along z */
+    double at[3], within;  /* m: a place of this axis; nodes that far from it move */
+    double from[3], to[3]; /* m: they lie within these limits */
+    double strain[3];      /* 1, along x, y, z */
+    double strain_xy;      /* 1 */
+    double stress[2];      /* Pa, along x, y */
+    double stress_xy;      /* Pa */
+    double temperature;    /* K */
+    double expansion;      /* 1/K */
+} fracas_initial;
+
 typedef struct {
     const fracas_kind *type;
     double rate;                    /* 1/s, imposed-rate, expansion */
@@ -139,6 +153,7 @@ typedef struct {
     fracas_material material;
     fracas_cohesive cohesive;
     fracas_notch notch;
+    fracas_initial initial;
     fracas_loading loading;
     fracas_time time;
     /* Frequencies of earlier models; this one's are added. No parameter; NULL: none. */

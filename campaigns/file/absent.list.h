@@ -13,8 +13,10 @@
       "nearest to damage, time.integrator hulbert-chung to damping")                               \
     X("orthotropic anisotropic composite laminate layers fiber fibers",                            \
       "materials are isotropic and of one layer: strengths can vary over space")                   \
-    X("temperature thermal heat conductivity expansion_coefficient",                               \
-      "there is no temperature: an expansion comes nearest to heating")                            \
+    X("temperature thermal heat conductivity expansion_coefficient cooling quench",                \
+      "no heat flows: initial.temperature, with initial.expansion_coefficient, is a jump of it")   \
+    X("prestress residual_stress initial_stress initial_strain pretension",                        \
+      "stresses and strains at the start are initial.stress_x, initial.strain_x and their kin")    \
     X("solid 3d volume tetrahedra tetrahedron hexahedra brick box cube block cone",                \
       "bodies are thin: a shell, in space, comes nearest to a solid")                              \
     X("beam truss frame",                                                                          \

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/plan/bounds.h"
 
+#include "engine/loading/initial.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 
@@ -104,6 +105,16 @@ static double largest_of(const fracas_stretch *stretch, double nu)
     return largest;
 }
 
+/* A velocity is without stress where the whole body has it and nothing holds it. A strain that no
+ * edges hold swings back, and its waves may meet. */
+static double initial_stress_bound(const fracas_spec *spec, const holding *held, double factor)
+{
+    const fracas_initial *initial = &spec->initial;
+    if (fracas_initial_moves(initial) && (held->any || fracas_initial_parts(initial)))
+        return INFINITY;
+    return 2 * factor * fracas_initial_stress(spec);
+}
+
 /* It stretches by (1, ratio) a with a = rate t or w^2 t^2/2; the bound is the larger stress along
  * its sides, E a/(1 - nu) for ratio 1. A free edge only relieves it. In any direction, traction and
  * shear/beta_c together are at most max(1, 1/beta_c) times the bound. A body that spins has at most
@@ -122,7 +133,8 @@ static double surface_stress_bound(const fracas_spec *spec, const fracas_body_si
         const double rim = spec->loading.speed * size->reach;
         stress = fmin(stress, 2 * spec->material.density * rim * rim * (held.any ? factor : 1));
     }
-    return stress * fmax(1.0, 1.0 / spec->cohesive.coupling);
+    return (stress + initial_stress_bound(spec, &held, factor)) *
+           fmax(1.0, 1.0 / spec->cohesive.coupling);
 }
 
 double fracas_stress_bound(const fracas_spec *spec, const fracas_body_size *size)
@@ -140,7 +152,9 @@ static double surface_opening_bound(const fracas_spec *spec, double extent)
     const double wave = wave_speed(spec) * t * (1 + nu) / sqrt(1 - nu * nu);
     const bool sudden = stretch.shock; /* edges open at their own velocity from the start */
     const double most = fmax(1, fmax(fabs(stretch.ratio), fabs(stretch.ratio_z))); /* not NaN */
-    return stretch.strain * most * (sudden ? extent : fmin(wave, extent));
+    if (fracas_initial_moves(&spec->initial)) return INFINITY;
+    return stretch.strain * most * (sudden ? extent : fmin(wave, extent)) +
+           fracas_initial_stress(spec) / spec->material.young * fmin(wave, extent);
 }
 
 double fracas_opening_bound(const fracas_spec *spec, double stress, double extent)

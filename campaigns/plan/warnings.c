@@ -2,7 +2,9 @@
 #include "campaigns/plan/forecast.h"
 
 #include "engine/cohesive/law.h"
+#include "engine/loading/initial.h"
 #include "engine/loading/loading.h"
+#include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
 
 #include <inttypes.h>
@@ -20,6 +22,8 @@
 /* Remedy for a load too weak to crack the body. */
 static const char *harder(const fracas_point *point, const fracas_forecast *forecast)
 {
+    if (fracas_loading_traits_of(&point->spec)->idle)
+        return "raise what initial gives, or load the body";
     if (!fracas_loading_traits_of(&point->spec)->released)
         return forecast->stress_grows ? "load it harder, or longer"
                                       : "load it harder; a longer run does not help";
@@ -221,23 +225,26 @@ WARNING(
     forecast->opening_grows ? ", or time.end" : "")
 
 /* The key of a load that says how hard it is: its first number. */
-static const char *load_key(const fracas_spec *spec)
+static remedy load_key(const fracas_spec *spec)
 {
     const fracas_kind *load = spec->loading.type;
+    remedy made = {"what initial gives"};
     size_t k = 0;
     while (k + 1 < load->nparams && load->params[k].type != FRACAS_REAL) k++;
-    return load->params[k].name;
+    if (load->nparams > 0)
+        snprintf(made.text, sizeof made.text, "loading.%s", load->params[k].name);
+    return made;
 }
 
 WARNING(
     warn_whole, never_breaks(forecast) && forecast->whole, forecast->opening / forecast->available,
     "interfaces break at an opening of %s = %.2g m, and until time.end the load opens none by more "
     "than %.2g m: they crack and never break: is %s meant? A bare number is SI; or raise "
-    "%sloading.%s",
+    "%s%s",
     opening_of(point), forecast->opening, forecast->available,
     point->spec.cohesive.fracture_energy > 0 ? "cohesive.fracture_energy in the unit (J/m2, kJ/m2)"
                                              : "cohesive.critical_opening in the unit (m, um)",
-    forecast->opening_grows ? "time.end or " : "", load_key(&point->spec))
+    forecast->opening_grows ? "time.end or " : "", load_key(&point->spec).text)
 
 double fracas_plan_warn_unbroken(const fracas_point *point, const fracas_forecast *forecast,
                                  char *text, size_t size)
@@ -415,6 +422,20 @@ WARNING(warn_stretch,
         "along its axis as well: give loading.ratio or ratio_z, 0 for none along y or z",
         forecast->mesh.box[0], forecast->mesh.box[1], forecast->mesh.box[2])
 
+/* An initial strain is the stress of a body that edges hold. */
+static bool springs_back(const fracas_spec *spec)
+{
+    bool held = false;
+    for (int tag = 0; tag < FRACAS_EDGES; tag++)
+        held = held || (spec->geometry.edge[tag] && fracas_edge_of(spec->geometry.edge[tag])->held);
+    return fracas_spec_is_surface(spec) && fracas_initial_is_strained(spec) && !held;
+}
+
+WARNING(warn_released, springs_back(&point->spec), fracas_initial_stress(&point->spec),
+        "the body starts with a stress of %.3g MPa, and no edge is held: it springs back, and its "
+        "waves swing between that and its opposite: hold edges (geometry) to keep it",
+        1e-6 * fracas_initial_stress(&point->spec))
+
 fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
     warn_parts,       warn_unit,       warn_coarse,
     warn_uniform,     warn_lines,      warn_weak_load,
@@ -427,4 +448,4 @@ fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
     warn_undivided,   warn_loose,      warn_inner,
     warn_steered,     warn_stretch,    warn_fast,
     warn_whole,       warn_many_steps, warn_mesh_effect_bounded,
-    warn_tough,       warn_notch};
+    warn_tough,       warn_notch,      warn_released};

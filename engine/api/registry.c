@@ -5,6 +5,7 @@
 
 #include "engine/cohesive/law.h"
 #include "engine/formulation/formulation.h"
+#include "engine/loading/initial.h"
 #include "engine/loading/loading.h"
 #include "engine/material/elastic.h"
 #include "engine/mesh/body.h"
@@ -26,6 +27,6 @@ static const fracas_section formulation_section = {
 const fracas_section *const fracas_engine_sections[] = {
     &formulation_section,     &fracas_geometry_section, &fracas_mesh_section,
     &fracas_material_section, &fracas_cohesive_section, &fracas_notch_section,
-    &fracas_loading_section,  &fracas_time_section,
+    &fracas_initial_section,  &fracas_loading_section,  &fracas_time_section,
 };
 const size_t fracas_engine_nsections = FRACAS_COUNT(fracas_engine_sections);

@@ -260,11 +260,26 @@ const fracas_kind fracas_loading_centrifugal = {
     FRACAS_PARAMS(centrifugal),
     .traits = &(const fracas_loading_traits){.surface = centrifugal_surface, .body_force = true}};
 
+/* ---- none ---- */
+
+static fracas_stretch still(const fracas_spec *spec, double t)
+{
+    (void)spec, (void)t;
+    return (fracas_stretch){.ratio = 1, .ratio_z = 1};
+}
+
+const fracas_kind fracas_loading_none = {
+    "none", "no load: a body moves by what it starts with, the section `initial`",
+    .only = FRACAS_GROUP_SURFACES,
+    .traits = &(const fracas_loading_traits){.surface = still, .idle = true}};
+
 static const fracas_kind *const loadings[] = {
-    &fracas_loading_imposed_rate, &fracas_loading_initial_velocity, &fracas_loading_held_velocity,
-    &fracas_loading_force,        &fracas_loading_expansion,        &fracas_loading_centrifugal,
-    &fracas_loading_pressure,     &fracas_loading_body_force,       &fracas_loading_traction,
-    &fracas_loading_edge_motion};
+    &fracas_loading_imposed_rate,  &fracas_loading_initial_velocity,
+    &fracas_loading_held_velocity, &fracas_loading_force,
+    &fracas_loading_expansion,     &fracas_loading_centrifugal,
+    &fracas_loading_pressure,      &fracas_loading_body_force,
+    &fracas_loading_traction,      &fracas_loading_edge_motion,
+    &fracas_loading_none};
 
 /* Members of other loadings are 0. */
 static fracas_err check_loading(const void *section)

@@ -45,6 +45,7 @@ typedef struct {
      * greatest speed to the turning point [s]. NULL: never. */
     bool (*folds)(const fracas_spec *spec, bool whole, double turn);
     fracas_stretch (*surface)(const fracas_spec *spec, double t);
+    bool idle;               /* it drives nothing */
     bool released;           /* the body moves freely after the start */
     bool body_force;         /* it acts on every unit of mass of a surface, by where that started */
     const fracas_load *load; /* forces on a surface, or motion of its edges; NULL: none */
@@ -61,7 +62,7 @@ extern const fracas_section fracas_loading_section;
 extern const fracas_kind fracas_loading_imposed_rate, fracas_loading_initial_velocity,
     fracas_loading_held_velocity, fracas_loading_force, fracas_loading_expansion,
     fracas_loading_centrifugal, fracas_loading_pressure, fracas_loading_body_force,
-    fracas_loading_traction, fracas_loading_edge_motion;
+    fracas_loading_traction, fracas_loading_edge_motion, fracas_loading_none;
 extern const fracas_kind fracas_start_moving, fracas_start_rest;
 extern const fracas_kind fracas_axis_radial, fracas_axis_circumferential;
 

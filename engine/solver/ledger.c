@@ -10,8 +10,8 @@ void fracas_ledger_update(fracas_ledger *ledger, const fracas_step *step, int la
         if (fracas_energies[e].role != FRACAS_ROLE_LOAD) ledger->energy[e] = step->energy[e][lane];
     ledger->power = step->power[lane];
     if (first) {
-        ledger->initial = fracas_energy_held(ledger->energy, 0);
-        ledger->work = ledger->largest_residual = 0;
+        ledger->work = ledger->largest_residual = 0; /* energy that onsets create is no start's */
+        ledger->initial = fracas_energy_residual(ledger->energy, 0);
     } else { /* (bar.13) */
         ledger->work += step->drift[lane] * (0.5 * (before + ledger->power)) + step->work[lane];
     }

@@ -18,8 +18,8 @@ PYTHON
     membrane | shell) expect 0 "$fracas" picture $model ;;
     esac
     # Keys that it leaves as comments are keys: given their defaults, the campaign is read.
-    # The section notch has no defaults, and stays one.
-    sed '/^# notch:$/d; s/^  # \([a-z_0-9]*: [^. ]\)/  \1/; /^# sweep/d; s/^# \([a-z]*:\)$/\1/; /^ *# /d; s/ size: 0 / size: 1e-3 /' $model.yaml |
+    # The sections notch and initial have no defaults, and stay comments.
+    sed '/^# notch:$/d; /^# initial:$/d; s/^  # \([a-z_0-9]*: [^. ]\)/  \1/; /^# sweep/d; s/^# \([a-z]*:\)$/\1/; /^ *# /d; s/ size: 0 / size: 1e-3 /' $model.yaml |
         grep -vE '^  (size|critical_opening): ' > spelled.yaml
     grep -c ':' spelled.yaml > many
     [ "$(cat many)" -gt 30 ] || fail "few keys"

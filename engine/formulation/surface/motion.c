@@ -2,6 +2,7 @@
 /* Edges moved by a load: their nodes, and where to (docs/theory/loads.md). */
 #include "engine/formulation/surface/loads.h"
 
+#include "engine/loading/initial.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 
@@ -126,6 +127,7 @@ static fracas_err fill_tag(const fracas_model *model, fracas_surface_tables *t, 
 {
     const fracas_surface *surface = model->surface;
     const size_t dimension = (size_t)t->body->dimension, size = fracas_surface_unknowns(t);
+    const fracas_initial_strain strain = fracas_initial_strain_of(&model->spec);
     for (size_t b = 0; b < surface->nborders; b++) {
         const fracas_surface_border *border = &surface->border[b];
         const size_t e = border->element;
@@ -136,7 +138,8 @@ static fracas_err fill_tag(const fracas_model *model, fracas_surface_tables *t, 
         nodes_of(border, node);
         for (int n = 0; n < surface->order + 1; n++) {
             const uint32_t at = surface->element[e * surface->corners + node[n]];
-            double own[3], direction[3], other[3] = {0};
+            double own[3], direction[3], other[3] = {0}, at_start[3];
+            fracas_initial_displacement(&strain, surface->node[at], at_start);
             direction_of(sum[at], own);
             if (others) direction_of(others[at], other);
             memcpy(direction, own, sizeof own);
@@ -147,6 +150,7 @@ static fracas_err fill_tag(const fracas_model *model, fracas_surface_tables *t, 
                 if (moved > 0 && !(t->held[e] >> unknown & 1)) return not_held(model, tag);
                 if (!(t->moved[e] >> unknown & 1)) continue;
                 row[unknown] = direction[i];
+                if (t->start) t->start[(t->moved_row[e] - 1) * size + unknown] = at_start[i];
                 *largest = fmax(*largest, moved);
             }
         }

@@ -29,9 +29,14 @@ __attribute__((noinline, cold)) static void surface_place_moved(const surface_co
     const int size = BODY_SIZE(order);
     const double *direction = surface_direction(c, size, e);
     const vd path = lanes_load(c->step->path + c->first);
-    for (int i = 0; i < size; i++)
-        if (c->tables->moved[e] >> i & 1)
-            lanes_store(surface_at(at, SURFACE_U * size + i), path * lanes_set(direction[i]));
+    const double *start = c->tables->start ? c->tables->start + (direction - c->tables->direction)
+                                           : NULL;
+    for (int i = 0; i < size; i++) {
+        if (!(c->tables->moved[e] >> i & 1)) continue;
+        const vd moved = path * lanes_set(direction[i]);
+        lanes_store(surface_at(at, SURFACE_U * size + i),
+                    start ? moved + lanes_set(start[i]) : moved); /* (initial.3) */
+    }
 }
 
 /* Adds M x to the forces on an element's nodes. */

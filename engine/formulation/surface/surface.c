@@ -4,6 +4,7 @@
 
 #include "engine/integrator/hulbert_chung.h"
 #include "engine/integrator/integrator.h"
+#include "engine/loading/initial.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
@@ -50,6 +51,7 @@ fracas_surface_constants fracas_surface_constants_of(const fracas_model *model)
         .speed = spins ? spec->loading.speed : 0,
         .ramp = spec->loading.ramp,
         .loading = &spec->loading,
+        .strained = fracas_initial_is_strained(spec),
         .motion = {accelerations, alpha.alpha_m, alpha.beta, alpha.gamma, alpha.excess,
                    alpha.damping, sqrt(0.5 * (1 - alpha.alpha_m))}};
     c.c12 = nu * c.c11;
@@ -90,7 +92,14 @@ static fracas_err check_beta(const fracas_model *model)
 /* Something moves: not all starts at rest, or an edge moves with the load. */
 static fracas_err check_motion(const fracas_model *model)
 {
-    if (!stretch_of(model).shock || tables_of(model)->moves) return FRACAS_OK;
+    const bool idle = fracas_loading_traits_of(&model->spec)->idle;
+    if ((!stretch_of(model).shock && !idle) || tables_of(model)->moves ||
+        fracas_initial_moves(&model->spec.initial) || fracas_initial_is_strained(&model->spec))
+        return FRACAS_OK;
+    if (idle)
+        return fracas_fail(FRACAS_USAGE, "loading.type is none, and initial gives no velocity and "
+                                         "no strain: nothing would ever move; give it one, or "
+                                         "another load");
     return fracas_fail(FRACAS_USAGE, "loading.start is rest, and no edge moves: nothing would ever "
                                      "move; let an edge be held, or start moving");
 }
@@ -155,6 +164,7 @@ fracas_err fracas_surface_model_init(fracas_model *model)
     for (size_t e = 0; e < t->nelements; e++)
         for (size_t k = 0; k < nodes; k++) model->mass += t->lumped[(2 * e + 1) * nodes + k];
     measure(model);
+    TRY(fracas_surface_check_initial(model));
     model->wave_speed = sqrt(model->spec.material.young /
                              (model->spec.material.density *
                               (1 - model->spec.material.poisson * model->spec.material.poisson)));
@@ -304,8 +314,13 @@ void fracas_surface_lane_init(const fracas_model *model, const fracas_step *step
     const size_t strengths = fracas_surface_strengths_at(&c);
     for (size_t f = 0; f < strengths; f++) *fracas_surface_field(step, f, lane) = 0;
     for (size_t e = 0; e < model->elements; e++)
-        for (size_t i = 0; i < fracas_surface_unknowns(c.tables); i++)
-            *element_value(&c, step, e, SURFACE_V, i, lane) = start_velocity(model, e, i);
+        for (size_t i = 0; i < fracas_surface_unknowns(c.tables); i++) {
+            *element_value(&c, step, e, SURFACE_V, i, lane) =
+                start_velocity(model, e, i) + fracas_surface_initial_velocity(model, e, i);
+            if (c.strained)
+                *element_value(&c, step, e, SURFACE_U, i,
+                               lane) = fracas_surface_initial_displacement(model, e, i);
+        }
     for (size_t n = 0; n < model->nnotch; n++) begin_broken(model, &c, step, model->notch[n], lane);
 }
 

@@ -128,6 +128,7 @@ typedef struct {
     uint32_t *moved;     /* [element]: bits as of `held`, among them; NULL: no edge is moved */
     uint32_t *moved_row; /* [element]: its row + 1; 0: none */
     double *direction;   /* [row][unknown]: d, 0 of components not moved */
+    double *start;       /* [row][unknown]: u_0 [m]; NULL: 0 */
     /* A shell's edges whose director is held. */
     size_t nrims;
     double *rim;        /* [rim][body->rim_table] */
@@ -158,6 +159,7 @@ typedef struct fracas_surface_constants {
     int strengths;            /* an interface's: 1, or one for each Gauss point */
     double speed, ramp;       /* rad/s, s: w = speed min(1, t/ramp) */
     const fracas_loading *loading;
+    int strained; /* the body starts with a strain, and so with accelerations */
     fracas_surface_motion motion;
     int contact; /* the operator: all interfaces broken and in contact; else whole */
 } fracas_surface_constants;
@@ -345,6 +347,15 @@ typedef struct {
  * (membrane.12). Parts may call it at once. */
 void fracas_surface_record_event(const fracas_surface_constants *constants, fracas_step *step,
                                  const fracas_surface_event *event);
+
+/* ---- start ---- */
+
+/* Velocity [m/s], 0 of held components, and displacement [m] that the section `initial` gives
+ * unknown i of element e  (initial.1), (initial.3) */
+double fracas_surface_initial_velocity(const fracas_model *model, size_t e, size_t i);
+double fracas_surface_initial_displacement(const fracas_model *model, size_t e, size_t i);
+/* FRACAS_USAGE for stresses in a body that is not flat, for velocities that no node has. */
+FRACAS_MUST_USE fracas_err fracas_surface_check_initial(const fracas_model *model);
 
 /* ---- broken interfaces ---- */
 

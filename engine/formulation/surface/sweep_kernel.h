@@ -343,7 +343,9 @@ LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
         UNROLL_FOR (int i = 0; i < size; i++)
             last[i] = lanes_load(surface_at(at, SURFACE_A * size + i));
     }
-    if (load.force && !alpha) { /* velocities at the start become those of half a step before */
+    const int strained = c->constants->strained && !surface_is_moved(c, e);
+    if ((load.force || strained) &&
+        !alpha) { /* velocities at the start become those of half a step before */
         const vd back = lanes_select(c->begins, lanes_set(0.5) * c->kick, lanes_set(0.0));
         UNROLL_FOR (int i = 0; i < size; i++) v[i] -= back * a[i];
     }

@@ -4,6 +4,7 @@
 
 #include "engine/formulation/surface/loads.h"
 #include "engine/integrator/integrator.h"
+#include "engine/loading/initial.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 
@@ -31,7 +32,8 @@
     TABLE(load_clock)      \
     TABLE(moved)           \
     TABLE(moved_row)       \
-    TABLE(direction)
+    TABLE(direction)       \
+    TABLE(start)
 
 /* Their lengths; 0: there is none. */
 #define TABLE(name) size_t name;
@@ -41,8 +43,8 @@ typedef struct {
 #undef TABLE
 
 typedef struct {
-    bool consistent, rotary, positions; /* there are such tables */
-    size_t loads, moved;                /* rows of loads, of moved edges */
+    bool consistent, rotary, positions, start; /* there are such tables */
+    size_t loads, moved;                       /* rows of loads, of moved edges */
 } optional;
 
 static lengths lengths_of(const fracas_surface_tables *t, optional has)
@@ -70,6 +72,7 @@ static lengths lengths_of(const fracas_surface_tables *t, optional has)
         .moved = has.moved ? n : 0,
         .moved_row = has.moved ? n : 0,
         .direction = has.moved * nodes * (size_t)body->dimension,
+        .start = has.start ? has.moved * nodes * (size_t)body->dimension : 0,
     };
 }
 
@@ -97,7 +100,8 @@ static bool allocate(fracas_surface_tables *t, const lengths *length)
 
 static lengths own_lengths(const fracas_surface_tables *t)
 {
-    return lengths_of(t, (optional){t->consistent, t->rotary, t->position, t->nloads, t->nmoved});
+    return lengths_of(
+        t, (optional){t->consistent, t->rotary, t->position, t->start, t->nloads, t->nmoved});
 }
 
 size_t fracas_surface_tables_bytes(const fracas_surface_tables *t)
@@ -366,6 +370,7 @@ fracas_err fracas_surface_tables_create(const fracas_model *model, fracas_surfac
         t, (optional){.consistent = fracas_mass_is_consistent(time),
                       .rotary = t->body->fill_rotary && time->rotary_inertia > 0,
                       .positions = fracas_loading_traits_of(&model->spec)->body_force,
+                      .start = fracas_initial_is_strained(&model->spec),
                       .loads = loads,
                       .moved = fracas_surface_moved_count(surface, moved)});
     if (!err)

@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "engine/loading/initial.h"
+
+#include <math.h>
+
+#define KEY(key, place, measure, models, what)                                            \
+    FRACAS_BRACES(.name = key, .type = FRACAS_REAL, .unit = measure, .doc = what,         \
+                  .fallback = FRACAS_REQUIRED, .minimum = -INFINITY, .maximum = INFINITY, \
+                  .offset = offsetof(fracas_initial, place), .only = models, .optional = true)
+#define ALL FRACAS_GROUP_SURFACES
+#define SHELL FRACAS_GROUP_SHELL
+
+static const fracas_param params[] = {
+    KEY("velocity_x", velocity[0], "m/s", ALL,
+        "velocity along x, but of components that edges hold"),
+    KEY("velocity_y", velocity[1], "m/s", ALL, "velocity along y"),
+    KEY("velocity_z", velocity[2], "m/s", SHELL, "velocity along z"),
+    KEY("spin", spin, "rad/s", ALL,
+        "angular velocity about the axis along z through at_x, at_y, beside those velocities"),
+    KEY("at_x", at[0], "m", ALL, "x of the spin's axis and of the middle of `within`; none is 0"),
+    KEY("at_y", at[1], "m", ALL, "y of both; none is 0"),
+    KEY("at_z", at[2], "m", SHELL, "z of the middle; none is 0"),
+    {.name = "within",
+     .type = FRACAS_REAL,
+     .unit = "m",
+     .doc = "nodes farther from the middle start without this velocity; none: all have it",
+     .fallback = FRACAS_REQUIRED,
+     .maximum = INFINITY,
+     .minimum_open = true,
+     .offset = offsetof(fracas_initial, within),
+     .only = ALL,
+     .optional = true},
+    KEY("from_x", from[0], "m", ALL, "nodes with a smaller x start without it"),
+    KEY("to_x", to[0], "m", ALL, "nodes with a larger x start without it"),
+    KEY("from_y", from[1], "m", ALL, "nodes with a smaller y start without it"),
+    KEY("to_y", to[1], "m", ALL, "nodes with a larger y start without it"),
+    KEY("from_z", from[2], "m", SHELL, "nodes with a smaller z start without it"),
+    KEY("to_z", to[2], "m", SHELL, "nodes with a larger z start without it"),
+    KEY("strain_x", strain[0], "1", ALL, "uniform strain along x, from the stress-free state"),
+    KEY("strain_y", strain[1], "1", ALL, "along y"),
+    KEY("strain_z", strain[2], "1", SHELL, "along z"),
+    KEY("strain_xy", strain_xy, "1", ALL, "shear strain, half the change of the angle of x and y"),
+    KEY("stress_x", stress[0], "Pa", ALL,
+        "uniform stress along x of a flat body; its strains add to those above"),
+    KEY("stress_y", stress[1], "Pa", ALL, "along y"),
+    KEY("stress_xy", stress_xy, "Pa", ALL, "shear stress"),
+    KEY("temperature", temperature, "K", ALL,
+        "change of the temperature from the stress-free state, all at once: cooling is below 0"),
+    KEY("expansion_coefficient", expansion, "1/K", ALL,
+        "thermal strain by temperature, of which the body has the opposite where it is held"),
+};
+
+/* NaN: not given. Keys that a model does not have are 0. */
+static double given(double value)
+{
+    return isnan(value) ? 0 : value;
+}
+
+static bool is_set(double value)
+{
+    return fabs(value) > 0; /* NaN: no */
+}
+
+bool fracas_initial_moves(const fracas_initial *initial)
+{
+    bool moves = is_set(initial->spin);
+    for (int i = 0; i < 3; i++) moves = moves || is_set(initial->velocity[i]);
+    return moves;
+}
+
+/* Both 0: the model has no such limits. */
+static bool is_limited(const fracas_initial *initial, int i)
+{
+    return is_set(initial->from[i]) || is_set(initial->to[i]) ||
+           isnan(initial->from[i]) != isnan(initial->to[i]);
+}
+
+bool fracas_initial_parts(const fracas_initial *initial)
+{
+    bool parts = initial->within > 0;
+    for (int i = 0; i < 3; i++) parts = parts || is_limited(initial, i);
+    return parts && fracas_initial_moves(initial);
+}
+
+bool fracas_initial_has_stress(const fracas_initial *initial)
+{
+    return is_set(initial->stress[0]) || is_set(initial->stress[1]) || is_set(initial->stress_xy);
+}
+
+static bool has(const fracas_initial *initial, const double x[3])
+{
+    double square = 0;
+    for (int i = 0; i < 3; i++) {
+        const double apart = x[i] - given(initial->at[i]);
+        square += apart * apart;
+        if (is_limited(initial, i) && (x[i] < initial->from[i] || x[i] > initial->to[i]))
+            return false; /* NaN: no limit */
+    }
+    return !(initial->within > 0) || square <= initial->within * initial->within;
+}
+
+/* (initial.1) */
+void fracas_initial_velocity(const fracas_initial *initial, const double x[3], double velocity[3])
+{
+    const double spin = given(initial->spin);
+    for (int i = 0; i < 3; i++) velocity[i] = 0;
+    if (!has(initial, x)) return;
+    for (int i = 0; i < 3; i++) velocity[i] = given(initial->velocity[i]);
+    velocity[0] -= spin * (x[1] - given(initial->at[1]));
+    velocity[1] += spin * (x[0] - given(initial->at[0]));
+}
+
+/* (initial.2) */
+fracas_initial_strain fracas_initial_strain_of(const fracas_spec *spec)
+{
+    const fracas_initial *initial = &spec->initial;
+    const double young = spec->material.young, nu = spec->material.poisson,
+                 thermal = -given(initial->expansion) * given(initial->temperature);
+    fracas_initial_strain s = {given(initial->strain[0]) + thermal,
+                               given(initial->strain[1]) + thermal,
+                               given(initial->strain[2]) + thermal, given(initial->strain_xy)};
+    if (!fracas_initial_has_stress(initial)) return s; /* a chain has no nu */
+    const double x = given(initial->stress[0]), y = given(initial->stress[1]);
+    s.x += (x - nu * y) / young;
+    s.y += (y - nu * x) / young;
+    s.xy += (1 + nu) * given(initial->stress_xy) / young;
+    return s;
+}
+
+bool fracas_initial_is_strained(const fracas_spec *spec)
+{
+    const fracas_initial_strain s = fracas_initial_strain_of(spec);
+    return is_set(s.x) || is_set(s.y) || is_set(s.z) || is_set(s.xy);
+}
+
+/* (initial.3) */
+void fracas_initial_displacement(const fracas_initial_strain *s, const double x[3],
+                                 double displacement[3])
+{
+    displacement[0] = s->x * x[0] + s->xy * x[1];
+    displacement[1] = s->xy * x[0] + s->y * x[1];
+    displacement[2] = s->z * x[2];
+}
+
+/* E (a + nu b)/(1 - nu^2) of every two principal strains a, b. */
+double fracas_initial_stress(const fracas_spec *spec)
+{
+    const fracas_initial_strain s = fracas_initial_strain_of(spec);
+    const bool flat = spec->formulation->groups & FRACAS_GROUP_MEMBRANE;
+    const double nu = spec->material.poisson, mean = 0.5 * (s.x + s.y),
+                 radius = sqrt(0.25 * (s.x - s.y) * (s.x - s.y) + s.xy * s.xy),
+                 principal[3] = {mean + radius, mean - radius, s.z};
+    double largest = 0;
+    for (int i = 0; i < (flat ? 2 : 3); i++)
+        for (int j = 0; j < i; j++)
+            largest = fmax(largest, fmax(fabs(principal[i] + nu * principal[j]),
+                                         fabs(principal[j] + nu * principal[i])));
+    return spec->material.young / (1 - nu * nu) * largest;
+}
+
+static fracas_err check_limits(const fracas_initial *initial)
+{
+    static const char axis[] = "xyz";
+    for (int i = 0; i < 3; i++)
+        if (is_limited(initial, i) && initial->to[i] <= initial->from[i])
+            return fracas_fail(FRACAS_USAGE,
+                               "to_%c is %g m, not beyond from_%c, %g m: no node is between them",
+                               axis[i], initial->to[i], axis[i], initial->from[i]);
+    return FRACAS_OK;
+}
+
+/* A temperature alone strains nothing, nor does a coefficient. */
+static fracas_err check_initial(const void *section)
+{
+    const fracas_initial *initial = section;
+    if (is_set(initial->temperature) && !is_set(initial->expansion))
+        return fracas_fail(FRACAS_USAGE,
+                           "temperature is %g K, without an expansion_coefficient: give the "
+                           "material's, for instance expansion_coefficient: 8e-6 1/K",
+                           initial->temperature);
+    return check_limits(initial);
+}
+
+const fracas_section fracas_initial_section = {
+    .name = "initial",
+    .doc = "How a surface starts, beside its load: at rest and free of stress without it",
+    FRACAS_PARAMS(params),
+    .offset = offsetof(fracas_spec, initial),
+    .hashed = true,
+    .check = check_initial,
+};
