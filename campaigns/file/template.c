@@ -122,10 +122,13 @@ static void write_param(const fracas_kind *model, const fracas_section *section,
 static void write_section(const fracas_kind *model, const fracas_section *section, FILE *out)
 {
     const fracas_kind *kind = kind_of(model, section);
-    fprintf(out, "\n# %s.\n", section->doc);
-    bool any = kind != NULL;
-    for (size_t p = 0; p < section->nparams; p++)
+    bool any = kind != NULL, known = any;
+    for (size_t p = 0; p < section->nparams; p++) {
         any = any || value_of(model, section->name, section->params[p].name);
+        known = known || fracas_param_is_of(&section->params[p], model);
+    }
+    if (!known) return; /* the model has none of its keys */
+    fprintf(out, "\n# %s.\n", section->doc);
     fprintf(out, "%s%s:\n", any ? "" : "# ", section->name); /* an empty section is none */
     if (kind) write_kinds(model, section, kind, out);
     for (size_t p = 0; p < section->nparams; p++)
