@@ -82,12 +82,16 @@ struct fracas_kind {
 
 enum { FRACAS_RENAMED = 64 }; /* characters of a name that an attachment gives to a key, with NUL */
 
-typedef struct {
+typedef struct fracas_section fracas_section;
+struct fracas_section {
     const char *name; /* key of the section at the top of the file */
     const char *doc;
     const char *selector;            /* key that names the kind; NULL: the section has no kinds */
     const fracas_kind *const *kinds; /* registry; the first is the default */
     size_t nkinds;
+    /* The section is the item after `follows` of a list: `follows: [{...}, {...}]`. It is no key of
+     * the file's top, and without its selector not there: its kind is NULL. NULL: no list. */
+    const fracas_section *follows;
     size_t kind_offset;         /* place of the `const fracas_kind *` in the section's struct */
     const fracas_param *params; /* keys common to all kinds */
     size_t nparams;
@@ -102,7 +106,7 @@ typedef struct {
     /* Name number i, from 0, of those: false after the last. */
     bool (*renames)(const fracas_attachment *of, size_t i, char name[FRACAS_RENAMED]);
     const char *renamed; /* one of these keys: all take its values; NULL without `rename` */
-} fracas_section;
+};
 
 #define FRACAS_COUNT(array) (sizeof(array) / sizeof *(array))
 

@@ -79,6 +79,7 @@ typedef struct {
     const fracas_kind *contact; /* surfaces: law, none; NULL: law */
 } fracas_notch;
 
+enum { FRACAS_LOADINGS = 3 }; /* at most, at a point */
 /* How a surface starts, beside its load. NaN: not given; 0: none. */
 typedef struct {
     double velocity[3];    /* m/s */
@@ -154,7 +155,7 @@ typedef struct {
     fracas_cohesive cohesive;
     fracas_notch notch;
     fracas_initial initial;
-    fracas_loading loading;
+    fracas_loading loading, also[FRACAS_LOADINGS - 1]; /* `also`: loads; of type NULL: none */
     fracas_time time;
     /* Frequencies of earlier models; this one's are added. No parameter; NULL: none. */
     struct fracas_frequencies *frequencies;

@@ -45,8 +45,7 @@ static int rank_of(const char *path)
     const int n = (int)(sizeof order / sizeof *order);
     for (int i = 0; i < n; i++) {
         size_t length = strlen(order[i]);
-        if (!strncmp(path, order[i], length) && (path[length] == '.' || path[length] == '\0'))
-            return i;
+        if (!strncmp(path, order[i], length) && strchr("._", path[length])) return i;
     }
     return strncmp(path, "derived.", strlen("derived.")) ? n : -1;
 }

@@ -101,7 +101,7 @@ static void put_campaign(const fracas_page *page)
         const char *term, *prefix;
     } group[] = {{"body", "geometry."},     {"mesh", "mesh."},         {"material", "material."},
                  {"cohesive", "cohesive."}, {"strength", "strength."}, {"loading", "loading."},
-                 {"time", "time."}};
+                 {"load 2", "loading_2."},  {"load 3", "loading_3."},  {"time", "time."}};
     const fracas_file_header *header = &page->analysis->header;
     char text[128];
     fputs("<h3>What was run</h3>\n<dl>\n", page->out);

@@ -149,6 +149,14 @@ const fracas_file_section *fracas_catalog_section(const fracas_catalog *catalog,
     return NULL;
 }
 
+const fracas_file_section *fracas_catalog_next(const fracas_catalog *catalog,
+                                               const fracas_file_section *section)
+{
+    for (size_t s = 0; s < catalog->nsections; s++)
+        if (catalog->section[s].table->follows == section->table) return &catalog->section[s];
+    return NULL;
+}
+
 const fracas_leaf *fracas_catalog_leaf(const fracas_catalog *catalog, const char *path)
 {
     for (size_t i = 0; i < catalog->nleaves; i++)
@@ -226,8 +234,8 @@ bool fracas_leaf_get(const fracas_leaf *leaf, const void *owner, fracas_value *v
     const fracas_kind *kind = fracas_section_kind(leaf->section, owner);
     *value = (fracas_value){.real = NAN, .text = ""};
     if (!leaf->param) {
-        value->text = kind->name;
-        return true;
+        value->text = kind ? kind->name : "";
+        return kind != NULL;
     }
     const fracas_kind *model = model_in(leaf->section, owner);
     const fracas_param *param = fracas_section_param(leaf->section->table, kind, model, leaf->key);

@@ -35,6 +35,10 @@ typedef struct {
 FRACAS_MUST_USE fracas_err fracas_catalog_make(fracas_campaign_memory *memory,
                                                const fracas_catalog **catalog);
 
+/* The section that follows this one in a list; NULL: none does. */
+const fracas_file_section *fracas_catalog_next(const fracas_catalog *catalog,
+                                               const fracas_file_section *section);
+
 /* NULL if the name is unknown. `key` NULL: the leaf with the name of the section's kind. */
 const fracas_file_section *fracas_catalog_section(const fracas_catalog *catalog, const char *name);
 const fracas_leaf *fracas_catalog_leaf(const fracas_catalog *catalog, const char *path);
@@ -58,7 +62,8 @@ bool fracas_section_common(const fracas_section *section, const fracas_kind *mod
 
 /* The section's struct within its owner. */
 void *fracas_section_at(const fracas_file_section *section, void *owner);
-/* The section's kind in its owner; NULL without kinds. */
+/* The section's kind in its owner; NULL without kinds, and where a section that follows another is
+ * not there. */
 const fracas_kind *fracas_section_kind(const fracas_file_section *section, const void *owner);
 
 /* Choices of the leaf's key, of all kinds of its section together; returns their number. */

@@ -189,21 +189,45 @@ static void write_names_of_file(fracas_json *json, const fracas_catalog *catalog
 }
 
 /* Unknown keys are mistakes, unless a file of the section may name them. */
-static void begin_section(fracas_json *json, const fracas_catalog *catalog,
+static void begin_section(fracas_json *json, const fracas_catalog *catalog, const char *name,
                           const fracas_file_section *section)
 {
-    fracas_json_object(json, section->table->name);
+    fracas_json_object(json, name);
     fracas_json_text(json, "type", "object");
     if (section->table->rename) write_names_of_file(json, catalog, section);
     else fracas_json_boolean(json, "additionalProperties", false);
     fracas_json_object(json, "properties");
 }
 
+/* The section, or a list of it and those that follow. */
+static void write_list(fracas_json *json, const fracas_catalog *catalog, const char *item,
+                       const fracas_file_section *section)
+{
+    fracas_json_object(json, section->table->name);
+    fracas_json_array(json, "anyOf");
+    write_ref(json, NULL, item);
+    fracas_json_object(json, NULL);
+    fracas_json_text(json, "type", "array");
+    fracas_json_array(json, "prefixItems");
+    write_ref(json, NULL, item);
+    while ((section = fracas_catalog_next(catalog, section)))
+        write_ref(json, NULL, section->table->name);
+    fracas_json_close(json);
+    fracas_json_boolean(json, "items", false);
+    fracas_json_close(json);
+    fracas_json_close(json);
+    fracas_json_close(json);
+}
+
 static void write_section(fracas_json *json, const fracas_catalog *catalog,
                           const fracas_file_section *section)
 {
     if (is_leaf(catalog, section->table)) return;
-    begin_section(json, catalog, section);
+    const bool first = !section->table->follows && fracas_catalog_next(catalog, section);
+    char item[80];
+    snprintf(item, sizeof item, "%s%s", section->table->name, first ? "_1" : "");
+    if (first) write_list(json, catalog, item, section);
+    begin_section(json, catalog, item, section);
     for (size_t i = 0; i < catalog->nleaves; i++)
         if (catalog->leaf[i].section == section)
             write_ref(json, catalog->leaf[i].key, catalog->leaf[i].path);
@@ -215,7 +239,8 @@ static void write_section(fracas_json *json, const fracas_catalog *catalog,
 static void write_sections(fracas_json *json, const fracas_catalog *catalog)
 {
     for (size_t s = 0; s < catalog->nsections; s++)
-        write_ref(json, catalog->section[s].table->name, catalog->section[s].table->name);
+        if (!catalog->section[s].table->follows)
+            write_ref(json, catalog->section[s].table->name, catalog->section[s].table->name);
 }
 
 static void write_replicas(fracas_json *json)

@@ -67,6 +67,19 @@ static const char *section_opened(const fracas_catalog *catalog, const char *key
     return NULL;
 }
 
+/* A section that follows another is written in its list. */
+static fracas_err in_list(const fracas_file *file, const fracas_file_section *section,
+                          const fracas_node *key)
+{
+    const fracas_section *first = section->table;
+    while (first->follows) first = first->follows;
+    fracas_file_doubt_section(file, section, true);
+    return fracas_file_error(file, key,
+                             "`%s` is no key at the top of the file: write `%s: [{...}, {...}]`, "
+                             "whose items after the first are `%s_2` and so on in a sweep",
+                             key->text, first->name, first->name);
+}
+
 static fracas_err check_section(reading *read, const fracas_node *entry)
 {
     const fracas_file *file = &read->file;
@@ -78,9 +91,12 @@ static fracas_err check_section(reading *read, const fracas_node *entry)
         if (strcmp(own_keys[k], key->text) == 0) return FRACAS_OK;
         fracas_words_add(&words, own_keys[k]);
     }
-    if (fracas_catalog_section(catalog, key->text)) return FRACAS_OK;
+    const fracas_file_section *known = fracas_catalog_section(catalog, key->text);
+    if (known && known->table->follows) return in_list(file, known, key);
+    if (known) return FRACAS_OK;
     for (size_t s = 0; s < catalog->nsections; s++)
-        fracas_words_add(&words, catalog->section[s].table->name);
+        if (!catalog->section[s].table->follows)
+            fracas_words_add(&words, catalog->section[s].table->name);
     const char *opened = section_opened(catalog, key->text);
     doubt_key(read, entry, opened ? opened : words.nearest);
     if (opened)
@@ -169,7 +185,7 @@ static fracas_err read_sections(reading *read)
     const fracas_file *file = &read->file;
     for (const fracas_node *node = file->root->first; node; node = node->next) {
         const fracas_file_section *section = fracas_catalog_section(file->catalog, node->key->text);
-        if (!section) continue;
+        if (!section || section->table->follows) continue;
         const fracas_leaf *leaf = fracas_catalog_leaf(file->catalog, node->key->text);
         TRY(leaf ? fracas_settings_read(file, leaf, node, &read->base)
                  : fracas_settings_add_section(file, section, node, &read->base));

@@ -94,6 +94,7 @@ static void write_partners(const fracas_catalog *catalog, const fracas_kind *mod
     for (size_t s = 0; s < catalog->nsections; s++) {
         const fracas_section *section = catalog->section[s].table;
         const fracas_kind *partner;
+        if (section->follows) continue;
         for (size_t i = 0; (partner = fracas_kind_partner(model, section, i)); i++) {
             if (i == 0)
                 fprintf(out, "- `%s.%s`: `%s`", section->name, fracas_section_selector(section),
@@ -125,9 +126,30 @@ static void write_kinds(const fracas_catalog *catalog, const fracas_section *sec
     }
 }
 
+/* A section that is an item of a list has kinds of the list's first, with their keys. */
+static void write_item(const fracas_section *section, FILE *out)
+{
+    const fracas_section *first = section;
+    size_t place = 1;
+    for (; first->follows; first = first->follows) place++;
+    fprintf(out, "Item %zu of a list `%s: [{...}, {...}]`, `%s.KEY` in a sweep. `%s:` is ", place,
+            first->name, section->name, fracas_section_selector(section));
+    for (size_t k = 0; k < section->nkinds; k++)
+        fprintf(out, "%s`%s`",
+                k == 0                    ? ""
+                : k + 1 < section->nkinds ? ", "
+                                          : " or ",
+                section->kinds[k]->name);
+    fprintf(out, ", with the keys of `%s`.\n", first->name);
+}
+
 static void write_section(const fracas_catalog *catalog, const fracas_section *section, FILE *out)
 {
     fprintf(out, "\n## `%s`\n\n%s.\n", section->name, section->doc);
+    if (section->follows) {
+        write_item(section, out);
+        return;
+    }
     if (section->run)
         fprintf(out, "It cannot be swept, is in no hash, and may change from run to run.\n");
     else if (!section->hashed)

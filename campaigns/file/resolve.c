@@ -62,7 +62,7 @@ static const fracas_kind *kind_of(const fracas_file *file, const fracas_draft *d
     const fracas_setting *by;
     *chosen = selected(file, draft, of, section);
     if (*chosen) return (*chosen)->kind;
-    if (section->table->nkinds == 0) return NULL;
+    if (section->table->nkinds == 0 || section->table->follows) return NULL;
     const fracas_kind *partner = fracas_kind_partner(model_of(file, draft, of, &by), section->table,
                                                      0);
     return partner ? partner : section->table->kinds[0];
@@ -88,11 +88,12 @@ static fracas_err check_partner(const fracas_file *file, const fracas_draft *dra
                              partner->name);
         if (used + (size_t)added < sizeof takes) used += (size_t)added;
     }
-    if (i == 0) return FRACAS_OK;
+    if (i == 0 && !table->follows) return FRACAS_OK;
     if (by) snprintf(line, sizeof line, "; the model is chosen at line %d", by->node->line);
     return fracas_file_error(file, chosen->node,
                              "`%s`: %s cannot be combined with model %s, which takes %s%s",
-                             chosen->leaf->key, chosen->kind->name, model->name, takes, line);
+                             table->follows ? table->name : chosen->leaf->key, chosen->kind->name,
+                             model->name, i == 0 ? "one of its list alone" : takes, line);
 }
 
 /* If only the sweep names models, its points are checked later. */
@@ -133,6 +134,10 @@ static fracas_err misplaced(const fracas_file *file, const fracas_setting *setti
                             const fracas_setting *chosen)
 {
     const fracas_node *at = setting->node->key ? setting->node->key : setting->node;
+    if (!kind)
+        return fracas_file_error(file, at, "`%s` belongs to %s %s, and %s has no `%s`: give it one",
+                                 setting->leaf->path, selector, names->text,
+                                 setting->leaf->section->table->name, selector);
     if (!chosen)
         return fracas_file_error(
             file, at, "`%s` belongs to %s %s; this is %s, the default, as no `%s` is given",

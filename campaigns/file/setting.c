@@ -298,7 +298,8 @@ static fracas_err unknown_key(const fracas_file *file, const fracas_file_section
     const char *name = words.nearest, *home = NULL; /* another section with this key */
     for (size_t i = 0; i < catalog->nleaves; i++) {
         if (catalog->leaf[i].section == section) fracas_words_add(&words, catalog->leaf[i].key);
-        else if (strcmp(catalog->leaf[i].key, key->text) == 0)
+        else if (strcmp(catalog->leaf[i].key, key->text) == 0 &&
+                 !catalog->leaf[i].section->table->follows)
             home = catalog->leaf[i].section->table->name;
     }
     const char *nearest = words.nearest;
@@ -342,8 +343,8 @@ static fracas_err leaf_of(const fracas_file *file, const fracas_file_section *se
     return *leaf ? FRACAS_OK : unknown_key(file, section, node, entry);
 }
 
-fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_file_section *section,
-                                       const fracas_node *node, fracas_settings *settings)
+static fracas_err add_one(const fracas_file *file, const fracas_file_section *section,
+                          const fracas_node *node, fracas_settings *settings)
 {
     if (node->type != FRACAS_MAP) {
         TRY(fracas_file_note(file, no_section(file, section, node)));
@@ -355,6 +356,32 @@ fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_fil
         if (leaf) TRY(fracas_settings_read(file, leaf, entry, settings));
     }
     return FRACAS_OK;
+}
+
+/* The items of a list are this section and those that follow it. */
+static fracas_err add_list(const fracas_file *file, const fracas_file_section *section,
+                           const fracas_node *node, fracas_settings *settings)
+{
+    size_t most = 0;
+    const fracas_node *item = node->first;
+    const fracas_file_section *one = section;
+    for (; item && one; item = item->next, most++) {
+        TRY(add_one(file, one, item, settings));
+        one = fracas_catalog_next(file->catalog, one);
+    }
+    if (!item) return FRACAS_OK;
+    return fracas_file_note(file, fracas_file_error(file, item,
+                                                    "`%s` has %zu items; a list of it has at most "
+                                                    "%zu",
+                                                    section->table->name, node->count, most));
+}
+
+fracas_err fracas_settings_add_section(const fracas_file *file, const fracas_file_section *section,
+                                       const fracas_node *node, fracas_settings *settings)
+{
+    const bool list = node->type == FRACAS_LIST && node->first && !section->table->follows &&
+                      fracas_catalog_next(file->catalog, section);
+    return list ? add_list(file, section, node, settings) : add_one(file, section, node, settings);
 }
 
 /* ---- ranges ---- */

@@ -368,6 +368,7 @@ static const fracas_file_section *section_before_dot(const fracas_catalog *catal
                                                      const char *path)
 {
     const char *dot = strchr(path, '.');
+    if (dot && strchr("0123456789", dot[1])) return NULL; /* an item of a list, guessed */
     for (size_t s = 0; dot && s < catalog->nsections; s++) {
         const char *name = catalog->section[s].table->name;
         if (strlen(name) == (size_t)(dot - path) && strncmp(name, path, strlen(name)) == 0)
@@ -392,7 +393,8 @@ static const char *path_of_key(const fracas_catalog *catalog, const char *key, c
     size_t found = 0;
     for (size_t i = 0; i < catalog->nleaves; i++) {
         const fracas_leaf *leaf = &catalog->leaf[i];
-        if (!leaf->section->table->hashed || strcmp(leaf->key, key) != 0) continue;
+        const fracas_section *table = leaf->section->table;
+        if (!table->hashed || table->follows || strcmp(leaf->key, key) != 0) continue;
         path = leaf->path;
         found++;
     }

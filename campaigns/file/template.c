@@ -161,7 +161,8 @@ fracas_err fracas_campaign_template(const char *name, FILE *out)
             "name: my-%s\nseed: 1\nreplicas: 4\nmodel: %s # %s\n",
             model->name, model->name, model->doc);
     for (size_t s = 1; s < catalog->nsections; s++)
-        write_section(model, catalog->section[s].table, out);
+        if (!catalog->section[s].table->follows)
+            write_section(model, catalog->section[s].table, out);
     fprintf(out, "\n# Points: every combination of the values of each axis.\n# sweep:\n"
                  "#   - strength.shape: [5, 10, 20]\n");
     return FRACAS_OK;

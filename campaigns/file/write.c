@@ -42,7 +42,7 @@ static bool kind_varies(const fracas_file_section *section, const fracas_campaig
 static bool is_common(const fracas_leaf *leaf, const fracas_kind *unnamed,
                       const fracas_campaign *campaign)
 {
-    if (!leaf->param) return false;
+    if (!leaf->param || leaf->section->table->follows) return false;
     const fracas_kind *first = campaign->point[0].spec.formulation;
     bool common = fracas_section_common(leaf->section->table, first, leaf->key);
     for (size_t p = 1; p < campaign->npoints && common; p++) {
@@ -88,20 +88,42 @@ static void write_unit(const fracas_leaf *leaf, FILE *out)
     fprintf(out, "%s%s\n", pure ? "" : " # ", pure ? "" : leaf->param->unit);
 }
 
+/* True if a section that follows this one in a list is in the base. */
+static bool is_followed(const fracas_catalog *catalog, const bool *base,
+                        const fracas_file_section *section)
+{
+    while ((section = fracas_catalog_next(catalog, section)))
+        for (size_t i = 0; i < catalog->nleaves; i++)
+            if (catalog->leaf[i].section == section && base[i]) return true;
+    return false;
+}
+
+/* An item of a list, if the section follows another or is followed by one: `- {}` without values.
+ */
 static void write_section(const fracas_catalog *catalog, const bool *base,
                           const fracas_file_section *section, const fracas_campaign *campaign,
                           FILE *out)
 {
+    const bool later = is_followed(catalog, base, section), first = !section->table->follows,
+               item = later || !first;
     bool begun = false;
     for (const fracas_leaf *leaf = NULL; (leaf = next_leaf(catalog, section, leaf));) {
         char text[FRACAS_LEAF_TEXT];
         if (!base[leaf - catalog->leaf] || !write_value(leaf, campaign, 0, text)) continue;
         const bool whole = strcmp(leaf->path, section->table->name) == 0;
-        if (!begun && !whole) fprintf(out, "%s:\n", section->table->name);
+        if (!begun && !whole && first) fprintf(out, "%s:\n", section->table->name);
+        fprintf(out, "%s%s: %s",
+                whole   ? ""
+                : !item ? "  "
+                : begun ? "    "
+                        : "  - ",
+                leaf->key, text);
         begun = true;
-        fprintf(out, "%s%s: %s", whole ? "" : "  ", leaf->key, text);
         write_unit(leaf, out);
     }
+    if (begun || !later) return;
+    if (first) fprintf(out, "%s:\n", section->table->name);
+    fprintf(out, "  - {}\n");
 }
 
 /* ---- the cases ---- */

@@ -122,14 +122,14 @@ static double initial_stress_bound(const fracas_spec *spec, const holding *held,
 static double surface_stress_bound(const fracas_spec *spec, const fracas_body_size *size)
 {
     const fracas_loading_traits *load = fracas_loading_traits_of(spec);
-    const fracas_stretch stretch = load->surface(spec, spec->time.end);
+    const fracas_stretch stretch = fracas_loading_stretch(spec, spec->time.end);
     const holding held = holding_of(spec, &stretch);
     const double nu = spec->material.poisson,
                  factor = concentration_of(spec, &held, ratio_of(&stretch), size);
     const double largest = largest_of(&stretch, nu);
     double stress = factor * spec->material.young * strain_bound(spec, &stretch, &held, size) *
                     largest / (1 - nu * nu);
-    if (load->body_force) {
+    if (load->body_force && !fracas_loading_at(spec, 1) && !fracas_loading_at(spec, 2)) {
         const double rim = spec->loading.speed * size->reach;
         stress = fmin(stress, 2 * spec->material.density * rim * rim * (held.any ? factor : 1));
     }
@@ -148,7 +148,7 @@ double fracas_stress_bound(const fracas_spec *spec, const fracas_body_size *size
 static double surface_opening_bound(const fracas_spec *spec, double extent)
 {
     const double t = spec->time.end, nu = spec->material.poisson;
-    const fracas_stretch stretch = fracas_loading_traits_of(spec)->surface(spec, t);
+    const fracas_stretch stretch = fracas_loading_stretch(spec, t);
     const double wave = wave_speed(spec) * t * (1 + nu) / sqrt(1 - nu * nu);
     const bool sudden = stretch.shock; /* edges open at their own velocity from the start */
     const double most = fmax(1, fmax(fabs(stretch.ratio), fabs(stretch.ratio_z))); /* not NaN */

@@ -411,7 +411,7 @@ WARNING(warn_steered, forecast->mesh.steered > STEERED && forecast->interfaces >
 /* An expansion whose third rate nobody has chosen. */
 static bool stretches_alike(const fracas_spec *spec)
 {
-    const fracas_stretch stretch = fracas_loading_traits_of(spec)->surface(spec, 0);
+    const fracas_stretch stretch = fracas_loading_stretch(spec, 0);
     return stretch.moving && isnan(stretch.ratio_z);
 }
 

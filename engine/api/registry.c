@@ -25,8 +25,9 @@ static const fracas_section formulation_section = {
 };
 
 const fracas_section *const fracas_engine_sections[] = {
-    &formulation_section,     &fracas_geometry_section, &fracas_mesh_section,
-    &fracas_material_section, &fracas_cohesive_section, &fracas_notch_section,
-    &fracas_initial_section,  &fracas_loading_section,  &fracas_time_section,
+    &formulation_section,        &fracas_geometry_section,    &fracas_mesh_section,
+    &fracas_material_section,    &fracas_cohesive_section,    &fracas_notch_section,
+    &fracas_initial_section,     &fracas_loading_sections[0], &fracas_loading_sections[1],
+    &fracas_loading_sections[2], &fracas_time_section,
 };
 const size_t fracas_engine_nsections = FRACAS_COUNT(fracas_engine_sections);

@@ -95,8 +95,9 @@ typedef struct {
      * moved edges the force along their path [N]; square of the angular velocity [1/s2] */
     double driven[FRACAS_LANES_MAX];
     _Alignas(64) double spin[FRACAS_LANES_MAX];
-    /* the same: amplitude of a load now, a step before  (loads.2) */
-    _Alignas(64) double amplitude[FRACAS_LANES_MAX], amplitude_before[FRACAS_LANES_MAX];
+    /* the same: amplitudes of loads now, a step before  (loads.2) */
+    _Alignas(64) double amplitude[FRACAS_LOADINGS][FRACAS_LANES_MAX];
+    _Alignas(64) double amplitude_before[FRACAS_LOADINGS][FRACAS_LANES_MAX];
     /* the same: path of moved edges now and a step later [m]  (loads.6) */
     _Alignas(64) double path[FRACAS_LANES_MAX], path_next[FRACAS_LANES_MAX];
     /* accumulated: counts of interfaces, time of the first onset [s, NaN] */

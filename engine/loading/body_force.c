@@ -12,10 +12,11 @@ static const fracas_param params[] = {
     FRACAS_LOAD_SPOT,     FRACAS_LOAD_AMPLITUDE,
 };
 
-static void density(const fracas_spec *spec, const fracas_place *at, double density[3])
+static void density(const fracas_spec *spec, const fracas_loading *loading, const fracas_place *at,
+                    double density[3])
 {
-    (void)at;
-    for (int i = 0; i < 3; i++) density[i] = spec->loading.body_force[i];
+    (void)spec, (void)at;
+    for (int i = 0; i < 3; i++) density[i] = loading->body_force[i];
 }
 
 static const fracas_load load = {.on = FRACAS_LOAD_ON_MASS, .density = density};

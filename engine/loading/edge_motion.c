@@ -78,18 +78,18 @@ static const fracas_param params[] = {
 };
 
 /* d in (loads.5) */
-static void direction_at(const fracas_spec *spec, const fracas_place *at, double direction[3])
+static void direction_at(const fracas_spec *spec, const fracas_loading *loading,
+                         const fracas_place *at, double direction[3])
 {
-    const motion_direction *of = spec->loading.direction->traits;
+    (void)spec;
+    const motion_direction *of = loading->direction->traits;
     const double *vector = (const double *)((const char *)at + of->of_place);
     for (int i = 0; i < 3; i++) direction[i] = vector[i];
 }
 
-static const char *edge_of(const fracas_spec *spec, int i)
+static const char *edge_of(const fracas_loading *loading, int i)
 {
-    const fracas_kind *edge = i == 0   ? spec->loading.edge
-                              : i == 1 ? spec->loading.second_edge
-                                       : NULL;
+    const fracas_kind *edge = i == 0 ? loading->edge : i == 1 ? loading->second_edge : NULL;
     return edge ? edge->name : NULL;
 }
 

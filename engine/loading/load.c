@@ -113,9 +113,10 @@ double fracas_load_largest(const fracas_loading *loading, double t)
     return fracas_load_has_front(loading) ? INFINITY : fmax(1, t / loading->duration - 1);
 }
 
-fracas_stretch fracas_load_unbounded(const fracas_spec *spec, double t)
+fracas_stretch fracas_load_unbounded(const fracas_spec *spec, const fracas_loading *loading,
+                                     double t)
 {
-    (void)spec, (void)t;
+    (void)spec, (void)loading, (void)t;
     return (fracas_stretch){.strain = INFINITY, .ratio = 1, .ratio_z = NAN};
 }
 

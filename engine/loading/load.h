@@ -31,10 +31,11 @@ typedef struct {
 
 struct fracas_load {
     fracas_load_on on;
-    void (*density)(const fracas_spec *spec, const fracas_place *at, double density[3]);
+    void (*density)(const fracas_spec *spec, const fracas_loading *loading, const fracas_place *at,
+                    double density[3]);
     /* Key of the i-th edge of the shape on which it acts, from 0; NULL after the last. NULL of
      * loads on areas and masses. */
-    const char *(*edge)(const fracas_spec *spec, int i);
+    const char *(*edge)(const fracas_loading *loading, int i);
     /* Path of a motion, from s(0) = 0 [m]; NULL: a force. */
     double (*path)(const fracas_loading *loading, const fracas_profile *history, double t);
 };
@@ -74,7 +75,8 @@ bool fracas_load_has_front(const fracas_loading *loading);
 double fracas_load_largest(const fracas_loading *loading, double t);
 
 /* Trait `surface` of a load without a known bound of the strain. */
-fracas_stretch fracas_load_unbounded(const fracas_spec *spec, double t);
+fracas_stretch fracas_load_unbounded(const fracas_spec *spec, const fracas_loading *loading,
+                                     double t);
 
 /* FRACAS_USAGE unless the keys of the amplitude go together. */
 FRACAS_MUST_USE fracas_err fracas_load_check(const fracas_loading *loading);

@@ -219,9 +219,9 @@ static const fracas_param expansion[] = {
     {FRACAS_ONE_OF("start", starts, offsetof(fracas_loading, start), "how the inside starts")},
 };
 
-static fracas_stretch expansion_surface(const fracas_spec *spec, double t)
+static fracas_stretch expansion_surface(const fracas_spec *spec, const fracas_loading *loading,
+                                        double t)
 {
-    const fracas_loading *loading = &spec->loading;
     const bool shell = spec->formulation->groups & FRACAS_GROUP_SHELL;
     return (fracas_stretch){.strain = fabs(loading->rate) * t,
                             .ratio = loading->ratio,
@@ -247,9 +247,11 @@ static const fracas_param centrifugal[] = {
      INFINITY, false, offsetof(fracas_loading, ramp)},
 };
 
-static fracas_stretch centrifugal_surface(const fracas_spec *spec, double t)
+static fracas_stretch centrifugal_surface(const fracas_spec *spec, const fracas_loading *loading,
+                                          double t)
 {
-    const double speed = spec->loading.speed;
+    const double speed = loading->speed;
+    (void)spec;
     return (fracas_stretch){.strain = 0.5 * speed * speed * t * t, .ratio = 1, .ratio_z = NAN};
 }
 
@@ -262,9 +264,9 @@ const fracas_kind fracas_loading_centrifugal = {
 
 /* ---- none ---- */
 
-static fracas_stretch still(const fracas_spec *spec, double t)
+static fracas_stretch still(const fracas_spec *spec, const fracas_loading *loading, double t)
 {
-    (void)spec, (void)t;
+    (void)spec, (void)loading, (void)t;
     return (fracas_stretch){.ratio = 1, .ratio_z = 1};
 }
 
@@ -273,29 +275,80 @@ const fracas_kind fracas_loading_none = {
     .only = FRACAS_GROUP_SURFACES,
     .traits = &(const fracas_loading_traits){.surface = still, .idle = true}};
 
-static const fracas_kind *const loadings[] = {
-    &fracas_loading_imposed_rate,  &fracas_loading_initial_velocity,
-    &fracas_loading_held_velocity, &fracas_loading_force,
-    &fracas_loading_expansion,     &fracas_loading_centrifugal,
-    &fracas_loading_pressure,      &fracas_loading_body_force,
-    &fracas_loading_traction,      &fracas_loading_edge_motion,
-    &fracas_loading_none};
+/* Forces on surfaces and motions of their edges, which also act beside another loading. */
+#define LOADS                                                                       \
+    &fracas_loading_pressure, &fracas_loading_body_force, &fracas_loading_traction, \
+        &fracas_loading_edge_motion
+static const fracas_kind *const loadings[] = {&fracas_loading_imposed_rate,
+                                              &fracas_loading_initial_velocity,
+                                              &fracas_loading_held_velocity,
+                                              &fracas_loading_force,
+                                              &fracas_loading_expansion,
+                                              &fracas_loading_centrifugal,
+                                              LOADS,
+                                              &fracas_loading_none},
+                                *const loads[] = {LOADS};
 
 /* Members of other loadings are 0. */
 static fracas_err check_loading(const void *section)
 {
     const fracas_loading *loading = section;
-    const fracas_loading_traits *traits = loading->type->traits;
-    return traits->check ? traits->check(loading) : FRACAS_OK;
+    const fracas_loading_traits *traits = loading->type ? loading->type->traits : NULL;
+    return traits && traits->check ? traits->check(loading) : FRACAS_OK;
 }
 
-const fracas_section fracas_loading_section = {
-    .name = "loading",
-    .doc = "What drives the body",
-    .selector = "type",
-    FRACAS_KINDS(loadings),
-    .kind_offset = offsetof(fracas_loading, type),
-    .offset = offsetof(fracas_spec, loading),
-    .hashed = true,
-    .check = check_loading,
+/* The n-th load of several. */
+#define FURTHER(n, key, ordinal)                                                  \
+    [n] = {                                                                       \
+        .name = key,                                                              \
+        .doc = "The " ordinal " of several loads on a surface; none without it",  \
+        .selector = "type",                                                       \
+        FRACAS_KINDS(loads),                                                      \
+        .kind_offset = offsetof(fracas_loading, type),                            \
+        .offset = offsetof(fracas_spec, also) + ((n)-1) * sizeof(fracas_loading), \
+        .hashed = true,                                                           \
+        .follows = &fracas_loading_sections[(n)-1],                               \
+        .check = check_loading,                                                   \
+    }
+
+const fracas_section fracas_loading_sections[FRACAS_LOADINGS] = {
+    {
+        .name = "loading",
+        .doc = "What drives the body",
+        .selector = "type",
+        FRACAS_KINDS(loadings),
+        .kind_offset = offsetof(fracas_loading, type),
+        .offset = offsetof(fracas_spec, loading),
+        .hashed = true,
+        .check = check_loading,
+    },
+    FURTHER(1, "loading_2", "second"),
+    FURTHER(2, "loading_3", "third"),
 };
+
+const fracas_loading *fracas_loading_at(const fracas_spec *spec, int n)
+{
+    const fracas_loading *loading = n == 0 ? &spec->loading : &spec->also[n - 1];
+    return loading->type ? loading : NULL;
+}
+
+const fracas_load *fracas_loading_load(const fracas_spec *spec, int n)
+{
+    const fracas_loading *loading = fracas_loading_at(spec, n);
+    return loading ? ((const fracas_loading_traits *)loading->type->traits)->load : NULL;
+}
+
+fracas_stretch fracas_loading_stretch(const fracas_spec *spec, double t)
+{
+    fracas_stretch sum = fracas_loading_traits_of(spec)->surface(spec, &spec->loading, t);
+    for (int n = 1; n < FRACAS_LOADINGS; n++) {
+        const fracas_loading *loading = fracas_loading_at(spec, n);
+        if (!loading) continue;
+        const fracas_loading_traits *traits = loading->type->traits;
+        const fracas_stretch other = traits->surface(spec, loading, t);
+        const bool alike = sum.ratio == other.ratio && isnan(sum.ratio_z) == isnan(other.ratio_z);
+        sum.strain = alike || other.strain == 0 ? sum.strain + other.strain : INFINITY;
+        sum.whole = sum.whole > 0 && other.whole > 0 ? sum.whole + other.whole : 0;
+    }
+    return sum;
+}

@@ -34,7 +34,8 @@ typedef struct {
     bool shock;     /* they start with a jump in velocity: the inside is at rest */
 } fracas_stretch;
 
-/* Traits of a loading. Functions are NULL for bodies without this loading. */
+/* Traits of a loading. Functions are NULL for bodies without this loading. Those of the spec alone
+ * are asked of the first loading. */
 typedef struct {
     double (*rate)(const fracas_spec *spec); /* strain rate at the start [1/s]; NULL, NaN: none */
     fracas_ring_maxima (*ring)(const fracas_spec *spec, double t); /* bar: stress alone */
@@ -44,7 +45,7 @@ typedef struct {
     /* True if it compresses a ring. `whole`: the ring does not break; `turn`: its time from the
      * greatest speed to the turning point [s]. NULL: never. */
     bool (*folds)(const fracas_spec *spec, bool whole, double turn);
-    fracas_stretch (*surface)(const fracas_spec *spec, double t);
+    fracas_stretch (*surface)(const fracas_spec *spec, const fracas_loading *loading, double t);
     bool idle;               /* it drives nothing */
     bool released;           /* the body moves freely after the start */
     bool body_force;         /* it acts on every unit of mass of a surface, by where that started */
@@ -58,7 +59,16 @@ static inline const fracas_loading_traits *fracas_loading_traits_of(const fracas
     return spec->loading.type->traits;
 }
 
-extern const fracas_section fracas_loading_section;
+/* Loading number n, from 0; NULL: there is none. */
+const fracas_loading *fracas_loading_at(const fracas_spec *spec, int n);
+/* The load of loading number n; NULL: there is none. */
+const fracas_load *fracas_loading_load(const fracas_spec *spec, int n);
+/* The stretch of a plate by all loadings together; INFINITY where loadings of unlike ratios give no
+ * bound. It moves as the first says. */
+fracas_stretch fracas_loading_stretch(const fracas_spec *spec, double t);
+
+/* Section of loading number n; those from 1 on are loads, and optional. */
+extern const fracas_section fracas_loading_sections[FRACAS_LOADINGS];
 extern const fracas_kind fracas_loading_imposed_rate, fracas_loading_initial_velocity,
     fracas_loading_held_velocity, fracas_loading_force, fracas_loading_expansion,
     fracas_loading_centrifugal, fracas_loading_pressure, fracas_loading_body_force,

@@ -14,9 +14,11 @@ static const fracas_param params[] = {
     FRACAS_LOAD_AMPLITUDE,
 };
 
-static void density(const fracas_spec *spec, const fracas_place *at, double density[3])
+static void density(const fracas_spec *spec, const fracas_loading *loading, const fracas_place *at,
+                    double density[3])
 {
-    for (int i = 0; i < 3; i++) density[i] = spec->loading.pressure * at->normal[i];
+    (void)spec;
+    for (int i = 0; i < 3; i++) density[i] = loading->pressure * at->normal[i];
 }
 
 static const fracas_load load = {.on = FRACAS_LOAD_ON_AREA, .density = density};
@@ -24,11 +26,11 @@ static const fracas_load load = {.on = FRACAS_LOAD_ON_AREA, .density = density};
 /* A body of radius R: p t^2/(2 rho h R) as if it had no stiffness; twice the static strain of a
  * tube while whole, four times a sphere's. A surface without a radius may bend: no bound is known.
  */
-static fracas_stretch surface(const fracas_spec *spec, double t)
+static fracas_stretch surface(const fracas_spec *spec, const fracas_loading *loading, double t)
 {
-    const bool partial = fracas_load_has_front(&spec->loading) || spec->loading.spot > 0;
+    const bool partial = fracas_load_has_front(loading) || loading->spot > 0;
     const double radius = spec->geometry.radius, h = spec->geometry.thickness,
-                 p = fabs(spec->loading.pressure) * fracas_load_largest(&spec->loading, t);
+                 p = fabs(loading->pressure) * fracas_load_largest(loading, t);
     return (fracas_stretch){
         .strain = p == 0 ? 0 : p * t * t / (2 * spec->material.density * h * radius),
         .ratio = 1,

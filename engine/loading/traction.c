@@ -15,18 +15,19 @@ static const fracas_param params[] = {
     FRACAS_LOAD_AMPLITUDE,
 };
 
-static void density(const fracas_spec *spec, const fracas_place *at, double density[3])
+static void density(const fracas_spec *spec, const fracas_loading *loading, const fracas_place *at,
+                    double density[3])
 {
-    const double *stress = spec->loading.traction;
+    const double *stress = loading->traction;
     for (int i = 0; i < 3; i++)
         density[i] = spec->geometry.thickness *
                      (stress[0] * at->outward[i] + stress[1] * at->along[i] +
                       stress[2] * at->normal[i]);
 }
 
-static const char *edge_of(const fracas_spec *spec, int i)
+static const char *edge_of(const fracas_loading *loading, int i)
 {
-    return i == 0 && spec->loading.edge ? spec->loading.edge->name : NULL;
+    return i == 0 && loading->edge ? loading->edge->name : NULL;
 }
 
 static const fracas_load load = {.on = FRACAS_LOAD_ON_EDGE, .density = density, .edge = edge_of};

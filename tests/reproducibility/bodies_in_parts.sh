@@ -1,4 +1,4 @@
-# One body on several cores, also under a moving front and with moved edges: study.h5 is the same, byte for byte, for parts 1, 2, 3, 4 and 7, lanes 1 and 8, and across a kill and a
+# One body on several cores, also under three loads with moving fronts, cooled, and with moved edges: study.h5 is the same, byte for byte, for parts 1, 2, 3, 4 and 7, lanes 1 and 8, and across a kill and a
 # resume from a checkpoint with other parts. Cracks run through the cuts: invariant/shell_cracks.
 . tests/support/campaigns.sh
 
@@ -22,7 +22,7 @@ sweep:
   - cases:
       - {name: octant}
       - {name: plate, model: membrane, geometry: {shape: plate, width: 10 mm, height: 5 mm, thickness: 0.1 mm}, mesh: {divisions: 12}, cohesive: {fracture_energy: 50 J/m2}, time: {end: 0.4 us}}
-      - {name: front, loading: {type: pressure, pressure: 4 GPa, decay: 0.2 us, front: 4e4 m/s, front_along: z}, time: {end: 0.15 us}}
+      - {name: fronts, loading: {type: pressure, pressure: 4 GPa, decay: 0.2 us, front: 4e4 m/s, front_along: z}, loading_2: {type: pressure, pressure: -1 GPa, rise: 0.1 us, spot: 1 mm, spot_z: 2 mm}, loading_3: {type: body-force, x: 1e9 m/s2, front: 3e4 m/s, front_along: y}, time: {end: 0.15 us}}
       - {name: pulled, model: membrane, geometry: {shape: plate, width: 10 mm, height: 5 mm, thickness: 0.1 mm}, mesh: {divisions: 12, order: 2}, cohesive: {fracture_energy: 50 J/m2}, loading: {type: edge-motion, edge: top, second_edge: right, velocity: 20 m/s, rise: 0.1 us}, time: {end: 0.4 us, mass: consistent, integrator: hulbert-chung}}
       - {name: cooled, model: membrane, geometry: {shape: plate, width: 10 mm, height: 5 mm, thickness: 0.1 mm, left: held, right: held}, mesh: {divisions: 12}, cohesive: {fracture_energy: 50 J/m2}, initial: {temperature: -150 K, expansion_coefficient: 8e-6 1/K, spin: 100 rad/s, from_x: 0}, loading: {type: none}, time: {end: 0.4 us}}
       - {name: bent, geometry: {shape: plate, width: 2 mm, height: 1 mm, thickness: 0.1 mm, left: clamped}, mesh: {divisions: 6}, loading: {type: edge-motion, edge: right, direction: across, velocity: 100 m/s}, time: {end: 0.2 us, rotary_inertia: 1}}

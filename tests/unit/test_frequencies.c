@@ -66,7 +66,7 @@ static void vary(const fracas_spec *base, tally *count)
         const fracas_kind *kind = *(const fracas_kind *const *)((const char *)base +
                                                                 section->offset +
                                                                 section->kind_offset);
-        for (size_t p = 0; p < kind->nparams; p++)
+        for (size_t p = 0; kind && p < kind->nparams; p++) /* a second loading is none */
             vary_param(base, s, &kind->params[p], kept, count);
         for (size_t k = 0; k < section->nkinds; k++) { /* with the same parameters */
             fracas_spec spec = *base;

@@ -142,7 +142,8 @@ static void coarsen(const char *file, char path[200])
     OK(fracas_campaign_read(file, &campaign));
     for (size_t p = 0; p < campaign->npoints; p++) {
         campaign->point[p].spec.mesh.size *= 3;
-        campaign->point[p].spec.mesh.divisions /= 10;
+        int64_t *divisions = &campaign->point[p].spec.mesh.divisions;
+        if (*divisions > 0) *divisions = *divisions > 20 ? *divisions / 10 : 2;
         campaign->point[p].spec.cohesive.fracture_energy *= 50; /* which such elements resolve */
     }
     OK(fracas_campaign_keep(campaign, folder, "coarse.yaml", NULL));

@@ -96,12 +96,12 @@ static void histories_are_integrated(void **unused)
     near(path_at(l, 4), 2 * (0.5 + 1.5 - 2));
     l.velocity = 0, l.displacement = 2;
     near(path_at(l, 2), 1.5);
-    FAILS(fracas_loading_section.check(&l), FRACAS_USAGE, "says 0.5 at 0 s", "would jump");
+    FAILS(fracas_loading_sections[0].check(&l), FRACAS_USAGE, "says 0.5 at 0 s", "would jump");
 }
 
 static void refuses(const fracas_loading *loading, const char *one, const char *other)
 {
-    FAILS(fracas_loading_section.check(loading), FRACAS_USAGE, one, other);
+    FAILS(fracas_loading_sections[0].check(loading), FRACAS_USAGE, one, other);
 }
 
 static void motions_without_sense_are_refused(void **unused)
@@ -110,15 +110,15 @@ static void motions_without_sense_are_refused(void **unused)
     const fracas_attachment file = {.path = "h.csv", .text = text, .size = sizeof text - 1};
     const fracas_spec plate = plate_of(&fracas_formulation_membrane);
     fracas_loading l = moved(plate, "top", "bottom", "outward", 1, 2).loading;
-    OK(fracas_loading_section.check(&l));
+    OK(fracas_loading_sections[0].check(&l));
     l.velocity = 1;
     refuses(&l, "both are given", "leave one out");
     l.displacement = 0;
-    OK(fracas_loading_section.check(&l));
+    OK(fracas_loading_sections[0].check(&l));
     l.velocity = 0;
     refuses(&l, "neither is given", "displacement: 2 um");
     l.displacement = -1;
-    OK(fracas_loading_section.check(&l));
+    OK(fracas_loading_sections[0].check(&l));
     l.rise = NAN;
     refuses(&l, "neither rise nor history", "would jump");
     l.history = &file;

@@ -64,7 +64,6 @@ typedef struct {
     size_t strengths_size, strength_step; /* doubles: an interface's; to next point, 0: shared */
     vd drift, kick;                       /* s */
     vd spin;                              /* membranes: w(t_n)^2 [1/s2] */
-    vd amplitude, amplitude_before;       /* a load without a front has, at t_n, t_{n-1} */
     vmask begins;                         /* the lane's first step */
     vd sum[SURFACE_SUMS_BY_TURN];         /* so far, by elements of this block */
 } surface_context;

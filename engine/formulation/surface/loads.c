@@ -5,13 +5,24 @@
 #include "engine/mesh/body.h"
 
 #include <math.h>
+#include <stdio.h>
 
-/* The load of the model, but a motion. */
-static const fracas_load *load_of(const fracas_model *model)
+/* The load of a loading, but a motion. */
+static const fracas_load *force_of(const fracas_model *model, int n)
 {
-    const fracas_load *load = fracas_loading_traits_of(&model->spec)->load;
+    const fracas_load *load = fracas_loading_load(&model->spec, n);
     return load && !load->path ? load : NULL;
 }
+
+/* A force, and the tables that it fills. */
+typedef struct {
+    const fracas_model *model;
+    const fracas_loading *loading;
+    const fracas_load *load;
+    fracas_surface_tables *tables;
+    uint32_t *row;    /* [element]: this load's part of load_row */
+    size_t dimension; /* the body's */
+} forcing;
 
 /* ---- places ---- */
 
@@ -76,73 +87,72 @@ fracas_place fracas_surface_place_on(const fracas_surface *surface,
 /* ---- forces ---- */
 
 /* d(x), whose share its spot gives  (loads.1), (loads.9) */
-static void density_at(const fracas_model *model, const fracas_place *at, double density[3])
+static void density_at(const forcing *of, const fracas_place *at, double density[3])
 {
-    const double share = fracas_load_spot(&model->spec.loading, at->x);
-    load_of(model)->density(&model->spec, at, density);
+    const double share = fracas_load_spot(of->loading, at->x);
+    of->load->density(&of->model->spec, of->loading, at, density);
     for (int i = 0; i < 3; i++) density[i] *= share;
 }
 
 /* Adds weight N_k d to the forces on an element's nodes. */
-static void add_force(const fracas_model *model, size_t dimension, const element_point *p,
-                      double weight, double *force)
+static void add_force(const forcing *of, const element_point *p, double weight, double *force)
 {
     double density[3];
-    density_at(model, &p->at, density);
-    for (size_t k = 0; k < model->surface->corners; k++)
-        for (size_t i = 0; i < dimension; i++)
-            force[dimension * k + i] += weight * p->shape[k] * density[i];
+    density_at(of, &p->at, density);
+    for (size_t k = 0; k < of->model->surface->corners; k++)
+        for (size_t i = 0; i < of->dimension; i++)
+            force[of->dimension * k + i] += weight * p->shape[k] * density[i];
 }
 
 /* F_k = int N_k d dA  (loads.3) */
-static void fill_area(const fracas_model *model, size_t dimension, size_t e, double *force)
+static void fill_area(const forcing *of, size_t e, double *force)
 {
     for (int g = 0; g < FRACAS_TRIANGLE_FINE; g++) {
         const double *at = fracas_triangle_fine[g];
-        const element_point p = point_at(model->surface, e, at[0], at[1]);
-        add_force(model, dimension, &p, at[2] * p.area, force);
+        const element_point p = point_at(of->model->surface, e, at[0], at[1]);
+        add_force(of, &p, at[2] * p.area, force);
     }
 }
 
 /* F_k = sum_l M_kl d(x_l)  (loads.3) */
-static void fill_mass_load(const fracas_model *model, const fracas_surface_tables *t, size_t e,
-                           double *force)
+static void fill_mass_load(const forcing *of, size_t e, double *force)
 {
     static const double corner[6][2] = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
-    const size_t nodes = model->surface->corners, dimension = (size_t)t->body->dimension;
+    const size_t nodes = of->model->surface->corners, dimension = of->dimension;
     for (size_t l = 0; l < nodes; l++) {
         double density[3];
-        const element_point p = point_at(model->surface, e, corner[l][0], corner[l][1]);
-        density_at(model, &p.at, density);
+        const element_point p = point_at(of->model->surface, e, corner[l][0], corner[l][1]);
+        density_at(of, &p.at, density);
         for (size_t k = 0; k < nodes; k++)
             for (size_t i = 0; i < dimension; i++)
-                force[dimension * k + i] += fracas_surface_mass(t, e, k, l) * density[i];
+                force[dimension * k + i] += fracas_surface_mass(of->tables, e, k, l) * density[i];
     }
 }
 
 /* F_k = int N_k d ds  (loads.3) */
-static void fill_edge(const fracas_model *model, size_t dimension,
-                      const fracas_surface_border *border, double *force)
+static void fill_edge(const forcing *of, const fracas_surface_border *border, double *force)
 {
     static const double at[3] = FRACAS_EDGE_POINTS_2, weight[3] = FRACAS_EDGE_WEIGHTS_2;
     for (int g = 0; g < 3; g++) {
         double speed;
-        const element_point p = edge_point_at(model->surface, border, at[g], &speed);
-        add_force(model, dimension, &p, weight[g] * speed, force);
+        const element_point p = edge_point_at(of->model->surface, border, at[g], &speed);
+        add_force(of, &p, weight[g] * speed, force);
     }
 }
 
 /* ---- tables ---- */
 
-fracas_err fracas_surface_load_tag(const fracas_model *model, int i, int32_t *tag)
+fracas_err fracas_surface_load_tag(const fracas_model *model, int n, int i, int32_t *tag)
 {
-    const fracas_load *load = fracas_loading_traits_of(&model->spec)->load;
-    const char *asked = i == 0 ? "loading.edge" : "loading.second_edge",
-               *key = load->edge ? load->edge(&model->spec, i) : NULL;
+    const fracas_load *load = fracas_loading_load(&model->spec, n);
+    const char *key = load->edge ? load->edge(fracas_loading_at(&model->spec, n), i) : NULL;
     const fracas_surface *surface = model->surface;
+    char asked[40];
     *tag = 0;
+    snprintf(asked, sizeof asked, "%s.%s", fracas_loading_sections[n].name,
+             i == 0 ? "edge" : "second_edge");
     if (load->on == FRACAS_LOAD_ON_EDGE && !key && i == 0)
-        return fracas_fail(FRACAS_USAGE, "loading.edge is not given: on which edge does it act?");
+        return fracas_fail(FRACAS_USAGE, "%s is not given: on which edge does it act?", asked);
     if (!key) return FRACAS_OK;
     TRY(fracas_shape_edge_tag(&model->spec.geometry, asked, key, tag));
     for (size_t b = 0; b < surface->nborders; b++)
@@ -153,80 +163,121 @@ fracas_err fracas_surface_load_tag(const fracas_model *model, int i, int32_t *ta
                        asked, key, (int)*tag, key);
 }
 
-fracas_err fracas_surface_loads_count(const fracas_model *model, size_t *count)
+/* Number of elements under the load of loading number n. */
+static fracas_err count_of(const fracas_model *model, int n, size_t *count)
 {
     const fracas_surface *surface = model->surface;
     int32_t tag;
-    *count = load_of(model) ? surface->nelements : 0;
-    if (*count == 0) return FRACAS_OK;
-    TRY(fracas_surface_load_tag(model, 0, &tag));
+    *count = surface->nelements;
+    TRY(fracas_surface_load_tag(model, n, 0, &tag));
     if (tag == 0) return FRACAS_OK;
     *count = 0;
     for (size_t b = 0; b < surface->nborders; b++) *count += surface->border[b].tag == tag;
     return FRACAS_OK;
 }
 
-/* The forces of an element's row, which begins at its first use. */
-static double *row_of(const fracas_model *model, fracas_surface_tables *t, size_t e,
-                      const double middle[3])
+fracas_err fracas_surface_loads_count(const fracas_model *model, size_t *forces, size_t *count)
 {
-    if (t->load_row[e] == 0) {
-        t->load_row[e] = (uint32_t)++t->nloads;
-        t->load_clock[t->nloads - 1] = fracas_load_clock_at(&model->spec.loading, middle);
+    *forces = *count = 0;
+    for (int n = 0; n < FRACAS_LOADINGS; n++) {
+        size_t own;
+        if (!force_of(model, n)) continue;
+        TRY(count_of(model, n, &own));
+        *forces += 1;
+        *count += own;
     }
-    return t->load + (size_t)(t->load_row[e] - 1) * fracas_surface_unknowns(t);
+    return FRACAS_OK;
 }
 
-static void fill_edges(const fracas_model *model, fracas_surface_tables *t, int32_t tag)
+/* The forces of an element's row, which begins at its first use. */
+static double *row_of(const forcing *of, size_t e, const double middle[3])
 {
-    for (size_t b = 0; b < model->surface->nborders; b++) {
-        const fracas_surface_border *border = &model->surface->border[b];
+    fracas_surface_tables *t = of->tables;
+    if (of->row[e] == 0) {
+        of->row[e] = (uint32_t)++t->nloads;
+        t->load_clock[t->nloads - 1] = fracas_load_clock_at(of->loading, middle);
+    }
+    return t->load + (size_t)(of->row[e] - 1) * fracas_surface_unknowns(t);
+}
+
+static void fill_edges(const forcing *of, int32_t tag)
+{
+    for (size_t b = 0; b < of->model->surface->nborders; b++) {
+        const fracas_surface_border *border = &of->model->surface->border[b];
         double speed;
         if (border->tag != tag) continue;
-        const element_point middle = edge_point_at(model->surface, border, 0.5, &speed);
-        fill_edge(model, (size_t)t->body->dimension, border,
-                  row_of(model, t, border->element, middle.at.x));
+        const element_point middle = edge_point_at(of->model->surface, border, 0.5, &speed);
+        fill_edge(of, border, row_of(of, border->element, middle.at.x));
     }
 }
 
-static void fill_elements(const fracas_model *model, fracas_surface_tables *t)
+static void fill_elements(const forcing *of)
 {
-    for (size_t e = 0; e < t->nelements; e++) {
-        const element_point middle = point_at(model->surface, e, 1.0 / 3, 1.0 / 3);
-        double *force = row_of(model, t, e, middle.at.x);
-        if (load_of(model)->on == FRACAS_LOAD_ON_MASS) fill_mass_load(model, t, e, force);
-        else fill_area(model, (size_t)t->body->dimension, e, force);
+    for (size_t e = 0; e < of->tables->nelements; e++) {
+        const element_point middle = point_at(of->model->surface, e, 1.0 / 3, 1.0 / 3);
+        double *force = row_of(of, e, middle.at.x);
+        if (of->load->on == FRACAS_LOAD_ON_MASS) fill_mass_load(of, e, force);
+        else fill_area(of, e, force);
     }
 }
 
-/* Some component of a force moves a node; below a rounding of the largest it is none: shape
- * functions of nodes off an edge. */
-static bool moves_any(const fracas_surface_tables *t)
+/* Largest component of a load's forces, and of those that move a node [N]. */
+typedef struct {
+    double any, moving;
+} largest;
+
+static largest largest_of(const forcing *of)
 {
+    const fracas_surface_tables *t = of->tables;
     const size_t size = fracas_surface_unknowns(t);
-    double largest = 0, moving = 0;
+    largest found = {0};
     for (size_t e = 0; e < t->nelements; e++)
-        for (size_t i = 0; t->load_row[e] > 0 && i < size; i++) {
-            const double force = fabs(t->load[(t->load_row[e] - 1) * size + i]);
-            largest = fmax(largest, force);
-            if (!(t->held[e] >> i & 1)) moving = fmax(moving, force);
+        for (size_t i = 0; of->row[e] > 0 && i < size; i++) {
+            const double force = fabs(t->load[(of->row[e] - 1) * size + i]);
+            found.any = fmax(found.any, force);
+            if (!(t->held[e] >> i & 1)) found.moving = fmax(found.moving, force);
         }
-    return moving > 1e-9 * largest;
+    return found;
+}
+
+/* Below a rounding of the largest a force is none: shape functions of nodes off an edge. Beside
+ * another load one may be 0, as where a sweep takes it away. */
+static fracas_err check_moves(const forcing *of, int n)
+{
+    const largest found = largest_of(of);
+    bool beside = false;
+    for (int other = 0; other < FRACAS_LOADINGS; other++)
+        beside = beside || (other != n && fracas_loading_at(&of->model->spec, other));
+    if (found.moving > 1e-9 * found.any || (beside && found.any == 0)) return FRACAS_OK;
+    return fracas_fail(
+        FRACAS_USAGE,
+        "%s %s has no force where the body could move: all its components are "
+        "0, or act on an edge that geometry holds%s, or on a spot beside the body: give it one, "
+        "free the edge, or move the spot",
+        fracas_loading_sections[n].name, of->loading->type->name,
+        of->tables->moved ? " or a load moves" : "");
+}
+
+static fracas_err fill_force(const fracas_model *model, fracas_surface_tables *t, int n)
+{
+    const forcing of = {.model = model,
+                        .loading = fracas_loading_at(&model->spec, n),
+                        .load = force_of(model, n),
+                        .tables = t,
+                        .row = t->load_row + (size_t)t->forces * t->nelements,
+                        .dimension = (size_t)t->body->dimension};
+    int32_t tag;
+    t->force[t->forces++] = n;
+    TRY(fracas_load_history(of.loading, &t->history[n]));
+    TRY(fracas_surface_load_tag(model, n, 0, &tag));
+    if (tag != 0) fill_edges(&of, tag);
+    else fill_elements(&of);
+    return check_moves(&of, n);
 }
 
 fracas_err fracas_surface_loads_fill(const fracas_model *model, fracas_surface_tables *t)
 {
-    int32_t tag;
-    if (!load_of(model)) return FRACAS_OK;
-    TRY(fracas_load_history(&model->spec.loading, &t->load_history));
-    TRY(fracas_surface_load_tag(model, 0, &tag));
-    if (tag != 0) fill_edges(model, t, tag);
-    else fill_elements(model, t);
-    if (moves_any(t)) return FRACAS_OK;
-    return fracas_fail(
-        FRACAS_USAGE,
-        "loading %s has no force where the body could move: all its components are "
-        "0, or act on an edge that geometry holds, or on a spot beside the body: give it one, "
-        "free the edge, or move the spot",
-        model->spec.loading.type->name);
+    for (int n = 0; n < FRACAS_LOADINGS; n++)
+        if (force_of(model, n)) TRY(fill_force(model, t, n));
+    return FRACAS_OK;
 }

@@ -6,28 +6,34 @@
 #include "engine/formulation/surface/surface.h"
 #include "engine/loading/load.h"
 
-/* Tag of the i-th edge on which the load acts; 0: there is none. FRACAS_USAGE where the shape or
- * the mesh has no such edge. */
-FRACAS_MUST_USE fracas_err fracas_surface_load_tag(const fracas_model *model, int i, int32_t *tag);
+/* Tag of the i-th edge on which the load of loading number n acts; 0: there is none. FRACAS_USAGE
+ * where the shape or the mesh has no such edge. */
+FRACAS_MUST_USE fracas_err fracas_surface_load_tag(const fracas_model *model, int n, int i,
+                                                   int32_t *tag);
 
 /* A place at s in (0, 1) on an edge, and |dx/ds| there [m]. */
 fracas_place fracas_surface_place_on(const fracas_surface *surface,
                                      const fracas_surface_border *border, double s, double *speed);
 
-/* Edges that the load moves: bits by tags; 0: none. FRACAS_USAGE as fracas_surface_load_tag. */
+/* Number of the loading that moves edges; FRACAS_LOADINGS: none does. */
+int fracas_surface_motion_number(const fracas_model *model);
+/* Edges that it moves: bits by tags; 0: none. FRACAS_USAGE as fracas_surface_load_tag, and where
+ * another loading prescribes velocities, too. */
 FRACAS_MUST_USE fracas_err fracas_surface_moved_tags(const fracas_model *model, unsigned *tags);
 /* Number of elements with such an edge. */
 size_t fracas_surface_moved_count(const fracas_surface *surface, unsigned tags);
-/* Fills moved_row, direction and load_history of tables with `moved`. FRACAS_USAGE where the load
+/* Fills moved_row, direction and the history of tables with `moved`. FRACAS_USAGE where the load
  * moves a component that nothing holds, or none. */
 FRACAS_MUST_USE fracas_err fracas_surface_motion_fill(const fracas_model *model,
                                                       fracas_surface_tables *tables);
 
-/* Number of elements under a force: 0 without one. FRACAS_USAGE where its edge does not exist. */
-FRACAS_MUST_USE fracas_err fracas_surface_loads_count(const fracas_model *model, size_t *count);
+/* Number of forces, and of elements under one, those of each. FRACAS_USAGE where an edge does not
+ * exist. */
+FRACAS_MUST_USE fracas_err fracas_surface_loads_count(const fracas_model *model, size_t *forces,
+                                                      size_t *count);
 
-/* Fills load_row, load, load_clock and load_history of tables whose masses are there. FRACAS_USAGE
- * where the load moves nothing, or for its history. */
+/* Fills forces, load_row, load, load_clock and histories of tables whose masses are there.
+ * FRACAS_USAGE where a load moves nothing, or for its history. */
 FRACAS_MUST_USE fracas_err fracas_surface_loads_fill(const fracas_model *model,
                                                      fracas_surface_tables *tables);
 

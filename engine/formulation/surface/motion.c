@@ -18,13 +18,47 @@ static bool is_moved(const fracas_surface_border *border, unsigned tags)
     return border->tag > 0 && border->tag < FRACAS_EDGES && (tags >> border->tag & 1);
 }
 
+static bool is_motion(const fracas_model *model, int n)
+{
+    const fracas_load *load = fracas_loading_load(&model->spec, n);
+    return load && load->path;
+}
+
+int fracas_surface_motion_number(const fracas_model *model)
+{
+    int n = 0;
+    while (n < FRACAS_LOADINGS && !is_motion(model, n)) n++;
+    return n;
+}
+
+/* One loading alone prescribes velocities of edges. */
+static fracas_err check_alone(const fracas_model *model, int n)
+{
+    const fracas_spec *spec = &model->spec;
+    const char *name = fracas_loading_sections[n].name;
+    if (n > 0 && fracas_loading_traits_of(spec)->surface(spec, &spec->loading, 0).moving)
+        return fracas_fail(FRACAS_USAGE,
+                           "loading %s and %s %s both prescribe how edges move: leave one out",
+                           spec->loading.type->name, name, fracas_loading_at(spec, n)->type->name);
+    for (int other = n + 1; other < FRACAS_LOADINGS; other++)
+        if (is_motion(model, other))
+            return fracas_fail(FRACAS_USAGE,
+                               "%s and %s both move edges: one load moves up to two edges, by edge "
+                               "and second_edge: leave %s out",
+                               name, fracas_loading_sections[other].name,
+                               fracas_loading_sections[other].name);
+    return FRACAS_OK;
+}
+
 fracas_err fracas_surface_moved_tags(const fracas_model *model, unsigned *tags)
 {
-    const fracas_load *load = fracas_loading_traits_of(&model->spec)->load;
+    const int n = fracas_surface_motion_number(model);
     *tags = 0;
-    for (int i = 0; load && load->path && i < EDGES_MOST; i++) {
+    if (n == FRACAS_LOADINGS) return FRACAS_OK;
+    TRY(check_alone(model, n));
+    for (int i = 0; i < EDGES_MOST; i++) {
         int32_t tag;
-        TRY(fracas_surface_load_tag(model, i, &tag));
+        TRY(fracas_surface_load_tag(model, n, i, &tag));
         if (tag > 0) *tags |= 1u << tag;
     }
     return FRACAS_OK;
@@ -56,7 +90,9 @@ static void add_directions(const fracas_model *model, int32_t tag, double (*sum)
 {
     static const double at[3] = {0, 1, 0.5};
     const fracas_surface *surface = model->surface;
-    const fracas_load *load = fracas_loading_traits_of(&model->spec)->load;
+    const int motion = fracas_surface_motion_number(model);
+    const fracas_loading *loading = fracas_loading_at(&model->spec, motion);
+    const fracas_load *load = fracas_loading_load(&model->spec, motion);
     for (size_t b = 0; b < surface->nborders; b++) {
         const fracas_surface_border *border = &surface->border[b];
         size_t node[3];
@@ -65,7 +101,7 @@ static void add_directions(const fracas_model *model, int32_t tag, double (*sum)
         for (int n = 0; n < surface->order + 1; n++) {
             double direction[3], speed;
             const fracas_place place = fracas_surface_place_on(surface, border, at[n], &speed);
-            load->density(&model->spec, &place, direction);
+            load->density(&model->spec, loading, &place, direction);
             double *to = sum[surface->element[border->element * surface->corners + node[n]]];
             for (int i = 0; i < 3; i++) to[i] += direction[i];
         }
@@ -91,11 +127,12 @@ static void direction_of(const double sum[3], double direction[3])
 /* Key of the load's edge of a tag. */
 static const char *key_of(const fracas_model *model, int32_t tag)
 {
-    const fracas_load *load = fracas_loading_traits_of(&model->spec)->load;
+    const int n = fracas_surface_motion_number(model);
     for (int i = 0; i < EDGES_MOST; i++) {
         int32_t found;
-        if (!fracas_surface_load_tag(model, i, &found) && found == tag)
-            return load->edge(&model->spec, i);
+        if (!fracas_surface_load_tag(model, n, i, &found) && found == tag)
+            return fracas_loading_load(&model->spec, n)
+                ->edge(fracas_loading_at(&model->spec, n), i);
     }
     return "none";
 }
@@ -104,9 +141,10 @@ static fracas_err not_held(const fracas_model *model, int32_t tag)
 {
     const fracas_kind *kind = model->spec.geometry.edge[tag];
     return fracas_fail(FRACAS_USAGE,
-                       "loading moves the edge %s in a direction in which geometry, where it is "
+                       "%s moves the edge %s in a direction in which geometry, where it is "
                        "%s, does not hold it: hold it otherwise, or leave it free: then all of it "
                        "goes along",
+                       fracas_loading_sections[fracas_surface_motion_number(model)].name,
                        key_of(model, tag), kind ? kind->name : "held by the shape");
 }
 
@@ -163,8 +201,10 @@ fracas_err fracas_surface_motion_fill(const fracas_model *model, fracas_surface_
     double largest = 0;
     int32_t tag[EDGES_MOST];
     if (!t->moved) return FRACAS_OK;
-    TRY(fracas_load_history(&model->spec.loading, &t->load_history));
-    for (int i = 0; i < EDGES_MOST; i++) TRY(fracas_surface_load_tag(model, i, &tag[i]));
+    const int n = fracas_surface_motion_number(model);
+    const fracas_loading *loading = fracas_loading_at(&model->spec, n);
+    TRY(fracas_load_history(loading, &t->history[n]));
+    for (int i = 0; i < EDGES_MOST; i++) TRY(fracas_surface_load_tag(model, n, i, &tag[i]));
     OWNED double(*sum)[3] = calloc(EDGES_MOST * model->surface->nnodes, sizeof *sum);
     if (!sum) return fracas_no_memory("the edges that a load moves");
     double(*const second)[3] = sum + model->surface->nnodes;
@@ -177,6 +217,6 @@ fracas_err fracas_surface_motion_fill(const fracas_model *model, fracas_surface_
                      &largest));
     if (largest > 0) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
-                       "loading %s moves no node: others hold all of the edge: free one of them",
-                       model->spec.loading.type->name);
+                       "%s %s moves no node: others hold all of the edge: free one of them",
+                       fracas_loading_sections[n].name, loading->type->name);
 }

@@ -67,6 +67,22 @@ LANES_FUNCTION void surface_add_inertia(const surface_context *c, int order, siz
     }
 }
 
+/* Force along the path of moved unknowns that the body force of a spun membrane has, which is none
+ * of a reaction's: d . M w^2 x  (membrane.10), (loads.8) */
+LANES_FUNCTION vd surface_spin_along(const surface_context *c, int order, size_t e,
+                                     const vd *direction)
+{
+    const int size = BODY_SIZE(order);
+    vd spun[18], force[18], sum = lanes_set(0.0);
+    for (int i = 0; i < size; i++) {
+        spun[i] = c->spin * lanes_set(c->tables->position[e * (size_t)size + (size_t)i]);
+        force[i] = lanes_set(0.0);
+    }
+    surface_add_inertia(c, order, e, spun, force);
+    for (int i = 0; i < size; i++) sum += direction[i] * force[i];
+    return sum;
+}
+
 /* Acceleration of an unknown that goes on by `ahead` [m] in its next step, with its velocity v and
  * a_n of Hulbert and Chung's scheme, of which it is (1 - am) a_{n+1} + am a_n  (loads.7) */
 LANES_FUNCTION vd surface_lead_by(const fracas_surface_motion *m, vd dt, vmask begins, vd ahead,

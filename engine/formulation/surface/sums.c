@@ -15,8 +15,9 @@ double fracas_surface_spin(const fracas_surface_constants *c, double time)
 
 double fracas_surface_path(const fracas_surface_constants *c, double time)
 {
-    const fracas_loading_traits *traits = c->loading->type->traits;
-    return c->tables->moved ? traits->load->path(c->loading, &c->tables->load_history, time) : 0;
+    if (!c->moving) return 0;
+    const fracas_loading_traits *traits = c->moving->type->traits;
+    return traits->load->path(c->moving, c->moving_history, time);
 }
 
 /* Adds blocks of `size` sums in pairs, pairs of pairs, ...: the first one holds them all then. */
@@ -59,11 +60,11 @@ static void set_totals(const fracas_surface_constants *c, fracas_step *step, int
     step->friction[l] += sum[SURFACE_RUBBED];
     step->damped[l] += sum[SURFACE_DAMPED];
     step->power[l] = sum[SURFACE_POWER];
-    step->work[l] = c->tables->position ? work_of(c, step, l, sum[SURFACE_MOMENT])
-                                        : sum[SURFACE_WORK];
+    step->work[l] = sum[SURFACE_WORK]; /* (loads.10) */
+    if (c->tables->position) step->work[l] += work_of(c, step, l, sum[SURFACE_MOMENT]);
     if (!c->tables->moved) return;
     step->power[l] = 0;
-    step->work[l] = work_of_edges(c, step, l, sum[SURFACE_POWER]);
+    step->work[l] += work_of_edges(c, step, l, sum[SURFACE_POWER]);
 }
 
 void fracas_surface_totals(const fracas_surface_constants *c, fracas_step *step)

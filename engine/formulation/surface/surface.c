@@ -2,6 +2,7 @@
 /* The host's part of membranes and shells: model, state, fragments. */
 #include "engine/formulation/surface/surface.h"
 
+#include "engine/formulation/surface/loads.h"
 #include "engine/integrator/hulbert_chung.h"
 #include "engine/integrator/integrator.h"
 #include "engine/loading/initial.h"
@@ -50,10 +51,15 @@ fracas_surface_constants fracas_surface_constants_of(const fracas_model *model)
         .strengths = (int)model->strengths,
         .speed = spins ? spec->loading.speed : 0,
         .ramp = spec->loading.ramp,
-        .loading = &spec->loading,
         .strained = fracas_initial_is_strained(spec),
         .motion = {accelerations, alpha.alpha_m, alpha.beta, alpha.gamma, alpha.excess,
                    alpha.damping, sqrt(0.5 * (1 - alpha.alpha_m))}};
+    for (int n = 0; n < t->forces; n++) c.force[n] = fracas_loading_at(spec, t->force[n]);
+    if (t->moved) {
+        const int n = fracas_surface_motion_number(model);
+        c.moving = fracas_loading_at(spec, n);
+        c.moving_history = &t->history[n];
+    }
     c.c12 = nu * c.c11;
     c.d11 = bending * c.c11;
     c.d12 = bending * nu * c.c11;
@@ -62,10 +68,11 @@ fracas_surface_constants fracas_surface_constants_of(const fracas_model *model)
     return c;
 }
 
-/* The load's stretch at the start. */
+/* The first loading's stretch at the start. */
 static fracas_stretch stretch_of(const fracas_model *model)
 {
-    return fracas_loading_traits_of(&model->spec)->surface(&model->spec, 0);
+    const fracas_spec *spec = &model->spec;
+    return fracas_loading_traits_of(spec)->surface(spec, &spec->loading, 0);
 }
 
 /* ---- the model ---- */
@@ -92,7 +99,8 @@ static fracas_err check_beta(const fracas_model *model)
 /* Something moves: not all starts at rest, or an edge moves with the load. */
 static fracas_err check_motion(const fracas_model *model)
 {
-    const bool idle = fracas_loading_traits_of(&model->spec)->idle;
+    bool idle = fracas_loading_traits_of(&model->spec)->idle;
+    for (int n = 1; n < FRACAS_LOADINGS; n++) idle = idle && !fracas_loading_at(&model->spec, n);
     if ((!stretch_of(model).shock && !idle) || tables_of(model)->moves ||
         fracas_initial_moves(&model->spec.initial) || fracas_initial_is_strained(&model->spec))
         return FRACAS_OK;
@@ -355,12 +363,13 @@ static void advance_part(void *context, size_t number)
         task->sweep(&task->constants, step, first, number);
 }
 
-/* The amplitude of a load without a front. */
-static double amplitude_at(const fracas_surface_constants *c, double time)
+/* The amplitude of load n without a front. */
+static double amplitude_at(const fracas_surface_constants *c, int n, double time)
 {
-    return c->tables->nloads ? fracas_load_amplitude(c->loading, &c->tables->load_history,
-                                                     c->tables->load_clock, time)
-                             : 0;
+    static const double anywhere[3] = {0};
+    const fracas_load_clock clock = fracas_load_clock_at(c->force[n], anywhere);
+    return fracas_load_amplitude(c->force[n], &c->tables->history[c->tables->force[n]], &clock,
+                                 time);
 }
 
 void fracas_surface_advance(const fracas_model *model, fracas_step *step)
@@ -371,8 +380,10 @@ void fracas_surface_advance(const fracas_model *model, fracas_step *step)
     task.sweep = kernel->sweep[fracas_law_of(&model->spec)->number][c->tables->order - 1];
     for (int l = 0; l < step->width; l++) {
         step->spin[l] = fracas_surface_spin(c, step->time[l]);
-        step->amplitude[l] = amplitude_at(c, step->time[l]);
-        step->amplitude_before[l] = amplitude_at(c, step->time[l] - step->drift[l]);
+        for (int n = 0; n < c->tables->forces; n++) {
+            step->amplitude[n][l] = amplitude_at(c, n, step->time[l]);
+            step->amplitude_before[n][l] = amplitude_at(c, n, step->time[l] - step->drift[l]);
+        }
         step->path[l] = fracas_surface_path(c, step->time[l]);
         step->path_next[l] = fracas_surface_path(c, step->time[l] + step->kick[l]);
     }

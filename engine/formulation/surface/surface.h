@@ -65,7 +65,7 @@ enum {
     SURFACE_POWER,                          /* power of reactions [W]; where a load moves edges:
                                                their force along the path [N] */
     SURFACE_MOMENT,                         /* membranes: sum of m r.du/dt of this step [kg m2/s] */
-    SURFACE_WORK,                           /* work of the load in this step [J] */
+    SURFACE_WORK,                           /* work of loads in this step [J] */
     SURFACE_SUMS
 };
 enum { SURFACE_BLOCK = 64 }; /* elements */
@@ -117,12 +117,13 @@ typedef struct {
     uint8_t (*edge)[2];     /* [interface]: which of its elements' edges */
     uint32_t *held, *fixed; /* [element]: bit dimension node + component: velocity held; at 0 */
     bool moves;             /* some edge is held, and not fixed */
-    /* Elements under a load, with its forces at amplitude 1  (loads.3) */
+    /* Elements under loads, with their forces at amplitude 1, load after load  (loads.3) */
+    int forces, force[FRACAS_LOADINGS]; /* loads that are forces: numbers of their loadings */
     size_t nloads;
-    uint32_t *load_row;            /* [element]: its row + 1; 0: none; NULL: there is no load */
-    double *load;                  /* [row][unknown] [N] */
-    fracas_load_clock *load_clock; /* [row] */
-    fracas_profile load_history;
+    uint32_t *load_row; /* [load][element]: its row + 1; 0: none; NULL: there is no load */
+    double *load;       /* [row][unknown] [N] */
+    fracas_load_clock *load_clock;           /* [row] */
+    fracas_profile history[FRACAS_LOADINGS]; /* by loading */
     /* Elements with edges that a load moves, u = s(t) d  (loads.5) */
     size_t nmoved;
     uint32_t *moved;     /* [element]: bits as of `held`, among them; NULL: no edge is moved */
@@ -158,7 +159,9 @@ typedef struct fracas_surface_constants {
     int fields, point_fields; /* an element's, by its unknowns; an interface's point's */
     int strengths;            /* an interface's: 1, or one for each Gauss point */
     double speed, ramp;       /* rad/s, s: w = speed min(1, t/ramp) */
-    const fracas_loading *loading;
+    const fracas_loading *force[FRACAS_LOADINGS]; /* loads that are forces, tables->forces */
+    const fracas_loading *moving;                 /* moves edges; NULL: none does */
+    const fracas_profile *moving_history;
     int strained; /* the body starts with a strain, and so with accelerations */
     fracas_surface_motion motion;
     int contact; /* the operator: all interfaces broken and in contact; else whole */

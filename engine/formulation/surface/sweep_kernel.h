@@ -224,6 +224,9 @@ __attribute__((noinline, cold)) static void surface_accelerate_moved(const surfa
         surface_accelerate(c, 1, e, of->direction, of->force, of->acceleration);
     else surface_accelerate(c, 2, e, of->direction, of->force, of->acceleration);
     for (int i = 0; i < BODY_SIZE(order); i++) of->acceleration[i] += of->lead[i];
+    if (BODY_PLANE && c->tables->position)
+        surface_add(surface_at(surface_sums(c, e), SURFACE_POWER),
+                    -surface_spin_along(c, order, e, of->direction));
 }
 
 /* Every element: those with moved components get copies, so that others keep their registers. */
@@ -277,14 +280,12 @@ LANES_FUNCTION void surface_damp_of(const surface_context *c, int order, size_t 
     surface_add(surface_at(sums, SURFACE_DAMPED),
                 lanes_set(0.25 * m->damping) * dt * dt *
                     surface_product(c, order, e, change, change, &moment));
-    const surface_load load = surface_load_of(c, order, e);
-    if (!load.force && !(BODY_PLANE && c->tables->position)) return;
+    surface_loads loads;
+    surface_loads_of(c, order, e, &loads);
+    if (!loads.count && !(BODY_PLANE && c->tables->position)) return;
     UNROLL_FOR (int i = 0; i < size; i++)
         change[i] = lanes_load(surface_at(at, SURFACE_A * size + i)) - last[i];
-    if (load.force)
-        surface_add(
-            surface_at(sums, SURFACE_WORK),
-            surface_work(c, &load, lanes_set(m->excess) * dt * surface_along(&load, size, change)));
+    surface_work(c, &loads, size, lanes_set(m->excess) * dt, change, sums);
     if (!BODY_PLANE || !c->tables->position) return;
     surface_product(c, order, e, change, change, &moment);
     surface_add(surface_at(sums, SURFACE_MOMENT), lanes_set(m->excess) * dt * moment);
@@ -323,10 +324,11 @@ LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
     UNROLL_FOR (int i = 0; i < size; i++)
         force[i] = lanes_load(surface_at(slot, BODY_SLOT_FORCE(order) + i));
     BODY(forces)(c, order, e, slot, force);
-    surface_load load = {0};
-    if (law != SURFACE_OPERATOR) load = surface_load_of(c, order, e);
-    if (load.force)
-        UNROLL_FOR (int i = 0; i < size; i++) force[i] -= load.now * lanes_set(load.force[i]);
+    surface_loads loads = {.count = 0};
+    if (law != SURFACE_OPERATOR) {
+        surface_loads_of(c, order, e, &loads);
+        surface_take_loads(&loads, size, force);
+    }
     UNROLL_FOR (int i = 0; i < size; i++) v[i] = lanes_load(surface_at(at, SURFACE_V * size + i));
     if (law != SURFACE_OPERATOR) {
         surface_accelerate_any(c, order, e, at, v, force, a);
@@ -343,19 +345,18 @@ LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
         UNROLL_FOR (int i = 0; i < size; i++)
             last[i] = lanes_load(surface_at(at, SURFACE_A * size + i));
     }
-    const int strained = c->constants->strained && !surface_is_moved(c, e);
-    if ((load.force || strained) &&
+    if ((loads.count || c->constants->strained) &&
         !alpha) { /* velocities at the start become those of half a step before */
         const vd back = lanes_select(c->begins, lanes_set(0.5) * c->kick, lanes_set(0.0));
         UNROLL_FOR (int i = 0; i < size; i++) v[i] -= back * a[i];
+        for (int i = 0; surface_is_moved(c, e) && i < size; i++) /* led from 0 to their path */
+            if (c->tables->moved[e] >> i & 1) v[i] += back * a[i];
     }
     surface_kick(&c->constants->motion, c->kick, c->begins, size, at, a, v, after);
     double *sums = surface_sums(c, e);
     surface_add(surface_at(sums, SURFACE_KINETIC), surface_product(c, order, e, v, after, &moment));
     if (BODY_PLANE) surface_add(surface_at(sums, SURFACE_MOMENT), moment);
-    if (load.force)
-        surface_add(surface_at(sums, SURFACE_WORK),
-                    surface_work(c, &load, surface_along(&load, size, v)));
+    surface_work(c, &loads, size, lanes_set(1.0), v, sums);
     if (alpha) surface_damp(c, order, e, at, last);
 }
 
@@ -428,9 +429,7 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
                                .drift = lanes_load(step->drift + first),
                                .kick = lanes_load(step->kick + first),
                                .begins = lanes_le(lanes_load(step->drift + first), lanes_set(0.0)),
-                               .spin = lanes_load(step->spin + first),
-                               .amplitude = lanes_load(step->amplitude + first),
-                               .amplitude_before = lanes_load(step->amplitude_before + first)};
+                               .spin = lanes_load(step->spin + first)};
     surface_context *c = &context;
     const fracas_surface_facet *join = part->join;
     const fracas_surface_finish *finish = part->finish;

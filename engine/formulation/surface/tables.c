@@ -44,7 +44,7 @@ typedef struct {
 
 typedef struct {
     bool consistent, rotary, positions, start; /* there are such tables */
-    size_t loads, moved;                       /* rows of loads, of moved edges */
+    size_t forces, loads, moved; /* loads that are forces, rows of them, of moved edges */
 } optional;
 
 static lengths lengths_of(const fracas_surface_tables *t, optional has)
@@ -66,7 +66,7 @@ static lengths lengths_of(const fracas_surface_tables *t, optional has)
         .rim_edge = t->nrims + 1,
         .rim_from = n + 1,
         .position = has.positions ? n * nodes * 2 : 0,
-        .load_row = has.loads ? n : 0,
+        .load_row = has.forces * n,
         .load = has.loads * nodes * (size_t)body->dimension,
         .load_clock = has.loads,
         .moved = has.moved ? n : 0,
@@ -83,7 +83,7 @@ void fracas_surface_tables_destroy(void *p)
 #define TABLE(name) free(t->name);
     TABLES(TABLE)
 #undef TABLE
-    fracas_profile_clear(&t->load_history);
+    for (int n = 0; n < FRACAS_LOADINGS; n++) fracas_profile_clear(&t->history[n]);
     free(t);
 }
 
@@ -100,8 +100,8 @@ static bool allocate(fracas_surface_tables *t, const lengths *length)
 
 static lengths own_lengths(const fracas_surface_tables *t)
 {
-    return lengths_of(
-        t, (optional){t->consistent, t->rotary, t->position, t->start, t->nloads, t->nmoved});
+    return lengths_of(t, (optional){t->consistent, t->rotary, t->position, t->start,
+                                    (size_t)t->forces, t->nloads, t->nmoved});
 }
 
 size_t fracas_surface_tables_bytes(const fracas_surface_tables *t)
@@ -362,15 +362,16 @@ fracas_err fracas_surface_tables_create(const fracas_model *model, fracas_surfac
     for (size_t b = 0; b < surface->nborders; b++)
         t->nrims += fracas_edge_of(edge_kind(&model->spec, surface->border[b].tag))->director;
     const fracas_time *time = &model->spec.time;
-    size_t loads;
+    size_t forces, loads;
     unsigned moved = 0;
-    fracas_err err = fracas_surface_loads_count(model, &loads);
+    fracas_err err = fracas_surface_loads_count(model, &forces, &loads);
     if (!err) err = fracas_surface_moved_tags(model, &moved);
     const lengths length = lengths_of(
         t, (optional){.consistent = fracas_mass_is_consistent(time),
                       .rotary = t->body->fill_rotary && time->rotary_inertia > 0,
                       .positions = fracas_loading_traits_of(&model->spec)->body_force,
                       .start = fracas_initial_is_strained(&model->spec),
+                      .forces = forces,
                       .loads = loads,
                       .moved = fracas_surface_moved_count(surface, moved)});
     if (!err)
