@@ -60,7 +60,7 @@ typedef struct {
 
 typedef struct {
     double time;     /* s */
-    int64_t edge;    /* its tag, 1 to 4; 0: all other edges */
+    int64_t edge;    /* its tag, 1 to 8; 0: all other edges */
     double force[3]; /* N, of the edge on the body */
 } fracas_reaction_row;
 

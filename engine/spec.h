@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define FRACAS_EDGES 5 /* tags 1 to 4, and all others */
+#define FRACAS_EDGES 9 /* tags 1 to 8, and all others */
 
 typedef struct {
     const fracas_kind *shape;      /* bar, ring; plate, annulus, sphere, file: surfaces */

@@ -6,6 +6,7 @@
 #include "campaigns/plan/point_model.h"
 #include "campaigns/plan/size.h"
 #include "engine/cohesive/law.h"
+#include "engine/formulation/surface/loads.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
 #include "engine/solver/batch.h"
@@ -225,10 +226,11 @@ static void keep_lesser(const fracas_surface *surface, int32_t number, fracas_su
         if (surface->group[g].number == number) *least = surface->group[g];
 }
 
-static fracas_err describe_file(const fracas_surface *surface, fracas_forecast *forecast)
+static fracas_err describe_file(const fracas_model *model, fracas_forecast *forecast)
 {
+    const fracas_surface *surface = fracas_model_surface(model);
     for (size_t b = 0; b < surface->nborders; b++)
-        if (surface->border[b].tag >= FRACAS_EDGES)
+        if (fracas_surface_edge_key(model, surface->border[b].tag) == 0)
             keep_lesser(surface, surface->border[b].tag, &forecast->loose);
     for (size_t i = 0; i < surface->ninterfaces; i++)
         keep_lesser(surface, surface->interface[i].tag, &forecast->inner);
@@ -256,7 +258,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->coarseness = forecast->element / softening;
     double reach;
     TRY(measure_body(model, &forecast->extent, &reach));
-    if (fracas_shape_of(spec)->from_file) TRY(describe_file(fracas_model_surface(model), forecast));
+    if (fracas_shape_of(spec)->from_file) TRY(describe_file(model, forecast));
     forecast->flat = point->strength.factor && factor.least == factor.most;
     forecast->uniform = factor.least == factor.most && strength_at(point, extent.mean, 0.25) ==
                                                            strength_at(point, extent.mean, 0.75);

@@ -355,8 +355,8 @@ static group_name name_of(const fracas_surface_group *group)
 WARNING(
     warn_loose, forecast->loose.number, 1,
     "edges of the mesh file's physical group %s are held as geometry.edges says: the keys "
-    "edge_1 to edge_4 are those of the groups 1 to 4: give the group one of these numbers, and its "
-    "name is a key, too",
+    "edge_1 to edge_8, and names, are those of the groups 1 to 8: hold the group by its own, or "
+    "give it one of these numbers",
     name_of(&forecast->loose).text)
 
 WARNING(warn_inner, forecast->inner.number, 1,

@@ -19,12 +19,13 @@ static const fracas_kind left = {"left", "of a plate"}, right = {"right", "of a 
                          bottom = {"bottom", "of a plate"}, top = {"top", "of a plate"},
                          inner = {"inner_edge", "of an annulus"},
                          outer = {"outer_edge", "of an annulus"},
-                         edge_1 = {"edge_1", "of a mesh file"},
-                         edge_2 = {"edge_2", "of a mesh file"},
-                         edge_3 = {"edge_3", "of a mesh file"},
-                         edge_4 = {"edge_4", "of a mesh file"};
+                         group[] = {{"edge_1", "of a mesh file"}, {"edge_2", "of a mesh file"},
+                                    {"edge_3", "of a mesh file"}, {"edge_4", "of a mesh file"},
+                                    {"edge_5", "of a mesh file"}, {"edge_6", "of a mesh file"},
+                                    {"edge_7", "of a mesh file"}, {"edge_8", "of a mesh file"}};
 const fracas_kind *const fracas_load_edges[FRACAS_LOAD_EDGES] = {
-    &left, &right, &bottom, &top, &inner, &outer, &edge_1, &edge_2, &edge_3, &edge_4};
+    &left,     &right,    &bottom,   &top,      &inner,    &outer,    &group[0],
+    &group[1], &group[2], &group[3], &group[4], &group[5], &group[6], &group[7]};
 
 bool fracas_load_has_front(const fracas_loading *loading)
 {

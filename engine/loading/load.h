@@ -45,7 +45,7 @@ struct fracas_load {
 double fracas_load_spot(const fracas_loading *loading, const double x[3]);
 
 /* Names of edges, by their keys in the shapes' tables; `text` says what it does there. */
-enum { FRACAS_LOAD_EDGES = 10 };
+enum { FRACAS_LOAD_EDGES = 14 };
 extern const fracas_kind *const fracas_load_edges[FRACAS_LOAD_EDGES];
 #define FRACAS_LOAD_EDGE(key, member, text)                                 \
     FRACAS_ONE_OF(key, fracas_load_edges, offsetof(fracas_loading, member), \

@@ -96,6 +96,12 @@ static const fracas_kind *const units[] = {&unit_m, &unit_cm, &unit_mm, &unit_um
     FRACAS_BRACES(                     \
         FRACAS_ONE_OF(key, kinds, offsetof(fracas_geometry, edge[tag]), "what holds " what))
 #define EDGE(key, tag, what) EDGE_OF(edges, key, tag, what)
+#define AS_EDGES "; none is as `edges` says"
+#define EDGE_OF_GROUP(n, without, more)                                                \
+    FRACAS_BRACES(FRACAS_ONE_OF("edge_" #n, edges, offsetof(fracas_geometry, edge[n]), \
+                                "what holds the edges of the physical group " #n       \
+                                ", or of that of this name" more),                     \
+                  .optional = without)
 #define LENGTH(key, member, what)                                                  \
     FRACAS_BRACES(key, FRACAS_REAL, "m", what, FRACAS_REQUIRED, 0, INFINITY, true, \
                   offsetof(fracas_geometry, member))
@@ -298,10 +304,14 @@ static const fracas_param file[] = {
      .optional = true},
     THICKNESS,
     EDGE("edges", 0, "all edges but those of the physical groups below"),
-    EDGE("edge_1", 1, "the edges of the physical group 1, or of that of this name"),
-    EDGE("edge_2", 2, "the edges of the physical group 2, or of that of this name"),
-    EDGE("edge_3", 3, "the edges of the physical group 3, or of that of this name"),
-    EDGE("edge_4", 4, "the edges of the physical group 4, or of that of this name"),
+    EDGE_OF_GROUP(1, false, ""),
+    EDGE_OF_GROUP(2, false, ""),
+    EDGE_OF_GROUP(3, false, ""),
+    EDGE_OF_GROUP(4, false, ""),
+    EDGE_OF_GROUP(5, true, AS_EDGES),
+    EDGE_OF_GROUP(6, true, AS_EDGES),
+    EDGE_OF_GROUP(7, true, AS_EDGES),
+    EDGE_OF_GROUP(8, true, AS_EDGES),
 };
 
 static fracas_err make_from_file(const fracas_geometry *geometry,
@@ -367,28 +377,32 @@ static fracas_err no_such_edge(const fracas_geometry *geometry, const char *aske
                        known);
 }
 
+/* Key of the edges of a tag, from 1; NULL: the shape has none. */
+static const char *key_of_tag(const fracas_kind *shape, int32_t tag)
+{
+    const size_t place = offsetof(fracas_geometry, edge) + (size_t)tag * sizeof(fracas_kind *);
+    for (size_t p = 0; tag > 0 && tag < FRACAS_EDGES && p < shape->nparams; p++)
+        if (shape->params[p].offset == place) return shape->params[p].name;
+    return NULL;
+}
+
 fracas_err fracas_shape_edge_tag(const fracas_geometry *geometry, const char *asked,
                                  const char *key, int32_t *tag)
 {
-    const fracas_kind *shape = geometry->shape;
-    const size_t first = offsetof(fracas_geometry, edge[1]),
-                 last = offsetof(fracas_geometry, edge[FRACAS_EDGES - 1]);
     char known[160] = "";
-    for (size_t p = 0; p < shape->nparams; p++) {
-        const fracas_param *param = &shape->params[p];
-        if (param->offset < first || param->offset > last) continue;
-        *tag = 1 + (int32_t)((param->offset - first) / sizeof(const fracas_kind *));
-        if (strcmp(param->name, key) == 0) return FRACAS_OK;
+    for (*tag = 1; *tag < FRACAS_EDGES; ++*tag) {
+        const char *name = key_of_tag(geometry->shape, *tag);
+        if (!name) continue;
+        if (strcmp(name, key) == 0) return FRACAS_OK;
         const size_t used = strlen(known);
-        snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", param->name);
+        snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", name);
     }
     return no_such_edge(geometry, asked, key, known);
 }
 
-/* The names of a mesh file's physical groups are names of edge_1 to edge_4. */
+/* The names of a mesh file's physical groups are names of edge_1 to edge_8. */
 static fracas_err name_of_group(const fracas_attachment *mesh, const char **key)
 {
-    static const char *const edge[FRACAS_EDGES] = {NULL, "edge_1", "edge_2", "edge_3", "edge_4"};
     int32_t number;
     bool shared;
     TRY(fracas_gmsh_group(mesh->text, mesh->size, *key, &number, &shared));
@@ -397,7 +411,8 @@ static fracas_err name_of_group(const fracas_attachment *mesh, const char **key)
                            "the mesh file has another physical group for edge_%" PRId32
                            ", by its number or name: give each a number from 1 to %d of its own",
                            number, FRACAS_EDGES - 1);
-    if (number > 0 && number < FRACAS_EDGES) *key = edge[number];
+    const char *edge = key_of_tag(&fracas_shape_file, number);
+    if (edge) *key = edge;
     else if (number != 0)
         return fracas_fail(FRACAS_USAGE,
                            "the mesh file's physical group of this name has the number %" PRId32

@@ -10,6 +10,8 @@
 #include "tests/support/bar.h"
 #include "tests/support/test.h"
 
+enum { PLATE_SIDES = 4 }; /* of a plate, or of a grid of a mesh file: tags 1 to 4 */
+
 /* A body that stretches alike all over, with free edges: E 320 GPa, nu 0.3, rho 3300; law nitsche,
  * G_c 200 J/m2, beta 5; order 2, half the critical step of central difference, masses lumped. Its
  * sizes, rate and end are the caller's. */

@@ -114,6 +114,10 @@ static void test_names_of_groups(void **state)
         {"1 1 \"edge_2\"\n1 2 \"wall\"", "wall: held", 0, "another physical group for edge_2"},
         {"1 2 \"wall\"\n1 2 \"edge_3\"", "wall: held", 3, NULL},
         {"1 9 \"wall\"\n1 2 \"wall\"", "wall: held", 2, NULL},
+        {"1 7 \"wall\"", "wall: held", 7, NULL},
+        {"1 9 \"edge_8\"", "edge_8: held", 8, NULL},
+        {"1 9 \"wall\"", "wall: held", 0, "those with keys have 1 to 8: in the .geo file"},
+        {"1 9 \"wall\"", "edge_9: held", 0, "unknown key `edge_9` in geometry"},
     };
     char path[40];
     make_path(path);
@@ -138,8 +142,41 @@ static void test_names_of_groups(void **state)
         OWN(fracas_campaign) campaign = read_text(text);
         const fracas_geometry *geometry = &campaign->point[0].spec.geometry;
         for (int tag = 0; tag < FRACAS_EDGES; tag++)
-            assert_ptr_equal(geometry->edge[tag],
-                             tag == named[i].held ? &fracas_edge_held : &fracas_edge_free);
+            assert_ptr_equal(geometry->edge[tag], tag == named[i].held ? &fracas_edge_held
+                                                  : tag < 5            ? &fracas_edge_free
+                                                                       : NULL);
+    }
+    unlink(path);
+}
+
+/* A line in the groups 2 and 6: it belongs to 2, and a campaign that uses 6 is refused. */
+static void test_line_of_two_groups(void **state)
+{
+    static const struct {
+        const char *keys, *loading;
+        bool refused;
+    } of[] = {{"edge_2: held", "{rate: 1e4 1/s}", false},
+              {"edge_2: held, edges: fixed", "{rate: 1e4 1/s}", false},
+              {"edge_6: free", "{rate: 1e4 1/s}", true},
+              {"edge_2: held", "{type: traction, edge: edge_6, normal: 1 MPa}", true}};
+    OWNED char *six = replace(two_triangles, "$Elements\n4\n", "$Elements\n6\n"),
+               *mesh = replace(six, "$EndElements", "5 1 2 6 1 2 1\n6 1 2 6 1 3 2\n$EndElements");
+    char path[40];
+    make_path(path);
+    write_bytes(path, mesh, strlen(mesh));
+    OWNED char *plain = file_campaign(path,
+                                      "strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}\n");
+    for (size_t i = 0; i < FRACAS_COUNT(of); i++) {
+        OWNED char *held = replace(plain, "edge_2: held, edge_3: fixed", of[i].keys),
+                   *text = replace(held, "{rate: 1e4 1/s}", of[i].loading);
+        OWN(fracas_campaign) campaign = read_text(text);
+        fracas_model *model = NULL;
+        if (of[i].refused)
+            FAILS(fracas_point_model_create(campaign, 0, &model), FRACAS_USAGE,
+                  "edge_6 is used, but the mesh has lines of the physical group 6 in a group of a "
+                  "lesser number, too: an edge has one: take these lines out of one of them");
+        else OK(fracas_point_model_create(campaign, 0, &model));
+        fracas_model_destroy(model);
     }
     unlink(path);
 }
@@ -467,6 +504,6 @@ static void test_warnings_of_a_run(void **state)
     unlink(path);
 }
 
-TESTS_ALL(read_file, free_file, test_file, test_names_of_groups, test_names_in_a_sweep,
-          test_wrong_names, test_page_example, test_unit, test_no_mesh, test_plan_of_parts,
-          test_plan_of_file, test_no_interface, test_warnings_of_a_run)
+TESTS_ALL(read_file, free_file, test_file, test_names_of_groups, test_line_of_two_groups,
+          test_names_in_a_sweep, test_wrong_names, test_page_example, test_unit, test_no_mesh,
+          test_plan_of_parts, test_plan_of_file, test_no_interface, test_warnings_of_a_run)

@@ -324,6 +324,19 @@ static void test_partitions(void **state)
     assert_int_equal(tag_of(s, place_of(s, 5), 0), 0);
 }
 
+/* MSH 4 names the groups of a curve; those of a surface, with their own numbers, are others. */
+static void test_groups_of_a_curve(void **state)
+{
+    static const char text[] = HEAD_4
+        "$Entities\n0 1 1 0\n4 0 0 0 1 0 0 2 6 3 0\n1 0 0 0 1 1 0 2 7 8 0\n$EndEntities\n"
+        "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n"
+        "$Elements\n2 2 1 2\n1 4 1 1\n1 1 2\n2 1 2 1\n2 1 2 3\n$EndElements\n";
+    OWN(a_surface) s = NULL;
+    OK(fracas_surface_read_gmsh(text, strlen(text), 1, true, &s));
+    assert_int_equal(tag_of(s, 0, 0), 3);
+    assert_int_equal(s->passed, 1u << 6);
+}
+
 /* Programs write more than the mesh; versions before 2.2 are alike. */
 static void test_read_alike(void **state)
 {
@@ -343,18 +356,20 @@ static void test_read_alike(void **state)
     }
 }
 
-/* MSH 2 has what is in two physical groups twice. Of a line's the one with a key counts, by its
- * number or by its name. */
+/* MSH 2 has what is in two physical groups twice. Of a line's the lesser counts, by its number or
+ * by its name; `passed` has the other, if it is one with a key. */
 static void test_groups(void **state)
 {
     static const struct {
         const char *names, *groups[2];
         int32_t tag;
-    } of[] = {{"1\n1 7 \"a wall\"", {"7", "8"}, 7},
-              {"1\n1 8 \"edge_3\"", {"7", "8"}, 3},
-              {"1\n2 7 \"edge_3\"", {"9", "2"}, 2},
-              {"x\ny \"", {"2", "2"}, 2},
-              {"1\n1 1 \"edge_11\"", {"1", "9"}, 1}};
+        unsigned passed;
+    } of[] = {{"1\n1 7 \"a wall\"", {"7", "8"}, 7, 1u << 8},
+              {"1\n1 8 \"edge_3\"", {"7", "8"}, 3, 1u << 7},
+              {"1\n2 7 \"edge_3\"", {"9", "2"}, 2, 0},
+              {"x\ny \"", {"2", "2"}, 2, 0},
+              {"1\n1 1 \"edge_11\"", {"1", "9"}, 1, 0},
+              {"1\n1 12 \"edge_6\"", {"11", "12"}, 6, 0}};
     for (size_t i = 0; i < FRACAS_COUNT(of); i++) {
         char text[700];
         OWN(a_surface) s = NULL;
@@ -366,6 +381,7 @@ static void test_groups(void **state)
         OK(fracas_surface_read_gmsh(text, strlen(text), 1, false, &s));
         assert_int_equal(s->nelements, 2);
         assert_int_equal(tag_of(s, place_of(s, 3), 0), of[i].tag);
+        assert_int_equal(s->passed, of[i].passed);
         if (i < 2) assert_true(s->ngroups == 1 && !strcmp(s->group->name, i ? "edge_3" : "a wall"));
     }
 }
@@ -495,5 +511,5 @@ static void test_mutations(void **state)
 }
 
 TESTS(test_round_trip, test_plates, test_plates_agree, test_turned, test_turned_at_random,
-      test_round_off, test_partitions, test_read_alike, test_groups, test_refused,
-      test_refused_binary, test_cut, test_mutations)
+      test_round_off, test_partitions, test_read_alike, test_groups, test_groups_of_a_curve,
+      test_refused, test_refused_binary, test_cut, test_mutations)

@@ -147,7 +147,7 @@ static void momentum_changes_by_edges_that_move(void **unused)
 static void momentum_changes_by_reactions_and_load(void **unused)
 {
     fracas_spec clamped = loaded(plate_of(true, 4), &fracas_loading_pressure);
-    for (int tag = 1; tag < FRACAS_EDGES; tag++) clamped.geometry.edge[tag] = &fracas_edge_clamped;
+    for (int tag = 1; tag <= PLATE_SIDES; tag++) clamped.geometry.edge[tag] = &fracas_edge_clamped;
     clamped.loading.pressure = 1;
     clamped.geometry.thickness = 0.02;
     check_momentum(clamped, 1e6, 300, 4, false);

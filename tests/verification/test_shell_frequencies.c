@@ -28,7 +28,7 @@ static void frequencies(const vibration *v, size_t level, double beta, double be
     spec.cohesive.beta = beta;
     spec.cohesive.beta_shear = beta_shear;
     spec.time.rotary_inertia = v->rotary;
-    for (int tag = 1; tag < FRACAS_EDGES; tag++) spec.geometry.edge[tag] = v->edge[tag > 2];
+    for (int tag = 1; tag <= PLATE_SIDES; tag++) spec.geometry.edge[tag] = v->edge[tag > 2];
     OWN(fracas_model) model = grid_model(
         &spec,
         &(shell_grid){.nx = v->nx[level], .ny = v->ny[level], .map = flat_map, .how = v->size});

@@ -284,7 +284,7 @@ static void the_matrix_is_the_bilinear_form(void **unused)
     for (int which = 0; which < BODIES; which++)
         for (int edges = 0; edges < (which == SPHERE ? 1 : 2); edges++) {
             fracas_spec spec = shell_spec(&fracas_shape_sphere);
-            for (int tag = 0; edges && tag < FRACAS_EDGES; tag++)
+            for (int tag = 0; edges && tag <= PLATE_SIDES; tag++)
                 spec.geometry.edge[tag] = tag % 2 ? &fracas_edge_clamped : &fracas_edge_free;
             spec.geometry.thickness = 0.5; /* bending as large as stretching */
             spec.cohesive.beta_shear = 3;

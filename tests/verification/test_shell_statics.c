@@ -307,7 +307,7 @@ static fracas_model *supported_plate(size_t n, double thickness, double beta_she
 {
     static const double unit[2] = {1, 1};
     fracas_spec spec = shell_spec(&fracas_shape_file);
-    for (int tag = 1; tag < FRACAS_EDGES; tag++) spec.geometry.edge[tag] = &fracas_edge_fixed;
+    for (int tag = 1; tag <= PLATE_SIDES; tag++) spec.geometry.edge[tag] = &fracas_edge_fixed;
     spec.geometry.thickness = thickness;
     spec.cohesive.beta_shear = beta_shear;
     return grid_model(

@@ -27,7 +27,7 @@ static void rotary_inertia_of_held_nodes(void **unused)
     spec.mesh.divisions = 4;
     check_first_step(distorted_model(spec, DISTORTION, 5), 8, 1e3, 1e-6);
     spec.geometry.shape = &fracas_shape_file;
-    for (int tag = 1; tag < FRACAS_EDGES; tag++)
+    for (int tag = 1; tag <= PLATE_SIDES; tag++)
         spec.geometry.edge[tag] = tag % 2 ? &fracas_edge_diaphragm : &fracas_edge_symmetry;
     const shell_grid grid = {.nx = 3, .ny = 4, .map = flat_map, .how = unit, .distortion = 0.1};
     check_first_step(grid_model(&spec, &grid), 1, 1e3, 1e-6);
@@ -46,7 +46,7 @@ static void rotary_inertia_of_a_translation(void **unused)
     double kinetic[2];
     for (int rotary = 0; rotary < 2; rotary++) {
         fracas_spec spec = shell_spec(&fracas_shape_file);
-        for (int tag = 1; tag < FRACAS_EDGES; tag++) spec.geometry.edge[tag] = &fracas_edge_held;
+        for (int tag = 1; tag <= PLATE_SIDES; tag++) spec.geometry.edge[tag] = &fracas_edge_held;
         spec.time.rotary_inertia = rotary;
         spec.loading.rate = 1e-6;
         const shell_grid grid = {.nx = 3, .ny = 3, .map = lifted_map, .distortion = 0.1};
@@ -64,7 +64,7 @@ static void rotary_inertia_of_a_translation(void **unused)
 static void check_work_on_rotary_inertia(const fracas_kind *integrator)
 {
     fracas_spec spec = shell_spec(&fracas_shape_file);
-    for (int tag = 1; tag < FRACAS_EDGES; tag++) spec.geometry.edge[tag] = &fracas_edge_held;
+    for (int tag = 1; tag <= PLATE_SIDES; tag++) spec.geometry.edge[tag] = &fracas_edge_held;
     spec.geometry.thickness = 0.5;
     spec.time.rotary_inertia = 1;
     spec.time.safety = 0.1;
@@ -172,7 +172,7 @@ static void edges_hold_what_they_should(void **unused)
                                         &fracas_edge_symmetry, &fracas_edge_diaphragm};
     const double unit[2] = {1, 1}, rate = 1e-6;
     for (int k = 0; k < 6; k++)
-        for (int tag = 1; tag < FRACAS_EDGES; tag++) {
+        for (int tag = 1; tag <= PLATE_SIDES; tag++) {
             fracas_spec spec = shell_spec(&fracas_shape_file);
             spec.geometry.edge[tag] = kinds[k];
             spec.loading.rate = rate;

@@ -90,7 +90,7 @@ uint64_t fracas_segments_size(const fracas_segments *segments, const fracas_plac
     if (parts & FRACAS_READ_PROBES)
         bytes += segments->history * segments->probes * sizeof(fracas_probe_row);
     if (parts & FRACAS_READ_REACTIONS && !strcmp(segments->identity.value[5], "1")) {
-        enum { EDGES = 5 }; /* at most */
+        enum { EDGES = 9 }; /* at most */
         bytes += segments->history * EDGES * sizeof(fracas_reaction_row);
     }
     if (parts & FRACAS_READ_INTERFACES && segment) /* they are stored compactly */

@@ -140,6 +140,31 @@ static void fill_edge(const forcing *of, const fracas_surface_border *border, do
     }
 }
 
+/* ---- edges ---- */
+
+static bool is_loaded(const fracas_model *model, int32_t tag)
+{
+    for (int n = 0; n < FRACAS_LOADINGS; n++) {
+        const fracas_load *load = fracas_loading_load(&model->spec, n);
+        const char *key;
+        int32_t loaded;
+        for (int i = 0;
+             load && load->edge && (key = load->edge(fracas_loading_at(&model->spec, n), i)); i++)
+            if (!fracas_shape_edge_tag(&model->spec.geometry, "edge", key, &loaded) &&
+                loaded == tag)
+                return true;
+    }
+    return false;
+}
+
+int32_t fracas_surface_edge_key(const fracas_model *model, int32_t tag)
+{
+    if (tag <= 0 || tag >= FRACAS_EDGES) return 0;
+    const bool own = fracas_shape_edge(&model->spec, tag) || model->spec.geometry.edge[tag] ||
+                     is_loaded(model, tag);
+    return own ? tag : 0;
+}
+
 /* ---- tables ---- */
 
 fracas_err fracas_surface_load_tag(const fracas_model *model, int n, int i, int32_t *tag)

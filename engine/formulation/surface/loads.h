@@ -11,6 +11,10 @@
 FRACAS_MUST_USE fracas_err fracas_surface_load_tag(const fracas_model *model, int n, int i,
                                                    int32_t *tag);
 
+/* Key of the edges of a tag: the tag where the shape, `geometry` or a load decides on them alone;
+ * else 0, that of all others. */
+int32_t fracas_surface_edge_key(const fracas_model *model, int32_t tag);
+
 /* A place at s in (0, 1) on an edge, and |dx/ds| there [m]. */
 fracas_place fracas_surface_place_on(const fracas_surface *surface,
                                      const fracas_surface_border *border, double s, double *speed);
@@ -20,6 +24,11 @@ int fracas_surface_motion_number(const fracas_model *model);
 /* Edges that it moves: bits by tags; 0: none. FRACAS_USAGE as fracas_surface_load_tag, and where
  * another loading prescribes velocities, too. */
 FRACAS_MUST_USE fracas_err fracas_surface_moved_tags(const fracas_model *model, unsigned *tags);
+/* True if such an edge has the tag. */
+static inline bool fracas_surface_is_moved(int32_t tag, unsigned tags)
+{
+    return tag > 0 && tag < FRACAS_EDGES && (tags >> tag & 1);
+}
 /* Number of elements with such an edge. */
 size_t fracas_surface_moved_count(const fracas_surface *surface, unsigned tags);
 /* Fills moved_row, direction and the history of tables with `moved`. FRACAS_USAGE where the load

@@ -13,11 +13,6 @@
 enum { EDGES_MOST = 2 }; /* edges of a load */
 #define NOTHING 1e-12    /* component of a direction of length 1 by rounding alone */
 
-static bool is_moved(const fracas_surface_border *border, unsigned tags)
-{
-    return border->tag > 0 && border->tag < FRACAS_EDGES && (tags >> border->tag & 1);
-}
-
 static bool is_motion(const fracas_model *model, int n)
 {
     const fracas_load *load = fracas_loading_load(&model->spec, n);
@@ -70,8 +65,8 @@ size_t fracas_surface_moved_count(const fracas_surface *surface, unsigned tags)
     for (size_t b = 0; b < surface->nborders; b++) {
         const fracas_surface_border *border = &surface->border[b];
         const bool again = b > 0 && border[-1].element == border->element &&
-                           is_moved(border - 1, tags);
-        count += is_moved(border, tags) && !again;
+                           fracas_surface_is_moved(border[-1].tag, tags);
+        count += fracas_surface_is_moved(border->tag, tags) && !again;
     }
     return count;
 }

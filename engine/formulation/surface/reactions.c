@@ -1,16 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Forces of held edges on a surface, from the forces that the sweep kept (docs/theory/probes.md).
  */
-#include "engine/formulation/surface/surface.h"
+#include "engine/formulation/surface/loads.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-/* A mesh file's tags beyond the campaign's keys are one: all others. */
-static int64_t edge_of(const fracas_surface_border *border)
-{
-    return border->tag > 0 && border->tag < FRACAS_EDGES ? border->tag : 0;
-}
 
 /* Components of an element held by a border. */
 static uint32_t held_at(const fracas_model *model, const fracas_surface_border *border)
@@ -29,7 +23,7 @@ size_t fracas_surface_held_edges(const fracas_model *model, int64_t tag[FRACAS_E
     size_t count = 0;
     for (size_t b = 0; b < model->surface->nborders; b++) {
         const fracas_surface_border *border = &model->surface->border[b];
-        const int64_t edge = edge_of(border);
+        const int32_t edge = fracas_surface_edge_key(model, border->tag);
         holds[edge] = holds[edge] || fracas_surface_held_by(model, border) != 0;
     }
     for (int64_t edge = 0; edge < FRACAS_EDGES; edge++)
@@ -42,13 +36,13 @@ static uint32_t held_alone(const fracas_model *model, size_t b)
 {
     const fracas_surface *surface = model->surface;
     const fracas_surface_border *border = &surface->border[b];
-    const int64_t edge = edge_of(border);
+    const int32_t edge = fracas_surface_edge_key(model, border->tag);
     uint32_t held = held_at(model, border);
     for (size_t o = b > 2 ? b - 2 : 0; o < surface->nborders && o <= b + 2; o++) { /* 3 edges */
         const fracas_surface_border *other = &surface->border[o];
         if (o == b || other->element != border->element) continue;
-        if (edge_of(other) < edge || (edge_of(other) == edge && o < b))
-            held &= ~held_at(model, other);
+        const int32_t of_other = fracas_surface_edge_key(model, other->tag);
+        if (of_other < edge || (of_other == edge && o < b)) held &= ~held_at(model, other);
     }
     return held;
 }
@@ -62,7 +56,9 @@ fracas_err fracas_surface_holds_fill(const fracas_model *model, fracas_surface_d
     for (size_t n = 0; n < edges; n++)
         for (size_t b = 0; b < borders; b++) {
             const fracas_surface_border *border = &model->surface->border[b];
-            const uint32_t held = edge_of(border) == tag[n] ? held_alone(model, b) : 0;
+            const uint32_t held = fracas_surface_edge_key(model, border->tag) == tag[n]
+                                      ? held_alone(model, b)
+                                      : 0;
             if (held)
                 division->hold[division->holds++] = (fracas_surface_hold){border->element,
                                                                           (uint32_t)n, held};

@@ -236,13 +236,13 @@ static void fill_positions(const fracas_surface *surface, fracas_surface_tables 
 
 /* ---- edges ---- */
 
-/* The kind of the edges of a tag. */
+/* The kind of the edges of a tag: a key without a value takes that of all others. */
 static const fracas_kind *edge_kind(const fracas_spec *spec, int32_t tag)
 {
-    const fracas_kind *decided = fracas_shape_edge(spec, tag);
+    const fracas_kind *const *edge = spec->geometry.edge, *decided = fracas_shape_edge(spec, tag);
     if (decided) return decided;
-    const fracas_kind *kind = spec->geometry.edge[tag > 0 && tag < FRACAS_EDGES ? tag : 0];
-    return kind ? kind : &fracas_edge_free;
+    if (tag > 0 && tag < FRACAS_EDGES && edge[tag]) return edge[tag];
+    return edge[0] ? edge[0] : &fracas_edge_free;
 }
 
 unsigned fracas_surface_held_by(const fracas_model *model, const fracas_surface_border *border)
@@ -250,19 +250,25 @@ unsigned fracas_surface_held_by(const fracas_model *model, const fracas_surface_
     const fracas_surface_body *body = model->formulation->kind.traits;
     const fracas_kind *kind = edge_kind(&model->spec, border->tag);
     unsigned components = 0, moved = 0;
-    const bool moves = !fracas_surface_moved_tags(model, &moved) && border->tag > 0 &&
-                       border->tag < FRACAS_EDGES && moved >> border->tag & 1;
+    const bool moves = !fracas_surface_moved_tags(model, &moved) &&
+                       fracas_surface_is_moved(border->tag, moved);
     if (!(fracas_edge_of(kind)->held || moves) || body->hold_edge(model, border, kind, &components))
         return 0;
     return components;
 }
 
-/* Each edge of a mesh file held by the campaign must exist. */
+/* Each edge of a mesh file held by the campaign must exist, and be whole. */
 static fracas_err check_edge_tags(const fracas_model *model)
 {
     const fracas_surface *surface = model->surface;
     for (int32_t tag = 1; fracas_shape_of(&model->spec)->from_file && tag < FRACAS_EDGES; tag++) {
         size_t found = 0;
+        if (surface->passed >> tag & 1 && fracas_surface_edge_key(model, tag) == tag)
+            return fracas_fail(FRACAS_USAGE,
+                               "edge_%d is used, but the mesh has lines of the physical group %d "
+                               "in a group of a lesser number, too: an edge has one: take these "
+                               "lines out of one of them, or leave edge_%d to `edges`",
+                               (int)tag, (int)tag, (int)tag);
         for (size_t b = 0; b < surface->nborders; b++) found += surface->border[b].tag == tag;
         const fracas_kind *edge = model->spec.geometry.edge[tag];
         if (found == 0 && edge && fracas_edge_of(edge)->held)
@@ -288,7 +294,7 @@ static fracas_err fill_edges(const fracas_model *model, fracas_surface_tables *t
         const fracas_kind *kind = edge_kind(&model->spec, border->tag);
         const fracas_edge *edge = fracas_edge_of(kind);
         const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
-        const bool moves = border->tag > 0 && moved >> border->tag & 1;
+        const bool moves = fracas_surface_is_moved(border->tag, moved);
         unsigned components = 0;
         uint32_t held = 0;
         if (edge->held || moves) TRY(body->hold_edge(model, border, kind, &components));

@@ -192,6 +192,7 @@ static fracas_err fill(const assembly *work, fracas_surface *made)
     fracas_surface_group *group = malloc((work->arrays->ngroups + 1) * sizeof *group);
     made->group = group;
     made->ngroups = work->arrays->ngroups;
+    made->passed = work->arrays->passed;
     if (!group || !node || !element || !given || !area || !interface || !border)
         return fracas_no_memory("a mesh");
     if (made->ngroups > 0) memcpy(group, work->arrays->group, made->ngroups * sizeof *group);

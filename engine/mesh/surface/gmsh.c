@@ -113,7 +113,7 @@ static int compare_tags(const void *left, const void *right)
 }
 
 /* MSH 2 has a line once for each of its physical groups: one is chosen, where one can be. */
-static size_t merge_lines(const fracas_gmsh_mesh *m, resolved *out)
+static size_t merge_lines(fracas_gmsh_mesh *m, resolved *out)
 {
     size_t merged = 0;
     for (size_t l = 0; l < m->nlines; l++) {
@@ -125,7 +125,8 @@ static size_t merge_lines(const fracas_gmsh_mesh *m, resolved *out)
         fracas_surface_tag *last = merged ? &out->tag[merged - 1] : NULL;
         const bool same = last && last->node[0] == out->tag[l].node[0] &&
                           last->node[1] == out->tag[l].node[1];
-        const int32_t chosen = same ? fracas_gmsh_choose(last->tag, out->tag[l].tag) : 0;
+        const int32_t chosen = same ? fracas_gmsh_choose(last->tag, out->tag[l].tag, &m->passed)
+                                    : 0;
         if (chosen) last->tag = chosen;
         else out->tag[merged++] = out->tag[l];
     }
@@ -142,10 +143,12 @@ fracas_err fracas_surface_read_gmsh(const void *bytes, size_t size, double unit,
     TRY(resolve_elements(&m, unit, &out));
     TRY(resolve_lines(&m, &out));
     if (flat) flatten(&out);
+    const size_t ntags = merge_lines(&m, &out);
     fracas_surface_arrays arrays = {.order = m.order,
                                     .nnodes = out.nnodes,
                                     .nelements = m.nelements,
-                                    .ntags = merge_lines(&m, &out),
+                                    .ntags = ntags,
+                                    .passed = m.passed,
                                     .ngroups = m.ngroups,
                                     .group = m.group,
                                     .node = (const double(*)[3])out.node,

@@ -85,6 +85,7 @@ static fracas_err read_groups(fracas_gmsh_mesh *m, int dimension, int32_t *group
     int32_t one;
     int64_t count;
     double box[6];
+    unsigned passed = 0;
     *group = clash[0] = 0;
     TRY(fracas_gmsh_reals(&m->scan, dimension == 0 ? 3 : 6, box));
     TRY(fracas_gmsh_integer(&m->scan, 8, &count));
@@ -93,9 +94,10 @@ static fracas_err read_groups(fracas_gmsh_mesh *m, int dimension, int32_t *group
         TRY(fracas_gmsh_ints(&m->scan, 1, &one));
         one = fracas_gmsh_key_of(m->group, m->ngroups, one);
         const int32_t before = *group;
-        *group = i ? fracas_gmsh_choose(before, one) : one;
+        *group = i ? fracas_gmsh_choose(before, one, &passed) : one;
         if (i && *group == 0) clash[0] = before, clash[1] = one;
     }
+    if (dimension == 1) m->passed |= passed;
     return dimension == 0 ? FRACAS_OK : read_list(m, &count, &one);
 }
 

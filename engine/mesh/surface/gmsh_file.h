@@ -29,6 +29,7 @@ typedef struct {
     fracas_gmsh_entry *curve;    /* sorted: physical group of each curve */
     fracas_gmsh_entry *piece;    /* sorted: the same of its pieces, of a mesh in partitions */
     fracas_surface_group *group; /* names of physical groups of curves */
+    unsigned passed;             /* as of fracas_surface */
     int order;                   /* 0: no triangle so far */
 } fracas_gmsh_mesh;
 
@@ -41,9 +42,9 @@ void fracas_gmsh_mesh_clear(fracas_gmsh_mesh *mesh);
 const fracas_gmsh_entry *fracas_gmsh_find(const fracas_gmsh_entry *all, size_t count,
                                           int64_t number);
 
-/* The group of an edge in two groups: the one that geometry has a key for, or else the lesser; 0
- * where both have one. */
-int32_t fracas_gmsh_choose(int32_t a, int32_t b);
+/* The group of an edge in two groups: the lesser, and *passed has a bit for the other; 0 where both
+ * have keys that are always set. */
+int32_t fracas_gmsh_choose(int32_t a, int32_t b, unsigned *passed);
 
 /* ---- names (gmsh_names.c) ---- */
 

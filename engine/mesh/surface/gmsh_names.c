@@ -15,11 +15,15 @@ static bool has_key(int32_t group)
     return group > 0 && group < FRACAS_EDGES;
 }
 
-int32_t fracas_gmsh_choose(int32_t a, int32_t b)
+enum { ALWAYS = 4 }; /* edge_1 to edge_4 have a value in every campaign, the further may have one */
+
+int32_t fracas_gmsh_choose(int32_t a, int32_t b, unsigned *passed)
 {
-    if (a == b || (has_key(a) && !has_key(b))) return a;
-    if (has_key(b)) return has_key(a) ? 0 : b;
-    return a < b ? a : b;
+    const int32_t lesser = a < b ? a : b, other = a < b ? b : a;
+    if (a == b || lesser <= 0) return other;
+    if (other <= ALWAYS) return 0;
+    if (has_key(other)) *passed |= 1u << other;
+    return lesser;
 }
 
 int32_t fracas_gmsh_key_of(const fracas_surface_group *named, size_t count, int32_t group)

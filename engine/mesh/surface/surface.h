@@ -50,7 +50,8 @@ typedef struct fracas_surface {
     const fracas_surface_border *border;       /* sorted by element and edge */
     size_t ngroups;
     const fracas_surface_group *group; /* those with names */
-    const int64_t *given;              /* [nelements] number of the element as it was given */
+    unsigned passed; /* bits by tags: those of which an edge has another tag, a lesser one, too */
+    const int64_t *given; /* [nelements] number of the element as it was given */
     const double *area; /* [nelements] m2: exact for straight edges in a plane, else by a quadrature
                            whose error falls as h^6 */
 } fracas_surface;
@@ -69,6 +70,7 @@ typedef struct {
     const uint32_t *element; /* [nelements][3 order] */
     const fracas_surface_tag *tag;
     const fracas_surface_group *group;
+    unsigned passed;                             /* as of fracas_surface */
     const int64_t *node_number, *element_number; /* for messages; NULL: their index, from 0 */
 } fracas_surface_arrays;
 
