@@ -180,6 +180,19 @@ static void groups_move_by_their_names(void **unused)
     assert_true(pull.mean[0] > 0 && fabs(wall.mean[0] / pull.mean[0] + 1) < 0.01);
 }
 
+/* Of a group without a key a refusal says how all others are held. */
+static void a_moved_group_is_held_as_all_others(void **unused)
+{
+    static const char loading[] = "{type: edge-motion, edge: pull, direction: along, "
+                                  "displacement: 1 um, rise: 40 us}";
+    OWNED char *mesh = strips_file(STRIPS);
+    OWN(fracas_campaign) campaign = campaign_of(mesh, ", edges: sliding", loading, 1);
+    fracas_model *model = NULL;
+    FAILS(fracas_point_model_create(campaign, 0, &model), FRACAS_USAGE,
+          "loading moves the edge edge_8 in a direction in which geometry, where it is sliding, "
+          "does not hold it");
+}
+
 /* A group 33 is none of the load's, which is edge 1: tags are bits below 9 alone. */
 static void groups_beyond_the_keys_stay(void **unused)
 {
@@ -193,4 +206,4 @@ static void groups_beyond_the_keys_stay(void **unused)
 }
 
 TESTS(each_wall_holds_its_strip, groups_without_a_key_are_all_others, groups_move_by_their_names,
-      groups_beyond_the_keys_stay)
+      a_moved_group_is_held_as_all_others, groups_beyond_the_keys_stay)

@@ -15,6 +15,9 @@ FRACAS_MUST_USE fracas_err fracas_surface_load_tag(const fracas_model *model, in
  * else 0, that of all others. */
 int32_t fracas_surface_edge_key(const fracas_model *model, int32_t tag);
 
+/* The kind of the edges of a tag: the shape's, that of `geometry`, or else that of all others. */
+const fracas_kind *fracas_surface_edge_kind(const fracas_spec *spec, int32_t tag);
+
 /* A place at s in (0, 1) on an edge, and |dx/ds| there [m]. */
 fracas_place fracas_surface_place_on(const fracas_surface *surface,
                                      const fracas_surface_border *border, double s, double *speed);

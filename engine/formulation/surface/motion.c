@@ -134,13 +134,12 @@ static const char *key_of(const fracas_model *model, int32_t tag)
 
 static fracas_err not_held(const fracas_model *model, int32_t tag)
 {
-    const fracas_kind *kind = model->spec.geometry.edge[tag];
     return fracas_fail(FRACAS_USAGE,
                        "%s moves the edge %s in a direction in which geometry, where it is "
                        "%s, does not hold it: hold it otherwise, or leave it free: then all of it "
                        "goes along",
                        fracas_loading_sections[fracas_surface_motion_number(model)].name,
-                       key_of(model, tag), kind ? kind->name : "held by the shape");
+                       key_of(model, tag), fracas_surface_edge_kind(&model->spec, tag)->name);
 }
 
 /* Adds to a direction the part of another edge's beside it: a corner of two moved edges goes with

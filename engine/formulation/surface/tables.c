@@ -236,8 +236,7 @@ static void fill_positions(const fracas_surface *surface, fracas_surface_tables 
 
 /* ---- edges ---- */
 
-/* The kind of the edges of a tag: a key without a value takes that of all others. */
-static const fracas_kind *edge_kind(const fracas_spec *spec, int32_t tag)
+const fracas_kind *fracas_surface_edge_kind(const fracas_spec *spec, int32_t tag)
 {
     const fracas_kind *const *edge = spec->geometry.edge, *decided = fracas_shape_edge(spec, tag);
     if (decided) return decided;
@@ -248,7 +247,7 @@ static const fracas_kind *edge_kind(const fracas_spec *spec, int32_t tag)
 unsigned fracas_surface_held_by(const fracas_model *model, const fracas_surface_border *border)
 {
     const fracas_surface_body *body = model->formulation->kind.traits;
-    const fracas_kind *kind = edge_kind(&model->spec, border->tag);
+    const fracas_kind *kind = fracas_surface_edge_kind(&model->spec, border->tag);
     unsigned components = 0, moved = 0;
     const bool moves = !fracas_surface_moved_tags(model, &moved) &&
                        fracas_surface_is_moved(border->tag, moved);
@@ -291,7 +290,7 @@ static fracas_err fill_edges(const fracas_model *model, fracas_surface_tables *t
     size_t r = 0, e = 0;
     for (size_t b = 0; b < model->surface->nborders; b++) {
         const fracas_surface_border *border = &model->surface->border[b];
-        const fracas_kind *kind = edge_kind(&model->spec, border->tag);
+        const fracas_kind *kind = fracas_surface_edge_kind(&model->spec, border->tag);
         const fracas_edge *edge = fracas_edge_of(kind);
         const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
         const bool moves = fracas_surface_is_moved(border->tag, moved);
@@ -366,7 +365,8 @@ fracas_err fracas_surface_tables_create(const fracas_model *model, fracas_surfac
     t->nelements = surface->nelements;
     t->ninterfaces = surface->ninterfaces;
     for (size_t b = 0; b < surface->nborders; b++)
-        t->nrims += fracas_edge_of(edge_kind(&model->spec, surface->border[b].tag))->director;
+        t->nrims += fracas_edge_of(fracas_surface_edge_kind(&model->spec, surface->border[b].tag))
+                        ->director;
     const fracas_time *time = &model->spec.time;
     size_t forces, loads;
     unsigned moved = 0;
