@@ -40,7 +40,7 @@ typedef struct {
     fracas_refined refined[FRACAS_NREFINEMENTS]; /* campaign NULL: not asked for, or impossible */
     double began, walltime;                      /* s */
     fracas_err end; /* FRACAS_SOME_FAILED if a realization of any study failed */
-    char failure[1024];
+    char failure[STUDY_PATH + 1024];
 } converging;
 
 static const fracas_refined *base_of(const converging *c)

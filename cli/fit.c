@@ -41,7 +41,7 @@ static void show_progress(void *context, size_t done, size_t saved, size_t all)
 {
     const time_t *began = context;
     const double elapsed = difftime(time(NULL), *began);
-    char left[48] = "", before[48] = "";
+    char left[48] = "", before[64] = "";
     if (!isatty(STDERR_FILENO)) return;
     if (done > saved && done < all) {
         const long s = lround(elapsed * (double)(all - done) / (double)(done - saved));
