@@ -46,6 +46,7 @@ fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas
     run->force = fracas_given(arguments, "force");
     run->quiet = fracas_given(arguments, "quiet");
     run->wide = fracas_given(arguments, "wide");
+    run->no_report = fracas_given(arguments, "no-report");
     run->ignore_space = fracas_given(arguments, "ignore-space");
     TRY(fracas_arguments_integer(arguments, "jobs", 1, INT_MAX, &run->jobs));
     TRY(fracas_arguments_integer(arguments, "replicas", 1, INT_MAX, &replicas));
@@ -81,7 +82,7 @@ fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv)
     if (!ran) fprintf(stderr, "fracas: %s is complete, nothing to compute\n", study);
     const fracas_report_view view = {
         .quiet = run->quiet, .columns = run->wide ? 0 : fracas_terminal_of(STDOUT_FILENO).columns};
-    TRY(fracas_cli_report(study, &view));
+    if (!run->no_report) TRY(fracas_cli_report(study, &view));
     const fracas_err fields = fracas_written_fields(study, campaign, stderr);
     if (!end) return fields;
     if (fields) fprintf(stderr, "fracas: %s\n", fracas_message());

@@ -29,6 +29,7 @@
         {"segment-size", "MB", "or has MB megabytes (64; 1 MB is 1048576 bytes)"},            \
         {"quiet", NULL, "no progress and no table, only what goes wrong"},                    \
         {"wide", NULL, "tables as wide as they are, also on a narrower terminal"},            \
+        {"no-report", NULL, "compute and store alone: `fracas report STUDY` reports later"},  \
         {"shuffle", NULL, "compute in a shuffled order (the results are the same)"},          \
         {"force", NULL, "take the study over from a run on another host that is dead"},       \
     {                                                                                         \
@@ -36,7 +37,7 @@
     }
 
 /* These, --study first, for commands without any other. */
-enum { FRACAS_NRUN_OPTIONS = 19 };
+enum { FRACAS_NRUN_OPTIONS = 20 };
 extern const fracas_option fracas_cli_run_options[FRACAS_NRUN_OPTIONS + 1];
 #define FRACAS_STUDY_RUN_OPTIONS (fracas_cli_run_options + 1)
 

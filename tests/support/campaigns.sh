@@ -214,14 +214,15 @@ random()
     echo $(($1 + $(od -An -N2 -tu2 /dev/urandom) % ($2 - $1 + 1)))
 }
 
-# compare FILE OPTIONS...: runs the campaign as the study other1, other2 ..., which must be the bytes of the study one.
+# compare FILE OPTIONS...: runs the campaign as the study other1, other2 ..., which must be the bytes of the study one; the report of
+# these bytes is there.
 others=0
 compare()
 {
     compared=$1
     shift
     others=$((others + 1))
-    expect 0 "$fracas" run "$compared" --study "other$others" "$@"
+    expect 0 "$fracas" run "$compared" --study "other$others" --no-report "$@"
     same one "other$others"
 }
 

@@ -50,6 +50,11 @@ campaign done.yaml 4 '1e5 1/s'
 expect 0 "$fracas" run done.yaml --study done --quiet
 [ "$(grep -vc '^done: 4 of 4 realizations of 1 point to do' said)" -eq 0 ] || { cat said >&2; fail "--quiet speaks"; }
 [ -s done/report/index.html ] || fail "--quiet leaves no report"
+expect 0 "$fracas" run done.yaml --study bare --no-report
+[ ! -e bare/report ] || fail "--no-report leaves a report"
+same done bare
+expect 0 "$fracas" report bare
+cmp done/report/points.csv bare/report/points.csv || fail "a report that is made later differs"
 expect 0 "$fracas" status done --watch --prometheus done.prom
 said ' 4 of 4 realizations done, 0 failed; .*; complete'
 grep -q '^fracas_complete{study="done"} 1$' done.prom || fail "it is not complete"

@@ -40,6 +40,7 @@ typedef struct {
     bool force;                /* take over the lock of another host */
     bool quiet;                /* show no progress, and no table at the end ... */
     bool wide;                 /* ... or one wider than the terminal */
+    bool no_report;            /* compute and store, no more */
     bool ignore_space;         /* start although the disk is predicted to be too small */
 } fracas_run_options;
 
