@@ -61,6 +61,12 @@ typedef struct fracas_attached {
 
 #define FRACAS_ATTACHMENTS "attachments" /* folder beside a written campaign file */
 
+/* A path such as a written campaign file has for it, attachments/DIGEST. */
+typedef struct {
+    char text[sizeof FRACAS_ATTACHMENTS + 33]; /* a slash, 32 digits, a NUL */
+} fracas_attachment_name;
+fracas_attachment_name fracas_attachment_named(const fracas_attachment *attachment);
+
 typedef struct fracas_campaign {
     const char *name;
     uint64_t seed;
@@ -112,6 +118,21 @@ FRACAS_MUST_USE fracas_err fracas_campaign_replicas(fracas_campaign *campaign, i
 /* Writes the campaign as resolved: in SI, with every default. The result is a campaign file of the
  * same points, hashes and replicas, if its attachments are beside it as attachments/DIGEST. */
 FRACAS_MUST_USE fracas_err fracas_campaign_write(const fracas_campaign *campaign, FILE *out);
+
+/* The same as text of *size bytes, and a NUL behind them; freed by the caller. */
+FRACAS_MUST_USE fracas_err fracas_campaign_text(const fracas_campaign *campaign, char **text,
+                                                size_t *size);
+/* True if such a text names the file, as attachments/DIGEST. */
+bool fracas_campaign_names(const char *text, const fracas_attachment *attachment);
+
+/* The text with the files that it names, which belong to the campaign. Cleared by the caller.
+ * Campaigns of one text have one copy, wherever they were read. */
+FRACAS_MUST_USE fracas_err fracas_campaign_copy_make(const fracas_campaign *campaign,
+                                                     fracas_campaign_copy *copy);
+/* The campaign of such a copy, called `name` in messages; it keeps nothing of the copy. No file is
+ * read. Errors as of fracas_campaign_read. */
+FRACAS_MUST_USE fracas_err fracas_campaign_copy_read(const fracas_campaign_copy *copy,
+                                                     const char *name, fracas_campaign **campaign);
 
 /* FRACAS_OK when `now` extends or equals `before`: the same seed and output, and every point of
  * `before` with at least its replicas. A rule for replicas may only ask for more, so no round stops

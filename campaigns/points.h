@@ -4,11 +4,13 @@
 #define FRACAS_CAMPAIGNS_POINTS_H
 
 #include "base/hash.h"
+#include "base/param.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* One resolved scalar (`material.young`) or enum (`cohesive.law`) over all points. */
@@ -39,6 +41,23 @@ typedef struct {
     size_t npoints;
     const fracas_point_row *point;
 } fracas_point_table;
+
+/* The text of a campaign as resolved, and the files that it names, as attachments/DIGEST: all that
+ * a study has of its campaign. */
+typedef struct {
+    char *text; /* owned; `size` bytes and a NUL */
+    size_t size, nfiles;
+    fracas_attachment *file; /* owned, by digest, each once; without a path */
+    char *content;           /* owned, of all files; NULL: it belongs to the campaign */
+} fracas_campaign_copy;
+
+static inline void fracas_campaign_copy_clear(fracas_campaign_copy *copy)
+{
+    free(copy->text);
+    free(copy->file);
+    free(copy->content);
+    *copy = (fracas_campaign_copy){0};
+}
 
 /* Index of the column, or SIZE_MAX. Inline, for store and analysis alike. */
 static inline size_t fracas_point_table_find(const fracas_point_table *table, const char *path)

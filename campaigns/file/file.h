@@ -11,7 +11,8 @@ typedef struct {
     const char *name;
     fracas_campaign_memory *memory;
     const fracas_units *units;
-    fracas_campaign *campaign; /* being made */
+    fracas_campaign *campaign;        /* being made */
+    const fracas_campaign_copy *copy; /* has the files that it names; NULL: they are read */
     const fracas_catalog *catalog;
     const fracas_node *root;
     fracas_faults *faults;     /* NULL: the first error ends the reading */

@@ -370,16 +370,20 @@ static fracas_err read_file(reading *read, fracas_campaign *campaign)
     return fracas_file_noted(file) ? FRACAS_OK : identify(read, campaign);
 }
 
+/* `text` NULL: of the file `path`; `copy` NULL: the files that it names are read. */
 static fracas_err make(const fracas_units *units, const char *path, const char *text, size_t size,
-                       fracas_campaign **campaign)
+                       const fracas_campaign_copy *copy, fracas_campaign **campaign)
 {
     OWN(fracas_campaign) made = calloc(1, sizeof *made);
     if (!made || !(made->memory = fracas_memory_create())) return fracas_no_memory("the campaign");
     TRY(fracas_frequencies_create(&made->frequencies));
-    reading read = {
-        .file = {.name = path, .memory = made->memory, .units = units, .campaign = made},
-        .text = text,
-        .size = size};
+    reading read = {.file = {.name = path,
+                             .memory = made->memory,
+                             .units = units,
+                             .campaign = made,
+                             .copy = copy},
+                    .text = text,
+                    .size = size};
     read.file.faults = fracas_faults_create(made->memory);
     if (!read.file.faults) return fracas_no_memory("the campaign");
     TRY(fracas_faults_note(read.file.faults, read_file(&read, made)));
@@ -392,14 +396,14 @@ static fracas_err make(const fracas_units *units, const char *path, const char *
 fracas_err fracas_campaign_read_with(const fracas_units *units, const char *path,
                                      fracas_campaign **campaign)
 {
-    return make(units, path, NULL, 0, campaign);
+    return make(units, path, NULL, 0, NULL, campaign);
 }
 
 fracas_err fracas_campaign_read(const char *path, fracas_campaign **campaign)
 {
     OWN(fracas_units) units = NULL;
     TRY(fracas_units_create(&units));
-    return make(units, path, NULL, 0, campaign);
+    return make(units, path, NULL, 0, NULL, campaign);
 }
 
 fracas_err fracas_campaign_read_text(const char *text, size_t size, const char *name,
@@ -407,5 +411,13 @@ fracas_err fracas_campaign_read_text(const char *text, size_t size, const char *
 {
     OWN(fracas_units) units = NULL;
     TRY(fracas_units_create(&units));
-    return make(units, name, text, size, campaign);
+    return make(units, name, text, size, NULL, campaign);
+}
+
+fracas_err fracas_campaign_copy_read(const fracas_campaign_copy *copy, const char *name,
+                                     fracas_campaign **campaign)
+{
+    OWN(fracas_units) units = NULL;
+    TRY(fracas_units_create(&units));
+    return make(units, name, copy->text, copy->size, copy, campaign);
 }

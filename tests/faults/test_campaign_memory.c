@@ -70,7 +70,15 @@ static void test_read(void **state)
     fracas_units_destroy(from.units);
 }
 
-/* The same of a campaign that names a file. */
+static fracas_err make_copy(const void *context)
+{
+    FRACAS_CLEARED(fracas_campaign_copy) copy = {0};
+    TRY(fracas_campaign_copy_make(context, &copy));
+    assert_true(copy.nfiles == 1 && copy.file->size == 8);
+    return FRACAS_OK;
+}
+
+/* The same of a campaign that names a file, and of its copy for study.h5. */
 static void test_read_file(void **state)
 {
     source from;
@@ -93,6 +101,7 @@ static void test_read_file(void **state)
     OWNED char *there = replace(text, copy, strengths);
     write_bytes(from.path, there, strlen(there));
     fail_each_of(read_source, &from, LONG_MAX);
+    fail_each_of(make_copy, campaign, LONG_MAX);
     unlink(from.path);
     unlink(strengths);
     fracas_units_destroy(from.units);

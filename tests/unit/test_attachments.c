@@ -374,6 +374,54 @@ static void test_round_trip(void **state)
           "is damaged: its content has the digest");
 }
 
+/* A copy holds the text and the files that it names, the same from the user's file and from the
+ * resolved one; the campaign comes back from it when the files are gone. */
+static void test_copy(void **state)
+{
+    put("s.csv", "300e6\n");
+    put("same.csv", "300e6\n");
+    put("t.csv", "301e6\n");
+    put("unused.csv", "302e6\n");
+    OWN(fracas_campaign) campaign = good_with(
+        FROM_FILE "unused.csv\n",
+        "sweep:\n  - cases:\n      - strength.file: s.csv\n      - {strength.file: same.csv, "
+        "mesh.elements: 90}\n      - strength.file: t.csv\n");
+    FRACAS_CLEARED(fracas_campaign_copy) copy = {0};
+    FRACAS_CLEARED(fracas_campaign_copy) again = {0};
+    OK(fracas_campaign_copy_make(campaign, &copy));
+    OWNED char *text = write_text(campaign);
+    assert_string_equal(copy.text, text);
+    assert_int_equal(copy.size, strlen(text));
+    assert_int_equal(copy.nfiles, 2); /* one content, one file; what no point has is left out */
+    assert_true(strcmp(copy.file[0].digest, copy.file[1].digest) < 0);
+    assert_null(strstr(copy.text, ".csv"));
+    for (size_t i = 0; i < 2; i++)
+        assert_true(!strcmp(copy.file[i].text, "300e6\n") || !strcmp(copy.file[i].text, "301e6\n"));
+
+    static const char *const gone[] = {"s.csv", "same.csv", "t.csv", "unused.csv"};
+    for (size_t i = 0; i < FRACAS_COUNT(gone); i++) unlink(in_folder(gone[i]));
+    OWN(fracas_campaign) back = NULL;
+    OK(fracas_campaign_copy_read(&copy, "elsewhere/study.h5", &back));
+    assert_true(fracas_hash_equal(&campaign->hash, &back->hash));
+    OK(fracas_campaign_copy_make(back, &again));
+    assert_string_equal(again.text, copy.text);
+    assert_int_equal(again.nfiles, 2);
+    for (size_t i = 0; i < 2; i++) {
+        assert_string_equal(again.file[i].digest, copy.file[i].digest);
+        assert_string_equal(again.file[i].text, copy.file[i].text);
+        assert_ptr_not_equal(again.file[i].text, copy.file[i].text);
+    }
+    fracas_campaign *none = NULL;
+    copy.nfiles = 1;
+    FAILS(fracas_campaign_copy_read(&copy, "elsewhere/study.h5", &none), FRACAS_USAGE,
+          "is not in elsewhere/study.h5");
+    copy.nfiles = 2;
+    copy.file[1].text = "300e7\n";
+    FAILS(fracas_campaign_copy_read(&copy, "elsewhere/study.h5", &none), FRACAS_USAGE,
+          "is damaged: its content has the digest");
+    assert_null(none);
+}
+
 /* ---- the forecast ---- */
 
 static void test_forecast(void **state)
@@ -525,5 +573,5 @@ static void test_noise(void **state)
 }
 
 TESTS_ALL(make_folder, remove_folder, test_values, test_bad_values, test_errors, test_empirical,
-          test_identity, test_round_trip, test_forecast, test_noise, test_places, test_bad_places,
-          test_many_places, test_positions, test_positions_of_a_surface)
+          test_identity, test_round_trip, test_copy, test_forecast, test_noise, test_places,
+          test_bad_places, test_many_places, test_positions, test_positions_of_a_surface)

@@ -113,21 +113,6 @@ static fracas_err copy_attachments(const char *study, const fracas_campaign *cam
 
 /* ---- the campaign file of a folder ---- */
 
-/* *text: the file that fracas_campaign_write makes of a campaign. */
-static fracas_err text_of(const fracas_campaign *campaign, char **text)
-{
-    OWNED char *made = NULL;
-    size_t size;
-    FILE *out = open_memstream(&made, &size);
-    if (!out) return fracas_no_memory("the resolved campaign");
-    fracas_err err = fracas_campaign_write(campaign, out);
-    if (fclose(out) && !err) err = fracas_no_memory("the resolved campaign");
-    TRY(err);
-    *text = made;
-    made = NULL;
-    return FRACAS_OK;
-}
-
 /* *text: the bytes of a file, a NUL behind them. */
 static fracas_err bytes_of(const char *path, char **text)
 {
@@ -139,13 +124,11 @@ static fracas_err bytes_of(const char *path, char **text)
     return ferror(in) ? fracas_fail_system(errno, "cannot read %s", path) : FRACAS_OK;
 }
 
+/* The text names every file of the campaign by its copy. */
 static bool names_copies(const char *text, const fracas_campaign *campaign)
 {
-    char name[sizeof FRACAS_ATTACHMENTS "/" + sizeof campaign->attached->attachment.digest];
-    for (const fracas_attached *a = campaign->attached; a; a = a->next) {
-        snprintf(name, sizeof name, FRACAS_ATTACHMENTS "/%s", a->attachment.digest);
-        if (!strstr(text, name)) return false;
-    }
+    for (const fracas_attached *a = campaign->attached; a; a = a->next)
+        if (!fracas_campaign_names(text, &a->attachment)) return false;
     return true;
 }
 
@@ -157,15 +140,16 @@ static fracas_err look_at(const char *path, const fracas_campaign *campaign, kep
 {
     OWN(fracas_campaign) before = NULL;
     OWNED char *text = NULL, *was = NULL, *is = NULL;
+    size_t size;
     *what = ABSENT;
     if (access(path, F_OK) && errno == ENOENT && fracas_file_is_own(path)) return FRACAS_OK;
     TRY(bytes_of(path, &text));
-    TRY(text_of(campaign, &is));
+    TRY(fracas_campaign_text(campaign, &is, &size));
     *what = SAME;
     if (strcmp(text, is) == 0) return FRACAS_OK;
     *what = BY_HAND;
     if (fracas_campaign_read(path, &before)) return FRACAS_OK;
-    TRY(text_of(before, &was));
+    TRY(fracas_campaign_text(before, &was, &size));
     if (strcmp(was, is) == 0 && names_copies(text, campaign)) *what = SAME;
     else if (strcmp(was, text) == 0) *what = OTHER;
     return FRACAS_OK;
