@@ -14,11 +14,11 @@
  * the table, and its function. */
 
 /* A point, the mean extent of its interfaces (0 where no strength needs it), the mean of its
- * strengths there [Pa]. */
+ * strengths there and their standard deviation [Pa]. */
 typedef struct {
     const fracas_point *point;
     fracas_extent extent;
-    double strength;
+    double strength, deviation;
 } derivation;
 
 typedef struct {
@@ -53,6 +53,11 @@ static double lattice(const derivation *of)
 static double strain_rate(const derivation *of)
 {
     return fracas_spec_strain_rate(&of->point->spec);
+}
+
+static double strength_deviation(const derivation *of)
+{
+    return of->deviation;
 }
 
 static double strength_mean(const derivation *of)
@@ -92,6 +97,9 @@ static const derived_column derived_columns[] = {
     {{"derived.radius", "m", "radius of a ring; NaN for other bodies", false}, radius},
     {{"derived.strain_rate", "1/s", "strain rate that the loading begins with", false},
      strain_rate},
+    {{"derived.strength_deviation", "Pa", "standard deviation of the distribution of strengths",
+      false},
+     strength_deviation},
     {{"derived.strength_mean", "Pa", "mean of the distribution of strengths", false},
      strength_mean},
     {{"derived.strength_modulus", "1", "modulus M of the strengths in Mott's law; NaN without one",
@@ -184,7 +192,8 @@ static fracas_err derive(const fracas_campaign *campaign, size_t p, known_mesh *
         if (err) return fracas_fail_within(err, "point %zu", p);
         mesh->spec = &point->spec;
     }
-    *of = (derivation){point, mesh->extent, fracas_strength_mean(&point->strength, mesh->extent)};
+    *of = (derivation){point, mesh->extent, fracas_strength_mean(&point->strength, mesh->extent),
+                       fracas_strength_deviation(&point->strength, mesh->extent)};
     return FRACAS_OK;
 }
 

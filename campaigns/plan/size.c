@@ -195,6 +195,15 @@ static double count_segments(const fracas_campaign *campaign, const fracas_forec
     return fmin(realizations, fmax(jobs, fmax(fmin(batches, by_age), by_size)));
 }
 
+double fracas_copy_bytes(const fracas_campaign *campaign)
+{
+    FRACAS_CLEARED(fracas_campaign_copy) copy = {0};
+    if (fracas_campaign_copy_make(campaign, &copy)) return 0;
+    double bytes = (double)copy.size;
+    for (size_t i = 0; i < copy.nfiles; i++) bytes += (double)copy.file[i].size;
+    return bytes;
+}
+
 fracas_sizes fracas_campaign_sizes(const fracas_campaign *campaign, const fracas_forecast *forecast,
                                    int jobs, bool least)
 {
@@ -203,7 +212,8 @@ fracas_sizes fracas_campaign_sizes(const fracas_campaign *campaign, const fracas
     const double whole = fracas_file_bytes(rows, &campaign->table);
     const double segments = count_segments(campaign, forecast, jobs, least, whole);
     count_meshes(campaign, forecast, rows);
-    fracas_sizes sizes = {.study = fracas_file_bytes(rows, &campaign->table)};
+    fracas_sizes sizes = {.study = fracas_file_bytes(rows, &campaign->table) +
+                                   fracas_copy_bytes(campaign)};
     count_rows(campaign, forecast, least, segments, rows);
     sizes.segments = segments * fracas_file_bytes(rows, &campaign->table);
     sizes.peak = sizes.study + sizes.segments;

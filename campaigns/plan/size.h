@@ -21,6 +21,9 @@ FRACAS_MUST_USE fracas_err fracas_rows_try(const fracas_campaign *campaign, size
 /* Bytes of a realization's rows. */
 double fracas_realization_bytes(const fracas_campaign *campaign, const fracas_forecast *forecast);
 
+/* Bytes of the campaign's text and files in study.h5; 0 without memory. */
+double fracas_copy_bytes(const fracas_campaign *campaign);
+
 typedef struct {
     double study;    /* study.h5 */
     double segments; /* all of them, written by `jobs` processes */

@@ -24,8 +24,9 @@
 
 /* ---- one HDF5 file: a segment or a study, same schema (docs/formats/study.md) ---- */
 
-#define FRACAS_FORMAT_VERSION 5 /* 4 had no shapes of fragments, 3 no damped, 2 no friction */
-#define FRACAS_FORMAT_OLDEST 3  /* the first that fracas_reader_open_old reads */
+/* 5 had no campaign, 4 no shapes of fragments, 3 no damped, 2 no friction */
+#define FRACAS_FORMAT_VERSION 6
+#define FRACAS_FORMAT_OLDEST 3 /* the first that fracas_reader_open_old reads */
 
 typedef struct {
     fracas_hash campaign; /* campaign hash */
@@ -98,6 +99,9 @@ FRACAS_MUST_USE fracas_err fracas_writer_decisions(fracas_writer *writer,
  * for none of them. The file has a group /mesh if any of them has elements. */
 FRACAS_MUST_USE fracas_err fracas_writer_mesh(fracas_writer *writer,
                                               const fracas_stored_mesh *mesh);
+/* The campaign, once, in a group /campaign. */
+FRACAS_MUST_USE fracas_err fracas_writer_campaign(fracas_writer *writer,
+                                                  const fracas_campaign_copy *copy);
 /* Closes, syncs, renames to the final name, syncs the folder; frees the writer whatever happens.
  * Equal sequences of calls give equal bytes. */
 FRACAS_MUST_USE fracas_err fracas_writer_finish(fracas_writer *writer, bool complete,
@@ -160,6 +164,11 @@ FRACAS_MUST_USE fracas_err fracas_reader_provenance(const fracas_reader *reader,
 /* Every decision of the file in its order, none without a group /decision; freed by the caller. */
 FRACAS_MUST_USE fracas_err fracas_reader_decisions(fracas_reader *reader,
                                                    fracas_decision **decision, size_t *count);
+
+/* The campaign of a study.h5; all zero if the file has none, as segments and format version 5.
+ * Cleared by the caller, after an error too. */
+FRACAS_MUST_USE fracas_err fracas_reader_campaign(fracas_reader *reader,
+                                                  fracas_campaign_copy *copy);
 
 /* *interfaces: of the mesh of a point, 0 if the file has none of it: a bar, a ring, or no
  * interfaces kept. */
@@ -410,14 +419,16 @@ FRACAS_MUST_USE fracas_err fracas_study_recover(const char *study, fracas_index 
 
 /* Writes STUDY/study.h5 from the segments in plan order. A failed realization gets a row of NaN,
  * and `complete` in the file is 0 then. The recorded decisions of points with table->point[p].most
- * > 0 follow, and `meshes` (NULL: none) where interfaces are kept. The index keeps the seal of the
- * file. FRACAS_INTERRUPTED if realizations are still to be computed, also after a damaged segment
- * was set aside here. FRACAS_DAMAGED names a segment of another seed, history, interfaces or
- * program version, or a row of the index that differs from its record, with a remedy. */
+ * > 0 follow, `meshes` (NULL: none) where interfaces are kept, and the campaign (NULL: none). The
+ * index keeps the seal of the file. FRACAS_INTERRUPTED if realizations are still to be computed,
+ * also after a damaged segment was set aside here. FRACAS_DAMAGED names a segment of another seed,
+ * history, interfaces or program version, or a row of the index that differs from its record, with
+ * a remedy. */
 FRACAS_MUST_USE fracas_err fracas_study_merge(const char *study, fracas_index *index,
                                               const fracas_file_header *header,
                                               const fracas_point_table *table,
-                                              const fracas_mesh_source *meshes);
+                                              const fracas_mesh_source *meshes,
+                                              const fracas_campaign_copy *campaign);
 
 /* True if study.h5 and every segment have the size in the index. */
 FRACAS_MUST_USE fracas_err fracas_study_sealed(const char *study, fracas_index *index,

@@ -202,5 +202,5 @@ sqlite3 aged/index.sqlite "UPDATE meta SET value = '1' WHERE key = 'format_versi
 for command in 'verify aged' 'status aged' 'report aged' 'reindex aged' 'merge aged' 'gc aged' 'retry aged --failed' \
     'extend aged --replicas 7' 'merge-studies aged undisturbed' 'merge-studies used aged'; do
     expect 5 "$fracas" $command
-    said 'aged/.* has format version 1; this program reads \(3 to \)\{0,1\}5: use the program version that wrote it, or compute the study again'
+    said 'aged/.* has format version 1; this program reads \(3 to \)\{0,1\}6: use the program version that wrote it, or compute the study again'
 done

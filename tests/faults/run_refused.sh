@@ -76,18 +76,18 @@ for aged in aged/study.h5 aged/segments/*.h5; do
     /usr/bin/python3 -c 'import h5py, sys; h5py.File(sys.argv[1], "r+").attrs.modify("format_version", 1)' "$aged"
 done
 expect 5 "$fracas" report aged
-said 'study.h5 has format version 1; this program reads \(3 to \)\{0,1\}5: use the program version that wrote it'
+said 'study.h5 has format version 1; this program reads \(3 to \)\{0,1\}6: use the program version that wrote it'
 ls aged/segments/*.h5 > theirs
 rm aged/index.sqlite*
 expect 0 "$fracas" run small.yaml --study aged
-said 'left aged/segments/.* which has format version 1, not 5; move it away'
+said 'left aged/segments/.* which has format version 1, not 6; move it away'
 cmp kept.h5 aged/study.h5 || fail "computed again beside segments of another format version, it differs"
 while read -r segment; do
     [ -e "$segment" ] || fail "$segment is gone"
 done < theirs
 sqlite3 aged/index.sqlite "UPDATE meta SET value = '1' WHERE key = 'format_version'"
 expect 5 "$fracas" run small.yaml --study aged
-said 'format version 1; this program reads \(3 to \)\{0,1\}5: use the program version that wrote it'
+said 'format version 1; this program reads \(3 to \)\{0,1\}6: use the program version that wrote it'
 
 # MPI that never comes up: one signal is enough.
 mkdir bin

@@ -438,7 +438,7 @@ static void an_interrupted_merge_leaves_no_seal(void **state)
         assert_true(is_sealed());
         assert_non_null(strchr(calls, *call));
         fail_call((int)(strchr(calls, *call) - calls));
-        FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_ENVIRONMENT,
+        FAILS(fracas_study_merge(study, index_, &header, &table, NULL, NULL), FRACAS_ENVIRONMENT,
               strerror(EIO));
         fail_at = -1;
         assert_false(is_sealed());
@@ -460,7 +460,7 @@ static void a_merge_sets_no_open_segment_aside(void **state)
                                        .context = sample_path(folder, "segments/s0.h5")};
     commit_all();
     renamed_open = false;
-    FAILS(fracas_study_merge(folder, index_, &header, &table, &meshes), FRACAS_INTERRUPTED,
+    FAILS(fracas_study_merge(folder, index_, &header, &table, &meshes, NULL), FRACAS_INTERRUPTED,
           "s0.damaged");
     assert_false(renamed_open);
 }

@@ -122,7 +122,7 @@ static fracas_err merge_all(void)
     const fracas_file_header header = sample_header();
     OWN(fracas_index) index = NULL;
     TRY(fracas_index_open(study, true, &index));
-    return fracas_study_merge(study, index, &header, &table, NULL);
+    return fracas_study_merge(study, index, &header, &table, NULL, NULL);
 }
 
 /* ---- the studies that they are tried on ---- */

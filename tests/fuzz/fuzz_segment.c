@@ -46,7 +46,15 @@ static void write_meshes(fracas_writer *writer)
     }
 }
 
-/* 0: with interfaces; 1: without; 2: with decisions and meshes; 3: without realizations. */
+static char campaign_text[] = "name: small\n";
+static fracas_attachment campaign_files[] = {
+    {.text = "3\n", .size = 2, .digest = "0123456789abcdef0123456789abcdef"},
+    {.text = "4", .size = 1, .digest = "abcdef0123456789abcdef0123456789"}};
+static const fracas_campaign_copy campaign = {
+    .text = campaign_text, .size = sizeof campaign_text - 1, .nfiles = 2, .file = campaign_files};
+
+/* 0: with interfaces; 1: without; 2: with decisions, meshes and campaign; 3: without realizations.
+ */
 static void write_base(int which)
 {
     fracas_point_row row[SAMPLE_POINTS];
@@ -67,6 +75,7 @@ static void write_base(int which)
     if (which == 2) {
         FUZZ_OK(fracas_writer_decisions(writer, sample_decision, SAMPLE_DECISIONS));
         write_meshes(writer);
+        FUZZ_OK(fracas_writer_campaign(writer, &campaign));
     }
     FUZZ_OK(fracas_writer_finish(writer, true, &seal));
     base[which].bytes = whole_bytes(path, &base[which].size);
@@ -85,6 +94,8 @@ static void start(void)
     for (int s = 0; s < FRACAS_NSETS; s++)
         for (size_t c = 0; c < fracas_store_sets[s].ncolumns; c++)
             dataset[ndatasets++] = fracas_store_sets[s].column[c].path;
+    dataset[ndatasets++] = "/campaign/resolved";
+    dataset[ndatasets++] = "/campaign/attachments/0123456789abcdef0123456789abcdef";
     FUZZ_DEMAND(ndatasets <= MOST_DATASETS, "room for the names of datasets");
 }
 
@@ -105,8 +116,9 @@ static uint64_t take(script *s, size_t bytes) /* little-endian; zeros after its 
 
 static const char *take_object(script *s)
 {
-    static const char *const group[] = {"/",        "/point",     "/realization", "/fragment",
-                                        "/history", "/interface", "/decision",    "/mesh"};
+    static const char *const group[] = {"/",         "/point",   "/realization",
+                                        "/fragment", "/history", "/interface",
+                                        "/decision", "/mesh",    "/campaign"};
     const size_t ngroups = sizeof group / sizeof *group, n = take(s, 1) % (ndatasets + ngroups);
     return n < ndatasets ? dataset[n] : group[n - ndatasets];
 }
@@ -327,7 +339,8 @@ static fracas_err read_parts(fracas_reader *reader, fracas_writer *writer)
     TRY(read_meshes(reader));
     TRY(fracas_reader_decisions(reader, &found, &count));
     free(found);
-    return FRACAS_OK;
+    FRACAS_CLEARED(fracas_campaign_copy) copy = {0};
+    return fracas_reader_campaign(reader, &copy);
 }
 
 /* Everything in the file; where `again`, it is also written to another one. */

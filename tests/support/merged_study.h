@@ -71,7 +71,7 @@ static inline int set_up_merged(void **state)
         err = fracas_index_decide(index_, &point_row[RULED], &decision, "reason");
     }
     OK(fracas_index_end(index_, err));
-    OK(fracas_study_merge(study, index_, &header, &table, &meshes));
+    OK(fracas_study_merge(study, index_, &header, &table, &meshes, NULL));
     OK(fracas_disk_join(study, "study.h5", &merged));
     return 0;
 }

@@ -100,7 +100,7 @@ static fracas_err merge_all(void)
     const fracas_file_header header = sample_header();
     OWN(fracas_index) index = NULL;
     TRY(open_index(&index));
-    return fracas_study_merge(study, index, &header, &table, &meshes);
+    return fracas_study_merge(study, index, &header, &table, &meshes, NULL);
 }
 
 static fracas_err verify_all(void)
@@ -350,7 +350,7 @@ static void make_merged(void)
 {
     make_computed();
     const fracas_file_header header = sample_header();
-    OK(fracas_study_merge(study, index_, &header, &table, &meshes));
+    OK(fracas_study_merge(study, index_, &header, &table, &meshes, NULL));
 }
 
 /* Beside it things that a run and its death leave. */

@@ -139,7 +139,7 @@ static inline fracas_index_counts count_all(void)
 static inline void merge(void)
 {
     fracas_file_header header = sample_header();
-    OK(fracas_study_merge(study, index_, &header, &table, NULL));
+    OK(fracas_study_merge(study, index_, &header, &table, NULL, NULL));
 }
 
 static inline void keep_problem(void *context, const char *problem)

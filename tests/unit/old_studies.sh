@@ -1,4 +1,4 @@
-# Studies of format versions 3 and 4 are read by every command that only looks at a study, with a note that names what they have not:
+# Studies of format versions 3 to 5 are read by every command that only looks at a study, with a note that names what they have not:
 # all other numbers are those of the same study in this version's format. No command goes on with one.
 . tests/support/campaigns.sh
 
@@ -16,6 +16,8 @@ age()
 import h5py, sys
 study, version = h5py.File(sys.argv[1], "r+"), int(sys.argv[2])
 study.attrs.modify("format_version", version)
+del study["campaign"], study["point/derived.strength_deviation"]
+study["point"].attrs.modify("columns", study["point"].attrs["columns"] - 1)
 later = {5: ["fragment/volume", "fragment/extent", "fragment/crack_area"] + ["fragment/%s_%d" % (kind, i) for kind in ("axis", "semi_axis") for i in (1, 2, 3)],
          4: ["realization/" + key for key in "damped vibrating transits growth rest rest_variance rest_bound fragments_held".split()] + ["history/damped"]}
 for since, columns in later.items():
@@ -27,7 +29,7 @@ END
 
 expect 0 "$fracas" report now --json
 mv said now.json
-for version in 3 4; do
+for version in 3 4 5; do
     old=of-$version
     age $old $version
     expect 0 "$fracas" report $old --json
@@ -35,9 +37,10 @@ for version in 3 4; do
     /usr/bin/python3 - now.json $old.json $version <<'END'
 import json, sys
 now, old, version = json.load(open(sys.argv[1])), json.load(open(sys.argv[2])), int(sys.argv[3])
-lost = {"aspect"} if version == 4 else {"aspect", "final", "heated"}
+lost = {3: {"aspect", "final", "heated"}, 4: {"aspect"}, 5: set()}[version]
 found = set()
 for a, b in zip(now["points"], old["points"], strict=True):
+    assert a["parameters"].pop("derived.strength_deviation") > 0
     assert a["parameters"] == b["parameters"] and a["statistics"].keys() == b["statistics"].keys()
     for key, value in a["statistics"].items():
         if b["statistics"][key] != value:
@@ -48,7 +51,8 @@ for a, b in zip(now["points"], old["points"], strict=True):
     assert a["energies"] == b["energies"]
 assert found == lost, found
 notes = [w["text"] for w in old["warnings"] if "format version %d" % version in w["text"]]
-assert len(notes) == 1 and ("which had no volume, " if version == 4 else "which had no fragments_held, damped, ") in notes[0], old["warnings"]
+lacking = {3: "fragments_held, damped, ", 4: "volume, ", 5: "strength_deviation, campaign: "}[version]
+assert len(notes) == 1 and "which had no " + lacking in notes[0], old["warnings"]
 END
     expect 0 "$fracas" report $old
     said "format version $version, which had no"
@@ -86,7 +90,7 @@ with open(sys.argv[1], "r+b") as file:
 END
 expect 5 "$fracas" verify of-4
 said '/fragment/mass'
-for version in 2 6; do
+for version in 2 7; do
     /usr/bin/python3 -c 'import h5py, sys; h5py.File(sys.argv[1], "r+").attrs.modify("format_version", int(sys.argv[2]))' of-3/study.h5 $version
     rm -rf of-3/report
     expect 5 "$fracas" report of-3
@@ -128,4 +132,4 @@ said 'alone has study.h5 alone, to look at by report'
 cp now/study.h5 other.h5
 expect 5 "$fracas" report other.h5
 said 'other.h5 is no study: name .* its file study.h5, which must have that name'
-echo "versions 3 and 4 read, damage found"
+echo "versions 3 to 5 read, damage found"

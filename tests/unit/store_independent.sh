@@ -18,7 +18,7 @@ import re, sys
 import h5py, numpy as np
 
 study, page = h5py.File(sys.argv[1], "r"), open(sys.argv[2]).read()
-assert study.attrs["format_version"] == 5 and study.attrs["seed"] == 2**64 - 5 and study.attrs["complete"] == 1
+assert study.attrs["format_version"] == 6 and study.attrs["seed"] == 2**64 - 5 and study.attrs["complete"] == 1
 assert study["point"].attrs["columns"] == 3
 assert len(study.attrs["campaign"]) == 32 and study.attrs["program_version"] == b"0.1.0"
 assert study.attrs["history"] == 100 and study.attrs["interfaces"] == 1

@@ -283,7 +283,8 @@ static void test_table(void **state)
     static const char paths[] =
         "cohesive.beta cohesive.fracture_energy cohesive.law derived.fracture_energy "
         "derived.lattice derived.length derived.radius derived.strain_rate "
-        "derived.strength_mean derived.strength_modulus derived.surface geometry.area "
+        "derived.strength_deviation derived.strength_mean derived.strength_modulus derived.surface "
+        "geometry.area "
         "geometry.ends geometry.length geometry.shape loading.rate loading.type "
         "material.density material.young mesh.elements mesh.spacing model "
         "strength.distribution strength.maximum strength.minimum strength.value "
@@ -305,6 +306,11 @@ static void test_table(void **state)
     assert_true(real(campaign, 0, "derived.strain_rate") == real(campaign, 0, "loading.rate"));
     assert_true(real(campaign, 0, "derived.strength_mean") == 300e6);
     assert_true(real(campaign, 1, "derived.strength_mean") == 5e6);
+    const double wide = real(campaign, 0, "strength.maximum") -
+                        real(campaign, 0, "strength.minimum");
+    assert_true(fabs(real(campaign, 0, "derived.strength_deviation") / (wide / sqrt(12)) - 1) <
+                1e-13); /* of a uniform distribution */
+    assert_true(real(campaign, 1, "derived.strength_deviation") == 0);
     const double length = real(campaign, 0, "geometry.length");
     assert_true(real(campaign, 0, "derived.length") == length);
     assert_true(real(campaign, 0, "derived.lattice") ==
@@ -342,6 +348,12 @@ static void test_modulus(void **state)
                      1) < 1e-13);
     /* above ln 2 flaws in the 0.5 mm3 of an interface more than half have one; no power below */
     for (size_t p = 3; p < 6; p++) assert_true(isnan(real(campaign, p, modulus)));
+    static const char deviation[] = "derived.strength_deviation";
+    const double gamma = lgamma(1.1),
+                 weibull = 400e6 * exp(gamma) * sqrt(expm1(lgamma(1.2) - 2 * gamma));
+    assert_true(fabs(real(campaign, 0, deviation) / weibull - 1) < 1e-11);
+    assert_true(fabs(real(campaign, 1, deviation) / 50e6 - 1) < 1e-11);
+    assert_true(fabs(real(campaign, 4, deviation) / 50e6 - 1) < 1e-13);
 }
 
 /* Powers of two, so that quotients are exact. */

@@ -21,7 +21,7 @@ static fracas_err run_again(int64_t *rows)
     free(plan);
     snprintf(name, sizeof name, "again%d.h5", number++);
     compute_planned(name);
-    return fracas_study_merge(study, index_, &header, &table, NULL);
+    return fracas_study_merge(study, index_, &header, &table, NULL, NULL);
 }
 
 /* Every byte of a segment is found by the quick verification before, and costs no more than its
@@ -108,7 +108,7 @@ static void a_flipped_number_of_the_index_is_not_merged(void **state)
                  "NOT NULL AND size NOT NULL LIMIT 1)",
                  flip[f]);
         execute(statement);
-        FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED,
+        FAILS(fracas_study_merge(study, index_, &header, &table, NULL, NULL), FRACAS_DAMAGED,
               "fracas reindex");
         char text[8192];
         assert_true(verify(text) > 0);

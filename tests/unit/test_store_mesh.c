@@ -73,7 +73,7 @@ static void commit(size_t size, size_t interfaces)
 static void merge_with(const fracas_mesh_source *meshes)
 {
     fracas_file_header header = sample_header();
-    OK(fracas_study_merge(study, index_, &header, &table, meshes));
+    OK(fracas_study_merge(study, index_, &header, &table, meshes, NULL));
 }
 
 /* As set_up, with fewer replicas. */
@@ -168,9 +168,9 @@ static void faulty_meshes_are_refused(void **state)
     const fracas_mesh_source refusing = {refuse, NULL}, broken = {faulty, &shape};
     fracas_file_header header = sample_header();
     commit(4, interfaces_of(&shape) - 1);
-    FAILS(fracas_study_merge(study, index_, &header, &table, &refusing), FRACAS_USAGE,
+    FAILS(fracas_study_merge(study, index_, &header, &table, &refusing, NULL), FRACAS_USAGE,
           "no such mesh");
-    FAILS(fracas_study_merge(study, index_, &header, &table, &broken), FRACAS_BUG,
+    FAILS(fracas_study_merge(study, index_, &header, &table, &broken, NULL), FRACAS_BUG,
           "no edge of its elements");
     assert_int_equal(sample_files(study, "study.h5"), 0);
     merge_with(&source);

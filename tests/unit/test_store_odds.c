@@ -39,7 +39,7 @@ static void a_leased_realization_is_not_merged(void **state)
     const fracas_file_header header = sample_header();
     sql("UPDATE realization SET status = 'leased', segment = NULL, row = NULL, outcome = NULL "
         "WHERE point = 1 AND replica = 0");
-    FAILS(fracas_study_merge(study, index_, &header, &table, &meshes), FRACAS_INTERRUPTED,
+    FAILS(fracas_study_merge(study, index_, &header, &table, &meshes, NULL), FRACAS_INTERRUPTED,
           "replica 0 of point", "not computed yet");
 }
 

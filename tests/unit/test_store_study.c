@@ -50,7 +50,7 @@ static void segments_of_another_are_left_and_not_merged(void **state)
     assert_int_equal(count_all().planned, 0);
     for (int other = 0; other < OTHERS; other++) {
         fracas_file_header header = other_header(other);
-        FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED,
+        FAILS(fracas_study_merge(study, index_, &header, &table, NULL, NULL), FRACAS_DAMAGED,
               difference[other]);
     }
     fracas_file_header header = other_header(2);
@@ -116,18 +116,18 @@ static void merged_is_as_if_written_in_order(void **state)
 static void merge_refuses_what_is_not_whole(void **state)
 {
     fracas_file_header header = sample_header();
-    FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_INTERRUPTED,
+    FAILS(fracas_study_merge(study, index_, &header, &table, NULL, NULL), FRACAS_INTERRUPTED,
           "run again");
     commit_everything(3);
     strcpy(header.version, "0.2.0");
-    FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED,
+    FAILS(fracas_study_merge(study, index_, &header, &table, NULL, NULL), FRACAS_DAMAGED,
           "not of this study: program_version 0.1.0, not 0.2.0");
     header = sample_header();
     header.seed++;
-    FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_DAMAGED, "seed");
+    FAILS(fracas_study_merge(study, index_, &header, &table, NULL, NULL), FRACAS_DAMAGED, "seed");
     flip_byte(sample_path(study, "segments/s2.h5"), 30000);
     header = sample_header();
-    FAILS(fracas_study_merge(study, index_, &header, &table, NULL), FRACAS_INTERRUPTED,
+    FAILS(fracas_study_merge(study, index_, &header, &table, NULL, NULL), FRACAS_INTERRUPTED,
           "s2.h5: damaged");
     assert_int_equal(sample_files(study, "study.h5"), 0);
     assert_true(count_all().planned > 0); /* already */

@@ -130,7 +130,7 @@ static void make_old(const char *path)
     H5Fclose(file);
 }
 
-static const char refusal[] = "has format version 1; this program reads 5: use the program version "
+static const char refusal[] = "has format version 1; this program reads 6: use the program version "
                               "that wrote it, or compute the study again in another folder";
 
 static void version_1_is_refused_by_name(void **state)
@@ -140,7 +140,7 @@ static void version_1_is_refused_by_name(void **state)
     make_old(sample_path(study, "segments/a.h5"));
     make_old(sample_path(study, "segments/b.h5"));
     OK(reindex()); /* some are ours: those go on */
-    says("segments/a.h5, which has format version 1, not 5; move it away");
+    says("segments/a.h5, which has format version 1, not 6; move it away");
     says("1 segments read");
     assert_int_equal(count_all().planned, 60);
     make_old(sample_path(study, "segments/c.h5"));

@@ -56,12 +56,14 @@ static fracas_err merge(fracas_director *director, const fracas_counts *count)
     const fracas_campaign *campaign = director->setup.campaign;
     fracas_file_header header = fracas_campaign_header(campaign);
     fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
+    FRACAS_CLEARED(fracas_campaign_copy) copy = {0};
     char text[128] = "study.h5 is written";
     const double began = director->setup.now();
     TRY(sweep(director));
     TRY(fracas_rounds_check(campaign, director->index));
+    TRY(fracas_campaign_copy_make(campaign, &copy));
     TRY(fracas_study_merge(director->setup.study, director->index, &header, &director->rounds.table,
-                           &meshes));
+                           &meshes, &copy));
     fracas_checkpoints_end(director->setup.study);
     director->timings.merging = director->setup.now() - began;
     if (count->duplicates) {

@@ -3,6 +3,7 @@
 
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
+#include "campaigns/plan/size.h"
 #include "campaigns/scheduler/status/channel.h"
 #include "campaigns/store/store.h"
 
@@ -99,7 +100,7 @@ fracas_err fracas_space_check(const char *study, const fracas_campaign *campaign
     const double left = fmax(0, planned * part - done), each = fmax(measured, all / planned);
     const double in_segments =
         left > 0 ? left * (each + ROW) + EMPTY * fmin(left, fmax(1, options->jobs)) : 0;
-    const double in_merged = options->parts > 1 ? 0 : all + EMPTY,
+    const double in_merged = options->parts > 1 ? 0 : all + EMPTY + fracas_copy_bytes(campaign),
                  room = (double)disk.f_bavail * (double)disk.f_frsize;
     if (in_segments + in_merged > room)
         return fracas_fail(

@@ -68,6 +68,7 @@ fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaig
                                const fracas_said *said, fracas_index_counts *end, bool *written)
 {
     FRACAS_CLEARED(holding) h = {.study = study, .lock = -1};
+    FRACAS_CLEARED(fracas_campaign_copy) copy = {0};
     bool settled;
     int64_t failed;
     const fracas_file_header header = fracas_campaign_header(campaign);
@@ -88,7 +89,8 @@ fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaig
     TRY(fracas_rounds_check(campaign, h.index));
     TRY(fracas_study_settled(study, h.index, campaign, &settled, &failed));
     if (settled) return fracas_failure_report(study, h.index, &campaign->table);
-    TRY(fracas_study_merge(study, h.index, &header, &h.rounds.table, &meshes));
+    TRY(fracas_campaign_copy_make(campaign, &copy));
+    TRY(fracas_study_merge(study, h.index, &header, &h.rounds.table, &meshes, &copy));
     *written = true;
     TRY(fracas_index_event(h.index, "merged", "study.h5 is written"));
     return fracas_failure_report(study, h.index, &campaign->table);

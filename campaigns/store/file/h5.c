@@ -53,7 +53,7 @@ void fracas_h5_let_go(const hid_t *id)
 
 /* ---- attributes ---- */
 
-enum { MOST_TEXT = 4096 }; /* bytes of a text that a reader accepts */
+enum { MOST_TEXT = 4096 }; /* bytes of an attribute that a reader accepts */
 
 /* Text of exactly `size` bytes, padded with NUL; closed by the caller, after an error too. */
 static bool make_text_type(size_t size, hid_t *type)
@@ -103,12 +103,12 @@ static fracas_err open_attribute(const fracas_h5 *h5, const char *object, const 
     return *type >= 0 ? FRACAS_OK : fracas_h5_fail(h5, name);
 }
 
-/* Bytes of a text of fixed length, 1 to MOST_TEXT; 0 if `type` is no such text. */
-static size_t text_size(hid_t type)
+/* Bytes of a text of fixed length, 1 to `most`; 0 if `type` is no such text. */
+static size_t text_size(hid_t type, uint64_t most)
 {
     if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) return 0;
     size_t size = H5Tget_size(type);
-    return size <= MOST_TEXT ? size : 0;
+    return size <= most ? size : 0;
 }
 
 fracas_err fracas_h5_get_text(const fracas_h5 *h5, const char *object, const char *name,
@@ -118,7 +118,7 @@ fracas_err fracas_h5_get_text(const fracas_h5 *h5, const char *object, const cha
     OWN_ID type = H5I_INVALID_HID;
     *text = NULL;
     TRY(open_attribute(h5, object, name, &attribute, &type));
-    const size_t size = text_size(type);
+    const size_t size = text_size(type, MOST_TEXT);
     if (!size) return fracas_h5_fail(h5, name);
     OWNED char *found = calloc(1, size + 1);
     if (!found) return fracas_no_memory("an attribute");
@@ -199,7 +199,7 @@ fracas_err fracas_h5_text_width(const fracas_h5 *h5, const char *path, size_t *w
 {
     OWN_ID dataset = H5Dopen2(h5->id, path, H5P_DEFAULT);
     OWN_ID type = dataset >= 0 ? H5Dget_type(dataset) : H5I_INVALID_HID;
-    *width = type < 0 ? 0 : text_size(type);
+    *width = type < 0 ? 0 : text_size(type, h5->bytes);
     return type < 0 ? fracas_h5_fail(h5, path) : FRACAS_OK;
 }
 

@@ -70,7 +70,7 @@ FRACAS_MUST_USE fracas_err fracas_h5_create_group(const fracas_h5 *h5, const cha
  * after an error too. FRACAS_DAMAGED if there are more. */
 FRACAS_MUST_USE fracas_err fracas_h5_link_names(const fracas_h5 *h5, const char *group, size_t most,
                                                 char **name, size_t *count);
-/* Bytes of the texts of a dataset, 0 if it holds none. */
+/* Bytes of the texts of a dataset, at most those of the file; 0 if it holds none. */
 FRACAS_MUST_USE fracas_err fracas_h5_text_width(const fracas_h5 *h5, const char *path,
                                                 size_t *width);
 

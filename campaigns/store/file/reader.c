@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/version.h"
+#include "campaigns/store/file/copy.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/store.h"
 #include "campaigns/store/file/table.h"
@@ -426,6 +427,16 @@ fracas_err fracas_reader_decisions(fracas_reader *reader, fracas_decision **deci
     *decision = found;
     found = NULL;
     return FRACAS_OK;
+}
+
+/* ---- the campaign ---- */
+
+fracas_err fracas_reader_campaign(fracas_reader *reader, fracas_campaign_copy *copy)
+{
+    bool there = false;
+    *copy = (fracas_campaign_copy){0};
+    TRY(is_there(reader, FRACAS_COPY_GROUP, &there));
+    return there ? fracas_copy_read(&reader->h5, copy) : FRACAS_OK;
 }
 
 /* ---- meshes ---- */

@@ -382,6 +382,8 @@ void fracas_store_lacks(int64_t format, char *text, size_t size)
                 used += (size_t)snprintf(text + used, size - used, "%s%s", used ? ", " : "",
                                          strrchr(column->path, '/') + 1);
         }
+    if (format < 6 && used < size)
+        snprintf(text + used, size - used, "%sstrength_deviation, campaign", used ? ", " : "");
 }
 
 static void reference_row(FILE *out, const fracas_store_column *column, size_t chunk)

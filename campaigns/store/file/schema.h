@@ -120,8 +120,8 @@ void fracas_rows_load(const fracas_store_column *column, const void *stored, siz
 /* The same of a column that the file has not: NaN, or 0 of integers. */
 void fracas_rows_lack(const fracas_store_column *column, size_t count, void *rows, size_t row_size);
 
-/* Names of the columns of realizations and fragments that files of this format version have not,
- * "damped, volume"; cut to `size`. */
+/* Names of columns and groups that files of this format version have not, "damped, volume"; cut to
+ * `size`. */
 void fracas_store_lacks(int64_t format, char *text, size_t size);
 
 /* Bytes of a row of the set, and about those of a file with so many rows of each set (0: without

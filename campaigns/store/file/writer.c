@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "campaigns/store/file/copy.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/file/table.h"
 
@@ -250,6 +251,11 @@ fracas_err fracas_writer_mesh(fracas_writer *writer, const fracas_stored_mesh *m
     if (!writer->meshes && mesh->nelements > 0) TRY(begin_meshes(writer));
     writer->npassed++;
     return writer->meshes ? put_mesh(writer, mesh) : FRACAS_OK;
+}
+
+fracas_err fracas_writer_campaign(fracas_writer *writer, const fracas_campaign_copy *copy)
+{
+    return fracas_copy_write(&writer->h5, copy);
 }
 
 static fracas_err finish(fracas_writer *writer, bool complete, fracas_file_seal *seal)

@@ -77,7 +77,8 @@ static fracas_err plan_damaged_again(const char *study, fracas_index *index)
 
 /* No segment is open on return. */
 static fracas_err merge(const char *study, fracas_index *index, const fracas_file_header *header,
-                        const fracas_point_table *table, const fracas_mesh_source *meshes)
+                        const fracas_point_table *table, const fracas_mesh_source *meshes,
+                        const fracas_campaign_copy *campaign)
 {
     OWNED char *path = NULL;
     OWN(fracas_segments) segments = NULL;
@@ -94,6 +95,7 @@ static fracas_err merge(const char *study, fracas_index *index, const fracas_fil
     TRY(fracas_study_each_planned(segments, index, &want));
     TRY(append_decisions(&m, index));
     if (meshes && header->interfaces) TRY(append_meshes(&m, meshes));
+    if (campaign) TRY(fracas_writer_campaign(writer, campaign));
     /* A death from here on leaves no seal: merged again. */
     TRY(fracas_index_seal_study(index, NULL));
     writer = NULL;
@@ -103,9 +105,10 @@ static fracas_err merge(const char *study, fracas_index *index, const fracas_fil
 
 fracas_err fracas_study_merge(const char *study, fracas_index *index,
                               const fracas_file_header *header, const fracas_point_table *table,
-                              const fracas_mesh_source *meshes)
+                              const fracas_mesh_source *meshes,
+                              const fracas_campaign_copy *campaign)
 {
-    const fracas_err err = merge(study, index, header, table, meshes);
+    const fracas_err err = merge(study, index, header, table, meshes, campaign);
     return err == FRACAS_DAMAGED ? plan_damaged_again(study, index) : err;
 }
 
