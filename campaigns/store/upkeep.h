@@ -71,6 +71,10 @@ FRACAS_MUST_USE fracas_err fracas_study_collect(const char *study, fracas_index 
 FRACAS_MUST_USE fracas_err fracas_study_fold(const char *study, fracas_index *index,
                                              const fracas_file_header *header);
 
+/* Copies a study.h5 into STUDY/segments, durable on return: the next run or merge adopts it as the
+ * segment of all its realizations (fracas_study_recover). */
+FRACAS_MUST_USE fracas_err fracas_study_bring(const char *file, const char *study);
+
 /* ---- two studies of one campaign ---- */
 
 /* Reads every record of `from` in `table` with the checksums of their segments, and compares the

@@ -3,12 +3,15 @@
 
 #include "base/own.h"
 #include "base/text.h"
+#include "campaigns/scheduler/session/keep.h"
 #include "campaigns/scheduler/session/meshes.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/session/rounds.h"
 #include "campaigns/scheduler/session/failures.h"
 #include "campaigns/scheduler/types/header.h"
+#include "campaigns/store/file/disk.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -94,6 +97,42 @@ fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaig
     *written = true;
     TRY(fracas_index_event(h.index, "merged", "study.h5 is written"));
     return fracas_failure_report(study, h.index, &campaign->table);
+}
+
+/* ---- a study of study.h5 ---- */
+
+static fracas_err note_entry(void *any, const char *path, const char *name)
+{
+    (void)path, (void)name;
+    *(bool *)any = true;
+    return FRACAS_OK;
+}
+
+static fracas_err check_empty(const char *folder)
+{
+    struct stat info;
+    bool any = false;
+    if (lstat(folder, &info) && errno == ENOENT) return FRACAS_OK;
+    if (S_ISDIR(info.st_mode)) TRY(fracas_disk_each(folder, note_entry, &any));
+    if (S_ISDIR(info.st_mode) && !any) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "%s is there already, and is no empty folder: name a new one for the study",
+                       folder);
+}
+
+fracas_err fracas_upkeep_unpack(const char *file, const fracas_campaign *campaign, bool results,
+                                const char *study, const fracas_said *said,
+                                fracas_index_counts *end)
+{
+    OWNED char *segments = NULL;
+    bool written;
+    *end = (fracas_index_counts){0};
+    TRY(check_empty(study));
+    TRY(fracas_campaign_keep(campaign, study, "campaign.yaml", NULL));
+    if (!results) return FRACAS_OK;
+    TRY(fracas_folder_make_own(study, "segments", &segments));
+    TRY(fracas_study_bring(file, study));
+    return fracas_upkeep_merge(study, campaign, said, end, &written);
 }
 
 /* ---- gc ---- */

@@ -18,6 +18,14 @@ FRACAS_MUST_USE fracas_err fracas_upkeep_merge(const char *study, const fracas_c
                                                const fracas_said *said, fracas_index_counts *end,
                                                bool *written);
 
+/* Makes a study of `file`, a study.h5 with this campaign: in the new or empty folder `study` the
+ * campaign file with its attachments, the file as the only segment, and then as
+ * fracas_upkeep_merge. Without `results` the campaign alone. FRACAS_USAGE if the folder has
+ * anything in it. */
+FRACAS_MUST_USE fracas_err fracas_upkeep_unpack(const char *file, const fracas_campaign *campaign,
+                                                bool results, const char *study,
+                                                const fracas_said *said, fracas_index_counts *end);
+
 /* fracas_study_collect with the files named in the campaign; `merged`: after fracas_study_fold. */
 FRACAS_MUST_USE fracas_err fracas_upkeep_collect(
     const char *study, const fracas_campaign *campaign, bool dry, bool merged,

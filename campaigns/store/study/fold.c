@@ -69,6 +69,18 @@ static fracas_err name_of(const char *study, const fracas_file_seal *seal, char 
     return fracas_disk_segment(study, name, path);
 }
 
+fracas_err fracas_study_bring(const char *file, const char *study)
+{
+    OWNED char *path = NULL;
+    OWN_FD from = -1;
+    fracas_file_seal seal;
+    char name[40];
+    TRY(fracas_disk_open(file, &from));
+    TRY(fracas_disk_seal(from, file, &seal));
+    TRY(name_of(study, &seal, name, &path));
+    return fracas_segment_copy(from, &seal, path);
+}
+
 /* A second name, durable on return, of the file whose bytes are durable. It takes the place of a
  * copy under that name, which has the same bytes. */
 static fracas_err give_name(const char *from, const char *path)

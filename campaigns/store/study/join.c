@@ -90,38 +90,6 @@ typedef struct {
     fracas_joined *joined;
 } joining;
 
-static fracas_err copy_bytes(int from, int to, const char *path)
-{
-    enum { BLOCK = 1 << 20 };
-    OWNED char *block = malloc(BLOCK);
-    if (!block) return fracas_no_memory("a copy");
-    size_t got = BLOCK;
-    for (uint64_t at = 0; got == BLOCK; at += got) {
-        if (!fracas_disk_read(from, at, block, BLOCK, &got))
-            return fracas_disk_fail("read for", path);
-        if (!fracas_disk_write(to, at, block, got)) return fracas_disk_fail("write", path);
-    }
-    return FRACAS_OK;
-}
-
-/* A copy of the right checksum, synced. */
-static fracas_err copy_to(int from, const fracas_file_seal *seal, const char *temporary,
-                          const char *path)
-{
-    fracas_file_seal copied;
-    OWN_FD to = fracas_file_create(temporary);
-    if (to < 0) return fracas_disk_fail("create", temporary);
-    TRY(copy_bytes(from, to, path));
-    TRY(fracas_disk_seal(to, path, &copied));
-    if (copied.bytes != seal->bytes || copied.checksum != seal->checksum)
-        return fracas_fail(FRACAS_ENVIRONMENT,
-                           "the copy of a segment to %s came out as %" PRIu64
-                           " bytes of checksum %016" PRIx64 ", not %" PRIu64 " of %016" PRIx64
-                           "; look after the disk, then run again",
-                           path, copied.bytes, copied.checksum, seal->bytes, seal->checksum);
-    return fsync(to) < 0 ? fracas_disk_fail("sync", path) : FRACAS_OK;
-}
-
 /* A file of the folder itself, not a link to a store whose owner may empty it. */
 static bool is_plain(const char *path)
 {
@@ -133,20 +101,13 @@ static bool is_plain(const char *path)
  * first; the bytes are `ours` then. FRACAS_DAMAGED unless they have their seal. */
 static fracas_err bring(const char *theirs, const fracas_file_seal *seal, const char *ours)
 {
-    OWNED char *temporary = NULL;
     OWN_FD from = -1;
     TRY(fracas_disk_check_seal(theirs, seal));
     TRY(fracas_disk_open(theirs, &from));
     /* It may have come here by a copy that nobody has synced. */
     if (fsync(from) < 0 && errno != EROFS && errno != EINVAL)
         return fracas_disk_fail("sync", theirs);
-    if (!is_plain(theirs) || link(theirs, ours) < 0) {
-        TRY(fracas_disk_temporary(ours, &temporary));
-        fracas_err err = copy_to(from, seal, temporary, ours);
-        if (!err && rename(temporary, ours) < 0) err = fracas_disk_fail("rename to", ours);
-        if (err) unlink(temporary);
-        TRY(err);
-    }
+    if (!is_plain(theirs) || link(theirs, ours) < 0) return fracas_segment_copy(from, seal, ours);
     return fracas_disk_sync_folder(ours);
 }
 

@@ -33,6 +33,10 @@ FRACAS_MUST_USE fracas_err fracas_segments_open(fracas_segments *segments, int64
 /* True after fracas_segments_open has found it damaged. */
 bool fracas_segments_is_bad(const fracas_segments *segments, int64_t id);
 
+/* A copy of an open segment, whole under a temporary name first, durable on return. */
+FRACAS_MUST_USE fracas_err fracas_segment_copy(int from, const fracas_file_seal *seal,
+                                               const char *path);
+
 /* True for a study.h5 that is the segment of all its realizations (fracas_study_fold). */
 bool fracas_segment_is_study(const char *name);
 
