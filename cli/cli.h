@@ -33,6 +33,7 @@ typedef struct {
     const fracas_option *options; /* up to one without a name; NULL: none */
     const char *refused; /* the option among them, left out of the help, that is refused ... */
     const char *why;     /* ... "follows from --time: leave it out" */
+    bool from_study;     /* an operand FILE may be a study.h5, whose campaign is taken */
     bool takes_rest;     /* words after `--` are kept for another program */
     fracas_err (*run)(const fracas_arguments *arguments);
     /* In the place of `run`: gets the campaign of the operand, a study. */
@@ -134,7 +135,29 @@ FRACAS_MUST_USE fracas_err fracas_cli_read_campaign(const char *study,
  * of an earlier format version, and this program may understand its campaign file otherwise. */
 bool fracas_cli_alone(const char *study);
 
-/* The analysis of a study by its campaign, partial or not; the campaign must outlive it, and is
+/* True of a file of HDF5. */
+bool fracas_cli_is_study_file(const char *path);
+/* The campaign in an open study.h5, `file` in messages; NULL where it has none. FRACAS_DAMAGED if
+ * it cannot be read, or is not that of the results. */
+struct fracas_reader;
+FRACAS_MUST_USE fracas_err fracas_cli_campaign_in(struct fracas_reader *reader, const char *file,
+                                                  struct fracas_campaign **campaign);
+/* The same of a file by its name; FRACAS_DAMAGED, too, where it has none. *ours: the file is of
+ * this program version; may be NULL. */
+FRACAS_MUST_USE fracas_err fracas_cli_campaign_of_file(const char *file, bool *ours,
+                                                       struct fracas_campaign **campaign);
+/* The campaign of a study, or of a study.h5 alone. */
+FRACAS_MUST_USE fracas_err fracas_cli_campaign_of(const char *study,
+                                                  struct fracas_campaign **campaign);
+/* The same to look at results: NULL of a study.h5 alone that has none, or is of another program
+ * version, for which its text may mean something else. */
+FRACAS_MUST_USE fracas_err fracas_cli_campaign_seen(const char *study,
+                                                    struct fracas_campaign **campaign);
+/* The campaign of an operand FILE, a campaign file or a study.h5 of any name. */
+FRACAS_MUST_USE fracas_err fracas_cli_read_file(const char *file,
+                                                struct fracas_campaign **campaign);
+
+/* The analysis of a study by its campaign, partial or not; the campaign must outlive it, and may be
  * NULL of a study.h5 alone. Both are destroyed by the caller, after an error too. */
 struct fracas_analysis;
 FRACAS_MUST_USE fracas_err fracas_cli_analyse(const char *study, struct fracas_campaign **campaign,
@@ -144,6 +167,9 @@ FRACAS_MUST_USE fracas_err fracas_cli_analyse(const char *study, struct fracas_c
  * of its study would refuse. */
 FRACAS_MUST_USE fracas_err fracas_cli_check_report(const char *file,
                                                    const struct fracas_campaign *campaign);
+
+/* Makes a study of the operand's study.h5, in a new folder (`export --study`). */
+FRACAS_MUST_USE fracas_err fracas_cli_unpack(const fracas_arguments *arguments, const char *folder);
 
 typedef struct {
     bool json, quiet;   /* the statistics as JSON, or nothing, in the place of the table */

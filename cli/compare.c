@@ -20,9 +20,8 @@ static fracas_err read_common(const char *study, bool *common)
 {
     OWN(fracas_campaign) campaign = NULL;
     *common = false;
-    if (fracas_cli_alone(study)) return FRACAS_OK;
-    TRY(fracas_cli_read_campaign(study, &campaign));
-    *common = campaign->common_random_numbers;
+    TRY(fracas_cli_campaign_seen(study, &campaign));
+    *common = campaign && campaign->common_random_numbers;
     return FRACAS_OK;
 }
 

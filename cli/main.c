@@ -79,6 +79,14 @@ fracas_err fracas_command_find(const char *name, const fracas_command **command)
 static fracas_err run(const fracas_arguments *arguments)
 {
     OWN(fracas_campaign) campaign = NULL;
+    const fracas_command *command = arguments->command;
+    const bool file = command->operand && !strcmp(command->operand, "FILE") && !command->from_study;
+    if (file && arguments->operand && fracas_cli_is_study_file(arguments->operand))
+        return fracas_fail(FRACAS_USAGE,
+                           "%s: %s is a file of results, not a campaign file: `fracas export %s "
+                           "--study NEW` makes a study of it, which goes on, and NEW/campaign.yaml",
+                           command->name, arguments->operand,
+                           fracas_shell_path(arguments->operand, NULL).text);
     if (arguments->command->run) return arguments->command->run(arguments);
     TRY(fracas_cli_read_campaign(arguments->operand, &campaign));
     return arguments->command->run_on(arguments, campaign);

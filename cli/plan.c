@@ -23,7 +23,7 @@ static fracas_err plan(const fracas_arguments *arguments)
                                    .columns = fracas_cli_columns(arguments)};
     TRY(fracas_arguments_integer(arguments, "jobs", 1, INT_MAX, &options.jobs));
     OWN(fracas_campaign) campaign = NULL;
-    TRY(fracas_campaign_read(arguments->operand, &campaign));
+    TRY(fracas_cli_read_file(arguments->operand, &campaign));
     TRY(fracas_cli_check_report(arguments->operand, campaign));
     /* as `fracas run` here, which may refuse what another machine is to compute */
     if (!options.jobs && fracas_allocation_jobs(0, campaign->parallel.parts, &options.jobs))
@@ -39,7 +39,8 @@ const fracas_command fracas_command_plan = {
     .more = "\nPoints, replicas, elements, steps, predicted time and size. An error in FILE is "
             "found here too.\n"
             "A study that exists is not looked at: `fracas status STUDY` says what is done of it "
-            "and how long the rest takes.\n",
+            "and how long the rest takes. FILE may be a study.h5, for the campaign in it.\n",
+    .from_study = true,
     .options = known,
     .run = plan,
 };

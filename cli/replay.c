@@ -99,14 +99,16 @@ static fracas_err read_request(const fracas_arguments *arguments, fracas_fields_
     return at || !every ? read_at(at ? at : "onset,peak,end", request) : FRACAS_OK;
 }
 
-static fracas_err replay(const fracas_arguments *arguments, const fracas_campaign *campaign)
+static fracas_err replay(const fracas_arguments *arguments)
 {
+    OWN(fracas_campaign) campaign = NULL;
     size_t point = 0;
     int64_t replica = 0;
     FRACAS_CLEARED(fracas_replay) replay = {0};
     fracas_fields_request request;
     TRY(read_realization(arguments->second, &point, &replica));
     TRY(read_request(arguments, &request));
+    TRY(fracas_cli_campaign_of(arguments->operand, &campaign));
     TRY(fracas_replay_find(arguments->operand, campaign, point, replica, &replay));
     const bool as_json = fracas_given(arguments, "json");
     TRY(fracas_replay_run(&replay, request.folder ? &request : NULL, as_json ? stderr : stdout));
@@ -137,7 +139,8 @@ const fracas_command fracas_command_replay = {
     .operand = "STUDY",
     .second = "POINT/REPLICA",
     .doc = "Computes a realization of STUDY again, and compares it to the byte",
-    .more = "\nIn this process alone, from STUDY/campaign.yaml, as `fracas run` does. Its record "
+    .more = "\nIn this process alone, from the campaign of STUDY, a folder or study.h5 alone, as "
+            "`fracas run` does. Its record "
             "must have the bytes of the study's, finished\n"
             "or not; else the first column that differs is named. POINT is the first column of "
             "report/points.csv: 3/7 is its replica 7.\n\n"
@@ -146,5 +149,5 @@ const fracas_command fracas_command_replay = {
             "interfaces.hdf.series, with damage, opening, strength and onset. How large they "
             "are is said before.\n",
     .options = options,
-    .run_on = replay,
+    .run = replay,
 };

@@ -33,58 +33,6 @@ static const fracas_option report_options[] = {
     FRACAS_WIDE_OPTION,
     {0}};
 
-bool fracas_cli_alone(const char *study)
-{
-    char file[PATH_MAX], campaign[PATH_MAX];
-    uint64_t version;
-    snprintf(file, sizeof file, "%s/study.h5", study);
-    snprintf(campaign, sizeof campaign, "%s/campaign.yaml", study);
-    if (access(file, F_OK)) return false;
-    if (access(campaign, F_OK) && errno == ENOENT) return true;
-    return !fracas_file_version(file, &version) && version < FRACAS_FORMAT_VERSION;
-}
-
-fracas_err fracas_cli_check_study(const char *study)
-{
-    char file[PATH_MAX];
-    snprintf(file, sizeof file, "%s/campaign.yaml", study);
-    if (!access(file, R_OK)) return FRACAS_OK;
-    const int reason = errno;
-    if (reason == ENOTDIR)
-        return fracas_fail(FRACAS_DAMAGED,
-                           "%s is no study: name a study's folder, or its file study.h5, which "
-                           "must have that name",
-                           study);
-    if (fracas_cli_alone(study))
-        return fracas_fail(FRACAS_DAMAGED,
-                           "%s has study.h5 alone, to look at by report, export, compare, fit, "
-                           "picture and verify: this command needs the whole study",
-                           study);
-    return fracas_fail(FRACAS_DAMAGED, "%s is no study: %s: %s; `fracas run FILE` makes one", study,
-                       file, strerror(reason));
-}
-
-fracas_err fracas_cli_read_campaign(const char *study, fracas_campaign **campaign)
-{
-    char file[PATH_MAX];
-    TRY(fracas_cli_check_study(study));
-    snprintf(file, sizeof file, "%s/campaign.yaml", study);
-    fracas_err code = fracas_campaign_read(file, campaign);
-    if (code != FRACAS_USAGE) return code;
-    return fracas_fail_within(
-        FRACAS_DAMAGED, "the study's campaign file is damaged, or another version of fracas "
-                        "wrote it, which knows more: use that version, or remove it and run the "
-                        "campaign file it was made from, or restore it");
-}
-
-fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign,
-                              fracas_analysis **analysis)
-{
-    if (fracas_cli_alone(study)) return fracas_analysis_create(study, NULL, NULL, analysis);
-    TRY(fracas_cli_read_campaign(study, campaign));
-    return fracas_analysis_create(study, &(*campaign)->hash, &(*campaign)->table, analysis);
-}
-
 /* Tells readers of the table about fits left out, as the page does. */
 static fracas_err print_hidden_fits(const fracas_analysis *analysis, const char *study)
 {
@@ -226,6 +174,7 @@ const fracas_command fracas_command_report = {
 
 static const fracas_option export_options[] = {
     {"to", "DIR", "where to (STUDY/export)"},
+    {"study", "NEW", "instead make a study of study.h5 in the folder NEW, to go on with"},
     {"histories", NULL, "energies over time of every realization, too: histories.csv"},
     {"cracks", NULL, "lengths, tips and speeds of cracks of surfaces, too: cracks.csv, breaks.csv"},
     {0}};
@@ -237,6 +186,11 @@ static fracas_err export(const fracas_arguments *arguments)
     OWN(fracas_campaign) campaign = NULL;
     OWN(fracas_analysis) analysis = NULL;
     OWNED char *folder = NULL;
+    const char *new = fracas_given(arguments, "study");
+    if (new && (fracas_given(arguments, "to") || more.histories || more.cracks))
+        return fracas_fail(FRACAS_USAGE, "export: --study is in the place of tables: call it "
+                                         "without --to, --histories and --cracks");
+    if (new) return fracas_cli_unpack(arguments, new);
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
     TRY(fracas_output_folder_in(fracas_given(arguments, "to"), arguments->operand, "export",
                                 &folder));
@@ -256,7 +210,11 @@ const fracas_command fracas_command_export = {
             "energies.csv and convergence.csv (over time, and with the replicas), "
             "probes.csv where the campaign has probes, and datapackage.json, which says of every "
             "column what it is: type, unit, meaning. For "
-            "pandas, R, or a data repository.\n",
+            "pandas, R, or a data repository.\n\n"
+            "With --study NEW, a folder that is not there or empty, study.h5 alone becomes a whole "
+            "study: NEW/campaign.yaml, its files, the results\n"
+            "and an index, for run, extend and merge-studies. Of a study.h5 of another version of "
+            "fracas NEW gets the campaign alone.\n",
     .options = export_options,
     .run = export,
 };

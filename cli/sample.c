@@ -116,7 +116,7 @@ static fracas_err sample(const fracas_arguments *arguments)
     TRY(fracas_arguments_integer(arguments, "point", 0, INT_MAX, &point));
     TRY(fracas_arguments_integer(arguments, "replica", 0, INT_MAX, &replica));
     OWN(fracas_campaign) campaign = NULL;
-    TRY(fracas_campaign_read(arguments->operand, &campaign));
+    TRY(fracas_cli_read_file(arguments->operand, &campaign));
     TRY(check_files(arguments, campaign));
     FRACAS_CLEARED(fracas_sample) drawn = {0};
     TRY(fracas_sample_draw(campaign, (size_t)point, replica, &drawn));
@@ -127,11 +127,13 @@ const fracas_command fracas_command_sample = {
     .name = "sample",
     .operand = "FILE",
     .doc = "Draws the strengths of one realization of FILE, and computes nothing",
-    .more = "\nThe values are those that `fracas run FILE` gives that realization, to the last "
-            "bit: a strength depends on the campaign's\n"
-            "seed, the point, the replica and its place alone. Prints what they are like; with "
-            "--csv and --vtk writes all of them, with\n"
-            "where they are at the start. FILE may be the campaign.yaml of a study.\n",
+    .more =
+        "\nThe values are those that `fracas run FILE` gives that realization, to the last "
+        "bit: a strength depends on the campaign's\n"
+        "seed, the point, the replica and its place alone. Prints what they are like; with "
+        "--csv and --vtk writes all of them, with\n"
+        "where they are at the start. FILE may be the campaign.yaml of a study, or its study.h5.\n",
+    .from_study = true,
     .options = options,
     .run = sample,
 };

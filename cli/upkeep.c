@@ -3,6 +3,7 @@
 #include "cli/cli.h"
 
 #include "base/json.h"
+#include "base/param.h"
 #include "base/text.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/session/upkeep.h"
@@ -131,6 +132,31 @@ const fracas_command fracas_command_merge = {
     .options = fracas_json_option,
     .run_on = merge,
 };
+
+/* ---- export --study ---- */
+
+fracas_err fracas_cli_unpack(const fracas_arguments *arguments, const char *folder)
+{
+    OWN(fracas_campaign) campaign = NULL;
+    OWNED char *file = NULL;
+    output out;
+    fracas_index_counts end;
+    bool ours;
+    const bool named = fracas_cli_is_study_file(arguments->operand);
+    TRY(fracas_path(&file, named ? "%s" : "%s/study.h5", arguments->operand));
+    TRY(fracas_cli_campaign_of_file(file, &ours, &campaign));
+    begin_lines(&out, arguments);
+    out.study = folder;
+    const fracas_err code = fracas_upkeep_unpack(file, campaign, ours, folder, &out.said, &end);
+    if (code && code != FRACAS_SOME_FAILED) return code;
+    if (ours) print_counts(&out, &end);
+    const fracas_shell_word study = fracas_shell_path(folder, NULL);
+    printf("%s%s%s: `fracas run %s --study %s` %s\n", folder, ours ? "" : "/campaign.yaml",
+           ours ? " is a study" : ", without the results, which are of another version of fracas",
+           fracas_shell_path(folder, "campaign.yaml").text, study.text,
+           ours ? "goes on with it" : "computes them");
+    return code;
+}
 
 /* ---- merge-studies ---- */
 

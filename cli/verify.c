@@ -5,6 +5,7 @@
 #include "base/json.h"
 #include "base/param.h"
 #include "base/text.h"
+#include "base/version.h"
 #include "campaigns/scheduler/types/header.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/session/meshes.h"
@@ -77,6 +78,11 @@ static void verify_campaign(verification *v, const fracas_campaign *campaign)
     snprintf(file, sizeof file, "%s/study.h5", v->study);
     if (access(file, F_OK) || v->problems || fracas_reader_open(file, &reader)) return;
     const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
+    OWN(fracas_campaign) copied = NULL;
+    if (fracas_cli_campaign_in(reader, file, &copied)) {
+        report(v, fracas_message());
+        return;
+    }
     if (fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash)) {
         if ((v->full && fracas_reader_check_meshes(reader, &meshes)) ||
             check_decisions(v->study, campaign))
@@ -108,6 +114,16 @@ static fracas_err pass(void *context, fracas_result *result)
     return FRACAS_OK;
 }
 
+/* A study.h5 alone against the campaign in it. */
+static fracas_err check_against(const verification *v, const fracas_campaign *campaign,
+                                fracas_reader *reader)
+{
+    const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
+    if (strcmp(fracas_reader_header(reader)->version, FRACAS_VERSION) != 0) return FRACAS_OK;
+    TRY(fracas_reader_check_points(reader, &campaign->table));
+    return v->full ? fracas_reader_check_meshes(reader, &meshes) : FRACAS_OK;
+}
+
 static void note_alone(const verification *v, const fracas_file_header *header)
 {
     if (header->format < FRACAS_FORMAT_VERSION)
@@ -117,7 +133,8 @@ static void note_alone(const verification *v, const fracas_file_header *header)
                 header->version, (long long)header->format, '\0');
     else
         fprintf(v->notes,
-                "there is no campaign.yaml: study.h5 is read as it is, and held against nothing%c",
+                "there is no campaign.yaml: study.h5 is read as it is, and held against the "
+                "campaign in it alone%c",
                 '\0');
 }
 
@@ -127,7 +144,10 @@ static fracas_err verify_alone(verification *v)
     OWN(fracas_reader) reader = NULL;
     char file[PATH_MAX];
     snprintf(file, sizeof file, "%s/study.h5", v->study);
+    OWN(fracas_campaign) campaign = NULL;
     fracas_err err = fracas_reader_open_old(file, &reader);
+    if (!err) err = fracas_cli_campaign_in(reader, file, &campaign);
+    if (!err && campaign) err = check_against(v, campaign, reader);
     if (!err) err = fracas_reader_each(reader, FRACAS_READ_ALL, pass, NULL);
     for (size_t p = 0; !err && p < fracas_reader_points(reader)->npoints; p++) {
         FRACAS_CLEARED(fracas_stored_mesh) mesh = {0};

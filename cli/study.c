@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A study that a command names: a folder, or study.h5 alone with the campaign in it. */
+#include "analysis/analysis.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "base/version.h"
+#include "campaigns/campaign.h"
+#include "campaigns/store/store.h"
+#include "cli/cli.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+bool fracas_cli_alone(const char *study)
+{
+    char file[PATH_MAX], campaign[PATH_MAX];
+    uint64_t version;
+    snprintf(file, sizeof file, "%s/study.h5", study);
+    snprintf(campaign, sizeof campaign, "%s/campaign.yaml", study);
+    if (access(file, F_OK)) return false;
+    if (access(campaign, F_OK) && errno == ENOENT) return true;
+    return !fracas_file_version(file, &version) && version < FRACAS_FORMAT_VERSION;
+}
+
+static fracas_err refuse_alone(const char *study)
+{
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s has study.h5 alone, to look at by report, export, compare, fit, "
+                       "picture, replay, plan, sample and verify: this command needs the whole "
+                       "study, which `fracas export %s --study NEW` makes of it",
+                       study, fracas_shell_path(study, "study.h5").text);
+}
+
+fracas_err fracas_cli_check_study(const char *study)
+{
+    char file[PATH_MAX];
+    snprintf(file, sizeof file, "%s/campaign.yaml", study);
+    if (!access(file, R_OK)) return FRACAS_OK;
+    const int reason = errno;
+    if (reason == ENOTDIR)
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s is no study: name a study's folder, or its file study.h5, which "
+                           "must have that name",
+                           study);
+    if (fracas_cli_alone(study)) return refuse_alone(study);
+    return fracas_fail(FRACAS_DAMAGED, "%s is no study: %s: %s; `fracas run FILE` makes one", study,
+                       file, strerror(reason));
+}
+
+fracas_err fracas_cli_read_campaign(const char *study, fracas_campaign **campaign)
+{
+    char file[PATH_MAX];
+    TRY(fracas_cli_check_study(study));
+    snprintf(file, sizeof file, "%s/campaign.yaml", study);
+    fracas_err code = fracas_campaign_read(file, campaign);
+    if (code != FRACAS_USAGE) return code;
+    return fracas_fail_within(
+        FRACAS_DAMAGED, "the study's campaign file is damaged, or another version of fracas "
+                        "wrote it, which knows more: use that version, or remove it and run the "
+                        "campaign file it was made from, or restore it");
+}
+
+/* ---- the campaign in a file ---- */
+
+bool fracas_cli_is_study_file(const char *path)
+{
+    static const char signature[] = "\x89HDF\r\n\x1a\n";
+    struct stat info;
+    return !stat(path, &info) && S_ISREG(info.st_mode) && info.st_size > 0 &&
+           fracas_file_begins(path, signature);
+}
+
+static bool is_ours(const fracas_reader *reader)
+{
+    return strcmp(fracas_reader_header(reader)->version, FRACAS_VERSION) == 0;
+}
+
+fracas_err fracas_cli_campaign_in(fracas_reader *reader, const char *file,
+                                  fracas_campaign **campaign)
+{
+    const fracas_file_header *header = fracas_reader_header(reader);
+    FRACAS_CLEARED(fracas_campaign_copy) copy = {0};
+    OWN(fracas_campaign) made = NULL;
+    *campaign = NULL;
+    TRY(fracas_reader_campaign(reader, &copy));
+    if (!copy.text) return FRACAS_OK;
+    const fracas_err err = fracas_campaign_copy_read(&copy, file, &made);
+    if (err == FRACAS_USAGE)
+        return fracas_fail_within(FRACAS_DAMAGED,
+                                  "the campaign in the file is damaged, or not for this version, "
+                                  "%s: fracas %s wrote it",
+                                  FRACAS_VERSION, header->version);
+    TRY(err);
+    if (is_ours(reader) && !fracas_hash_equal(&header->campaign, &made->hash))
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s: /campaign is not the campaign of its results: the file is damaged, "
+                           "or was edited",
+                           file);
+    *campaign = made;
+    made = NULL;
+    return FRACAS_OK;
+}
+
+fracas_err fracas_cli_campaign_of_file(const char *file, bool *ours, fracas_campaign **campaign)
+{
+    OWN(fracas_reader) reader = NULL;
+    TRY(fracas_reader_open_old(file, &reader));
+    if (ours) *ours = is_ours(reader);
+    TRY(fracas_cli_campaign_in(reader, file, campaign));
+    if (*campaign) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s has no campaign (format version %" PRId64
+                       "; study.h5 has it since 6): name the campaign file, or the study's folder",
+                       file, fracas_reader_header(reader)->format);
+}
+
+fracas_err fracas_cli_campaign_of(const char *study, fracas_campaign **campaign)
+{
+    char file[PATH_MAX];
+    if (!fracas_cli_alone(study)) return fracas_cli_read_campaign(study, campaign);
+    snprintf(file, sizeof file, "%s/study.h5", study);
+    return fracas_cli_campaign_of_file(file, NULL, campaign);
+}
+
+fracas_err fracas_cli_campaign_seen(const char *study, fracas_campaign **campaign)
+{
+    char file[PATH_MAX];
+    OWN(fracas_reader) reader = NULL;
+    *campaign = NULL;
+    if (!fracas_cli_alone(study)) return fracas_cli_read_campaign(study, campaign);
+    snprintf(file, sizeof file, "%s/study.h5", study);
+    TRY(fracas_reader_open_old(file, &reader));
+    if (!is_ours(reader)) return FRACAS_OK;
+    return fracas_cli_campaign_in(reader, file, campaign);
+}
+
+fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign,
+                              fracas_analysis **analysis)
+{
+    TRY(fracas_cli_campaign_seen(study, campaign));
+    if (fracas_cli_alone(study)) return fracas_analysis_create(study, NULL, NULL, analysis);
+    return fracas_analysis_create(study, &(*campaign)->hash, &(*campaign)->table, analysis);
+}
+
+fracas_err fracas_cli_read_file(const char *file, fracas_campaign **campaign)
+{
+    return fracas_cli_is_study_file(file) ? fracas_cli_campaign_of_file(file, NULL, campaign)
+                                          : fracas_campaign_read(file, campaign);
+}
