@@ -72,6 +72,20 @@ def _ranges(first: np.ndarray, last: np.ndarray) -> np.ndarray:
     return np.repeat(last - counts.cumsum(), counts) + np.arange(counts.sum())
 
 
+def _connected(sides: np.ndarray, count: int) -> np.ndarray:
+    """The lowest of the elements, 0 to count - 1, that each is connected to by pairs of neighbours."""
+    lowest = np.arange(count)
+    while True:
+        before = lowest.copy()
+        ends = before[sides]
+        for side in (0, 1):
+            np.minimum.at(lowest, ends[:, side], ends.min(axis=1))
+        while not np.array_equal(lowest, lowest[lowest]):
+            lowest = lowest[lowest]
+        if np.array_equal(lowest, before):
+            return lowest
+
+
 def probe_places(attributes: Mapping[str, Any]) -> dict[str, np.ndarray]:
     """Names and places of the probes, "tip 0.009 0 0; middle 0 0 0" in the attribute `probes` of a study."""
     words = [probe.split() for probe in attributes.get("probes", "").split("; ") if probe]
@@ -86,8 +100,8 @@ class Realization:
     (0.0135, 0.00013, 3e-07)
     """
 
-    def __init__(self, numbers: Table, table: Callable[[str], Table]) -> None:
-        self.numbers, self._table = numbers, table
+    def __init__(self, numbers: Table, table: Callable[[str], Table], sides: Callable[[int, int], np.ndarray] | None = None) -> None:
+        self.numbers, self._table, self._sides = numbers, table, sides
 
     def __getitem__(self, name: str) -> Any:
         return self.numbers[name][0]
@@ -115,6 +129,21 @@ class Realization:
         >>> realization.interfaces["strength"].min()
         """
         return self._table("interface")
+
+    @property
+    def element_fragments(self) -> np.ndarray:
+        """The row in `fragments` of each element, if the study keeps interfaces (and, of surfaces, is complete).
+
+        >>> realization.fragments["mass"][realization.element_fragments]
+        """
+        if self._sides is None:
+            raise Error("the fragments of elements are those of a study: of fracas.realize there is no mesh", 2)
+        elements, broken = self.fragments["elements"], np.isfinite(self.interfaces["break_time"])
+        lowest = _connected(self._sides(int(elements.sum()), len(broken))[~broken], int(elements.sum()))
+        rows = np.unique(lowest, return_inverse=True)[1]
+        if not np.array_equal(np.bincount(rows, minlength=len(elements)), elements):
+            raise Error("the broken interfaces are not those between the fragments: see `fracas verify --full`", 5)
+        return rows
 
     @property
     def probes(self) -> dict[str, Table]:
@@ -232,7 +261,13 @@ class Study:
         >>> study.campaign.splitlines()[1]
         'name: bar-rate-sweep'
         """
-        return (self.path / "campaign.yaml").read_text()
+        path = self.path / "campaign.yaml"
+        if path.exists():
+            return path.read_text()
+        with self._opened() as file:
+            if "campaign" not in file:
+                raise Error(f"{self.path} has no campaign.yaml, and study.h5 none of format version {self.attributes['format_version']}", 5)
+            return _text(file["campaign/resolved"][0])
 
     # ---- arrays ----
 
@@ -387,7 +422,12 @@ class Study:
 
         def table(group: str) -> Table:
             return self._table(group, lambda name: self._slice(group, name, found[0]))
-        return Realization(table("realization"), table)
+
+        def sides(elements: int, interfaces: int) -> np.ndarray:
+            if self.points["derived.surface"][point]:
+                return self.mesh(point)["interface_element"]
+            return np.column_stack((np.arange(interfaces), np.arange(1, interfaces + 1) % max(elements, 1)))
+        return Realization(table("realization"), table, sides)
 
     # ---- the report's numbers ----
 

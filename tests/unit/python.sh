@@ -15,6 +15,9 @@ sed 's/model: bar/model: membrane/; s/^geometry.*/geometry: {width: 10 mm, heigh
     s/density/poisson: 0.25, density/; s/, beta: 4//; s/law: nitsche, //; s/^loading.*/loading: {rate: 1e5 1\/s}/; s/stop: quiet, end: 300 ns, quiet: 50 ns/end: 100 ns/
     s/history: 20/history: 0/' one.yaml > plates.yaml
 expect 0 "$fracas" run plates.yaml --study plates --jobs 2 --replicas 1
+sed 's/model: bar/model: ring/; s/^geometry.*/geometry: {radius: 2 mm, area: 1 mm2}/; s/^loading: .*/loading: {type: initial-velocity, radial: 200 m\/s}/
+    s/  - loading.rate.*/  - loading.radial: [200, 400]/' short.yaml > rings.yaml
+expect 0 "$fracas" run rings.yaml --study rings --jobs 2
 mkdir planned
 expect 0 /usr/bin/python3 "$source/tests/support/check_python.py"
 cat said
