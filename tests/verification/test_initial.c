@@ -104,7 +104,7 @@ static void limits_choose_nodes(void **unused)
     for (int k = 0; k < 3; k++) {
         fracas_spec spec = plate_of(0);
         const double w = spec.geometry.width;
-        spec.geometry.edge[1] = &fracas_edge_held;
+        spec.geometry.edge[2] = &fracas_edge_held; /* right, within the limits of k = 1 */
         spec.initial = (fracas_initial){.velocity = {1, 2}, .at = {0.1 * w, 0}};
         if (k != 1) spec.initial.within = w / 4;
         if (k > 0) {
