@@ -4,6 +4,7 @@
 #include "engine/loading/initial.h"
 #include "engine/loading/loading.h"
 #include "engine/mesh/body.h"
+#include "engine/mesh/notch.h"
 
 #include <math.h>
 
@@ -59,7 +60,8 @@ static double concentration_of(const fracas_spec *spec, const holding *held, dou
 {
     const fracas_shape *shape = fracas_shape_of(spec);
     const double notch = fmax(10, 3 * sqrt(size->extent / size->element));
-    if (shape->from_file || held->corners || held->against) return notch;
+    if (shape->from_file || held->corners || held->against || fracas_notch_has_line(&spec->notch))
+        return notch;
     if (shape->even) return 1;
     return shape->concentration ? shape->concentration(ratio) : 4;
 }
@@ -71,9 +73,16 @@ static double ratio_of(const fracas_stretch *stretch)
     return along_z ? stretch->ratio_z : stretch->ratio;
 }
 
+static bool is_alone(const fracas_spec *spec)
+{
+    for (int n = 1; n < FRACAS_LOADINGS; n++)
+        if (fracas_loading_at(spec, n)) return false;
+    return true;
+}
+
 /* Largest strain along x of a surface until t. Edges held against the motion, and those that start
  * it, send a shock v/c with v = d strain/dt L/2, doubled where it is reflected. A free body swings
- * back. */
+ * back, unless loads push on. */
 static double strain_bound(const fracas_spec *spec, const fracas_stretch *stretch,
                            const holding *held, const fracas_body_size *size)
 {
@@ -82,7 +91,7 @@ static double strain_bound(const fracas_spec *spec, const fracas_stretch *stretc
     double strain = stretch->strain;
     if (held->against || stretch->shock) return strain * (1 + 4 * transit / t);
     if (stretch->whole > 0) strain = fmin(strain, stretch->whole);
-    if (held->any || isnan(rate)) return strain;
+    if (held->any || isnan(rate) || !is_alone(spec)) return strain;
     const fracas_shape *shape = fracas_shape_of(spec);
     const bool other_along_z = fabs(stretch->ratio_z - 1) > 0; /* NaN: no */
     if (shape->swing && other_along_z) return strain;
@@ -105,12 +114,21 @@ static double largest_of(const fracas_stretch *stretch, double nu)
     return largest;
 }
 
+/* Planes of symmetry, in which the shape holds its edges. */
+static bool has_planes(const fracas_spec *spec)
+{
+    for (int tag = 1; tag < FRACAS_EDGES; tag++)
+        if (fracas_shape_edge(spec, tag)) return true;
+    return false;
+}
+
 /* A velocity is without stress where the whole body has it and nothing holds it. A strain that no
  * edges hold swings back, and its waves may meet. */
 static double initial_stress_bound(const fracas_spec *spec, const holding *held, double factor)
 {
     const fracas_initial *initial = &spec->initial;
-    if (fracas_initial_moves(initial) && (held->any || fracas_initial_parts(initial)))
+    if (fracas_initial_moves(initial) &&
+        (held->any || has_planes(spec) || fracas_initial_parts(initial)))
         return INFINITY;
     return 2 * factor * fracas_initial_stress(spec);
 }
@@ -129,7 +147,7 @@ static double surface_stress_bound(const fracas_spec *spec, const fracas_body_si
     const double largest = largest_of(&stretch, nu);
     double stress = factor * spec->material.young * strain_bound(spec, &stretch, &held, size) *
                     largest / (1 - nu * nu);
-    if (load->body_force && !fracas_loading_at(spec, 1) && !fracas_loading_at(spec, 2)) {
+    if (load->body_force && is_alone(spec)) {
         const double rim = spec->loading.speed * size->reach;
         stress = fmin(stress, 2 * spec->material.density * rim * rim * (held.any ? factor : 1));
     }
@@ -153,8 +171,9 @@ static double surface_opening_bound(const fracas_spec *spec, double extent)
     const bool sudden = stretch.shock; /* edges open at their own velocity from the start */
     const double most = fmax(1, fmax(fabs(stretch.ratio), fabs(stretch.ratio_z))); /* not NaN */
     if (fracas_initial_moves(&spec->initial)) return INFINITY;
+    /* a crack in a strained body opens by both faces from the start */
     return stretch.strain * most * (sudden ? extent : fmin(wave, extent)) +
-           fracas_initial_stress(spec) / spec->material.young * fmin(wave, extent);
+           2 * fracas_initial_stress(spec) / spec->material.young * fmin(wave, extent);
 }
 
 double fracas_opening_bound(const fracas_spec *spec, double stress, double extent)

@@ -19,11 +19,18 @@
 /* Largest turn of a ring with initial opening directions [rad]: 1 - cos is 5e-5. */
 #define TURNED 0.01
 
+/* Nothing acts but what initial gives. */
+static bool is_idle(const fracas_spec *spec)
+{
+    bool idle = fracas_loading_traits_of(spec)->idle;
+    for (int n = 1; n < FRACAS_LOADINGS; n++) idle = idle && !fracas_loading_at(spec, n);
+    return idle;
+}
+
 /* Remedy for a load too weak to crack the body. */
 static const char *harder(const fracas_point *point, const fracas_forecast *forecast)
 {
-    if (fracas_loading_traits_of(&point->spec)->idle)
-        return "raise what initial gives, or load the body";
+    if (is_idle(&point->spec)) return "raise what initial gives, or load the body";
     if (!fracas_loading_traits_of(&point->spec)->released)
         return forecast->stress_grows ? "load it harder, or longer"
                                       : "load it harder; a longer run does not help";
@@ -227,12 +234,16 @@ WARNING(
 /* The key of a load that says how hard it is: its first number. */
 static remedy load_key(const fracas_spec *spec)
 {
-    const fracas_kind *load = spec->loading.type;
     remedy made = {"what initial gives"};
-    size_t k = 0;
-    while (k + 1 < load->nparams && load->params[k].type != FRACAS_REAL) k++;
-    if (load->nparams > 0)
-        snprintf(made.text, sizeof made.text, "loading.%s", load->params[k].name);
+    for (int n = FRACAS_LOADINGS - 1; n >= 0; n--) {
+        const fracas_loading *loading = fracas_loading_at(spec, n);
+        const fracas_kind *load = loading ? loading->type : NULL;
+        size_t k = 0;
+        if (!load || load->nparams == 0) continue;
+        while (k + 1 < load->nparams && load->params[k].type != FRACAS_REAL) k++;
+        snprintf(made.text, sizeof made.text, "%s.%s", fracas_loading_sections[n].name,
+                 load->params[k].name);
+    }
     return made;
 }
 
@@ -436,6 +447,15 @@ WARNING(warn_released, springs_back(&point->spec), fracas_initial_stress(&point-
         "waves swing between that and its opposite: hold edges (geometry) to keep it",
         1e-6 * fracas_initial_stress(&point->spec))
 
+WARNING(warn_begun,
+        fracas_spec_is_surface(&point->spec) &&
+            fracas_initial_stress(&point->spec) > forecast->mean,
+        fracas_initial_stress(&point->spec) / forecast->mean,
+        "the body starts with a stress of %.3g MPa, the mean strength is %.3g MPa: interfaces "
+        "crack at once, and the energy that falls off then is in no ledger: start below, and load "
+        "it further",
+        1e-6 * fracas_initial_stress(&point->spec), 1e-6 * forecast->mean)
+
 fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
     warn_parts,       warn_unit,       warn_coarse,
     warn_uniform,     warn_lines,      warn_weak_load,
@@ -448,4 +468,5 @@ fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
     warn_undivided,   warn_loose,      warn_inner,
     warn_steered,     warn_stretch,    warn_fast,
     warn_whole,       warn_many_steps, warn_mesh_effect_bounded,
-    warn_tough,       warn_notch,      warn_released};
+    warn_tough,       warn_notch,      warn_released,
+    warn_begun};

@@ -89,14 +89,16 @@ bool fracas_initial_has_stress(const fracas_initial *initial)
 
 static bool has(const fracas_initial *initial, const double x[3])
 {
+    const double slack = 1e-9 * (fabs(x[0]) + fabs(x[1]) + fabs(x[2])); /* round-off of nodes */
     double square = 0;
     for (int i = 0; i < 3; i++) {
         const double apart = x[i] - given(initial->at[i]);
         square += apart * apart;
-        if (is_limited(initial, i) && (x[i] < initial->from[i] || x[i] > initial->to[i]))
+        if (is_limited(initial, i) &&
+            (x[i] < initial->from[i] - slack || x[i] > initial->to[i] + slack))
             return false; /* NaN: no limit */
     }
-    return !(initial->within > 0) || square <= initial->within * initial->within;
+    return !(initial->within > 0) || sqrt(square) <= initial->within + slack;
 }
 
 /* (initial.1) */
@@ -146,7 +148,8 @@ void fracas_initial_displacement(const fracas_initial_strain *s, const double x[
 double fracas_initial_stress(const fracas_spec *spec)
 {
     const fracas_initial_strain s = fracas_initial_strain_of(spec);
-    const bool flat = spec->formulation->groups & FRACAS_GROUP_MEMBRANE;
+    const bool flat = spec->formulation->groups & FRACAS_GROUP_MEMBRANE ||
+                      fracas_initial_has_stress(&spec->initial);
     const double nu = spec->material.poisson, mean = 0.5 * (s.x + s.y),
                  radius = sqrt(0.25 * (s.x - s.y) * (s.x - s.y) + s.xy * s.xy),
                  principal[3] = {mean + radius, mean - radius, s.z};
@@ -158,14 +161,44 @@ double fracas_initial_stress(const fracas_spec *spec)
     return spec->material.young / (1 - nu * nu) * largest;
 }
 
+/* One is given, also 0 as in a sweep. */
+static bool has_velocity(const fracas_initial *initial)
+{
+    bool has = !isnan(initial->spin);
+    for (int i = 0; i < 3; i++)
+        has = has || (i < 2 ? !isnan(initial->velocity[i]) : is_set(initial->velocity[i]));
+    return has;
+}
+
 static fracas_err check_limits(const fracas_initial *initial)
 {
     static const char axis[] = "xyz";
+    const bool surface = isnan(initial->temperature) || isnan(initial->stress_xy) ||
+                         isnan(initial->within); /* all 0: the model has no such section */
     for (int i = 0; i < 3; i++)
-        if (is_limited(initial, i) && initial->to[i] <= initial->from[i])
+        if ((is_limited(initial, i) || (surface && i < 2)) && initial->to[i] <= initial->from[i])
             return fracas_fail(FRACAS_USAGE,
                                "to_%c is %g m, not beyond from_%c, %g m: no node is between them",
                                axis[i], initial->to[i], axis[i], initial->from[i]);
+    return FRACAS_OK;
+}
+
+/* The region is that of the velocity alone. */
+static fracas_err check_region(const fracas_initial *initial)
+{
+    bool limited = initial->within > 0, middle = false;
+    for (int i = 0; i < 3; i++) {
+        limited = limited || is_limited(initial, i);
+        middle = middle || is_set(initial->at[i]);
+    }
+    if (limited && !has_velocity(initial))
+        return fracas_fail(FRACAS_USAGE,
+                           "limits of a region are given, but no velocity_x, _y, _z or spin: the "
+                           "region is that of the velocity, strains and stresses are those of all "
+                           "of the body");
+    if (middle && !(initial->within > 0) && isnan(initial->spin))
+        return fracas_fail(FRACAS_USAGE, "at_x, at_y or at_z is given, but neither spin nor "
+                                         "within, whose middle it would be");
     return FRACAS_OK;
 }
 
@@ -178,7 +211,8 @@ static fracas_err check_initial(const void *section)
                            "temperature is %g K, without an expansion_coefficient: give the "
                            "material's, for instance expansion_coefficient: 8e-6 1/K",
                            initial->temperature);
-    return check_limits(initial);
+    TRY(check_limits(initial));
+    return check_region(initial);
 }
 
 const fracas_section fracas_initial_section = {

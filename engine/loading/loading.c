@@ -346,6 +346,10 @@ fracas_stretch fracas_loading_stretch(const fracas_spec *spec, double t)
         if (!loading) continue;
         const fracas_loading_traits *traits = loading->type->traits;
         const fracas_stretch other = traits->surface(spec, loading, t);
+        if (sum.strain == 0 && !sum.moving && !sum.shock) { /* the first does nothing */
+            sum = other;
+            continue;
+        }
         const bool alike = sum.ratio == other.ratio && isnan(sum.ratio_z) == isnan(other.ratio_z);
         sum.strain = alike || other.strain == 0 ? sum.strain + other.strain : INFINITY;
         sum.whole = sum.whole > 0 && other.whole > 0 ? sum.whole + other.whole : 0;

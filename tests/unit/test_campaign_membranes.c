@@ -240,6 +240,30 @@ static void test_swept_loads(void **state)
     check_round_trip(campaign);
 }
 
+/* plan's bound of the stress is that of all loads, of starts and of notches: a false one says that
+ * nothing breaks. */
+static void test_bounds_of_lists(void **state)
+{
+    static const struct {
+        const char *find, *put;
+        bool known; /* a bound below 10 MPa, that of rate 10 in 0.1 us, and of 3 MPa at the start */
+    } of[] = {
+        {"rate: 1e4 1/s", "rate: 10 1/s", true},
+        {"{rate: 1e4 1/s}", "[{rate: 10 1/s}, {type: traction, edge: left, normal: 5 GPa}]", false},
+        {"{rate: 1e4 1/s}", "{type: none}\ninitial: {stress_x: 3 MPa}", true},
+        {"{rate: 1e4 1/s}", "{type: none}\ninitial: {velocity_x: 3 m/s, from_x: 0}", false},
+        {"{rate: 1e4 1/s}",
+         "{type: none}\ninitial: {stress_x: 3 MPa}\nnotch: {from_y: -1 mm, to_y: 1 mm}", false},
+    };
+    for (size_t i = 0; i < FRACAS_COUNT(of); i++) {
+        OWN(fracas_campaign) campaign = read_membrane(of[i].find, of[i].put);
+        fracas_forecast forecast;
+        OK(fracas_forecast_make(campaign, 0, &forecast));
+        print_message("%s: bound %g Pa\n", of[i].put, forecast.bound);
+        assert_true((forecast.bound < 10e6) == of[i].known);
+    }
+}
+
 /* ---- the start ---- */
 
 /* A section without values is none; values are in the point's name, and in its bytes. */
@@ -545,7 +569,7 @@ static void test_bounds_of_others(void **state)
 }
 
 TESTS_ALL(read_file, free_file, test_plate, test_annulus, test_mean_strength, test_swept_model,
-          test_inherited, test_list_of_loads, test_swept_loads, test_initial_section,
-          test_perturbed, test_plan, test_plan_of_thick_shells, test_open_ledger,
-          test_plan_of_fields, test_bytes, test_bound, test_steps_that_pass_strengths,
-          test_bounds_of_others)
+          test_inherited, test_list_of_loads, test_swept_loads, test_bounds_of_lists,
+          test_initial_section, test_perturbed, test_plan, test_plan_of_thick_shells,
+          test_open_ledger, test_plan_of_fields, test_bytes, test_bound,
+          test_steps_that_pass_strengths, test_bounds_of_others)

@@ -114,6 +114,7 @@ static void test_names_of_groups(void **state)
         {"1 1 \"edge_2\"\n1 2 \"wall\"", "wall: held", 0, "another physical group for edge_2"},
         {"1 2 \"wall\"\n1 2 \"edge_3\"", "wall: held", 3, NULL},
         {"1 9 \"wall\"\n1 2 \"wall\"", "wall: held", 2, NULL},
+        {"1 1 \"wall\"\n1 2 \"wall\"", "wall: held", 0, "another physical group for edge_1"},
         {"1 7 \"wall\"", "wall: held", 7, NULL},
         {"1 9 \"edge_8\"", "edge_8: held", 8, NULL},
         {"1 9 \"wall\"", "wall: held", 0, "those with keys have 1 to 8: in the .geo file"},

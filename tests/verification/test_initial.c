@@ -125,6 +125,27 @@ static void limits_choose_nodes(void **unused)
     }
 }
 
+/* A row of nodes on a limit is within it whatever its round-off: as many move as in the mirror
+ * image. */
+static void limits_are_those_of_both_sides(void **unused)
+{
+    for (int64_t divisions = 3; divisions < 12; divisions++) {
+        size_t moves[2] = {0};
+        for (int side = 0; side < 2; side++) {
+            fracas_spec spec = plate_of(0);
+            spec.mesh.divisions = divisions;
+            const double w = spec.geometry.width, at = w * (0.5 - 1.0 / (double)divisions);
+            spec.initial = (fracas_initial){
+                .velocity = {1}, .from = {side ? NAN : at, NAN}, .to = {side ? -at : NAN, NAN}};
+            one_run run = begin_whole(spec, 0);
+            for (size_t u = 0; u < unknowns_of(run.model); u++)
+                moves[side] += *value_of(run.batch, u, SURFACE_V) != 0;
+            clear_run(&run);
+        }
+        assert_true(moves[0] > 0 && moves[0] == moves[1]);
+    }
+}
+
 /* ---- strains ---- */
 
 /* Held all around, a body stays at rest and keeps sigma : eps/2 for every volume: strains,
@@ -298,12 +319,45 @@ static void starts_without_sense_are_refused(void **unused)
     sphere.mesh.divisions = 4;
     sphere.initial.stress[0] = 1;
     FAILS(fracas_model_create(&sphere, &model), FRACAS_USAGE, "is not flat", "give strains");
+    sphere.geometry.part = &fracas_part_octant;
+    sphere.initial = (fracas_initial){.spin = 1};
+    FAILS(fracas_model_create(&sphere, &model), FRACAS_USAGE, "a plane of symmetry the velocity",
+          "the whole body");
+    sphere.initial = (fracas_initial){.strain_xy = 1e-4};
+    FAILS(fracas_model_create(&sphere, &model), FRACAS_USAGE, "shears a plane of symmetry",
+          "the whole body");
+    sphere.initial = (fracas_initial){.strain = {1e-4, 2e-4, -1e-4}};
+    OK(fracas_model_create(&sphere, &model));
+    fracas_model_destroy(model);
+    spec = plate_of(1);
+    spec.initial = (fracas_initial){.strain = {1e-4, 0, 1e-4}};
+    FAILS(fracas_model_create(&spec, &model), FRACAS_USAGE, "strain_z strains nothing", "flat");
+    spec = plate_of(1); /* held edges alone move nothing */
+    hold_edges(&spec);
+    FAILS(fracas_model_create(&spec, &model), FRACAS_USAGE, "loading.type is none", "give it one");
     fracas_initial start = {.from = {2}, .to = {1}};
     FAILS(fracas_initial_section.check(&start), FRACAS_USAGE, "to_x is 1 m", "not beyond from_x");
+    start = (fracas_initial){.within = NAN};
+    FAILS(fracas_initial_section.check(&start), FRACAS_USAGE, "to_x is 0 m", "not beyond from_x");
+    const fracas_initial none = {.velocity = {NAN, NAN},
+                                 .spin = NAN,
+                                 .at = {NAN, NAN},
+                                 .within = NAN,
+                                 .from = {NAN, NAN},
+                                 .to = {NAN, NAN}};
+    start = none;
+    OK(fracas_initial_section.check(&start));
+    start.from[1] = 0;
+    FAILS(fracas_initial_section.check(&start), FRACAS_USAGE, "but no velocity_x", "all of the");
+    start.velocity[0] = 0; /* as a sweep's first */
+    OK(fracas_initial_section.check(&start));
+    start = none;
+    start.at[0] = 1;
+    FAILS(fracas_initial_section.check(&start), FRACAS_USAGE, "neither spin nor within", "");
     start = (fracas_initial){.temperature = 5};
     FAILS(fracas_initial_section.check(&start), FRACAS_USAGE, "temperature is 5 K", "8e-6 1/K");
 }
 
-TESTS(free_bodies_keep_their_velocities, limits_choose_nodes, held_bodies_stay_at_rest,
-      a_released_strip_shrinks, a_notch_opens_at_once, an_edge_moves_on_from_its_strain,
-      starts_without_sense_are_refused)
+TESTS(free_bodies_keep_their_velocities, limits_choose_nodes, limits_are_those_of_both_sides,
+      held_bodies_stay_at_rest, a_released_strip_shrinks, a_notch_opens_at_once,
+      an_edge_moves_on_from_its_strain, starts_without_sense_are_refused)

@@ -101,7 +101,7 @@ static fracas_err check_motion(const fracas_model *model)
 {
     bool idle = fracas_loading_traits_of(&model->spec)->idle;
     for (int n = 1; n < FRACAS_LOADINGS; n++) idle = idle && !fracas_loading_at(&model->spec, n);
-    if ((!stretch_of(model).shock && !idle) || tables_of(model)->moves ||
+    if ((!idle && (!stretch_of(model).shock || tables_of(model)->moves)) ||
         fracas_initial_moves(&model->spec.initial) || fracas_initial_is_strained(&model->spec))
         return FRACAS_OK;
     if (idle)

@@ -117,6 +117,7 @@ fracas_err fracas_gmsh_group(const char *text, size_t size, const char *name, in
     }
     for (size_t g = 0; g < count; g++)
         *shared = *shared || (group[g].number != own &&
-                              fracas_gmsh_key_of(group, count, group[g].number) == *number);
+                              (fracas_gmsh_key_of(group, count, group[g].number) == *number ||
+                               (has_key(group[g].number) && strcmp(group[g].name, name) == 0)));
     return FRACAS_OK;
 }
