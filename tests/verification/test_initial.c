@@ -187,6 +187,21 @@ static void held_bodies_stay_at_rest(void **unused)
     }
 }
 
+/* Cooled, it is under tension: stretched from the smaller size that is free of stress. */
+static void cooling_stretches_held_bodies(void **unused)
+{
+    fracas_spec spec = plate_of(0);
+    hold_edges(&spec);
+    spec.initial = (fracas_initial){.temperature = -50, .expansion = 8e-6};
+    one_run run = begin_whole(spec, 0.2);
+    step_run(&run);
+    for (size_t u = 0; u < unknowns_of(run.model); u++)
+        assert_true(
+            fabs(*value_of(run.batch, u, SURFACE_U) - 4e-4 * place_of(run.model, u)[u % 2]) <
+            1e-12 * 4e-4 * spec.geometry.width);
+    clear_run(&run);
+}
+
 /* Momentum along x of the elements right of the middle. */
 static double momentum_right(const one_run *run)
 {
@@ -359,5 +374,5 @@ static void starts_without_sense_are_refused(void **unused)
 }
 
 TESTS(free_bodies_keep_their_velocities, limits_choose_nodes, limits_are_those_of_both_sides,
-      held_bodies_stay_at_rest, a_released_strip_shrinks, a_notch_opens_at_once,
-      an_edge_moves_on_from_its_strain, starts_without_sense_are_refused)
+      held_bodies_stay_at_rest, cooling_stretches_held_bodies, a_released_strip_shrinks,
+      a_notch_opens_at_once, an_edge_moves_on_from_its_strain, starts_without_sense_are_refused)
