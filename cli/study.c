@@ -16,14 +16,22 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* STUDY/NAME is not there. */
+static bool lacks(const char *study, const char *name)
+{
+    char path[PATH_MAX];
+    snprintf(path, sizeof path, "%s/%s", study, name);
+    return access(path, F_OK) && errno == ENOENT;
+}
+
 bool fracas_cli_alone(const char *study)
 {
-    char file[PATH_MAX], campaign[PATH_MAX];
+    char file[PATH_MAX];
     uint64_t version;
     snprintf(file, sizeof file, "%s/study.h5", study);
-    snprintf(campaign, sizeof campaign, "%s/campaign.yaml", study);
     if (access(file, F_OK)) return false;
-    if (access(campaign, F_OK) && errno == ENOENT) return true;
+    if (lacks(study, "campaign.yaml")) /* not one that a study has lost */
+        return lacks(study, "index.sqlite") && lacks(study, "segments");
     return !fracas_file_version(file, &version) && version < FRACAS_FORMAT_VERSION;
 }
 
@@ -88,6 +96,11 @@ fracas_err fracas_cli_campaign_in(fracas_reader *reader, const char *file,
     OWN(fracas_campaign) made = NULL;
     *campaign = NULL;
     TRY(fracas_reader_campaign(reader, &copy));
+    if (!copy.text && header->format >= FRACAS_FORMAT_CAMPAIGN)
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s: /campaign is not there, which files of format version %d have: the "
+                           "file is damaged, or was edited: get another copy",
+                           file, FRACAS_FORMAT_CAMPAIGN);
     if (!copy.text) return FRACAS_OK;
     const fracas_err err = fracas_campaign_copy_read(&copy, file, &made);
     if (err == FRACAS_USAGE)

@@ -44,10 +44,12 @@ static bool has_text(const char *folder, const char *name, const char *text)
     return strstr(start, text) != NULL;
 }
 
-/* An index.html or a datapackage.json of fracas. */
+/* An index.html or a datapackage.json of fracas, or the summary.json of a report that was cut off
+ * before its index.html. */
 static bool is_ours(const char *folder)
 {
     return has_text(folder, "index.html", " \u00b7 fracas</title>") ||
+           has_text(folder, "summary.json", "\"stale_fits\": ") ||
            has_text(folder, "datapackage.json", "of a campaign of fracas");
 }
 

@@ -26,7 +26,8 @@
 
 /* 5 had no campaign, 4 no shapes of fragments, 3 no damped, 2 no friction */
 #define FRACAS_FORMAT_VERSION 6
-#define FRACAS_FORMAT_OLDEST 3 /* the first that fracas_reader_open_old reads */
+#define FRACAS_FORMAT_CAMPAIGN 6 /* the first with a campaign */
+#define FRACAS_FORMAT_OLDEST 3   /* the first that fracas_reader_open_old reads */
 
 typedef struct {
     fracas_hash campaign; /* campaign hash */

@@ -166,4 +166,33 @@ said 'without the results, which are of another version'
 [ ! -e of-other/study.h5 ] && [ ! -e of-other/segments ]
 expect 0 "$fracas" run of-other/campaign.yaml --study of-other --jobs 2
 cmp of-other/study.h5 away/bar/study.h5 || fail "the campaign of another version is another"
+
+# Beside its campaign.yaml it is no study of a run, which would replace it.
+mkdir beside
+cp -r away/bar/study.h5 new-bar/campaign.yaml new-bar/attachments beside
+expect 2 "$fracas" run beside/campaign.yaml --study beside
+said 'without the index and the segments of its run'
+cmp beside/study.h5 away/bar/study.h5 || fail "a run has replaced a study.h5 that was handed on"
+
+# A whole study that has lost its campaign.yaml is none that was handed on: its segments are not looked at.
+cp -r new-bar lost
+rm lost/campaign.yaml
+expect 5 "$fracas" verify lost
+said 'campaign.yaml'
+
+# A file of this version without the campaign is damaged.
+mkdir bare
+cp away/bar/study.h5 bare
+/usr/bin/python3 -c 'import h5py; del h5py.File("bare/study.h5", "r+")["campaign"]'
+for what in verify report; do
+    expect 5 "$fracas" $what bare
+    said '/campaign is not there'
+done
+
+# A report that was cut off before its page is in nobody's way.
+mkdir cut
+cp away/bar/study.h5 cut
+expect 0 "$fracas" report cut/study.h5 --quiet
+rm cut/report/index.html
+expect 0 "$fracas" report cut/study.h5 --quiet
 echo "handed on, looked at, replayed and gone on with"

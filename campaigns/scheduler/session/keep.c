@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/param.h"
+#include "base/text.h"
 #include "campaigns/store/checkpoint.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/store.h"
@@ -239,14 +240,35 @@ static fracas_err note_segment(void *found, const char *path, const char *name)
     return FRACAS_OK;
 }
 
-/* A run has made it: it has an index, a resolved campaign or a segment. */
-static bool is_study(const char *study)
+/* It has an index or a segment. */
+static bool has_results(const char *study)
 {
     OWNED char *segments = NULL;
     bool any = false;
-    if (has(study, "campaign.yaml", FRACAS_RESOLVED) || fracas_index_exists(study)) return true;
-    if (fracas_path(&segments, "%s/segments", study)) return true;
+    if (fracas_index_exists(study) || fracas_path(&segments, "%s/segments", study)) return true;
     return fracas_disk_each(segments, note_segment, &any) || any;
+}
+
+/* A run has made it: it has an index, a resolved campaign or a segment. */
+static bool is_study(const char *study)
+{
+    return has(study, "campaign.yaml", FRACAS_RESOLVED) || has_results(study);
+}
+
+/* A study.h5 that no index and no segment vouches for is one that somebody has put there: a run
+ * would begin anew and replace it. */
+static fracas_err keep_file(const char *study)
+{
+    OWNED char *path = NULL;
+    uint64_t version;
+    TRY(fracas_path(&path, "%s/study.h5", study));
+    if (has_results(study) || fracas_file_version(path, &version) || has_results(study))
+        return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "%s is there without the index and the segments of its run, which would "
+                       "begin anew and replace it: `fracas export %s --study NEW` makes a study of "
+                       "it, or move it away",
+                       path, fracas_shell_path(study, "study.h5").text);
 }
 
 static fracas_err note_entry(void *any, const char *path, const char *name)
@@ -282,7 +304,7 @@ fracas_err fracas_study_place(const char *study)
         {"campaign.yaml", NULL},    {"study.h5", NULL}, {"index.sqlite", NULL},
         {"segments", NULL},         {"report", NULL},   {"fields", NULL},
         {FRACAS_CHECKPOINTS, NULL}, {"lock", SIGNED},   {"campaign.yaml.tmp", FRACAS_RESOLVED}};
-    if (is_study(study)) return FRACAS_OK;
+    if (is_study(study)) return keep_file(study);
     for (size_t i = 0; i < FRACAS_COUNT(ours); i++) {
         OWNED char *path = NULL;
         TRY(fracas_path(&path, "%s/%s", study, ours[i].name));
