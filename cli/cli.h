@@ -137,9 +137,14 @@ bool fracas_cli_alone(const char *study);
 
 /* True of a file of HDF5. */
 bool fracas_cli_is_study_file(const char *path);
+struct fracas_reader;
+/* Reads every value of a study.h5. Results of this program version are held against their campaign,
+ * unless it is NULL; `full`: their meshes, too. FRACAS_DAMAGED */
+FRACAS_MUST_USE fracas_err fracas_cli_check_values(struct fracas_reader *reader, const char *file,
+                                                   const struct fracas_campaign *campaign,
+                                                   bool full);
 /* The campaign in an open study.h5, `file` in messages; NULL where it has none. FRACAS_DAMAGED if
  * it cannot be read, or is not that of the results. */
-struct fracas_reader;
 FRACAS_MUST_USE fracas_err fracas_cli_campaign_in(struct fracas_reader *reader, const char *file,
                                                   struct fracas_campaign **campaign);
 /* The same of a file by its name; FRACAS_DAMAGED, too, where it has none. *ours: the file is of

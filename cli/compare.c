@@ -65,10 +65,10 @@ const fracas_command fracas_command_compare = {
     .second = "B",
     .instead = "points",
     .doc = "Says in which numbers two studies differ, and how surely",
-    .more =
-        "\nPoints are matched by their parameters, or are those of --points. For each pair: B - "
-        "A of every mean over realizations with its 95 % interval,\n"
-        "and p of tests that permute whole realizations. The status is 0 whatever they find.\n",
+    .more = "\nA and B are folders, or study.h5 alone.\n"
+            "Points are matched by their parameters, or are those of --points. For each pair: B - "
+            "A of every mean over realizations with its 95 % interval,\n"
+            "and p of tests that permute whole realizations. The status is 0 whatever they find.\n",
     .options = options,
     .run = compare,
 };

@@ -120,7 +120,8 @@ const fracas_command fracas_command_fit = {
     .name = "fit",
     .operand = "STUDY",
     .doc = "Fits families of distributions to the fragment sizes of every point",
-    .more = "\nBy maximum likelihood, with intervals and p-values that resample realizations: half "
+    .more = "\nSTUDY is a folder, or study.h5 alone.\n"
+            "By maximum likelihood, with intervals and p-values that resample realizations: half "
             "a minute or so for a point, on all cores. They are kept in\n"
             "STUDY/fits.csv, for the report. Each point is saved when it is done: after Ctrl-C the "
             "same command goes on.\n",

@@ -137,7 +137,8 @@ const fracas_command fracas_command_picture = {
     .operand = "STUDY",
     .doc = "Draws broken bodies of STUDY as SVG files, or as a film",
     .more =
-        "\nOne file a time: the body as it was before any motion, its broken interfaces dark, "
+        "\nSTUDY is a folder, or study.h5 alone.\n"
+        "One file a time: the body as it was before any motion, its broken interfaces dark, "
         "cracked ones grey, each fragment\n"
         "filled, dust in orange; a bar with periodic ends is a circle. Then it prints when the "
         "realization first cracked, first broke,\n"

@@ -162,7 +162,8 @@ const fracas_command fracas_command_report = {
     .operand = "STUDY",
     .doc = "Prints the result table and writes STUDY/report",
     .more =
-        "\nThe report is index.html with its figures, and the numbers as CSV files. Of a study "
+        "\nSTUDY is a folder, or study.h5 alone.\n"
+        "The report is index.html with its figures, and the numbers as CSV files. Of a study "
         "that is being computed, or was interrupted,\n"
         "it is of what is done by now, and says so. With --live an open page loads itself again "
         "until the last one.\n",
@@ -205,7 +206,8 @@ const fracas_command fracas_command_export = {
     .name = "export",
     .operand = "STUDY",
     .doc = "Writes the tables of STUDY as a Frictionless Data Package",
-    .more = "\npoints.csv (parameters and statistics), realizations.csv, fragments.csv, "
+    .more = "\nSTUDY is a folder, or study.h5 alone.\n"
+            "points.csv (parameters and statistics), realizations.csv, fragments.csv, "
             "statistics.csv (a line a number, with its unit),\n"
             "energies.csv and convergence.csv (over time, and with the replicas), "
             "probes.csv where the campaign has probes, and datapackage.json, which says of every "

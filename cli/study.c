@@ -5,6 +5,8 @@
 #include "base/text.h"
 #include "base/version.h"
 #include "campaigns/campaign.h"
+#include "campaigns/scheduler/session/meshes.h"
+#include "campaigns/scheduler/types/header.h"
 #include "campaigns/store/store.h"
 #include "cli/cli.h"
 
@@ -37,6 +39,16 @@ bool fracas_cli_alone(const char *study)
 
 static fracas_err refuse_alone(const char *study)
 {
+    char file[PATH_MAX];
+    uint64_t version;
+    snprintf(file, sizeof file, "%s/study.h5", study);
+    if (!fracas_file_version(file, &version) && version < FRACAS_FORMAT_CAMPAIGN)
+        return fracas_fail(
+            FRACAS_DAMAGED,
+            "%s has a study.h5 of an earlier version of fracas, to look at by report, "
+            "export, compare, fit, picture and verify: the version that wrote it goes "
+            "on with it, or run its campaign file anew",
+            study);
     return fracas_fail(FRACAS_DAMAGED,
                        "%s has study.h5 alone, to look at by report, export, compare, fit, "
                        "picture, replay, plan, sample and verify: this command needs the whole "
@@ -116,6 +128,41 @@ fracas_err fracas_cli_campaign_in(fracas_reader *reader, const char *file,
                            file);
     *campaign = made;
     made = NULL;
+    return FRACAS_OK;
+}
+
+static fracas_err pass(void *context, fracas_result *result)
+{
+    (void)context, (void)result;
+    return FRACAS_OK;
+}
+
+/* Points, attributes and meshes of results of this version against the campaign. */
+static fracas_err check_against(fracas_reader *reader, const char *file,
+                                const fracas_campaign *campaign, bool full)
+{
+    const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
+    const fracas_file_header *is = fracas_reader_header(reader),
+                             should = fracas_campaign_header(campaign);
+    if (is->seed != should.seed || is->history != should.history ||
+        is->interfaces != should.interfaces || is->reactions != should.reactions)
+        return fracas_fail(FRACAS_DAMAGED,
+                           "%s: an attribute, seed, history, interfaces or reactions, is not that "
+                           "of the campaign in it: the file is damaged, or was edited",
+                           file);
+    TRY(fracas_reader_check_points(reader, &campaign->table));
+    return full ? fracas_reader_check_meshes(reader, &meshes) : FRACAS_OK;
+}
+
+fracas_err fracas_cli_check_values(fracas_reader *reader, const char *file,
+                                   const fracas_campaign *campaign, bool full)
+{
+    if (campaign && is_ours(reader)) TRY(check_against(reader, file, campaign, full));
+    TRY(fracas_reader_each(reader, FRACAS_READ_ALL, pass, NULL));
+    for (size_t p = 0; p < fracas_reader_points(reader)->npoints; p++) {
+        FRACAS_CLEARED(fracas_stored_mesh) mesh = {0};
+        TRY(fracas_reader_mesh(reader, p, &mesh));
+    }
     return FRACAS_OK;
 }
 

@@ -135,6 +135,14 @@ const fracas_command fracas_command_merge = {
 
 /* ---- export --study ---- */
 
+/* Before anything is written. */
+static fracas_err check_whole(const char *file, const fracas_campaign *campaign)
+{
+    OWN(fracas_reader) reader = NULL;
+    TRY(fracas_reader_open_old(file, &reader));
+    return fracas_cli_check_values(reader, file, campaign, true);
+}
+
 fracas_err fracas_cli_unpack(const fracas_arguments *arguments, const char *folder)
 {
     OWN(fracas_campaign) campaign = NULL;
@@ -145,6 +153,7 @@ fracas_err fracas_cli_unpack(const fracas_arguments *arguments, const char *fold
     const bool named = fracas_cli_is_study_file(arguments->operand);
     TRY(fracas_path(&file, named ? "%s" : "%s/study.h5", arguments->operand));
     TRY(fracas_cli_campaign_of_file(file, &ours, &campaign));
+    TRY(check_whole(file, campaign));
     begin_lines(&out, arguments);
     out.study = folder;
     const fracas_err code = fracas_upkeep_unpack(file, campaign, ours, folder, &out.said, &end);

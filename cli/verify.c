@@ -108,22 +108,6 @@ static void verify_fits(verification *v)
     else fprintf(v->notes, "%s%c", fracas_message(), '\0');
 }
 
-static fracas_err pass(void *context, fracas_result *result)
-{
-    (void)context, (void)result;
-    return FRACAS_OK;
-}
-
-/* A study.h5 alone against the campaign in it. */
-static fracas_err check_against(const verification *v, const fracas_campaign *campaign,
-                                fracas_reader *reader)
-{
-    const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
-    if (strcmp(fracas_reader_header(reader)->version, FRACAS_VERSION) != 0) return FRACAS_OK;
-    TRY(fracas_reader_check_points(reader, &campaign->table));
-    return v->full ? fracas_reader_check_meshes(reader, &meshes) : FRACAS_OK;
-}
-
 static void note_alone(const verification *v, const fracas_file_header *header)
 {
     if (header->format < FRACAS_FORMAT_VERSION)
@@ -147,12 +131,7 @@ static fracas_err verify_alone(verification *v)
     OWN(fracas_campaign) campaign = NULL;
     fracas_err err = fracas_reader_open_old(file, &reader);
     if (!err) err = fracas_cli_campaign_in(reader, file, &campaign);
-    if (!err && campaign) err = check_against(v, campaign, reader);
-    if (!err) err = fracas_reader_each(reader, FRACAS_READ_ALL, pass, NULL);
-    for (size_t p = 0; !err && p < fracas_reader_points(reader)->npoints; p++) {
-        FRACAS_CLEARED(fracas_stored_mesh) mesh = {0};
-        err = fracas_reader_mesh(reader, p, &mesh);
-    }
+    if (!err) err = fracas_cli_check_values(reader, file, campaign, v->full);
     if (err && err != FRACAS_DAMAGED) return err;
     if (err) report(v, fracas_message());
     else note_alone(v, fracas_reader_header(reader));
@@ -236,7 +215,8 @@ const fracas_command fracas_command_verify = {
     .name = "verify",
     .operand = "STUDY",
     .doc = "Checks every byte of STUDY",
-    .more = "\nSizes and checksums of all segments and of study.h5, the index, campaign.yaml with "
+    .more = "\nSTUDY is a folder, or study.h5 alone.\n"
+            "Sizes and checksums of all segments and of study.h5, the index, campaign.yaml with "
             "the files it names, and every decision on\n"
             "replicas. With --full also every dataset of every segment, the index against them row "
             "by row, and study.h5 against them\n"

@@ -195,4 +195,32 @@ cp away/bar/study.h5 cut
 expect 0 "$fracas" report cut/study.h5 --quiet
 rm cut/report/index.html
 expect 0 "$fracas" report cut/study.h5 --quiet
+# Nothing is made of a file with a damaged value, or with attributes that are not those of its campaign.
+mkdir flipped attribute
+cp away/bar/study.h5 flipped
+cp away/bar/study.h5 attribute
+/usr/bin/python3 - <<'END_OF_SCRIPT'
+import h5py
+with h5py.File("flipped/study.h5") as study:
+    at = study["fragment/mass"].id.get_chunk_info(0).byte_offset
+with open("flipped/study.h5", "r+b") as file:
+    file.seek(at + 3)
+    byte = file.read(1)
+    file.seek(at + 3)
+    file.write(bytes([byte[0] ^ 1]))
+with h5py.File("attribute/study.h5", "r+") as study:
+    study.attrs.modify("seed", study.attrs["seed"] + 1)
+END_OF_SCRIPT
+for what in flipped attribute; do
+    expect 5 "$fracas" verify $what
+    expect 5 "$fracas" export $what/study.h5 --study never
+    [ ! -e never ] || fail "a study is made of a damaged file"
+done
+
+# One that was cut off before its campaign file is made by the same command.
+mkdir -p again/segments again/attachments
+expect 0 "$fracas" export away/bar/study.h5 --study again
+cmp again/study.h5 away/bar/study.h5 || fail "after a cut the study is another"
+expect 2 "$fracas" export away/bar/study.h5 --study again
+said 'fracas merge again'
 echo "handed on, looked at, replayed and gone on with"

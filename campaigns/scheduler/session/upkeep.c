@@ -101,10 +101,11 @@ fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaig
 
 /* ---- a study of study.h5 ---- */
 
+/* Segments and attachments alone are those of one that was cut off. */
 static fracas_err note_entry(void *any, const char *path, const char *name)
 {
-    (void)path, (void)name;
-    *(bool *)any = true;
+    (void)path;
+    *(bool *)any |= strcmp(name, "segments") != 0 && strcmp(name, FRACAS_ATTACHMENTS) != 0;
     return FRACAS_OK;
 }
 
@@ -116,8 +117,9 @@ static fracas_err check_empty(const char *folder)
     if (S_ISDIR(info.st_mode)) TRY(fracas_disk_each(folder, note_entry, &any));
     if (S_ISDIR(info.st_mode) && !any) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
-                       "%s is there already, and is no empty folder: name a new one for the study",
-                       folder);
+                       "%s is there already, and is no empty folder: name a new one for the study; "
+                       "if it is one that was cut off, `fracas merge %s` completes it",
+                       folder, fracas_shell_path(folder, NULL).text);
 }
 
 fracas_err fracas_upkeep_unpack(const char *file, const fracas_campaign *campaign, bool results,
@@ -128,10 +130,13 @@ fracas_err fracas_upkeep_unpack(const char *file, const fracas_campaign *campaig
     bool written;
     *end = (fracas_index_counts){0};
     TRY(check_empty(study));
+    TRY(fracas_folder_make(study));
+    if (results) { /* first: with a campaign.yaml alone a run would compute them again */
+        TRY(fracas_folder_make_own(study, "segments", &segments));
+        TRY(fracas_study_bring(file, study));
+    }
     TRY(fracas_campaign_keep(campaign, study, "campaign.yaml", NULL));
     if (!results) return FRACAS_OK;
-    TRY(fracas_folder_make_own(study, "segments", &segments));
-    TRY(fracas_study_bring(file, study));
     return fracas_upkeep_merge(study, campaign, said, end, &written);
 }
 
