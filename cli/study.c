@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A study that a command names: a folder, or study.h5 alone with the campaign in it. */
+/* The study of a command: a folder, or study.h5 alone with the campaign in it. */
 #include "analysis/analysis.h"
 #include "base/file.h"
 #include "base/text.h"

@@ -62,8 +62,7 @@ bool fracas_section_common(const fracas_section *section, const fracas_kind *mod
 
 /* The section's struct within its owner. */
 void *fracas_section_at(const fracas_file_section *section, void *owner);
-/* The section's kind in its owner; NULL without kinds, and where a section that follows another is
- * not there. */
+/* The section's kind in its owner; NULL without kinds, and for an item absent from its list. */
 const fracas_kind *fracas_section_kind(const fracas_file_section *section, const void *owner);
 
 /* Choices of the leaf's key, of all kinds of its section together; returns their number. */

@@ -199,7 +199,7 @@ static void begin_section(fracas_json *json, const fracas_catalog *catalog, cons
     fracas_json_object(json, "properties");
 }
 
-/* The section, or a list of it and those that follow. */
+/* The section, or a list: it first, then its followers. */
 static void write_list(fracas_json *json, const fracas_catalog *catalog, const char *item,
                        const fracas_file_section *section)
 {

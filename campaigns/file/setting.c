@@ -358,7 +358,7 @@ static fracas_err add_one(const fracas_file *file, const fracas_file_section *se
     return FRACAS_OK;
 }
 
-/* The items of a list are this section and those that follow it. */
+/* The items of a list: this section, then its followers. */
 static fracas_err add_list(const fracas_file *file, const fracas_file_section *section,
                            const fracas_node *node, fracas_settings *settings)
 {

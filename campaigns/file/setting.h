@@ -47,7 +47,7 @@ FRACAS_MUST_USE fracas_err fracas_setting_kind(const fracas_file *file, const ch
 FRACAS_MUST_USE fracas_err fracas_setting_name(const fracas_file *file, const fracas_node *node,
                                                const char **name);
 
-/* The name of a case: such names, joined by '/' as those of several axes are. */
+/* The name of a case: one such name, or several joined by '/'. */
 FRACAS_MUST_USE fracas_err fracas_setting_case_name(const fracas_file *file,
                                                     const fracas_node *node, const char **name);
 

@@ -88,7 +88,7 @@ static void write_unit(const fracas_leaf *leaf, FILE *out)
     fprintf(out, "%s%s\n", pure ? "" : " # ", pure ? "" : leaf->param->unit);
 }
 
-/* True if a section that follows this one in a list is in the base. */
+/* True if a later item of the section's list is in the base. */
 static bool is_followed(const fracas_catalog *catalog, const bool *base,
                         const fracas_file_section *section)
 {

@@ -73,13 +73,6 @@ static double ratio_of(const fracas_stretch *stretch)
     return along_z ? stretch->ratio_z : stretch->ratio;
 }
 
-static bool is_alone(const fracas_spec *spec)
-{
-    for (int n = 1; n < FRACAS_LOADINGS; n++)
-        if (fracas_loading_at(spec, n)) return false;
-    return true;
-}
-
 /* Largest strain along x of a surface until t. Edges held against the motion, and those that start
  * it, send a shock v/c with v = d strain/dt L/2, doubled where it is reflected. A free body swings
  * back, unless loads push on. */
@@ -91,7 +84,7 @@ static double strain_bound(const fracas_spec *spec, const fracas_stretch *stretc
     double strain = stretch->strain;
     if (held->against || stretch->shock) return strain * (1 + 4 * transit / t);
     if (stretch->whole > 0) strain = fmin(strain, stretch->whole);
-    if (held->any || isnan(rate) || !is_alone(spec)) return strain;
+    if (held->any || isnan(rate) || !fracas_loading_is_alone(spec)) return strain;
     const fracas_shape *shape = fracas_shape_of(spec);
     const bool other_along_z = fabs(stretch->ratio_z - 1) > 0; /* NaN: no */
     if (shape->swing && other_along_z) return strain;
@@ -122,8 +115,8 @@ static bool has_planes(const fracas_spec *spec)
     return false;
 }
 
-/* A velocity is without stress where the whole body has it and nothing holds it. A strain that no
- * edges hold swings back, and its waves may meet. */
+/* A free body with one velocity has no stress. A strain without held edges swings back, and its
+ * waves may meet. */
 static double initial_stress_bound(const fracas_spec *spec, const holding *held, double factor)
 {
     const fracas_initial *initial = &spec->initial;
@@ -147,7 +140,7 @@ static double surface_stress_bound(const fracas_spec *spec, const fracas_body_si
     const double largest = largest_of(&stretch, nu);
     double stress = factor * spec->material.young * strain_bound(spec, &stretch, &held, size) *
                     largest / (1 - nu * nu);
-    if (load->body_force && is_alone(spec)) {
+    if (load->body_force && fracas_loading_is_alone(spec)) {
         const double rim = spec->loading.speed * size->reach;
         stress = fmin(stress, 2 * spec->material.density * rim * rim * (held.any ? factor : 1));
     }

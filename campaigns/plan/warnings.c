@@ -19,18 +19,10 @@
 /* Largest turn of a ring with initial opening directions [rad]: 1 - cos is 5e-5. */
 #define TURNED 0.01
 
-/* Nothing acts but what initial gives. */
-static bool is_idle(const fracas_spec *spec)
-{
-    bool idle = fracas_loading_traits_of(spec)->idle;
-    for (int n = 1; n < FRACAS_LOADINGS; n++) idle = idle && !fracas_loading_at(spec, n);
-    return idle;
-}
-
 /* Remedy for a load too weak to crack the body. */
 static const char *harder(const fracas_point *point, const fracas_forecast *forecast)
 {
-    if (is_idle(&point->spec)) return "raise what initial gives, or load the body";
+    if (fracas_loading_is_idle(&point->spec)) return "raise what initial gives, or load the body";
     if (!fracas_loading_traits_of(&point->spec)->released)
         return forecast->stress_grows ? "load it harder, or longer"
                                       : "load it harder; a longer run does not help";
@@ -231,19 +223,20 @@ WARNING(
     forecast->factor * forecast->opening / forecast->available,
     forecast->opening_grows ? ", or time.end" : "")
 
-/* The key of a load that says how hard it is: its first number. */
+/* The key of the first load: how hard it is, by its first number. */
 static remedy load_key(const fracas_spec *spec)
 {
     remedy made = {"what initial gives"};
-    for (int n = FRACAS_LOADINGS - 1; n >= 0; n--) {
-        const fracas_loading *loading = fracas_loading_at(spec, n);
-        const fracas_kind *load = loading ? loading->type : NULL;
-        size_t k = 0;
-        if (!load || load->nparams == 0) continue;
-        while (k + 1 < load->nparams && load->params[k].type != FRACAS_REAL) k++;
-        snprintf(made.text, sizeof made.text, "%s.%s", fracas_loading_sections[n].name,
-                 load->params[k].name);
-    }
+    int n = 0;
+    while (n < FRACAS_LOADINGS &&
+           !(fracas_loading_at(spec, n) && fracas_loading_at(spec, n)->type->nparams > 0))
+        n++;
+    if (n == FRACAS_LOADINGS) return made;
+    const fracas_kind *load = fracas_loading_at(spec, n)->type;
+    size_t k = 0;
+    while (k + 1 < load->nparams && load->params[k].type != FRACAS_REAL) k++;
+    snprintf(made.text, sizeof made.text, "%s.%s", fracas_loading_sections[n].name,
+             load->params[k].name);
     return made;
 }
 
@@ -433,7 +426,7 @@ WARNING(warn_stretch,
         "along its axis as well: give loading.ratio or ratio_z, 0 for none along y or z",
         forecast->mesh.box[0], forecast->mesh.box[1], forecast->mesh.box[2])
 
-/* An initial strain is the stress of a body that edges hold. */
+/* Only held edges keep an initial strain. */
 static bool springs_back(const fracas_spec *spec)
 {
     bool held = false;

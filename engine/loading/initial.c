@@ -50,7 +50,7 @@ static const fracas_param params[] = {
         "thermal strain by temperature, of which the body has the opposite where it is held"),
 };
 
-/* NaN: not given. Keys that a model does not have are 0. */
+/* NaN: not given. A model without the key has 0. */
 static double given(double value)
 {
     return isnan(value) ? 0 : value;
@@ -183,7 +183,7 @@ static fracas_err check_limits(const fracas_initial *initial)
     return FRACAS_OK;
 }
 
-/* The region is that of the velocity alone. */
+/* Only the velocity has a region. */
 static fracas_err check_region(const fracas_initial *initial)
 {
     bool limited = initial->within > 0, middle = false;

@@ -10,7 +10,7 @@ extern const fracas_section fracas_initial_section;
 /* True if some node may start with a velocity. */
 bool fracas_initial_moves(const fracas_initial *initial);
 
-/* True if such velocities strain a body that nothing holds: they are those of a part of it. */
+/* True if such velocities strain a free body: only a part of it has them. */
 bool fracas_initial_parts(const fracas_initial *initial);
 
 /* True if stresses along x and y are given: the body must be flat. */

@@ -338,6 +338,18 @@ const fracas_load *fracas_loading_load(const fracas_spec *spec, int n)
     return loading ? ((const fracas_loading_traits *)loading->type->traits)->load : NULL;
 }
 
+bool fracas_loading_is_alone(const fracas_spec *spec)
+{
+    for (int n = 1; n < FRACAS_LOADINGS; n++)
+        if (fracas_loading_at(spec, n)) return false;
+    return true;
+}
+
+bool fracas_loading_is_idle(const fracas_spec *spec)
+{
+    return fracas_loading_traits_of(spec)->idle && fracas_loading_is_alone(spec);
+}
+
 fracas_stretch fracas_loading_stretch(const fracas_spec *spec, double t)
 {
     fracas_stretch sum = fracas_loading_traits_of(spec)->surface(spec, &spec->loading, t);
@@ -346,12 +358,13 @@ fracas_stretch fracas_loading_stretch(const fracas_spec *spec, double t)
         if (!loading) continue;
         const fracas_loading_traits *traits = loading->type->traits;
         const fracas_stretch other = traits->surface(spec, loading, t);
+        if (other.strain == 0) continue;
         if (sum.strain == 0 && !sum.moving && !sum.shock) { /* the first does nothing */
             sum = other;
             continue;
         }
         const bool alike = sum.ratio == other.ratio && isnan(sum.ratio_z) == isnan(other.ratio_z);
-        sum.strain = alike || other.strain == 0 ? sum.strain + other.strain : INFINITY;
+        sum.strain = alike ? sum.strain + other.strain : INFINITY;
         sum.whole = sum.whole > 0 && other.whole > 0 ? sum.whole + other.whole : 0;
     }
     return sum;

@@ -63,6 +63,10 @@ static inline const fracas_loading_traits *fracas_loading_traits_of(const fracas
 const fracas_loading *fracas_loading_at(const fracas_spec *spec, int n);
 /* The load of loading number n; NULL: there is none. */
 const fracas_load *fracas_loading_load(const fracas_spec *spec, int n);
+/* There is no loading beside the first. */
+bool fracas_loading_is_alone(const fracas_spec *spec);
+/* None of them drives anything. */
+bool fracas_loading_is_idle(const fracas_spec *spec);
 /* The stretch of a plate by all loadings together; INFINITY where loadings of unlike ratios give no
  * bound. It moves as the first says. */
 fracas_stretch fracas_loading_stretch(const fracas_spec *spec, double t);

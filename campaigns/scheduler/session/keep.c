@@ -255,7 +255,7 @@ static bool is_study(const char *study)
     return has(study, "campaign.yaml", FRACAS_RESOLVED) || has_results(study);
 }
 
-/* A study.h5 that no index and no segment vouches for is one that somebody has put there: a run
+/* Without an index and segments a study.h5 is not the run's: somebody has put it there, and a run
  * would begin anew and replace it. */
 static fracas_err keep_file(const char *study)
 {

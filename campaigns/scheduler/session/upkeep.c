@@ -101,7 +101,7 @@ fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaig
 
 /* ---- a study of study.h5 ---- */
 
-/* Segments and attachments alone are those of one that was cut off. */
+/* Segments and attachments alone: it was cut off. */
 static fracas_err note_entry(void *any, const char *path, const char *name)
 {
     (void)path;

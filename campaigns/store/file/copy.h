@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* /campaign of a study.h5: the campaign's text and the files that it names. Private to the store.
- */
+/* /campaign of a study.h5: the campaign's text and its files. Private to the store. */
 #ifndef FRACAS_CAMPAIGNS_STORE_FILE_COPY_H
 #define FRACAS_CAMPAIGNS_STORE_FILE_COPY_H
 

@@ -30,7 +30,7 @@ double fracas_surface_initial_displacement(const fracas_model *model, size_t e, 
     return displacement[i % dimension];
 }
 
-/* Stresses along x and y are those of a plane z = const, in which a strain along z is none. */
+/* Stresses along x and y need a plane z = const; a strain along z does nothing there. */
 static fracas_err check_flat(const fracas_model *model)
 {
     const fracas_surface *surface = model->surface;

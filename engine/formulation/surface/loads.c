@@ -14,7 +14,7 @@ static const fracas_load *force_of(const fracas_model *model, int n)
     return load && !load->path ? load : NULL;
 }
 
-/* A force, and the tables that it fills. */
+/* A force and its tables. */
 typedef struct {
     const fracas_model *model;
     const fracas_loading *loading;
@@ -50,14 +50,7 @@ typedef struct {
 static element_point point_at(const fracas_surface *surface, size_t e, double xi, double eta)
 {
     element_point p = {0};
-    double derivative[6][2];
-    fracas_triangle_shape(surface->order, xi, eta, p.shape, derivative);
-    for (size_t k = 0; k < surface->corners; k++)
-        for (int i = 0; i < 3; i++) {
-            const double x = fracas_surface_node(surface, e, k)[i];
-            p.at.x[i] += p.shape[k] * x;
-            for (int a = 0; a < 2; a++) p.base[a][i] += derivative[k][a] * x;
-        }
+    fracas_surface_at(surface, e, xi, eta, p.shape, p.at.x, p.base);
     cross(p.base[0], p.base[1], p.at.normal);
     p.area = normalize(p.at.normal);
     return p;
@@ -246,7 +239,7 @@ static void fill_elements(const forcing *of)
     }
 }
 
-/* Largest component of a load's forces, and of those that move a node [N]. */
+/* Largest component of a load's forces: any, and on a node free to move [N]. */
 typedef struct {
     double any, moving;
 } largest;
@@ -270,9 +263,7 @@ static largest largest_of(const forcing *of)
 static fracas_err check_moves(const forcing *of, int n)
 {
     const largest found = largest_of(of);
-    bool beside = false;
-    for (int other = 0; other < FRACAS_LOADINGS; other++)
-        beside = beside || (other != n && fracas_loading_at(&of->model->spec, other));
+    const bool beside = !fracas_loading_is_alone(&of->model->spec);
     if (found.moving > 1e-9 * found.any || (beside && found.any == 0)) return FRACAS_OK;
     return fracas_fail(
         FRACAS_USAGE,

@@ -67,8 +67,8 @@ LANES_FUNCTION void surface_add_inertia(const surface_context *c, int order, siz
     }
 }
 
-/* Force along the path of moved unknowns that the body force of a spun membrane has, which is none
- * of a reaction's: d . M w^2 x  (membrane.10), (loads.8) */
+/* The body force of a spun membrane on moved unknowns, along their path: d . M w^2 x. It is no
+ * reaction  (membrane.10), (loads.8) */
 LANES_FUNCTION vd surface_spin_along(const surface_context *c, int order, size_t e,
                                      const vd *direction)
 {

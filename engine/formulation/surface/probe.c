@@ -6,6 +6,20 @@
 
 enum { ROUNDS = 30 };
 
+void fracas_surface_at(const fracas_surface *surface, size_t e, double xi, double eta,
+                       double shape[6], double place[3], double base[2][3])
+{
+    double derivative[6][2];
+    fracas_triangle_shape(surface->order, xi, eta, shape, derivative);
+    for (int i = 0; i < 3; i++) place[i] = base[0][i] = base[1][i] = 0;
+    for (size_t k = 0; k < surface->corners; k++)
+        for (int i = 0; i < 3; i++) {
+            const double x = fracas_surface_node(surface, e, k)[i];
+            place[i] += shape[k] * x;
+            for (int a = 0; a < 2; a++) base[a][i] += derivative[k][a] * x;
+        }
+}
+
 /* The search for a point of the surface near to `place`. */
 typedef struct {
     const fracas_surface *surface;
@@ -18,15 +32,8 @@ typedef struct {
 static fracas_spot spot_at(const search *s, size_t e, const double at[2], double slope[2][3])
 {
     fracas_spot spot = {.element = e};
-    double derivative[6][2], square = 0;
-    fracas_triangle_shape(s->surface->order, at[0], at[1], spot.weight, derivative);
-    for (int i = 0; i < 3; i++) slope[0][i] = slope[1][i] = 0;
-    for (size_t k = 0; k < s->surface->corners; k++)
-        for (int i = 0; i < 3; i++) {
-            const double x = fracas_surface_node(s->surface, e, k)[i];
-            spot.place[i] += spot.weight[k] * x;
-            for (int a = 0; a < 2; a++) slope[a][i] += derivative[k][a] * x;
-        }
+    double square = 0;
+    fracas_surface_at(s->surface, e, at[0], at[1], spot.weight, spot.place, slope);
     for (int i = 0; i < 3; i++)
         square += (s->place[i] - spot.place[i]) * (s->place[i] - spot.place[i]);
     spot.distance = sqrt(square);

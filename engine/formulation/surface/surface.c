@@ -99,8 +99,7 @@ static fracas_err check_beta(const fracas_model *model)
 /* Something moves: not all starts at rest, or an edge moves with the load. */
 static fracas_err check_motion(const fracas_model *model)
 {
-    bool idle = fracas_loading_traits_of(&model->spec)->idle;
-    for (int n = 1; n < FRACAS_LOADINGS; n++) idle = idle && !fracas_loading_at(&model->spec, n);
+    const bool idle = fracas_loading_is_idle(&model->spec);
     if ((!idle && (!stretch_of(model).shock || tables_of(model)->moves)) ||
         fracas_initial_moves(&model->spec.initial) || fracas_initial_is_strained(&model->spec))
         return FRACAS_OK;

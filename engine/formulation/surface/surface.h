@@ -351,13 +351,20 @@ typedef struct {
 void fracas_surface_record_event(const fracas_surface_constants *constants, fracas_step *step,
                                  const fracas_surface_event *event);
 
+/* ---- points of elements ---- */
+
+/* Values of the shape functions, place [m], dx/dxi and dx/deta [m] of element e at (xi, eta). */
+void fracas_surface_at(const fracas_surface *surface, size_t e, double xi, double eta,
+                       double shape[6], double place[3], double base[2][3]);
+
 /* ---- start ---- */
 
-/* Velocity [m/s], 0 of held components, and displacement [m] that the section `initial` gives
- * unknown i of element e  (initial.1), (initial.3) */
+/* By the section `initial`: velocity [m/s], 0 of held components, and displacement [m] of unknown i
+ * of element e  (initial.1), (initial.3) */
 double fracas_surface_initial_velocity(const fracas_model *model, size_t e, size_t i);
 double fracas_surface_initial_displacement(const fracas_model *model, size_t e, size_t i);
-/* FRACAS_USAGE for stresses in a body that is not flat, for velocities that no node has. */
+/* FRACAS_USAGE for stresses in a bent body, strains across a flat one, velocities of no node, and
+ * velocities or shear across a plane of symmetry. */
 FRACAS_MUST_USE fracas_err fracas_surface_check_initial(const fracas_model *model);
 
 /* ---- broken interfaces ---- */
