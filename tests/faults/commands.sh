@@ -8,8 +8,8 @@
 campaign small.yaml 6 '3e4 1/s, 1e5 1/s'
 campaign more.yaml 9 '3e4 1/s, 1e5 1/s'
 pieces='--jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6' # a segment for each realization, or two
-expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
-expect 0 "$fracas" run more.yaml --study longer --jobs 2
+expect 0 "$fracas" run --no-report small.yaml --study undisturbed --jobs 2
+expect 0 "$fracas" run --no-report more.yaml --study longer --jobs 2
 
 # Every command refuses a study in use, as host and pid say, and what is none.
 cp -r undisturbed used
@@ -50,7 +50,7 @@ rm used/study.h5
 expect 0 "$fracas" merge used
 said 'study.h5 is written'
 same undisturbed used
-expect 0 "$fracas" run small.yaml --study pieces $pieces
+expect 0 "$fracas" run --no-report small.yaml --study pieces $pieces
 set -- pieces/segments/*.h5
 rm "$1" "$2"
 expect 3 "$fracas" merge pieces
@@ -64,9 +64,9 @@ rm lost/index.sqlite*
 expect 0 "$fracas" reindex lost
 said '12 realizations, [0-9]* done in [0-9]* segments, 0 failed, [23] missing'
 said 'fracas run lost/campaign.yaml --study lost'
-expect 0 "$fracas" run lost/campaign.yaml --study lost
+expect 0 "$fracas" run --no-report lost/campaign.yaml --study lost
 same undisturbed lost
-expect 1 env FRACAS_TEST_FAULT=crash:1:5 "$faulty" run small.yaml --study failed $pieces
+expect 1 env FRACAS_TEST_FAULT=crash:1:5 "$faulty" run --no-report small.yaml --study failed $pieces
 cp failed/study.h5 failed.h5
 expect 0 "$fracas" reindex failed --json
 said '"failed": 1'
@@ -100,7 +100,7 @@ rm -r failed/pictures failed/export failed/fits.csv
 [ "$(segments failed)" -eq "$kept" ] || fail "gc removed a segment"
 expect 0 "$fracas" gc failed --json
 said '"path": "failed/notes.txt"'
-expect 1 env FRACAS_TEST_FAULT=crash:1:5 "$faulty" run small.yaml --study failed $pieces
+expect 1 env FRACAS_TEST_FAULT=crash:1:5 "$faulty" run --no-report small.yaml --study failed $pieces
 cmp failed.h5 failed/study.h5 || fail "after gc, it differs"
 
 # retry: what failed is computed again. A run has nothing to do.
@@ -110,10 +110,10 @@ expect 2 "$fracas" retry failed --failed --point 2
 said 'points 0 to 1'
 expect 1 "$fracas" retry failed --failed --point 0
 said '0 failed realizations of failed are planned again'
-expect 1 env FRACAS_TEST_FAULT=crash:1:5 "$faulty" retry failed --failed --jobs 2
+expect 1 env FRACAS_TEST_FAULT=crash:1:5 "$faulty" retry failed --failed --no-report --jobs 2
 said '1 failed realizations of failed are planned again'
 cmp failed.h5 failed/study.h5 || fail "failed again, it differs"
-expect 0 "$fracas" retry failed --failed --point 1 --jobs 2 --lanes 1
+expect 0 "$fracas" retry failed --failed --no-report --point 1 --jobs 2 --lanes 1
 same undisturbed failed
 expect 0 "$fracas" verify failed --full
 
@@ -125,7 +125,7 @@ expect 2 "$fracas" extend extended --replicas 5
 said 'has 6 already'
 expect 0 "$fracas" extend extended --replicas 6
 said 'complete, nothing to compute'
-expect 0 "$fracas" extend extended --replicas 9 --jobs 2 --lanes 4
+expect 0 "$fracas" extend extended --no-report --replicas 9 --jobs 2 --lanes 4
 said 'is to grow from 12 realizations to 18'
 same longer extended
 expect 5 "$fracas" run small.yaml --study extended
@@ -133,7 +133,7 @@ said 'extended has been extended since: `fracas run extended/campaign.yaml --stu
 cmp longer/campaign.yaml extended/campaign.yaml || fail "campaign.yaml is not that of the longer campaign"
 expect 0 "$fracas" verify extended --full
 sed 's/^replicas:.*/replicas: {minimum: 8, maximum: 9, until: {quantity: mean-count, relative-half-width: 0.5}}/' small.yaml > rule.yaml
-expect 0 "$fracas" run rule.yaml --study rule --jobs 2
+expect 0 "$fracas" run --no-report rule.yaml --study rule --jobs 2
 expect 2 "$fracas" extend rule --replicas 20
 said 'a rule decides the replicas of point 0'
 cp rule/study.h5 rule.h5
@@ -143,8 +143,8 @@ expect 0 "$fracas" merge rule
 cmp rule.h5 rule/study.h5 || fail "decided again, it differs"
 
 # merge-studies: two parts, in either order; a part of a longer campaign; what both have is compared.
-expect 3 "$fracas" run small.yaml --study odd --part 1/2 $pieces
-expect 3 "$fracas" run small.yaml --study even --part 2/2 --jobs 2
+expect 3 "$fracas" run --no-report small.yaml --study odd --part 1/2 $pieces
+expect 3 "$fracas" run --no-report small.yaml --study even --part 2/2 --jobs 2
 cp -r odd odd-too
 cp -r even even-too
 expect 0 "$fracas" merge-studies odd even
@@ -154,7 +154,7 @@ same undisturbed odd
 expect 0 "$fracas" verify odd --full
 expect 0 "$fracas" merge-studies even-too odd-too --json
 said '"missing": 0'
-expect 0 "$fracas" run small.yaml --study even-too
+expect 0 "$fracas" run --no-report small.yaml --study even-too
 same undisturbed even-too
 expect 0 "$fracas" merge-studies odd even # again: all there
 said '6 realizations are in both, and the same'
@@ -167,8 +167,8 @@ said 'from undisturbed: 0 realizations'
 
 campaign other.yaml 6 '3e4 1/s, 2e5 1/s'
 sed 's/^seed:.*/seed: 8/' small.yaml > seed.yaml
-expect 0 "$fracas" run other.yaml --study other --jobs 2
-expect 0 "$fracas" run seed.yaml --study seed --jobs 2
+expect 0 "$fracas" run --no-report other.yaml --study other --jobs 2
+expect 0 "$fracas" run --no-report seed.yaml --study seed --jobs 2
 expect 5 "$fracas" merge-studies used other
 said 'loading.rate'
 expect 5 "$fracas" merge-studies used seed

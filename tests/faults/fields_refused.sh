@@ -2,7 +2,7 @@
 . tests/support/campaigns.sh
 
 campaign small.yaml 2 '1e5 1/s'
-expect 0 "$fracas" run small.yaml --study small --jobs 1
+expect 0 "$fracas" run --no-report small.yaml --study small --jobs 1
 refused() # STATUS WORDS OPTIONS...
 {
     status=$1 words=$2
@@ -29,7 +29,7 @@ refused 6 'cannot make the folder /proc/f' --fields /proc/f
 
 # An unbroken bar has no onset.
 sed 's/299 MPa/9 GPa/; s/301 MPa/9.1 GPa/; s/fracture_energy: 100/fracture_energy: 1e5/' small.yaml > strong.yaml
-expect 0 "$fracas" run strong.yaml --study strong --jobs 1
+expect 0 "$fracas" run --no-report strong.yaml --study strong --jobs 1
 expect 2 "$fracas" replay strong 0/1 --fields f --at onset
 said 'never cracked: there is no onset'
 expect 0 "$fracas" replay strong 0/1 --fields strong.fields

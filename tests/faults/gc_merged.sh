@@ -2,8 +2,8 @@
 . tests/support/campaigns.sh
 
 campaign small.yaml 3 '3e4 1/s, 1e5 1/s'
-expect 0 "$fracas" run small.yaml --study undisturbed --jobs 1
-expect 0 "$fracas" run small.yaml --study lost --jobs 1 --lanes 1 --lease-time 0 --segment-size 1e-6 # a segment a realization
+expect 0 "$fracas" run --no-report small.yaml --study undisturbed --jobs 1
+expect 0 "$fracas" run --no-report small.yaml --study lost --jobs 1 --lanes 1 --lease-time 0 --segment-size 1e-6 # a segment a realization
 
 library=$(dirname "$fracas")/tests/failing_calls.so
 # killed STATUS K: the command on a copy, killed at the K-th such call; 0 only counts.
@@ -25,7 +25,7 @@ for at in $(seq 1 $((calls / 5)) "$calls"); do
     expect 0 "$fracas" verify victim
     rm -rf half
     cp -r victim half
-    expect 0 "$fracas" run small.yaml --study victim
+    expect 0 "$fracas" run --no-report small.yaml --study victim
     said 'nothing to compute'
     expect 0 "$fracas" gc victim --merged
     expect 0 "$fracas" verify victim --full

@@ -3,7 +3,7 @@
 . tests/support/campaigns.sh
 
 campaign small.yaml 8 '1e5 1/s'
-expect 0 "$fracas" run small.yaml --study undisturbed --jobs 1
+expect 0 "$fracas" run --no-report small.yaml --study undisturbed --jobs 1
 script() { # script FILE: what each process of the job does, from standard input
     cat > "$1"
     chmod +x "$1"
@@ -12,7 +12,7 @@ script() { # script FILE: what each process of the job does, from standard input
 # Each process gives a study of its own: by name, or by its folder. Neither is begun.
 script farm << END
 #!/bin/sh
-exec "$fracas" run small.yaml --study farm\$OMPI_COMM_WORLD_RANK
+exec "$fracas" run --no-report small.yaml --study farm\$OMPI_COMM_WORLD_RANK
 END
 expect 2 launch -n 2 ./farm
 said '^fracas: rank 1 would compute another study than rank 0, .* give all the same, or start a run for each study'
@@ -28,7 +28,7 @@ ln -s . here
 script names << END
 #!/bin/sh
 case \$OMPI_COMM_WORLD_RANK in 0) study=one/ ;; 1) study=.//one ;; *) study=$PWD/here/./one ;; esac
-exec "$fracas" run small.yaml --study \$study
+exec "$fracas" run --no-report small.yaml --study \$study
 END
 expect 0 launch -n 3 ./names
 same undisturbed one
@@ -37,7 +37,7 @@ same undisturbed one
 script alone << END
 #!/bin/sh
 case \$OMPI_COMM_WORLD_RANK in
-0) exec "$fracas" run small.yaml --study lonely 2> waiting ;;
+0) exec "$fracas" run --no-report small.yaml --study lonely 2> waiting ;;
 *) until grep -q '^fracas: waits for 1 more process of the mpirun .* OMPI_\*, PMIX_\* and PMI_\*' waiting; do sleep 0.1; done ;;
 esac
 END
@@ -49,12 +49,12 @@ grep -q '^fracas: waits for 1 more' waiting || fail "nothing was said of the pro
 # Two runs in one process of the job: MPI starts once in it. The second does with the variables of the job taken out.
 script twice << END
 #!/bin/sh
-"$fracas" run small.yaml --study first || exit 20
-"$fracas" run small.yaml --study second
+"$fracas" run --no-report small.yaml --study first || exit 20
+"$fracas" run --no-report small.yaml --study second
 echo "status \$?"
-"$fracas" run nothing.yaml --study second
+"$fracas" run --no-report nothing.yaml --study second
 echo "then status \$?"
-(unset \$(env | grep -oE '^(OMPI|PMIX|PMI|SLURM_STEP)_\w*'); "$fracas" run small.yaml --study third --jobs 1) || exit 21
+(unset \$(env | grep -oE '^(OMPI|PMIX|PMI|SLURM_STEP)_\w*'); "$fracas" run --no-report small.yaml --study third --jobs 1) || exit 21
 END
 expect 0 launch -n 1 ./twice
 said '^fracas: MPI does not start, see above: .* OMPI_\*, PMIX_\* and PMI_\* .*out of its environment'

@@ -21,7 +21,7 @@ mkdir given
 strengths 1 > given/one.csv
 strengths 2 > given/two.csv
 attached first.yaml given/one.csv 1 '1e5 1/s'
-expect 0 "$fracas" run first.yaml --study study
+expect 0 "$fracas" run --no-report first.yaml --study study
 digest=$(ls study/attachments)
 cmp given/one.csv "study/attachments/$digest" || fail "the copy is not the file"
 grep -q "file: attachments/$digest\$" study/campaign.yaml || fail "campaign.yaml does not name the copy"
@@ -35,7 +35,7 @@ tail -n +3 given/one.csv | sed 's/.*, //' | cmp - used || fail "the strengths ar
 mv given moved
 mv moved/one.csv moved/uno.csv
 attached renamed.yaml moved/uno.csv 1 '1e5 1/s'
-expect 0 "$fracas" run renamed.yaml --study study
+expect 0 "$fracas" run --no-report renamed.yaml --study study
 said 'complete'
 
 # Gone: another file of its name is another point; the study's own campaign file makes it whole, and extends it.
@@ -48,23 +48,23 @@ expect 2 "$fracas" run first.yaml --study study
 said 'first.yaml:.*`file`: cannot open given/one.csv: No such file'
 cp study/study.h5 kept.h5
 rm study/segments/*.h5
-expect 0 "$fracas" run study/campaign.yaml --study study
+expect 0 "$fracas" run --no-report study/campaign.yaml --study study
 cmp kept.h5 study/study.h5 || fail "computed again, it differs"
 sed 's/rate: 1.*/rate: 50000/' study/campaign.yaml > study/extended.yaml
 cmp -s study/extended.yaml study/campaign.yaml && fail "nothing was changed"
 expect 5 "$fracas" run study/extended.yaml --study study
 { sed '/^  rate:/d' study/campaign.yaml; echo 'sweep:'; echo '  - loading.rate: [1e5, 2e5]'; } > study/extended.yaml
-expect 0 "$fracas" run study/extended.yaml --study study
+expect 0 "$fracas" run --no-report study/extended.yaml --study study
 expect 0 "$fracas" verify --full study
 attached both.yaml moved/uno.csv 1 '1e5 1/s, 2e5 1/s'
 mkdir -p fresh/attachments # another file is in the place of the copy
 tr 0 1 < moved/uno.csv > "fresh/attachments/$digest"
-expect 0 "$fracas" run both.yaml --study fresh
+expect 0 "$fracas" run --no-report both.yaml --study fresh
 same study fresh
 cmp moved/uno.csv "fresh/attachments/$digest" || fail "another file was taken for the copy"
 mkdir -p piped/attachments # pipes: whoever opens one waits
 mkfifo "piped/attachments/$digest" "piped/attachments/$digest.tmp" piped/campaign.yaml.tmp
-expect 0 timeout 300 "$fracas" run both.yaml --study piped
+expect 0 timeout 300 "$fracas" run --no-report both.yaml --study piped
 same study piped
 cmp moved/uno.csv "piped/attachments/$digest" || fail "a pipe was left in the place of the copy"
 
@@ -74,10 +74,10 @@ sed 's|loading.rate: .*|strength.file: [moved/uno.csv, moved/two.csv, "'"$work"'
 expect 2 "$fracas" plan thrice.yaml
 said 'points 1 and 3 of the sweep have the same values'
 sed 's|loading.rate: .*|strength.file: [moved/uno.csv, moved/two.csv]|' sweep.yaml > twice.yaml
-expect 0 "$fracas" run twice.yaml --study two
+expect 0 "$fracas" run --no-report twice.yaml --study two
 [ "$(ls two/attachments | wc -l)" -eq 2 ] || fail "not two copies"
 rm moved/two.csv
-expect 0 "$fracas" run two/campaign.yaml --study two
+expect 0 "$fracas" run --no-report two/campaign.yaml --study two
 said 'complete'
 
 # A copy that is damaged or lost is named; put back, all is well.

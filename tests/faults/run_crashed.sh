@@ -3,17 +3,17 @@
 . tests/support/campaigns.sh
 
 campaign small.yaml 12 '3e4 1/s, 1e5 1/s'
-expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
+expect 0 "$fracas" run --no-report small.yaml --study undisturbed --jobs 2
 export FRACAS_TEST_FAULT=crash:1:5
-expect 1 "$faulty" run small.yaml --study crashed --jobs 2
+expect 1 "$faulty" run --no-report small.yaml --study crashed --jobs 2
 said 'replica 5 of point 1 .* FAILED.*signal 11'
-expect 1 "$faulty" run small.yaml --study alone --jobs 1 --lanes 1 --shuffle
+expect 1 "$faulty" run --no-report small.yaml --study alone --jobs 1 --lanes 1 --shuffle
 same crashed alone
 unset FRACAS_TEST_FAULT
 before=$(stat -c %Y.%i crashed/study.h5)
-expect 1 "$fracas" run small.yaml --study crashed # failed for good: nothing is computed again
+expect 1 "$fracas" run --no-report small.yaml --study crashed # failed for good: nothing is computed again
 # The same told by a rank of the user's own launcher.
-expect 1 env OMPI_COMM_WORLD_RANK=0 OMPI_MCA_ess_singleton_isolated=1 "$fracas" run small.yaml --study crashed --walltime 1h
+expect 1 env OMPI_COMM_WORLD_RANK=0 OMPI_MCA_ess_singleton_isolated=1 "$fracas" run --no-report small.yaml --study crashed --walltime 1h
 said 'FAILED: .*which and why: fracas status crashed'
 [ "$before" = "$(stat -c %Y.%i crashed/study.h5)" ] || fail "study.h5 was written again"
 

@@ -16,7 +16,7 @@ with open(sys.argv[1], "r+b") as f:
 }
 
 campaign small.yaml 8 '3e4 1/s, 1e5 1/s'
-expect 0 "$fracas" run small.yaml --study one --jobs 2
+expect 0 "$fracas" run --no-report small.yaml --study one --jobs 2
 cp -r one done
 expect 0 "$fracas" verify done
 for place in 3 200 500 900; do
@@ -25,7 +25,7 @@ for place in 3 200 500 900; do
     expect 5 "$fracas" verify done
     said "$segment: damaged"
     said 'run again'
-    expect 0 "$fracas" run small.yaml --study done --jobs 2
+    expect 0 "$fracas" run --no-report small.yaml --study done --jobs 2
     said "$segment: damaged"
     said 'realizations are planned again'
     [ -e "${segment%.h5}.damaged" ] || fail "$segment was not set aside"
@@ -35,17 +35,17 @@ for place in 3 200 500 900; do
     flip done/study.h5 $place
     expect 5 "$fracas" verify done
     said 'study.h5: damaged'
-    expect 0 "$fracas" run small.yaml --study done
+    expect 0 "$fracas" run --no-report small.yaml --study done
     same one done
 done
-expect 0 "$fracas" run small.yaml --study done
+expect 0 "$fracas" run --no-report small.yaml --study done
 said 'nothing to compute'
 
 # Before the end: two replicas more, and a segment of the first is damaged.
 campaign longer.yaml 10 '3e4 1/s, 1e5 1/s'
 flip "$(ls done/segments/*.h5 | tail -n 1)" 400
-expect 0 "$fracas" run longer.yaml --study done --jobs 2
-expect 0 "$fracas" run longer.yaml --study fresh --jobs 2
+expect 0 "$fracas" run --no-report longer.yaml --study done --jobs 2
+expect 0 "$fracas" run --no-report longer.yaml --study fresh --jobs 2
 same fresh done
 
 # A number of the index that SQLite cannot check is not believed when study.h5 is made.

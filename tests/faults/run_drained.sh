@@ -12,13 +12,13 @@ interrupted()
 }
 
 campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
-expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
+expect 0 "$fracas" run --no-report small.yaml --study undisturbed --jobs 2
 for signal in INT TERM; do
     hold
-    start small.yaml --study drained --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+    start --no-report small.yaml --study drained --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     wait_segments drained $(($(segments drained) + 2))
     second=0
-    "$fracas" run small.yaml --study drained > said 2>&1 || second=$?
+    "$fracas" run --no-report small.yaml --study drained > said 2>&1 || second=$?
     "$fracas" status drained > state
     kill -$signal "$session"
     interrupted drained
@@ -29,33 +29,33 @@ for signal in INT TERM; do
     "$fracas" status drained > state
     grep -q 'interrupted' state || { cat state >&2; fail "status does not know that it was interrupted"; }
 done
-expect 0 "$fracas" run small.yaml --study drained
+expect 0 "$fracas" run --no-report small.yaml --study drained
 same undisturbed drained
 
 hold
-start small.yaml --study stopped --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+start --no-report small.yaml --study stopped --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments stopped 2
 kill -INT "$session"
 kill -TERM "$session" 2>/dev/null || true
 interrupted stopped
-expect 0 "$fracas" run small.yaml --study stopped
+expect 0 "$fracas" run --no-report small.yaml --study stopped
 same undisturbed stopped
 
 # The starter gets it alone, and passes it on.
 hold
-start small.yaml --study passed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+start --no-report small.yaml --study passed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments passed 2
 kill -TERM "$(named fracas-starter)"
 interrupted passed
-expect 0 "$fracas" run small.yaml --study passed
+expect 0 "$fracas" run --no-report small.yaml --study passed
 same undisturbed passed
 
 # Drained by the user's own mpirun.
 hold
-launch -n 2 "$faulty" run small.yaml --study direct --lanes 1 --lease-time 0 --segment-size 1e-6 > background 2>&1 &
+launch -n 2 "$faulty" run --no-report small.yaml --study direct --lanes 1 --lease-time 0 --segment-size 1e-6 > background 2>&1 &
 session=$!
 wait_segments direct 2
 kill -USR1 "$session"
 interrupted direct
-expect 0 "$fracas" run small.yaml --study direct
+expect 0 "$fracas" run --no-report small.yaml --study direct
 same undisturbed direct

@@ -15,18 +15,18 @@ within()
 }
 
 campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
-expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
+expect 0 "$fracas" run --no-report small.yaml --study undisturbed --jobs 2
 mkdir silent
 printf '#!/bin/sh\nexec sleep 1000\n' > silent/mpirun
 chmod +x silent/mpirun
 
 # MPI that never comes up.
-within 3 3 env FRACAS_MPIRUN=1 PATH="$PWD/silent:$PATH" "$fracas" run small.yaml --study late --walltime 3s
+within 3 3 env FRACAS_MPIRUN=1 PATH="$PWD/silent:$PATH" "$fracas" run --no-report small.yaml --study late --walltime 3s
 said 'walltime is over.*same command goes on'
 
 # Compute servers that stand still: the run cannot drain, and is killed.
 hold
-start small.yaml --study still --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 --walltime 8s
+start --no-report small.yaml --study still --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 --walltime 8s
 began=$(date +%s)
 wait_segments still 2
 servers="$(named fracas-supervis) $(named fracas-server) $(named fracas-lease)"
@@ -40,5 +40,5 @@ took=$(($(date +%s) - began))
 session=
 expect 0 "$fracas" status still
 said ', 0 leased, ' # what was given out is to be computed
-expect 0 "$fracas" run small.yaml --study still
+expect 0 "$fracas" run --no-report small.yaml --study still
 same undisturbed still

@@ -4,7 +4,7 @@
 . tests/support/campaigns.sh
 
 campaign small.yaml 12 '3e4 1/s, 1e5 1/s'
-expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
+expect 0 "$fracas" run --no-report small.yaml --study undisturbed --jobs 2
 
 # fault WHAT ISOLATION REASON OPTIONS...
 fault()
@@ -12,7 +12,7 @@ fault()
     what=$1 isolation=$2 reason=$3
     shift 3
     export FRACAS_TEST_FAULT=$what:1:5
-    expect 1 "$faulty" run small.yaml --study $what-$isolation --jobs 2 --isolation $isolation "$@"
+    expect 1 "$faulty" run --no-report small.yaml --study $what-$isolation --jobs 2 --isolation $isolation "$@"
     unset FRACAS_TEST_FAULT
     expect 0 "$fracas" status $what-$isolation
     said '^realizations *24: 23 done, 1 failed, 0 leased, 0 planned$'
@@ -52,7 +52,7 @@ events()
 # Gone on the second attempt.
 for isolation in lease none; do
     export FRACAS_TEST_FAULT="crash:1:5:$work/happened-$isolation"
-    expect 0 "$faulty" run small.yaml --study once-$isolation --jobs 2 --isolation $isolation
+    expect 0 "$faulty" run --no-report small.yaml --study once-$isolation --jobs 2 --isolation $isolation
     [ -e happened-$isolation ] || fail "nothing happened"
     same undisturbed once-$isolation
 done
@@ -62,7 +62,7 @@ unset FRACAS_TEST_FAULT
 
 # A model that cannot be built without a crash: its point is FAILED, the other one is not.
 export FRACAS_TEST_FAULT=model:1:0
-expect 1 "$faulty" run small.yaml --study model --jobs 2
+expect 1 "$faulty" run --no-report small.yaml --study model --jobs 2
 unset FRACAS_TEST_FAULT
 expect 0 "$fracas" status model
 said '^realizations *24: 12 done, 12 failed, 0 leased, 0 planned$'
@@ -71,5 +71,5 @@ said '^  point 1 replica 11, 3 attempts: its process died of signal 11'
 # Without a process for each lease nothing is written while a batch is computed: one that takes longer than a segment may get old is
 # written when it ends, and not after the next one.
 sed 's/elements: 500/elements: 1200/' small.yaml > long.yaml # some 20 ms a realization
-expect 0 "$fracas" run long.yaml --study aged --jobs 1 --isolation none --lanes 1 --segment-age 0.001
+expect 0 "$fracas" run --no-report long.yaml --study aged --jobs 1 --isolation none --lanes 1 --segment-age 0.001
 [ "$(sqlite3 aged/index.sqlite "SELECT max(rows) FROM segment")" -eq 1 ] || fail "a batch waited in memory while the next was computed"

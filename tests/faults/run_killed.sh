@@ -4,12 +4,12 @@
 . tests/support/campaigns.sh
 
 campaign small.yaml 30 '3e4 1/s, 1e5 1/s'
-expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
+expect 0 "$fracas" run --no-report small.yaml --study undisturbed --jobs 2
 left=0
 kill=1
 while [ $kill -le 3 ]; do # of 60 segments, one for each realization
     hold
-    start small.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+    start --no-report small.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     wait_segments killed $((left + $(random 1 6)))
     sleep "0.0$(random 10 49)"
     running=$(processes | wc -l)
@@ -22,16 +22,16 @@ while [ $kill -le 3 ]; do # of 60 segments, one for each realization
     [ "$running" -ge 6 ] || fail "parent, starter, 2 ranks and 2 servers should have run, not $running processes"
     kill=$((kill + 1))
 done
-expect 0 "$fracas" run small.yaml --study killed --jobs 1 --lease-time 0 --segment-size 1e-6
+expect 0 "$fracas" run --no-report small.yaml --study killed --jobs 1 --lease-time 0 --segment-size 1e-6
 [ "$(segments killed)" -gt "$left" ] || fail "the resumed run had nothing to do"
 same undisturbed killed
 
 # The parent alone: the others must not outlive it.
 hold
-start small.yaml --study orphaned --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+start --no-report small.yaml --study orphaned --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments orphaned 2
 kill -9 "$session"
 wait_gone 'the kill of the parent'
 release
-expect 0 "$fracas" run small.yaml --study orphaned
+expect 0 "$fracas" run --no-report small.yaml --study orphaned
 same undisturbed orphaned

@@ -30,7 +30,7 @@ begin()
 {
     rm -rf study
     hold
-    start small.yaml --study study --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+    start --no-report small.yaml --study study --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     wait_segments study 1
 }
 
@@ -67,7 +67,7 @@ campaign small.yaml 1 '1e5 1/s'
 held=0
 for files in 1 9 18; do
     rm -rf study
-    start small.yaml --study study --jobs 2
+    start --no-report small.yaml --study study --jobs 2
     while [ -n "$(processes)" ] && [ ! -e study/study.h5 ] && [ "$(left | wc -l)" -lt $files ] &&
         { [ $starter = mpirun ] || [ -z "$(named $starter)" ]; }; do :; done
     kill_session
@@ -81,7 +81,7 @@ esac
 if [ $starter = mpirun ]; then # which sweeps
     mkdir tmp/.fracas-mpi-of-others tmp/fracas-mine
     chown 1 tmp/.fracas-mpi-of-others 2>/dev/null || rmdir tmp/.fracas-mpi-of-others
-    expect 0 "$fracas" run small.yaml --study study
+    expect 0 "$fracas" run --no-report small.yaml --study study
     others=$(find tmp -mindepth 1 ! -name fracas-mine ! -name .fracas-mpi-of-others)
     [ -z "$others" ] && [ -d tmp/fracas-mine ] || fail "the next run leaves $(left)"
     rm -r tmp/.f* tmp/f* 2>/dev/null || true
@@ -89,9 +89,9 @@ if [ $starter = mpirun ]; then # which sweeps
 fi
 
 # Folders missing, or too small.
-expect 0 env TMPDIR="$work/none" "$fracas" run small.yaml --study elsewhere
+expect 0 env TMPDIR="$work/none" "$fracas" run --no-report small.yaml --study elsewhere
 [ ! -e none ] || fail "$(find none) is left"
 mount -t tmpfs -o size=1m tmpfs /dev/shm
 rm -rf study
-start small.yaml --study study
+start --no-report small.yaml --study study
 end "a run with a full /dev/shm"

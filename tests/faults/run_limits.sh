@@ -4,7 +4,7 @@
 . tests/support/campaigns.sh
 
 campaign small.yaml 40 '3e4 1/s, 1e5 1/s' # 2 MB of results
-expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2 --memory-limit 1000000 # MB: no machine has it
+expect 0 "$fracas" run --no-report small.yaml --study undisturbed --jobs 2 --memory-limit 1000000 # MB: no machine has it
 
 # What a start would fail on, or MPI hang on, is said before.
 expect 6 sh -c "ulimit -n 24; '$fracas' run small.yaml --study study --jobs 2"
@@ -25,7 +25,7 @@ said 'study.h5 will have about .*ulimit -f'
 expect 6 sh -c "ulimit -f 17000; '$fracas' run more.yaml --study big --jobs 2 --ignore-space"
 said 'File too large.*ulimit -f'
 [ -z "$(ls -A big | grep tmp)" ] || fail "a half written study.h5 was left"
-expect 0 "$fracas" run more.yaml --study big --jobs 2
+expect 0 "$fracas" run --no-report more.yaml --study big --jobs 2
 expect 0 "$fracas" verify big
 
 cat > in-small-disk.sh <<'EOF2'
@@ -34,7 +34,7 @@ run() # STATUS WORDS OPTIONS...: in the small disk
     wanted=$1 words=$2
     shift 2
     status=0
-    "$fracas" run small.yaml --study small/study --jobs 2 "$@" > said 2>&1 || status=$?
+    "$fracas" run --no-report small.yaml --study small/study --jobs 2 "$@" > said 2>&1 || status=$?
     [ $status -eq "$wanted" ] && grep -q "$words" said || { cat said; echo "status $status, not $wanted with: $words"; exit 1; }
 }
 fracas=$1 asked=${FRACAS_MPIRUN-}

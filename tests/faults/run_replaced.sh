@@ -5,7 +5,7 @@
 
 campaign small.yaml 12 '3e4 1/s, 1e5 1/s'
 sed 's/elements: 500/elements: 1200/' small.yaml > long.yaml # some 20 ms a realization
-expect 0 "$fracas" run long.yaml --study undisturbed --jobs 2
+expect 0 "$fracas" run --no-report long.yaml --study undisturbed --jobs 2
 
 # events STUDY KIND
 events()
@@ -19,7 +19,7 @@ is_named() { [ -n "$(named "$1")" ]; }
 killed()
 {
     hold
-    start long.yaml --study "$1" --jobs "${4:-2}" --isolation "$2" --lanes 1 --lease-time 0 --segment-size 0.1 # three records
+    start --no-report long.yaml --study "$1" --jobs "${4:-2}" --isolation "$2" --lanes 1 --lease-time 0 --segment-size 0.1 # three records
     wait_segments "$1" 1
     await "process $3" is_named "$3"
     servers=$(named fracas-server)
@@ -66,7 +66,7 @@ zombies()
 campaign one.yaml 1 '1e5 1/s'
 export FRACAS_TEST_FAULT=hang:0:0
 program=$faulty
-start one.yaml --study five --jobs 1 --isolation none
+start --no-report one.yaml --study five --jobs 1 --isolation none
 last=
 is_next()
 {
@@ -83,4 +83,4 @@ unset FRACAS_TEST_FAULT
 [ $status -eq 6 ] || { cat background >&2; fail "status $status after five deaths"; }
 grep -q 'compute server of rank 0 died of signal 9 .*and 4 died before it with no segment in between; it is not started again' background ||
     { cat background >&2; fail "it did not say why it gave up"; }
-expect 0 "$fracas" run one.yaml --study five
+expect 0 "$fracas" run --no-report one.yaml --study five

@@ -4,7 +4,7 @@
 . tests/support/campaigns.sh
 
 campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
-expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
+expect 0 "$fracas" run --no-report small.yaml --study undisturbed --jobs 2
 
 restarts_are() { [ "$(grep -c 'the ranks are started again' background)" -eq "$1" ]; }
 
@@ -12,7 +12,7 @@ restarts_are() { [ "$(grep -c 'the ranks are started again' background)" -eq "$1
 killed()
 {
     hold
-    start small.yaml --study restarted --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+    start --no-report small.yaml --study restarted --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     kill=0
     while [ $kill -lt "$2" ]; do
         await "start after kill $kill" restarts_are $kill
@@ -64,17 +64,17 @@ said '^There are not enough slots available in the system; the ranks are started
 said '^fracas: There are not enough slots .*; the ranks were started 3 times, the last 3 in vain; .*same command goes on'
 [ "$(wc -l < starts)" -eq 3 ] || fail "$(wc -l < starts) starts"
 rm starts
-expect 0 env BROKEN=2 PATH="$PWD/bin:$PATH" "$fracas" run small.yaml --study broken --jobs 2
+expect 0 env BROKEN=2 PATH="$PWD/bin:$PATH" "$fracas" run --no-report small.yaml --study broken --jobs 2
 same undisturbed broken
 
 # Stopped while it waits to start again: at once, resumable.
 rm -r broken starts
 : > background # what the run before said is none of this one's words
-PATH="$PWD/bin:$PATH" setsid "$fracas" run small.yaml --study broken --jobs 2 > background 2>&1 &
+PATH="$PWD/bin:$PATH" setsid "$fracas" run --no-report small.yaml --study broken --jobs 2 > background 2>&1 &
 session=$!
 await 'second start' restarts_are 1
 kill -USR1 "$session"
 finish
 [ $status -eq 3 ] || { cat background >&2; fail "status $status"; }
-expect 0 "$fracas" run small.yaml --study broken --jobs 2
+expect 0 "$fracas" run --no-report small.yaml --study broken --jobs 2
 same undisturbed broken

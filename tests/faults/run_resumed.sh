@@ -5,13 +5,13 @@
 
 campaign long.yaml 5 '1e5 1/s'
 sed -i -e 's/elements: 500/elements: 4000/' -e 's/time: .*/time: {stop: time, end: 1.2 us, safety: 0.25}/' long.yaml
-expect 0 "$fracas" run long.yaml --study whole --jobs 1
+expect 0 "$fracas" run --no-report long.yaml --study whole --jobs 1
 
 # begin STUDY: a run with a checkpoint of each replica.
 begin()
 {
     hold
-    start long.yaml --study "$1" --jobs 1 --checkpoint-time 0.01
+    start --no-report long.yaml --study "$1" --jobs 1 --checkpoint-time 0.01
     wait_checkpoints "$1" 5
 }
 
@@ -38,20 +38,20 @@ before=$(steps study)
 "$fracas" status study | grep -q 'point 0 replica 4: comput' || fail "status does not tell of a checkpoint"
 cp -r study damaged
 hold
-start long.yaml --study study --jobs 2 --lanes 1 --checkpoint-time 0
+start --no-report long.yaml --study study --jobs 2 --lanes 1 --checkpoint-time 0
 is_further() { [ "$(steps study 2>/dev/null || echo "$before")" -ne "$before" ]; }
 await 'later checkpoint' is_further
 kill_session
 release
 after=$(steps study 2>/dev/null || echo 1000000000)
 [ "$after" -gt "$before" ] || fail "it began anew: at step $after after $before"
-expect 0 "$fracas" run long.yaml --study study --jobs 2 --lanes 4
+expect 0 "$fracas" run --no-report long.yaml --study study --jobs 2 --lanes 4
 ended study
 
 # What a power cut behind the merge left of a complete study goes with the next run.
 mkdir study/checkpoints
 cp "$(find damaged/checkpoints -name '*-0')" study/checkpoints
-expect 0 "$fracas" run long.yaml --study study --jobs 1
+expect 0 "$fracas" run --no-report long.yaml --study study --jobs 1
 ended study
 
 # One is damaged, one half written, one of nobody.
@@ -59,7 +59,7 @@ one=$(find damaged/checkpoints -name '*-0')
 printf '\377' | dd of="$one" bs=1 seek=30000 conv=notrunc 2>/dev/null
 cp "$one" "damaged/checkpoints/.half.tmp-1"
 cp "$one" "${one%-0}-1000"
-expect 0 "$fracas" run long.yaml --study damaged --jobs 1 --isolation none
+expect 0 "$fracas" run --no-report long.yaml --study damaged --jobs 1 --isolation none
 said 'no longer needed'
 said 'the seal at its end is not of its bytes; it is removed, and its realization computed from the start'
 ended damaged
@@ -70,5 +70,5 @@ rm -rf study/study.h5 study/index.sqlite*
 expect 6 "$fracas" run long.yaml --study study --jobs 1
 said 'study/checkpoints'
 rm study/checkpoints
-expect 0 "$fracas" run long.yaml --study study --jobs 1
+expect 0 "$fracas" run --no-report long.yaml --study study --jobs 1
 ended study

@@ -6,7 +6,7 @@
 . tests/support/campaigns.sh
 
 campaign small.yaml 20 '3e4 1/s, 1e5 1/s'
-expect 0 "$fracas" run small.yaml --study undisturbed --jobs 2
+expect 0 "$fracas" run --no-report small.yaml --study undisturbed --jobs 2
 
 # reached STAGE: whether the run in the background is so far: its study is there, its starter, servers, so many segments, all segments, or
 # the ranks are started again.
@@ -33,7 +33,7 @@ interrupted=0 over=0 again=0
 one()
 {
     rm -rf study
-    start small.yaml --study study --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+    start --no-report small.yaml --study study --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     until_reached "$2"
     if [ -n "$3" ]; then
         kill -9 "$(ranks | head -n 1)" 2>/dev/null || true
@@ -62,7 +62,7 @@ one()
 
 resumed()
 {
-    expect 0 "$fracas" run small.yaml --study study --jobs 2
+    expect 0 "$fracas" run --no-report small.yaml --study study --jobs 2
     same undisturbed study
 }
 
@@ -81,7 +81,7 @@ echo "$interrupted interrupted, $over done anyway"
 
 # SIGUSR1 and SIGUSR2, however often, drain and do not stop at once.
 hold
-start small.yaml --study patient --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+start --no-report small.yaml --study patient --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments patient 2
 for signal in USR1 USR2 USR1 USR2; do kill -$signal "$session"; done
 drain
@@ -91,13 +91,13 @@ grep -q 'interrupted: [0-9]* of 40 realizations are done' background || { cat ba
 for signal in USR1 USR2; do
     rm -rf direct
     hold
-    launch -n 2 "$faulty" run small.yaml --study direct --lanes 1 --lease-time 0 --segment-size 1e-6 > background 2>&1 &
+    launch -n 2 "$faulty" run --no-report small.yaml --study direct --lanes 1 --lease-time 0 --segment-size 1e-6 > background 2>&1 &
     session=$!
     wait_segments direct 2
     kill -$signal "$session"
     drain
     [ $status -eq 3 ] || { cat background >&2; fail "$signal under mpirun: status $status"; }
-    expect 0 "$fracas" run small.yaml --study direct --jobs 2
+    expect 0 "$fracas" run --no-report small.yaml --study direct --jobs 2
     same undisturbed direct
 done
 
@@ -106,6 +106,6 @@ mkdir hang
 printf '#!/bin/sh\n"%s" "$@"\nexec sleep 1000\n' "$(command -v mpirun)" > hang/mpirun
 chmod +x hang/mpirun
 began=$(date +%s)
-expect 0 env FRACAS_MPIRUN=1 PATH="$PWD/hang:$PATH" "$fracas" run small.yaml --study hung --jobs 2
+expect 0 env FRACAS_MPIRUN=1 PATH="$PWD/hang:$PATH" "$fracas" run --no-report small.yaml --study hung --jobs 2
 [ $(($(date +%s) - began)) -lt 500 ] || fail "it waited for MPI"
 same undisturbed hung

@@ -6,7 +6,7 @@
 campaign long.yaml 200 '3e4 1/s, 1e5 1/s'
 sed -i 's/elements: 500/elements: 2000/' long.yaml # 10 s of one core
 began=$(date +%s)
-expect 3 "$fracas" run long.yaml --study timed --jobs 2 --walltime 5s
+expect 3 "$fracas" run --no-report long.yaml --study timed --jobs 2 --walltime 5s
 took=$(($(date +%s) - began))
 cp said words
 [ $took -le 5 ] || [ $took -le $((5 + $(busy 2))) ] || fail "a walltime of 5 s was not kept"
@@ -15,8 +15,8 @@ said '[a-z ]*: [0-9]* of 400 realizations are done and kept; the same command go
 kept=$(sed -n 's/.*\(nearly over\|interrupted\): \([0-9]*\) of.*/\2/p' said)
 expect 0 "$fracas" status timed
 said "400: $kept done, 0 failed"
-expect 0 "$fracas" run long.yaml --study timed --jobs 2 --walltime 10m
+expect 0 "$fracas" run --no-report long.yaml --study timed --jobs 2 --walltime 10m
 said "$((400 - kept)) of 400 realizations"
-expect 0 "$fracas" run long.yaml --study straight --jobs 2
+expect 0 "$fracas" run --no-report long.yaml --study straight --jobs 2
 same straight timed
 echo "$kept of 400 realizations in 5 s: the same bytes"

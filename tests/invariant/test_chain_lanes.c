@@ -69,16 +69,10 @@ static fracas_spec stershic_case(int k, double *unused)
     return spec;
 }
 
-#ifdef __SANITIZE_ADDRESS__ /* kernels take 20 times as long */
-enum { STRIDE = 3 };
-#else
-enum { STRIDE = 1 };
-#endif
-
 static void check_cases(fracas_spec (*spec_of)(int k, double *noise), int count,
                         const lane_kind *kind)
 {
-    for (int k = 0; k < count; k += STRIDE) {
+    for (int k = 0; k < count; k += CASE_STRIDE) {
         double noise[601];
         const fracas_spec spec = spec_of(k, noise);
         OWN(fracas_model) model = make_model(&spec);

@@ -19,7 +19,7 @@ sweep:
 replicas: 8
 output: {history: 20, interfaces: true}
 END
-expect 0 "$fracas" run sphere.yaml --study sphere
+expect 0 "$fracas" run --no-report sphere.yaml --study sphere
 
 /usr/bin/python3 - <<'END' || fail "the sphere's numbers over time"
 import h5py, numpy as np

@@ -50,7 +50,7 @@ has_threads()
 }
 
 bodies 1
-expect 0 "$fracas" run bodies-1.yaml --study one --jobs 1
+expect 0 "$fracas" run --no-report bodies-1.yaml --study one --jobs 1
 h5dump -d /realization/broken one/study.h5 | grep -q '(0): [1-9][0-9]*, [1-9][0-9]*, [1-9][0-9]*, [1-9][0-9]*, [1-9][0-9]*, [1-9][0-9]*$' || fail "not all bodies broke"
 ! grep -q parallel one/campaign.yaml || fail "campaign.yaml says how it was computed"
 for parts in 2 3 4 7; do
@@ -61,7 +61,7 @@ for parts in 2 3 4 7; do
     # A thread a part: seen on bodies that are not over before anybody has looked.
     sed '/time:/s/end: 0.[0-9]* us/end: 1 ms/' "bodies-$parts.yaml" > long.yaml
     program=$alone
-    start long.yaml --study "long-$parts"
+    start --no-report long.yaml --study "long-$parts"
     wait_threads $parts
     kill_session
     program=
@@ -70,10 +70,10 @@ done
 little='--memory-limit 1'
 (ulimit -S -d 8000000; "$fracas" --version) > /dev/null 2>&1 || little= # the shadow memory of a sanitizer
 bodies 0
-expect 0 "$fracas" run bodies-0.yaml --study chosen
+expect 0 "$fracas" run --no-report bodies-0.yaml --study chosen
 same one chosen
 # shellcheck disable=SC2086 # two words
-expect 0 "$fracas" run bodies-0.yaml --study hindered --jobs 8 $little
+expect 0 "$fracas" run --no-report bodies-0.yaml --study hindered --jobs 8 $little
 same one hindered
 
 # The launcher keeps to the cores of this machine.
@@ -84,7 +84,7 @@ said 'parallel.parts 1000 are 1000 threads'
 
 # Killed, and resumed in other parts.
 hold
-start bodies-1.yaml --study killed --jobs 1 --checkpoint-time 0.01
+start --no-report bodies-1.yaml --study killed --jobs 1 --checkpoint-time 0.01
 wait_checkpoints killed 1
 kill_session
 release

@@ -36,7 +36,7 @@ expect 0 "$fracas" plan hypercube.yaml
 said '5 points, 15 realizations'
 expect 0 "$fracas" run hypercube.yaml --study one --jobs 1
 [ -s one/report/index.html ] || fail "no report"
-expect 0 "$fracas" run one/campaign.yaml --study resolved --jobs 2
+expect 0 "$fracas" run --no-report one/campaign.yaml --study resolved --jobs 2
 same one resolved
 cmp one/campaign.yaml resolved/campaign.yaml || fail "the resolved file of a resolved file is another"
 
@@ -46,9 +46,9 @@ cmp one/campaign.yaml resolved/campaign.yaml || fail "the resolved file of a res
 # More points: of a Sobol sequence, the same study as computed at once; a Latin hypercube is another one.
 bars few.yaml independent sobol 4 2
 bars more.yaml independent sobol 7 2
-expect 0 "$fracas" run few.yaml --study grown --jobs 1
-expect 0 "$fracas" run more.yaml --study grown --jobs 1
-expect 0 "$fracas" run more.yaml --study whole --jobs 1
+expect 0 "$fracas" run --no-report few.yaml --study grown --jobs 1
+expect 0 "$fracas" run --no-report more.yaml --study grown --jobs 1
+expect 0 "$fracas" run --no-report more.yaml --study whole --jobs 1
 same grown whole
 bars larger.yaml independent latin-hypercube 6 3
 expect 5 "$fracas" run larger.yaml --study one --jobs 1
@@ -57,8 +57,8 @@ said 'in the study (its point 0), but'
 # Common random numbers.
 bars common.yaml common random 3 2
 bars own.yaml independent random 3 2
-expect 0 "$fracas" run common.yaml --study common --jobs 1
-expect 0 "$fracas" run own.yaml --study own --jobs 1
+expect 0 "$fracas" run --no-report common.yaml --study common --jobs 1
+expect 0 "$fracas" run --no-report own.yaml --study own --jobs 1
 grep -q '^random_numbers: common$' common/campaign.yaml || fail "the resolved file does not say common"
 expect 5 "$fracas" run own.yaml --study common --jobs 1
 said 'random_numbers is common in the study, but independent'

@@ -29,7 +29,7 @@ END
 }
 
 fields all.yaml 3
-expect 0 "$fracas" run all.yaml --study one --jobs 1
+expect 0 "$fracas" run --no-report all.yaml --study one --jobs 1
 compare_compilers all.yaml
 compare all.yaml --jobs 2 --shuffle --lanes 1 --lease-time 0 --segment-size 1e-6
 for isa in baseline $(instruction_sets); do
@@ -53,7 +53,7 @@ END
 
 # More replicas change nothing that was there.
 fields part.yaml 1
-expect 0 "$fracas" run part.yaml --study extended
-expect 0 "$fracas" run all.yaml --study extended
+expect 0 "$fracas" run --no-report part.yaml --study extended
+expect 0 "$fracas" run --no-report all.yaml --study extended
 same one extended
 echo "$others other ways and an extension: the same bytes"

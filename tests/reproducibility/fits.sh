@@ -5,7 +5,7 @@
 . tests/support/campaigns.sh
 
 campaign small.yaml 12 '3e4 1/s, 6e4 1/s, 1e5 1/s'
-expect 0 "$fracas" run small.yaml --study study --jobs 2
+expect 0 "$fracas" run --no-report small.yaml --study study --jobs 2
 expect 0 "$fracas" fit study --resamples 99 --jobs 1
 mv study/fits.csv one.csv
 expect 0 "$fracas" fit study --resamples 99 --jobs 2

@@ -38,9 +38,9 @@ time_step()
     h5dump -m %.17g -d /realization/time_step "$1/study.h5" | sed -n 's/.*(0): \([^,]*\),.*/\1/p'
 }
 
-expect 0 "$fracas" run plate.yaml --study plain
+expect 0 "$fracas" run --no-report plate.yaml --study plain
 for change in none odd double; do
-    expect 0 env change=$change FRACAS_MPIRUN=1 PATH="$work/bin:$PATH" "$fracas" run plate.yaml --study $change
+    expect 0 env change=$change FRACAS_MPIRUN=1 PATH="$work/bin:$PATH" "$fracas" run --no-report plate.yaml --study $change
 done
 same plain none
 same plain odd

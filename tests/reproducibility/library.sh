@@ -12,7 +12,7 @@ readelf -d "$library" | grep NEEDED | grep -E 'mpi|hdf5|sqlite' && fail "libfrac
 # study FILE [all]: runs the campaign, and computes the first and last realization of each point, or all, with the library.
 study()
 {
-    expect 0 "$fracas" run "$1" --study "${1%.yaml}"
+    expect 0 "$fracas" run --no-report "$1" --study "${1%.yaml}"
     expect 0 /usr/bin/python3 "$source/tests/support/library_study.py" "$library" "$1" "${1%.yaml}/study.h5" ${2-}
     cat said
 }

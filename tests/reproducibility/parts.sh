@@ -3,11 +3,11 @@
 
 campaign whole.yaml 12 '3e4 1/s, 1e5 1/s'
 campaign small.yaml 8 '3e4 1/s, 1e5 1/s'
-expect 0 "$fracas" run whole.yaml --study whole --jobs 2
+expect 0 "$fracas" run --no-report whole.yaml --study whole --jobs 2
 
 # Part after part in one study.
 for again in 1 2; do
-    expect 3 "$fracas" run whole.yaml --study parts --jobs 2 --part 2/2
+    expect 3 "$fracas" run --no-report whole.yaml --study parts --jobs 2 --part 2/2
     said 'part 2 of 2, .* of 12 realizations of 2 points to do'
     said 'part 2 of 2 is complete, 12 realizations, 0 of them FAILED; when the other parts are, `fracas merge-studies`'
 done
@@ -24,33 +24,33 @@ said '"parts": 2'
 cp -r parts grown
 expect 3 "$fracas" extend grown --replicas 14
 said 'part 2 of 2 is complete, 14 realizations'
-expect 3 env FRACAS_TEST_FAULT=crash:1:5 "$faulty" run whole.yaml --study tried --jobs 2 --part 2/2
+expect 3 env FRACAS_TEST_FAULT=crash:1:5 "$faulty" run --no-report whole.yaml --study tried --jobs 2 --part 2/2
 expect 0 "$fracas" status tried
 said '1 failed'
 expect 3 "$fracas" retry tried --failed
 said 'part 2 of 2 is complete, 12 realizations, 0 of them FAILED'
-expect 3 "$fracas" run whole.yaml --study first --jobs 2 --part 1/2
+expect 3 "$fracas" run --no-report whole.yaml --study first --jobs 2 --part 1/2
 expect 0 "$fracas" merge-studies tried first
 expect 0 "$fracas" status tried --json
 said '"parts": 1'
 expect 0 "$fracas" merge tried
 same whole tried
-expect 0 "$fracas" run whole.yaml --study parts --jobs 1 --part 1/2
+expect 0 "$fracas" run --no-report whole.yaml --study parts --jobs 1 --part 1/2
 same whole parts
-expect 0 "$fracas" run whole.yaml --study parts --part 1/2
+expect 0 "$fracas" run --no-report whole.yaml --study parts --part 1/2
 said 'nothing to compute'
 
 # More replicas than the file says: what the file would say counts from then on.
-expect 0 "$fracas" run small.yaml --study more --jobs 2 --replicas 12
+expect 0 "$fracas" run --no-report small.yaml --study more --jobs 2 --replicas 12
 same whole more
-expect 0 "$fracas" run more/campaign.yaml --study more
+expect 0 "$fracas" run --no-report more/campaign.yaml --study more
 said 'nothing to compute'
 expect 5 "$fracas" run small.yaml --study more --replicas 10
 said 'replicas is 12 in the study'
 expect 5 "$fracas" run small.yaml --study more
 said 'replicas is 12 in the study'
-expect 0 "$fracas" run small.yaml --study less --jobs 2
-expect 0 "$fracas" run small.yaml --study less --jobs 2 --replicas 12
+expect 0 "$fracas" run --no-report small.yaml --study less --jobs 2
+expect 0 "$fracas" run --no-report small.yaml --study less --jobs 2 --replicas 12
 same whole less
 
 sed 's/^replicas: .*/replicas: {minimum: 8, maximum: 16, until: {quantity: dissipated, relative-half-width: 0.1}}/' small.yaml > rule.yaml

@@ -23,7 +23,7 @@ replicas: 2
 output: {history: 20, interfaces: true}
 YAML
 for name in bar chain-variants membrane surface-variants shell; do
-    expect 0 "$fracas" run $name.yaml --study $name --jobs 2 --replicas 2
+    expect 0 "$fracas" run --no-report $name.yaml --study $name --jobs 2 --replicas 2
     expect 0 /usr/bin/python3 "$source/tests/support/check_python_kernel.py" $name
     cat said
 done

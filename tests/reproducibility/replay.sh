@@ -5,13 +5,13 @@
 . "$source/tests/support/replayed.sh"
 
 for name in bar-sequential bar-replay ring-variants plate-akantu membrane; do
-    expect 0 "$fracas" run "$small/$name.yaml" --study "$name" --jobs 2
+    expect 0 "$fracas" run --no-report "$small/$name.yaml" --study "$name" --jobs 2
     replayed "$name" 2
 done
 
 # An unfinished study has them in its segments.
 campaign part.yaml 6 '1e5 1/s'
-expect 3 "$fracas" run part.yaml --study part --part 1/2 --jobs 1
+expect 3 "$fracas" run --no-report part.yaml --study part --part 1/2 --jobs 1
 done=$(sqlite3 part/index.sqlite "SELECT min(replica) FROM realization WHERE status = 'done'")
 missing=$(sqlite3 part/index.sqlite "SELECT min(replica) FROM realization WHERE status != 'done'")
 expect 0 "$fracas" replay part "0/$done"
@@ -19,7 +19,7 @@ expect 3 "$fracas" replay part "0/$missing"
 said 'is not computed, or not yet'
 
 # A study with one other bit is told apart, with the column's name.
-expect 0 "$fracas" run part.yaml --study whole --jobs 2
+expect 0 "$fracas" run --no-report part.yaml --study whole --jobs 2
 expect 0 "$fracas" replay whole 0/1
 /usr/bin/python3 - <<'PY'
 import h5py, numpy

@@ -36,7 +36,7 @@ END
 }
 
 rings all.yaml 11 "$zone" "$perturbed" # batches of 8 and 3
-expect 0 "$fracas" run all.yaml --study one --jobs 1
+expect 0 "$fracas" run --no-report all.yaml --study one --jobs 1
 h5dump -d /realization/outcome one/study.h5 | grep -q '^ *(0): 0, 0' || fail "nothing broke"
 
 compare_compilers all.yaml
@@ -48,19 +48,19 @@ compare all.yaml --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 # a segme
 
 # Killed in the middle, each realization a segment, and resumed.
 hold
-start all.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+start --no-report all.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments killed "$(random 1 20)"
 kill_session
 release
-expect 0 "$fracas" run all.yaml --study killed
+expect 0 "$fracas" run --no-report all.yaml --study killed
 same one killed
 
 # More replicas, then points among the others: as if run at once. The mesh of the perturbed bar is that of its point.
 rings part.yaml 4
 sed -i '/name: stershic,/d' part.yaml
-expect 0 "$fracas" run part.yaml --study extended --lanes 4
+expect 0 "$fracas" run --no-report part.yaml --study extended --lanes 4
 rings part.yaml 11 "$perturbed"
-expect 0 "$fracas" run part.yaml --study extended
-expect 0 "$fracas" run all.yaml --study extended
+expect 0 "$fracas" run --no-report part.yaml --study extended
+expect 0 "$fracas" run --no-report all.yaml --study extended
 same one extended
 echo "$others other ways, a kill and an extension: the same bytes"

@@ -4,7 +4,7 @@
 . tests/support/campaigns.sh
 
 campaign small.yaml 18 '3e4 1/s, 1e5 1/s' # batches of 8, 8 and 2
-expect 0 "$fracas" run small.yaml --study one --jobs 1
+expect 0 "$fracas" run --no-report small.yaml --study one --jobs 1
 [ "$(segments one)" -ge 1 ] || fail "no segments"
 
 compare_compilers small.yaml
@@ -19,18 +19,18 @@ for isa in $(instruction_sets); do
 done
 
 # Started by mpirun itself: rank 0 speaks, and its status is mpirun's.
-expect 0 launch -n 2 "$fracas" run small.yaml --study direct
+expect 0 launch -n 2 "$fracas" run --no-report small.yaml --study direct
 same one direct
 export FRACAS_TEST_FAULT=crash:0:1
-expect 1 launch -n 1 "$faulty" run small.yaml --study direct-crash
+expect 1 launch -n 1 "$faulty" run --no-report small.yaml --study direct-crash
 said 'FAILED'
 unset FRACAS_TEST_FAULT
 
 # More replicas, then one more point between the others: as if run at once.
 campaign part.yaml 5 '1e5 1/s'
-expect 0 "$fracas" run part.yaml --study extended
+expect 0 "$fracas" run --no-report part.yaml --study extended
 campaign part.yaml 18 '1e5 1/s'
-expect 0 "$fracas" run part.yaml --study extended
-expect 0 "$fracas" run small.yaml --study extended
+expect 0 "$fracas" run --no-report part.yaml --study extended
+expect 0 "$fracas" run --no-report small.yaml --study extended
 same one extended
 echo "$others other ways, mpirun and an extension: the same bytes"

@@ -20,7 +20,7 @@ replicas: 2
 output: {history: 1, interfaces: true}
 END
 for body in bar plate; do
-    expect 0 "$fracas" run $body.yaml --study $body
+    expect 0 "$fracas" run --no-report $body.yaml --study $body
     for file in $body.yaml $body/campaign.yaml; do # a study's own file draws the same
         expect 0 "$fracas" sample $file --point $([ $body = bar ] && echo 0 || echo 1) --replica 1 --csv $body.csv --vtk $body.vtk --json
         cat said > $body.json

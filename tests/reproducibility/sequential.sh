@@ -25,7 +25,7 @@ expect 0 decisions one
 said 'goes on' # or nothing is tested
 said 'precise'
 said 'maximum'
-expect 0 "$fracas" run one.yaml --study one
+expect 0 "$fracas" run --no-report one.yaml --study one
 said 'nothing to compute'
 expect 0 "$fracas" verify --full one
 expect 0 "$fracas" status one
@@ -40,20 +40,20 @@ compare one.yaml --jobs 1 --lanes 1
 # Killed: everything at random times, in the first round and behind it.
 for kill in 0 1; do
     hold
-    start one.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+    start --no-report one.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
     wait_segments killed $((kill * 20 + 1))
     sleep "0.0$(random 10 49)"
     kill_session
     release
     [ ! -e killed/study.h5 ] || fail "it was over before it was killed"
 done
-expect 0 "$fracas" run one.yaml --study killed --jobs 2
+expect 0 "$fracas" run --no-report one.yaml --study killed --jobs 2
 same one killed
 expect 0 "$fracas" verify --full killed
 
 # One of three servers killed: its rounds are taken up.
 hold
-start one.yaml --study lost --jobs 3 --lanes 1 --lease-time 0 --segment-size 1e-6
+start --no-report one.yaml --study lost --jobs 3 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments lost 10
 has_three_servers() { [ "$(named fracas-server | wc -l)" -eq 3 ]; }
 await 'three servers' has_three_servers
@@ -65,22 +65,22 @@ same one lost
 
 # Killed in the middle, and the index lost: segments of later rounds are kept.
 hold
-start one.yaml --study drained --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
+start --no-report one.yaml --study drained --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments drained 40
 kill_session
 release
 rm drained/index.sqlite*
-expect 0 "$fracas" run one.yaml --study drained --jobs 2
+expect 0 "$fracas" run --no-report one.yaml --study drained --jobs 2
 same one drained
 expect 0 "$fracas" verify --full drained
 rm one/index.sqlite* one/study.h5
-expect 0 "$fracas" run one.yaml --study one
+expect 0 "$fracas" run --no-report one.yaml --study one
 said '0 of .* realizations of 3 points to do'
 same one drained
 
 # A segment of a first round is lost after the last: its realizations come back, and the decisions stand.
 rm "$(ls killed/segments/*.h5 | head -n 1)" killed/study.h5
-expect 0 "$fracas" run one.yaml --study killed --jobs 2
+expect 0 "$fracas" run --no-report one.yaml --study killed --jobs 2
 same one killed
 
 # A record of a decision that the realizations do not give is found, at the start and by verify.
@@ -94,13 +94,13 @@ said 'round 1 of point .* that its realizations do not give'
 
 # A weaker rule first, then the stronger one; a fixed number first; from the rule to a fixed number.
 rule weak.yaml "$(until_narrow 8 30 mean-count 0.03 0.9)"
-expect 0 "$fracas" run weak.yaml --study weak
+expect 0 "$fracas" run --no-report weak.yaml --study weak
 
 # Killed while it is extended: what is merged is sound, it is older than the campaign.
 cp -r weak longer
 rule longer.yaml "$(until_narrow 8 1000 mean-count 0.003 0.95)"
 hold
-start longer.yaml --study longer --jobs 1 --lanes 1 --lease-time 0 --segment-size 1e-6
+start --no-report longer.yaml --study longer --jobs 1 --lanes 1 --lease-time 0 --segment-size 1e-6
 wait_segments longer $(($(segments weak) + 20))
 kill_session
 release
@@ -108,26 +108,26 @@ release
 cmp weak/study.h5 longer/study.h5 || fail "killed too late"
 expect 0 "$fracas" verify longer
 said "note: study.h5 is older than campaign.yaml, which asks for more"
-expect 0 "$fracas" run one.yaml --study weak
+expect 0 "$fracas" run --no-report one.yaml --study weak
 same one weak
 expect 5 "$fracas" run weak.yaml --study weak
 said 'replicas.maximum is 48 in the study .* it can only grow'
 rule fixed.yaml 7
-expect 0 "$fracas" run fixed.yaml --study fixed
-expect 0 "$fracas" run one.yaml --study fixed
+expect 0 "$fracas" run --no-report fixed.yaml --study fixed
+expect 0 "$fracas" run --no-report one.yaml --study fixed
 same one fixed
 rule most.yaml 48
-expect 0 "$fracas" run most.yaml --study most
-expect 0 "$fracas" run most.yaml --study fixed
+expect 0 "$fracas" run --no-report most.yaml --study most
+expect 0 "$fracas" run --no-report most.yaml --study fixed
 same most fixed
 expect 0 "$fracas" verify --full fixed
 
 # The other quantities.
 for quantity in mean-size dissipated; do
     rule other.yaml "$(until_narrow 16 48 $quantity 0.02 0.95)"
-    expect 0 "$fracas" run other.yaml --study "$quantity" --jobs 2
+    expect 0 "$fracas" run --no-report other.yaml --study "$quantity" --jobs 2
     expect 0 decisions "$quantity"
-    expect 0 "$fracas" run other.yaml --study "$quantity-1" --jobs 1 --lanes 1 --shuffle
+    expect 0 "$fracas" run --no-report other.yaml --study "$quantity-1" --jobs 1 --lanes 1 --shuffle
     same "$quantity" "$quantity-1"
 done
 
@@ -148,9 +148,9 @@ done
 
 # A realization that crashes for good counts for the round, not for the mean.
 export FRACAS_TEST_FAULT=crash:0:9
-expect 1 "$faulty" run one.yaml --study crashed --jobs 2
+expect 1 "$faulty" run --no-report one.yaml --study crashed --jobs 2
 expect 0 decisions crashed
-expect 1 "$faulty" run one.yaml --study crashed-1 --jobs 1 --lanes 1
+expect 1 "$faulty" run --no-report one.yaml --study crashed-1 --jobs 1 --lanes 1
 same crashed crashed-1
 unset FRACAS_TEST_FAULT
 [ "$(sqlite3 crashed/index.sqlite 'SELECT sum(failed) > 0, max(failed) FROM decision')" = '1|1' ] || fail "the failed one is not counted"

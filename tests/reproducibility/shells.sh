@@ -34,7 +34,7 @@ END
 }
 
 shells all.yaml 5
-expect 0 "$fracas" run all.yaml --study one --jobs 1
+expect 0 "$fracas" run --no-report all.yaml --study one --jobs 1
 /usr/bin/python3 - <<'END' || fail "not every shell broke, or none by bending"
 import h5py
 r = h5py.File("one/study.h5")["realization"]
@@ -53,20 +53,20 @@ compare all.yaml --jobs 1 --lanes 4
 
 # Extended: merged again.
 shells part.yaml 2
-expect 0 "$fracas" run part.yaml --study extended
-expect 0 "$fracas" run all.yaml --study extended
+expect 0 "$fracas" run --no-report part.yaml --study extended
+expect 0 "$fracas" run --no-report all.yaml --study extended
 same one extended
 
 # Killed with some segments written, twice, and resumed.
 for kill in 1 2; do
     hold
-    start all.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 --shuffle
+    start --no-report all.yaml --study killed --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 --shuffle
     wait_segments killed $((4 * kill))
     kill_session
     release
     [ ! -e killed/study.h5 ] || fail "it was over before it was killed"
 done
-expect 0 "$fracas" run all.yaml --study killed --jobs 1
+expect 0 "$fracas" run --no-report all.yaml --study killed --jobs 1
 same one killed
 expect 0 "$fracas" verify --full one
 echo "$others other ways, an extension and two kills: the same bytes"

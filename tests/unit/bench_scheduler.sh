@@ -32,7 +32,7 @@ done
 expect 0 "$fracas" status kept
 said "400 done"
 campaign small.yaml 2 '1e5 1/s'
-expect 0 "$fracas" run small.yaml --study theirs
+expect 0 "$fracas" run --no-report small.yaml --study theirs
 expect 2 "$bench" --tasks 8 --study theirs
 said 'theirs is the study of a campaign'
 [ ! -e theirs/bench.yaml ] || fail "bench wrote into a campaign's study"

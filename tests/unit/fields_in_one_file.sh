@@ -16,7 +16,7 @@ time: {stop: time, end: 0.1 us}
 replicas: 2
 END
 for name in chain surface; do
-    expect 0 "$fracas" run $name.yaml --study $name --jobs 1
+    expect 0 "$fracas" run --no-report $name.yaml --study $name --jobs 1
     expect 0 "$fracas" replay $name 0/1 --fields $name.many --every 15ns --at onset,peak,end
     expect 0 "$fracas" replay $name 0/1 --fields $name.one --every 15ns --at onset,peak,end --one-file
     said 'computed again, the same bytes: [1-9][0-9]* fragments'

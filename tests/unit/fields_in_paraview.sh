@@ -6,7 +6,7 @@
 command -v pvpython > /dev/null || { echo "skipped: not installed: paraview"; exit 0; }
 for model in bar ring membrane shell; do
     "$fracas" init $model > $model.yaml
-    expect 0 "$fracas" run $model.yaml --study $model --quiet
+    expect 0 "$fracas" run --no-report $model.yaml --study $model --quiet
     expect 0 "$fracas" replay $model 0/1 --fields fields-$model --every 500ns
     case $model in membrane | shell) expect 0 "$fracas" picture $model --vtk --times 3 -o fields-cracks-of-$model ;; esac
 done

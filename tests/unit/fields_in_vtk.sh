@@ -49,7 +49,7 @@ loading: {type: expansion, rate: 1e5 1/s}
 time: {stop: time, end: 80 ns}
 END
 for model in bar ring membrane shell; do
-    expect 0 "$fracas" run $model.yaml --study $model --jobs 1
+    expect 0 "$fracas" run --no-report $model.yaml --study $model --jobs 1
     expect 0 "$fracas" sample $model.yaml --replica 1 --csv $model.csv
     expect 0 "$fracas" replay $model 0/1 --fields $model.events
     said '^fields: [123] instants of '

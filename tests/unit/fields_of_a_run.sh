@@ -10,11 +10,11 @@ wanted()
 }
 
 campaign plain.yaml 5 '6e4 1/s, 1e5 1/s'
-expect 0 "$fracas" run plain.yaml --study plain --jobs 1
+expect 0 "$fracas" run --no-report plain.yaml --study plain --jobs 1
 [ ! -e plain/fields ] || fail "fields were written for nothing"
 
 wanted extreme.yaml '{realizations: extreme, every: 100 ns}'
-expect 0 "$fracas" run extreme.yaml --study extreme --jobs 2
+expect 0 "$fracas" run --no-report extreme.yaml --study extreme --jobs 2
 cp said ran
 same plain extreme
 /usr/bin/python3 - <<'END' > names || fail "other realizations were chosen"
@@ -64,7 +64,7 @@ set -- $(cat names)
 echo mine > "extreme/fields/$1/note"
 mv "extreme/fields/$2" "extreme/fields/$2.part"
 rm "extreme/fields/$2.part/body-1.hdf"
-expect 0 "$fracas" run extreme.yaml --study extreme
+expect 0 "$fracas" run --no-report extreme.yaml --study extreme
 said 'complete, nothing to compute'
 said "^extreme/fields/$2: fields"
 ! grep -q "^extreme/fields/$1" said || fail "$1 was written again"
@@ -74,10 +74,10 @@ diff -r -x fields.txt -x note "again-$2" "extreme/fields/$2" || fail "$2: other 
 
 # Other instants, and a point with another number: no folder stays under the name of another.
 wanted extreme.yaml '{realizations: extreme}'
-expect 0 "$fracas" run extreme.yaml --study extreme
+expect 0 "$fracas" run --no-report extreme.yaml --study extreme
 [ "$(ls "extreme/fields/$1" | grep -c '^body-[0-9]*.hdf$')" = 3 ] || fail "fields of other instants stay"
 sed -i 's/\[6e4 1.s, 1e5 1.s\]/[2e5 1\/s, 6e4 1\/s, 1e5 1\/s]/' extreme.yaml
-expect 0 "$fracas" run extreme.yaml --study extreme
+expect 0 "$fracas" run --no-report extreme.yaml --study extreme
 for folder in extreme/fields/*; do
     name=${folder#extreme/fields/}
     rm -rf again
@@ -89,7 +89,7 @@ done
 # A FAILED replica has no fields; instants are the onset, the peak and the end.
 wanted first.yaml '{realizations: listed, replicas: [2, 1, 0]}'
 status=0
-FRACAS_TEST_FAULT=crash:0:0 "$faulty" run first.yaml --study first --jobs 1 > out 2> said || status=$?
+FRACAS_TEST_FAULT=crash:0:0 "$faulty" run --no-report first.yaml --study first --jobs 1 > out 2> said || status=$?
 [ $status -eq 1 ] || { cat said >&2; fail "status $status where a realization FAILED"; }
 [ "$(echo $(ls first/fields))" = '0-1 0-2 1-0 1-1 1-2' ] || fail "chosen: $(ls first/fields)"
 [ "$(ls first/fields/0-1 | grep -c '^body-[0-9]*.hdf$')" = 3 ] || fail "not three instants"
@@ -98,7 +98,7 @@ FRACAS_TEST_FAULT=crash:0:0 "$faulty" run first.yaml --study first --jobs 1 > ou
 rm -r extreme/fields
 wanted slow.yaml '{realizations: listed, replicas: [0, 1], every: 1 ns}'
 sed -i 's/\[6e4 1.s, 1e5 1.s\]/[2e5 1\/s, 6e4 1\/s, 1e5 1\/s]/' slow.yaml
-"$fracas" run slow.yaml --study extreme > first.out 2>&1 &
+"$fracas" run --no-report slow.yaml --study extreme > first.out 2>&1 &
 one=$!
 for polls in $(seq 500); do [ ! -d extreme/fields/0-0.part ] || break; sleep 0.01; done
 expect 4 "$fracas" run slow.yaml --study extreme
@@ -109,7 +109,7 @@ done
 
 # A part of a study has no median of all.
 wanted median.yaml '{realizations: median}'
-expect 3 "$fracas" run median.yaml --study half --part 1/2
+expect 3 "$fracas" run --no-report median.yaml --study half --part 1/2
 [ ! -e half/fields ] || fail "fields of half a study"
 
 wanted wrong.yaml '{realizations: medium}'

@@ -15,7 +15,7 @@ END_OF_PYTHON
 }
 
 campaign small.yaml 2 '1e5 1/s'
-expect 0 "$fracas" run small.yaml --study "$folder"
+expect 0 "$fracas" run --no-report small.yaml --study "$folder"
 sqlite3 "$folder/index.sqlite" "UPDATE realization SET status = 'failed', attempts = 3, segment = NULL, row = NULL,
     reason = char(27) || '[2J' || char(0x9b) || char(0x202e) || 'because' WHERE replica = 1"
 

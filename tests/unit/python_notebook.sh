@@ -14,7 +14,7 @@ expect 0 venv/bin/pip install --no-index --no-build-isolation ./tree/python
 expect 0 venv/bin/python -m ipykernel install --sys-prefix
 
 campaign one.yaml 3 '1e5, 2e5'
-expect 0 "$fracas" run one.yaml --study one --jobs 2
+expect 0 "$fracas" run --no-report one.yaml --study one --jobs 2
 MPLBACKEND=Agg expect 0 venv/bin/python -W error "$source/tests/support/check_python_frames.py"
 expect 0 venv/bin/python -c 'if 1:
     import nbclient, nbformat, sys

@@ -81,7 +81,7 @@ edit '$s/$/ # mine/'
 edit '$s/.$//'
 edit '$a # Checksum of the lines above, by which `fracas submit` knows its own script: 0'
 rm small.yaml.sbatch
-expect 0 "$fracas" run small.yaml --study done
+expect 0 "$fracas" run --no-report small.yaml --study done
 expect 5 "$fracas" submit small.yaml --time 1h --study done --replicas 3
 said 'replicas'
 campaign other.yaml 4 '2e5 1/s'

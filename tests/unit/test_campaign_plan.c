@@ -12,12 +12,6 @@
 static const char sweep[] =
     "sweep:\n  - loading.rate: [1e3, 1e4]\n  - strength.maximum: [300 MPa, 301 MPa]\n";
 
-#ifdef __SANITIZE_ADDRESS__ /* the speed that each plan times takes four times as long to time */
-enum { STRIDE = 5 };
-#else
-enum { STRIDE = 1 };
-#endif
-
 static void expect(const char *text, const char *part)
 {
     assert_has(text, part);
@@ -182,7 +176,7 @@ static void test_strengths_that_the_mesh_changes(void **state)
          "exponent: 2",
          NULL},
     };
-    for (size_t i = 0; i < FRACAS_COUNT(table); i += STRIDE) {
+    for (size_t i = 0; i < FRACAS_COUNT(table); i += CASE_STRIDE) {
         char text[300];
         snprintf(text, sizeof text, "sweep:\n  - strength: [{%s}]\n  - mesh.elements: [3000]\n",
                  table[i].strength);
@@ -327,7 +321,7 @@ static void test_warnings_of_rings(void **state)
         {"type: force, direction: circumferential, force: 1.65e6, force_rate: 8e12", "initial",
          4 | 64},
     };
-    for (size_t i = 0; i < sizeof rings / sizeof *rings; i += STRIDE) {
+    for (size_t i = 0; i < sizeof rings / sizeof *rings; i += CASE_STRIDE) {
         OWN(fracas_campaign) campaign = read_ring(rings[i].loading, rings[i].more);
         OWNED char *text = plan_text(campaign, 2, false);
         for (unsigned w = 0; w < sizeof says / sizeof *says; w++)

@@ -18,7 +18,7 @@ sweep:
 replicas: 2
 output: {interfaces: true}
 END
-expect 0 "$fracas" run plate.yaml --study plate
+expect 0 "$fracas" run --no-report plate.yaml --study plate
 for point in 0 1; do expect 0 "$fracas" picture plate --point $point --replica 1 --times 3 --vtk -o grids; done
 
 /usr/bin/python3 - <<'END' || fail "VTK does not read the study's numbers"

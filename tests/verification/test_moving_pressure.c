@@ -157,9 +157,14 @@ static double run_wave(double share, int64_t divisions)
  * 1/(1 - v^2/v_c^2). */
 static void a_front_keeps_its_wave(void **unused)
 {
-    const double coarse = run_wave(0.7, 8), fine = run_wave(0.7, 16);
+    const double coarse = run_wave(0.7, 8);
+    assert_true(coarse < 4 * 0.02);
+#ifndef __SANITIZE_ADDRESS__ /* fine tubes take a minute there, and show no other fault of memory \
+                              */
+    const double fine = run_wave(0.7, 16);
     assert_true(fine < 0.02 && fine < 0.5 * coarse);
     assert_true(run_wave(0.9, 16) < 0.02 * 5.3 / 2);
+#endif
 }
 
 TESTS(a_front_keeps_its_wave)

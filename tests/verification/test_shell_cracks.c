@@ -300,7 +300,7 @@ static void interfaces_do_what_their_layers_do(void **unused)
     static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
     static const double coupling[] = {1, 0.6, 1.7};
     long seen[7] = {0};
-    for (int which = 0; which < 24; which++) {
+    for (int which = 0; which < 24; which += CASE_STRIDE) {
         fracas_spec spec = brittle_shell(shapes[which % 3], 1);
         double worst[3] = {0};
         spec.strength_per_point = which / 12;
@@ -463,7 +463,7 @@ static void onsets_and_breaks_come_when_they_must(void **unused)
     static const fracas_kind *const shapes[] = {&fracas_shape_plate, &fracas_shape_annulus,
                                                 &fracas_shape_sphere};
     static const fracas_kind *const onsets[] = {&fracas_onset_mean, &fracas_onset_flux};
-    for (int which = 0; which < 24; which++) {
+    for (int which = 0; which < 24; which += CASE_STRIDE) {
         fracas_spec spec = brittle_shell(shapes[which % 3], 1);
         double worst[2] = {0};
         long counts[2] = {0};
