@@ -123,6 +123,7 @@ static fracas_err replay(const fracas_arguments *arguments)
         fracas_json_integer(&json, "fragments", (int64_t)record->nfragment);
         fracas_json_integer(&json, "history", (int64_t)record->nhistory);
         fracas_json_integer(&json, "interfaces", (int64_t)record->ninterface);
+        if (request.folder) fracas_json_real(&json, "overlap", replay.overlap);
         fracas_json_end(&json);
         return FRACAS_OK;
     }
@@ -139,15 +140,17 @@ const fracas_command fracas_command_replay = {
     .operand = "STUDY",
     .second = "POINT/REPLICA",
     .doc = "Computes a realization of STUDY again, and compares it to the byte",
-    .more = "\nIn this process alone, from the campaign of STUDY, a folder or study.h5 alone, as "
-            "`fracas run` does. Its record "
-            "must have the bytes of the study's, finished\n"
-            "or not; else the first column that differs is named. POINT is the first column of "
-            "report/points.csv: 3/7 is its replica 7.\n\n"
-            "With --fields, DIR gets body.hdf.series, the moved body with displacement, "
-            "velocity, stress and fragments, and\n"
-            "interfaces.hdf.series, with damage, opening, strength and onset. How large they "
-            "are is said before.\n",
+    .more =
+        "\nIn this process alone, from the campaign of STUDY, a folder or study.h5 alone, as "
+        "`fracas run` does. Its record "
+        "must have the bytes of the study's, finished\n"
+        "or not; else the first column that differs is named. POINT is the first column of "
+        "report/points.csv: 3/7 is its replica 7.\n\n"
+        "With --fields, DIR gets body.hdf.series, the moved body with displacement, "
+        "velocity, stress and fragments, and\n"
+        "interfaces.hdf.series, with damage, opening, strength and onset. How large they "
+        "are is said before. Of bars and of bodies in a plane, the share on which fragments lie "
+        "over each other\nis said after.\n",
     .options = options,
     .run = replay,
 };

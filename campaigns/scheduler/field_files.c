@@ -4,6 +4,7 @@
 #include "base/param.h"
 #include "campaigns/plan/plan.h"
 #include "campaigns/store/vtk.h"
+#include "engine/fragments/overlap.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -296,8 +297,20 @@ void fracas_field_files_clear(fracas_field_files *files)
     *files = (fracas_field_files){0};
 }
 
+/* Nothing is said where it is not defined. */
+static void tell_overlap(const fracas_field_files *files, FILE *out)
+{
+    if (isnan(files->overlap)) return;
+    fprintf(
+        out,
+        "overlap: fragments lie over each other on %.2g %% of the body at %g s (those that were "
+        "no neighbours pass through each other)\n",
+        100 * files->overlap, files->taken[files->ntaken - 1]);
+}
+
 fracas_err fracas_field_files_finish(fracas_field_files *files, FILE *out)
 {
+    TRY(fracas_fragments_overlap(files->fields, &files->overlap));
     for (int part = 0; part < 2; part++) {
         if (files->film[part]) TRY(fracas_vtk_film_finish(files->film[part]));
         if (!out) continue;
@@ -305,5 +318,6 @@ fracas_err fracas_field_files_finish(fracas_field_files *files, FILE *out)
                 files->film[part] ? "vtkhdf" : "hdf.series", files->ntaken,
                 files->ntaken == 1 ? "" : "s");
     }
+    if (out) tell_overlap(files, out);
     return FRACAS_OK;
 }

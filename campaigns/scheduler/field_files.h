@@ -28,6 +28,8 @@ typedef struct {
     char *path[2];                   /* files of all instants, where there are such; NULL ... */
     struct fracas_vtk_film *film[2]; /* ... and these too, where there are none */
     fracas_batch_watch watch;        /* for a batch of one lane */
+    double
+        overlap; /* after the run, of fragments at the last instant (engine/fragments/overlap.h) */
 } fracas_field_files;
 
 /* Prepares to write FOLDER/body-K.hdf and FOLDER/interfaces-K.hdf, K from 1, and
@@ -44,7 +46,8 @@ FRACAS_MUST_USE fracas_err fracas_field_files_open(const fracas_fields_request *
 /* Bytes of both files of an instant. */
 FRACAS_MUST_USE fracas_err fracas_field_files_bytes(const fracas_model *model, double *bytes);
 void fracas_field_files_clear(fracas_field_files *files); /* all zero is allowed */
-/* Ends the files after the run, and prints their names, unless `out` is NULL. */
+/* Ends the files after the run, and prints their names and how far fragments lie over each other at
+ * the last instant, unless `out` is NULL. */
 FRACAS_MUST_USE fracas_err fracas_field_files_finish(fracas_field_files *files, FILE *out);
 
 #endif

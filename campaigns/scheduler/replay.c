@@ -8,6 +8,7 @@
 #include "campaigns/store/results.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -73,8 +74,8 @@ void fracas_replay_clear(fracas_replay *replay)
 
 /* Computes a lease of this one realization as a worker does, in one lane. With fields, times of
  * interfaces are kept, whatever the campaign says. */
-static fracas_err compute(const fracas_replay *replay, const fracas_fields_request *request,
-                          FILE *out, fracas_record *record)
+static fracas_err compute(fracas_replay *replay, const fracas_fields_request *request, FILE *out,
+                          fracas_record *record)
 {
     fracas_campaign copy = *replay->campaign;
     const fracas_campaign *campaign = &copy;
@@ -90,6 +91,7 @@ static fracas_err compute(const fracas_replay *replay, const fracas_fields_reque
     lease->count = 1;
     lease->parts = campaign->parallel.parts > 0 ? (uint64_t)campaign->parallel.parts : 1;
     lease->replica[0] = replay->replica;
+    replay->overlap = NAN;
     fracas_computation computation = {.campaign = campaign, .options = &options, .lease = lease};
     TRY(fracas_models_get(&models, &computation));
     if (request) {
@@ -98,11 +100,13 @@ static fracas_err compute(const fracas_replay *replay, const fracas_fields_reque
         computation.watch = &files.watch;
     }
     TRY(fracas_solve(&computation, lease->replica, 1, record));
-    return request ? fracas_field_files_finish(&files, out) : FRACAS_OK;
+    if (!request) return FRACAS_OK;
+    TRY(fracas_field_files_finish(&files, out));
+    replay->overlap = files.overlap;
+    return FRACAS_OK;
 }
 
-fracas_err fracas_replay_run(const fracas_replay *replay, const fracas_fields_request *request,
-                             FILE *out)
+fracas_err fracas_replay_run(fracas_replay *replay, const fracas_fields_request *request, FILE *out)
 {
     FRACAS_CLEARED(fracas_record) record;
     fracas_record_init(&record);
