@@ -6,7 +6,7 @@
 
 campaign small.yaml 4 '3e4 1/s, 1e5 1/s'
 for part in 1 2; do
-    expect 3 "$fracas" run small.yaml --study part$part --part $part/2 --jobs 2
+    expect 3 "$fracas" run small.yaml --study part$part --no-report --part $part/2 --jobs 2
 done
 expect 0 "$fracas" run small.yaml --study sound --jobs 2
 
@@ -133,9 +133,9 @@ expect 2 "$fracas" merge-studies sound ''
 expect 2 "$fracas" compare '' sound
 
 # A study moved away under its run: nothing is said to be kept.
-campaign longer.yaml 60 '3e4 1/s, 1e5 1/s'
+campaign longer.yaml 24 '3e4 1/s, 1e5 1/s'
 hold
-start longer.yaml --study moved --jobs 2 --segment-size 0.01
+start longer.yaml --no-report --study moved --jobs 2 --segment-size 0.01
 wait_segments moved 2
 mv moved gone
 finish
@@ -145,7 +145,7 @@ grep -q 'done and kept' background && fail "something is said to be kept"
 
 # A study is not damaged because a run computes it.
 hold
-start longer.yaml --study busy --jobs 2 --segment-size 0.01
+start longer.yaml --no-report --study busy --jobs 2 --segment-size 0.01
 wait_segments busy 2
 look()
 {

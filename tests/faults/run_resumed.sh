@@ -4,7 +4,7 @@
 . tests/support/campaigns.sh
 
 campaign long.yaml 5 '1e5 1/s'
-sed -i -e 's/elements: 500/elements: 4000/' -e 's/time: .*/time: {stop: time, end: 1.2 us, safety: 0.25}/' long.yaml
+sed -i -e 's/elements: 500/elements: 2000/' -e 's/time: .*/time: {stop: time, end: 1.2 us, safety: 0.25}/' long.yaml
 expect 0 "$fracas" run --no-report long.yaml --study whole --jobs 1
 
 # begin STUDY: a run with a checkpoint of each replica.
