@@ -5,6 +5,7 @@
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
 #include "campaigns/plan/size.h"
+#include "campaigns/plan/start.h"
 #include "engine/cohesive/law.h"
 #include "engine/formulation/surface/loads.h"
 #include "engine/loading/loading.h"
@@ -287,6 +288,8 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     describe_breaks(spec, mean / factor.mean, strength_at(point, extent.mean, 0.99), &factor,
                     forecast);
     forecast->repeated = fracas_strength_is_given(&point->strength) && point->replicas > 1;
+    forecast->started = fracas_start_speed(model);
+    forecast->released = fracas_start_released(model);
     return estimated ? FRACAS_OK : check_strengths(model, point, extent.least, factor.most);
 }
 

@@ -52,6 +52,8 @@ typedef struct {
     double bound;       /* on the stress in the uncracked body until time.end [Pa] */
     bool stress_grows;  /* it is larger until twice that time ... */
     bool opening_grows; /* ... and so is `available` */
+    double started;     /* fastest node at the start, by `initial` [m/s] */
+    double released;    /* share of the initial stress that no edge keeps (start.h) */
 } fracas_forecast;
 
 /* The forecast of one point, without speed, time and bytes. FRACAS_USAGE if strengths from a file
@@ -86,7 +88,7 @@ typedef double fracas_plan_warning(const fracas_point *point, const fracas_forec
 double fracas_bending_steps(const fracas_spec *spec, double element);
 
 /* A run says the first of them itself before it begins: of meshes that make another body. */
-enum { FRACAS_PLAN_WARNINGS = 37, FRACAS_RUN_WARNINGS = 2, FRACAS_WARNING_TEXT = 400 /* bytes */ };
+enum { FRACAS_PLAN_WARNINGS = 39, FRACAS_RUN_WARNINGS = 2, FRACAS_WARNING_TEXT = 400 /* bytes */ };
 extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];
 /* One of them: no realization breaks. */
 fracas_plan_warning fracas_plan_warn_unbroken;

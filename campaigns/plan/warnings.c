@@ -426,19 +426,46 @@ WARNING(warn_stretch,
         "along its axis as well: give loading.ratio or ratio_z, 0 for none along y or z",
         forecast->mesh.box[0], forecast->mesh.box[1], forecast->mesh.box[2])
 
-/* Only held edges keep an initial strain. */
-static bool springs_back(const fracas_spec *spec)
+/* Share of the initial stress on outer edges that may be let go, for instance in corners. */
+#define LET_GO 0.1
+
+WARNING(warn_released, forecast->released > LET_GO,
+        forecast->released *fracas_initial_stress(&point->spec),
+        "the body starts with a stress of %.3g MPa, and no edge keeps %.0f %% of it: there it "
+        "springs back, and waves swing between that and its opposite: hold edges (geometry) along "
+        "and across it, or load them",
+        1e-6 * fracas_initial_stress(&point->spec), 100 * forecast->released)
+
+/* Strains are small: docs/limits.md. */
+#define LARGE_STRAIN 0.2
+
+WARNING(warn_strained,
+        fracas_spec_is_surface(&point->spec) &&
+            fracas_initial_largest_strain(&point->spec) >= LARGE_STRAIN,
+        fracas_initial_largest_strain(&point->spec),
+        "the body starts with a strain of %.3g %%, and fracas takes strains as small, below %.0f "
+        "%%: are strain, stress or temperature of initial, and material.young, in the units meant? "
+        "A bare number is SI",
+        100 * fracas_initial_largest_strain(&point->spec), 100 * LARGE_STRAIN)
+
+/* Strain v/(2 c) that waves from the rim of a region with velocity v carry; 0 without a rim. */
+static double rim_strain(const fracas_point *point, const fracas_forecast *forecast)
 {
-    bool held = false;
-    for (int tag = 0; tag < FRACAS_EDGES; tag++)
-        held = held || (spec->geometry.edge[tag] && fracas_edge_of(spec->geometry.edge[tag])->held);
-    return fracas_spec_is_surface(spec) && fracas_initial_is_strained(spec) && !held;
+    return fracas_initial_parts(&point->spec.initial)
+               ? forecast->started / (2 * wave_speed(&point->spec.material))
+               : 0;
 }
 
-WARNING(warn_released, springs_back(&point->spec), fracas_initial_stress(&point->spec),
-        "the body starts with a stress of %.3g MPa, and no edge is held: it springs back, and its "
-        "waves swing between that and its opposite: hold edges (geometry) to keep it",
-        1e-6 * fracas_initial_stress(&point->spec))
+WARNING(warn_started,
+        forecast->started > wave_speed(&point->spec.material) ||
+            rim_strain(point, forecast) >= LARGE_STRAIN,
+        forecast->started / wave_speed(&point->spec.material),
+        "the body starts at up to %.3g m/s, and waves go in it at %.3g m/s: where that velocity "
+        "ends, or an edge is held, it strains by %.0f %% and more, and fracas takes strains as "
+        "small: are velocity or spin of initial, and material, in the units meant? A bare number "
+        "is SI",
+        forecast->started, wave_speed(&point->spec.material),
+        50 * forecast->started / wave_speed(&point->spec.material))
 
 WARNING(warn_begun,
         fracas_spec_is_surface(&point->spec) &&
@@ -462,4 +489,4 @@ fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
     warn_steered,     warn_stretch,    warn_fast,
     warn_whole,       warn_many_steps, warn_mesh_effect_bounded,
     warn_tough,       warn_notch,      warn_released,
-    warn_begun};
+    warn_begun,       warn_strained,   warn_started};

@@ -144,21 +144,45 @@ void fracas_initial_displacement(const fracas_initial_strain *s, const double x[
     displacement[2] = s->z * x[2];
 }
 
+/* Principal strains: two in the plane x, y, and that along z. */
+static void principal_of(const fracas_spec *spec, double principal[3])
+{
+    const fracas_initial_strain s = fracas_initial_strain_of(spec);
+    const double mean = 0.5 * (s.x + s.y),
+                 radius = sqrt(0.25 * (s.x - s.y) * (s.x - s.y) + s.xy * s.xy);
+    principal[0] = mean + radius;
+    principal[1] = mean - radius;
+    principal[2] = s.z;
+}
+
+/* Two of a body that lies in the plane x, y, else three. */
+static int principals_of(const fracas_spec *spec)
+{
+    return spec->formulation->groups & FRACAS_GROUP_MEMBRANE ||
+                   fracas_initial_has_stress(&spec->initial)
+               ? 2
+               : 3;
+}
+
 /* E (a + nu b)/(1 - nu^2) of every two principal strains a, b. */
 double fracas_initial_stress(const fracas_spec *spec)
 {
-    const fracas_initial_strain s = fracas_initial_strain_of(spec);
-    const bool flat = spec->formulation->groups & FRACAS_GROUP_MEMBRANE ||
-                      fracas_initial_has_stress(&spec->initial);
-    const double nu = spec->material.poisson, mean = 0.5 * (s.x + s.y),
-                 radius = sqrt(0.25 * (s.x - s.y) * (s.x - s.y) + s.xy * s.xy),
-                 principal[3] = {mean + radius, mean - radius, s.z};
-    double largest = 0;
-    for (int i = 0; i < (flat ? 2 : 3); i++)
+    const double nu = spec->material.poisson;
+    double principal[3], largest = 0;
+    principal_of(spec, principal);
+    for (int i = 0; i < principals_of(spec); i++)
         for (int j = 0; j < i; j++)
             largest = fmax(largest, fmax(fabs(principal[i] + nu * principal[j]),
                                          fabs(principal[j] + nu * principal[i])));
     return spec->material.young / (1 - nu * nu) * largest;
+}
+
+double fracas_initial_largest_strain(const fracas_spec *spec)
+{
+    double principal[3], largest = 0;
+    principal_of(spec, principal);
+    for (int i = 0; i < principals_of(spec); i++) largest = fmax(largest, fabs(principal[i]));
+    return largest;
 }
 
 /* One is given, also 0 as in a sweep. */

@@ -37,4 +37,7 @@ void fracas_initial_displacement(const fracas_initial_strain *strain, const doub
 /* Largest |stress| of the initial strain along any direction of a surface [Pa]. */
 double fracas_initial_stress(const fracas_spec *spec);
 
+/* Largest |principal strain| of it, within the body's plane where it is flat. */
+double fracas_initial_largest_strain(const fracas_spec *spec);
+
 #endif

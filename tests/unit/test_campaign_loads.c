@@ -103,22 +103,102 @@ static void test_opening_of_a_start(void **state)
     assert_true(forecast.available > opens && forecast.available < 2 * opens);
 }
 
+/* True if plan warns of the campaign's point with a text that has these words. */
+static bool warns_with(const fracas_campaign *campaign, const char *words)
+{
+    char text[FRACAS_WARNING_TEXT];
+    fracas_forecast forecast;
+    bool told = false;
+    OK(fracas_forecast_make(campaign, 0, &forecast));
+    for (size_t w = 0; w < FRACAS_PLAN_WARNINGS; w++)
+        told = told ||
+               (fracas_plan_warnings[w](&campaign->point[0], &forecast, text, sizeof text) > 0 &&
+                strstr(text, words));
+    return told;
+}
+
 /* Starts above the strengths, 308 MPa in the mean, are told, and no others. */
 static void test_starts_above_strengths(void **state)
 {
     static const char *const stress[] = {"300 MPa", "320 MPa", "-400 MPa"};
     for (size_t i = 0; i < FRACAS_COUNT(stress); i++) {
-        char put[100], text[FRACAS_WARNING_TEXT];
+        char put[100];
         snprintf(put, sizeof put, "{type: none}\ninitial: {stress_x: %s}", stress[i]);
         OWN(fracas_campaign) campaign = read_membrane("{rate: 1e4 1/s}", put);
-        fracas_forecast forecast;
-        bool told = false;
-        OK(fracas_forecast_make(campaign, 0, &forecast));
-        for (size_t w = 0; w < FRACAS_PLAN_WARNINGS; w++)
-            told = told || (fracas_plan_warnings[w](&campaign->point[0], &forecast, text,
-                                                    sizeof text) > 0 &&
-                            strstr(text, "interfaces crack at once"));
-        assert_true(told == (i > 0));
+        assert_true(warns_with(campaign, "interfaces crack at once") == (i > 0));
+    }
+}
+
+/* The membrane at rest but for its start, with edges that geometry gives. */
+static fracas_campaign *read_start(const char *edges, const char *start)
+{
+    char put[300];
+    OWNED char *plain = campaign_file("membrane"),
+               *still = replace(plain, "{rate: 1e4 1/s}", "{type: none}");
+    snprintf(put, sizeof put, "thickness: 0.1 mm%s}", edges);
+    OWNED char *held = replace(still, "thickness: 0.1 mm}", put);
+    snprintf(put, sizeof put, "%s\n", start);
+    OWNED char *text = replace(held, "", put);
+    return read_text(text);
+}
+
+/* The plate is 10 mm by 5 mm: left and right have a third of its outline. What edges hold, or loads
+ * balance, stays; what lies on others springs back. */
+static void test_starts_that_spring_back(void **state)
+{
+    static const struct {
+        const char *edges, *start, *told; /* "": no warning */
+    } of[] = {
+        {"", "initial: {stress_x: 20 MPa}", "no edge keeps 100 % of it"},
+        {", left: fixed", "initial: {stress_x: 20 MPa}", "no edge keeps 50 % of it"},
+        {", bottom: fixed, top: fixed", "initial: {stress_x: 20 MPa}", "no edge keeps 100 % of it"},
+        {", left: fixed, right: fixed", "initial: {stress_x: 20 MPa}", ""},
+        {", left: sliding, right: sliding", "initial: {stress_x: 20 MPa}", ""},
+        {", left: sliding, right: fixed", "initial: {stress_xy: 20 MPa}",
+         "no edge keeps 83 % of it"},
+        {", left: fixed, right: fixed", "initial: {stress_x: 20 MPa, stress_y: 20 MPa}",
+         "no edge keeps 67 % of it"},
+        {", left: fixed, right: fixed, top: fixed, bottom: fixed",
+         "initial: {temperature: -60 K, expansion_coefficient: 8e-6 1/K}", ""},
+    };
+    for (size_t i = 0; i < FRACAS_COUNT(of); i++) {
+        OWN(fracas_campaign) campaign = read_start(of[i].edges, of[i].start);
+        print_message("geometry %s, %s\n", of[i].edges, of[i].start);
+        assert_true(warns_with(campaign, "springs back") == (*of[i].told != 0));
+        assert_true(warns_with(campaign, of[i].told) || !*of[i].told);
+    }
+    OWN(fracas_campaign) drawn = read_membrane(
+        "thickness: 0.1 mm}", "thickness: 0.1 mm, left: fixed}\ninitial: {stress_x: 20 MPa}");
+    assert_true(warns_with(drawn, "springs back"));
+    OWN(fracas_campaign) loaded = read_membrane(
+        "loading: {rate: 1e4 1/s}", "initial: {stress_x: 20 MPa}\nloading: [{type: traction, edge: "
+                                    "left, normal: 20 MPa}, {type: traction, edge: right, normal: "
+                                    "20 MPa}]");
+    assert_false(warns_with(loaded, "springs back"));
+}
+
+/* Strains of 20 % and more, and velocities above waves, at sqrt(E/rho) = 9740 m/s, or above 0.4
+ * times that at the rim of a region, which strains by v/(2 c). */
+static void test_starts_too_large(void **state)
+{
+    static const struct {
+        const char *start;
+        const char *told; /* "": no warning */
+    } of[] = {
+        {"initial: {strain_x: 0.19}", ""},
+        {"initial: {strain_x: -0.25}", "a strain of 25 %"},
+        {"initial: {strain_x: 0.15, strain_y: -0.15, strain_xy: 0.2}", "a strain of 25 %"},
+        {"initial: {velocity_x: 9 km/s}", ""},
+        {"initial: {velocity_x: 11.688 km/s}", "starts at up to 1.17e+04 m/s"},
+        {"initial: {velocity_x: 3.8 km/s, from_x: 0 mm}", ""},
+        {"initial: {velocity_x: 4 km/s, from_x: 0 mm}", "starts at up to 4e+03 m/s"},
+        {"initial: {spin: 4e6 1/s}", "starts at up to 2.24e+04 m/s"}, /* hypot(5, 2.5) mm */
+    };
+    for (size_t i = 0; i < FRACAS_COUNT(of); i++) {
+        OWN(fracas_campaign) campaign = read_start("", of[i].start);
+        print_message("%s\n", of[i].start);
+        assert_true(warns_with(campaign, "takes strains as small") == (*of[i].told != 0));
+        assert_true(warns_with(campaign, of[i].told) || !*of[i].told);
     }
 }
 
@@ -140,4 +220,5 @@ static void test_initial_section(void **state)
 }
 
 TESTS(test_list_of_loads, test_swept_loads, test_bounds_of_lists, test_opening_of_a_start,
-      test_starts_above_strengths, test_initial_section)
+      test_starts_above_strengths, test_starts_that_spring_back, test_starts_too_large,
+      test_initial_section)
