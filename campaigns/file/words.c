@@ -60,6 +60,33 @@ static bool is_other_name(const char *found, const char *word)
     return false;
 }
 
+/* The first load has no number, those after it have. */
+static size_t distance_of_load(const char *found, const char *word)
+{
+    static const char first[] = "loading_1", section[] = "loading";
+    const size_t size = strlen(first);
+    const char end = strncmp(found, first, size) ? ' ' : found[size];
+    if ((end && end != '.') || strncmp(word, section, strlen(section)) != 0) return SIZE_MAX;
+    return distance_of(found + size, word + strlen(section));
+}
+
+static size_t distance_to(const char *found, const char *word)
+{
+    const size_t as_load = distance_of_load(found, word), as_read = distance_of(found, word);
+    if (is_other_name(found, word)) return 0;
+    return as_load < as_read ? as_load : as_read;
+}
+
+/* True if the list has the word: two shapes may have a key of one name. */
+static bool is_listed(const fracas_words *words, const char *word)
+{
+    const size_t size = strlen(word);
+    for (const char *at = words->list; (at = strstr(at, word)) && size; at += size)
+        if ((at == words->list || at[-1] == ' ') && (at[size] == ',' || at[size] == '\0'))
+            return true;
+    return false;
+}
+
 void fracas_words_init(fracas_words *words, const char *found)
 {
     *words = (fracas_words){.found = found};
@@ -67,12 +94,13 @@ void fracas_words_init(fracas_words *words, const char *found)
 
 void fracas_words_add(fracas_words *words, const char *word)
 {
-    size_t distance = is_other_name(words->found, word) ? 0 : distance_of(words->found, word);
+    const size_t distance = distance_to(words->found, word);
     if (distance <= 1 + strlen(word) / 4 && distance < strlen(word) &&
         (!words->nearest || distance < words->distance)) {
         words->nearest = word;
         words->distance = distance;
     }
+    if (is_listed(words, word)) return;
     int added = snprintf(words->list + words->used, sizeof words->list - words->used, "%s%s",
                          words->used ? ", " : "", word);
     if (words->used + (size_t)added < sizeof words->list) words->used += (size_t)added;
