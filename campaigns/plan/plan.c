@@ -8,6 +8,7 @@
 #include "base/units.h"
 #include "campaigns/plan/forecast.h"
 #include "campaigns/plan/size.h"
+#include "engine/mesh/body.h"
 #include "engine/mesh/make.h"
 
 #include <errno.h>
@@ -71,7 +72,7 @@ static fracas_err plan_init(const fracas_campaign *campaign, int jobs, bool quic
 
 /* ---- a table of text ---- */
 
-enum { CELL = 64 };
+enum { CELL = FRACAS_RENAMED + 10 /* "geometry." */ };
 
 /* Right-aligned cells. */
 typedef struct {
@@ -174,12 +175,36 @@ static const char *const own_heads[OWN_COLUMNS][2] = {{"replicas", ""},    {"ele
                                                       {"time step", "s"},  {"steps", "at most"},
                                                       {"time", "at most"}, {"size", "about"}};
 
+/* `text`, or, where it is a key of edges, the name that the mesh file of point p gives to them. */
+static const char *edge_named(const campaign_plan *plan, size_t p, const char *text,
+                              char name[FRACAS_RENAMED])
+{
+    const fracas_geometry *geometry = &plan->campaign->point[p].spec.geometry;
+    return fracas_shape_edge_name(geometry, text, name) ? name : text;
+}
+
+/* The column's path, with the name of edges where the mesh files of all points agree on one. */
+static const char *head_of(const campaign_plan *plan, const fracas_column *column, char text[CELL])
+{
+    static const char section[] = "geometry.";
+    const size_t size = strlen(section);
+    char name[2][FRACAS_RENAMED];
+    if (strncmp(column->path, section, size) != 0) return column->path;
+    const char *first = edge_named(plan, 0, column->path + size, name[0]);
+    for (size_t p = 1; p < plan->table->npoints; p++)
+        if (strcmp(first, edge_named(plan, p, column->path + size, name[1])) != 0)
+            return column->path;
+    snprintf(text, CELL, "%s%s", section, first);
+    return text;
+}
+
 static void put_heads(const campaign_plan *plan, text_sheet *sheet)
 {
+    char head[CELL];
     sheet_put(sheet, 0, 0, "point");
     for (size_t v = 0; v < plan->nvaried; v++) {
         const fracas_column *column = &plan->table->column[plan->varied[v]];
-        sheet_put(sheet, 0, 1 + v, "%s", column->path);
+        sheet_put(sheet, 0, 1 + v, "%s", head_of(plan, column, head));
         sheet_put(sheet, 1, 1 + v, "%s", strcmp(column->unit, "1") ? column->unit : "");
     }
     for (size_t c = 0; c < OWN_COLUMNS; c++)
@@ -204,9 +229,13 @@ static void put_point(const campaign_plan *plan, size_t p, text_sheet *sheet)
     const fracas_forecast *forecast = &plan->forecast[p];
     const size_t row = p + 2, own = 1 + plan->nvaried;
     sheet_put(sheet, row, 0, "%zu", p);
-    for (size_t v = 0; v < plan->nvaried; v++)
-        put_value(&plan->table->column[plan->varied[v]], &point->value[plan->varied[v]], sheet, row,
-                  1 + v);
+    for (size_t v = 0; v < plan->nvaried; v++) {
+        const fracas_column *column = &plan->table->column[plan->varied[v]];
+        fracas_value value = point->value[plan->varied[v]];
+        char name[FRACAS_RENAMED];
+        if (column->text) value.text = edge_named(plan, p, value.text, name);
+        put_value(column, &value, sheet, row, 1 + v);
+    }
     const double least = least_part(&plan->campaign->point[p]);
     put_count(sheet, row, own + REPLICAS, point->replicas,
               fracas_point_most(&plan->campaign->point[p]));
@@ -409,9 +438,10 @@ static void put_span(const campaign_plan *plan, size_t of, text_sheet *sheet)
     const size_t row = 1 + of;
     const bool own = of >= plan->nvaried;
     const fracas_column *column = own ? NULL : &plan->table->column[plan->varied[of]];
-    char text[SHORT];
+    char text[SHORT], head[CELL];
     size_t end[2] = {SIZE_MAX, SIZE_MAX};
-    sheet_put(sheet, row, 0, "%s", own ? own_heads[of - plan->nvaried][0] : column->path);
+    sheet_put(sheet, row, 0, "%s",
+              own ? own_heads[of - plan->nvaried][0] : head_of(plan, column, head));
     sheet_put(sheet, row, 1, "%s",
               own                              ? own_heads[of - plan->nvaried][1]
               : strcmp(column->unit, "1") != 0 ? column->unit

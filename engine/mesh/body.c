@@ -427,6 +427,17 @@ static bool group_name(const fracas_attachment *mesh, size_t i, char name[FRACAS
     return fracas_gmsh_group_name(mesh->text, mesh->size, i, name);
 }
 
+bool fracas_shape_edge_name(const fracas_geometry *geometry, const char *key,
+                            char name[FRACAS_RENAMED])
+{
+    for (size_t i = 0; geometry->file && group_name(geometry->file, i, name); i++) {
+        const char *named = name;
+        if (!name_of_group(geometry->file, &named) && named != name && !strcmp(named, key))
+            return true;
+    }
+    return false;
+}
+
 const fracas_section fracas_geometry_section = {
     .name = "geometry",
     .doc = "The body",

@@ -74,6 +74,10 @@ extern const fracas_kind fracas_spacing_uniform, fracas_spacing_graded, fracas_s
 FRACAS_MUST_USE fracas_err fracas_shape_edge_tag(const fracas_geometry *geometry, const char *asked,
                                                  const char *key, int32_t *tag);
 
+/* The name that the body's mesh file gives to the edges of a key; false: none. */
+bool fracas_shape_edge_name(const fracas_geometry *geometry, const char *key,
+                            char name[FRACAS_RENAMED]);
+
 static inline const fracas_shape *fracas_shape_of(const fracas_spec *spec)
 {
     return spec->geometry.shape->traits;

@@ -301,6 +301,32 @@ static void test_names_in_a_sweep(void **state)
     unlink(of.second);
 }
 
+/* plan's table has the names of a mesh file, and keys where two files have two. */
+static void test_names_in_a_plan(void **state)
+{
+    static const struct {
+        const char *sweep, *head, *value;
+    } of[] = {
+        {"sweep:\n  - geometry.lower side: [held, free]\n", "  geometry.lower side  ", " free  "},
+        {"sweep:\n  - loading.edge: [lower side, right]\n", "  loading.edge  ", " lower side  "},
+        {"sweep:\n  - cases:\n    - {geometry: {file: A, lower side: held}}\n"
+         "    - {geometry: {file: B, left: held}}\n    - {geometry: {file: B}}\n",
+         "  geometry.edge_2  ", " held  "},
+    };
+    meshes files;
+    write_meshes(&files);
+    for (size_t i = 0; i < FRACAS_COUNT(of); i++) {
+        OWNED char *text = named_campaign(
+            &files, "", "loading: {type: traction, edge: right, normal: 1 MPa}", of[i].sweep);
+        OWN(fracas_campaign) campaign = read_text(text);
+        OWNED char *plan = plan_text(campaign, 1, false);
+        assert_non_null(strstr(plan, of[i].head));
+        assert_non_null(strstr(plan, of[i].value));
+    }
+    unlink(files.first);
+    unlink(files.second);
+}
+
 /* A name that no file has, that one file has not, and that is two keys in two files. */
 static void test_wrong_names(void **state)
 {
@@ -311,7 +337,8 @@ static void test_wrong_names(void **state)
          "unknown path `geometry.lover side` in the sweep; did you mean `geometry.lower side`? "
          "paths in geometry: geometry.lower side, geometry.left, geometry.right, "},
         {"", "loading: {type: traction, edge: rigth, normal: 1 MPa}", "",
-         "unknown edge `rigth`; did you mean `right`? edge can be: lower side, left, right, "},
+         "unknown edge `rigth`; did you mean `right`? edge can be: lower side, left, right, "
+         "bottom, top, "},
         {"", RATE, "sweep:\n  - geometry.left: [held, free]\n  - geometry.file: [A, B]\n",
          "`left` is edge_1 in /tmp/"},
         {", left: held", RATE, "sweep:\n  - geometry.file: [A, B]\n", "`left` is edge_1 in /tmp/"},
@@ -506,5 +533,6 @@ static void test_warnings_of_a_run(void **state)
 }
 
 TESTS_ALL(read_file, free_file, test_file, test_names_of_groups, test_line_of_two_groups,
-          test_names_in_a_sweep, test_wrong_names, test_page_example, test_unit, test_no_mesh,
-          test_plan_of_parts, test_plan_of_file, test_no_interface, test_warnings_of_a_run)
+          test_names_in_a_sweep, test_names_in_a_plan, test_wrong_names, test_page_example,
+          test_unit, test_no_mesh, test_plan_of_parts, test_plan_of_file, test_no_interface,
+          test_warnings_of_a_run)
