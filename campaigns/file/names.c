@@ -182,3 +182,51 @@ fracas_err fracas_names_add(const fracas_file *file, const fracas_file_section *
     listing list = {&of, before, words};
     return param ? visit_files(&of, param, false, add_names, &list) : FRACAS_OK;
 }
+
+/* ---- no file ---- */
+
+static fracas_err count_file(void *context, const fracas_attachment *of)
+{
+    (void)of;
+    ++*(size_t *)context;
+    return FRACAS_OK;
+}
+
+enum { NEAR = 2 }; /* letters that a misspelt key may differ in */
+
+/* True if the key that names stand for takes the value, or the first of a list. */
+static bool is_value_of_name(const fracas_file *file, const fracas_file_section *section,
+                             const fracas_node *value)
+{
+    const fracas_kind *choice[FRACAS_MOST_CHOICES];
+    const char *renamed = section->table->renamed;
+    const fracas_leaf *leaf = renamed ? fracas_catalog_key(file->catalog, section, renamed) : NULL;
+    const size_t count = leaf ? fracas_leaf_choices(leaf, choice) : 0;
+    const fracas_node *first = value->type == FRACAS_LIST ? value->first : value;
+    for (size_t c = 0; first && c < count; c++)
+        if (strcmp(choice[c]->name, fracas_node_text(first)) == 0) return true;
+    return false;
+}
+
+fracas_err fracas_names_ask_for_file(const fracas_file *file, const fracas_file_section *section,
+                                     const fracas_node *own, const fracas_node *value,
+                                     fracas_words *words, fracas_names_question *ask)
+{
+    const fracas_section *table = section->table;
+    const scope of = {file, table, own};
+    const fracas_param *param = table->rename ? file_param(kind_of(&of)) : NULL;
+    size_t files = 0;
+    *ask->text = 0;
+    const bool misspelt = words->nearest && words->distance <= NEAR;
+    if (misspelt || !is_value_of_name(file, section, value)) return FRACAS_OK;
+    if (param) TRY(visit_files(&of, param, false, count_file, &files));
+    if (files) return FRACAS_OK;
+    words->nearest = NULL;
+    for (size_t k = 0; k < table->nkinds; k++)
+        if (file_param(table->kinds[k]))
+            snprintf(ask->text, sizeof ask->text,
+                     "; if it is a name in a file, give that file: `%s: {%s: %s, %s: ...}`",
+                     table->name, fracas_section_selector(table), table->kinds[k]->name,
+                     file_param(table->kinds[k])->name);
+    return FRACAS_OK;
+}

@@ -22,4 +22,16 @@ FRACAS_MUST_USE fracas_err fracas_names_add(const fracas_file *file,
                                             const fracas_node *own, const char *before,
                                             fracas_words *words);
 
+typedef struct {
+    char text[160];
+} fracas_names_question;
+
+/* "; ..." that asks for the file in which an unknown key may be a name; "" if there is one, if no
+ * name takes the value, or a known word is near; without "", words have no nearest one. */
+FRACAS_MUST_USE fracas_err fracas_names_ask_for_file(const fracas_file *file,
+                                                     const fracas_file_section *section,
+                                                     const fracas_node *own,
+                                                     const fracas_node *value, fracas_words *words,
+                                                     fracas_names_question *ask);
+
 #endif

@@ -293,6 +293,7 @@ static fracas_err unknown_key(const fracas_file *file, const fracas_file_section
     const fracas_catalog *catalog = file->catalog;
     const fracas_node *key = entry->key;
     fracas_words words;
+    fracas_names_question ask = {""};
     fracas_words_init(&words, key->text);
     TRY(fracas_names_add(file, section, node, "", &words));
     const char *name = words.nearest, *home = NULL; /* another section with this key */
@@ -302,6 +303,7 @@ static fracas_err unknown_key(const fracas_file *file, const fracas_file_section
                  !catalog->leaf[i].section->table->follows)
             home = catalog->leaf[i].section->table->name;
     }
+    if (!home) TRY(fracas_names_ask_for_file(file, section, node, entry, &words, &ask));
     const char *nearest = words.nearest;
     if (nearest == name) nearest = NULL; /* a name, of any key */
     if (home) words.nearest = nearest = NULL;
@@ -312,9 +314,9 @@ static fracas_err unknown_key(const fracas_file *file, const fracas_file_section
                                  "unknown key `%s` in %s: the end of a number with a decimal "
                                  "comma? Write a decimal point",
                                  key->text, section->table->name);
-    return fracas_file_error(file, key, "unknown key `%s` in %s%s%s%s", key->text,
-                             section->table->name, home ? "; it belongs to the section " : "",
-                             home ? home : "",
+    return fracas_file_error(file, key, "unknown key `%s` in %s%s%s%s%s", key->text,
+                             section->table->name, ask.text,
+                             home ? "; it belongs to the section " : "", home ? home : "",
                              fracas_words_hint(&words, "keys of %s", section->table->name));
 }
 

@@ -430,12 +430,14 @@ static fracas_err unknown_path(const fracas_file *file, const fracas_node *entry
     const fracas_node *key = entry->key;
     const fracas_file_section *inside = section_before_dot(catalog, key->text);
     fracas_words words;
+    fracas_names_question ask = {""};
     fracas_words_init(&words, key->text);
     if (inside) TRY(add_names(file, inside, &words));
     for (size_t i = 0; i < catalog->nleaves; i++)
         if (catalog->leaf[i].section->table->hashed &&
             (!inside || catalog->leaf[i].section == inside))
             fracas_words_add(&words, catalog->leaf[i].path);
+    if (inside) TRY(fracas_names_ask_for_file(file, inside, NULL, entry, &words, &ask));
     if (!inside) words.nearest = path_of_key(catalog, key->text, words.nearest);
     doubt_path(file, inside, words.nearest);
     if (!inside) { /* all paths were compared; list the sections */
@@ -445,7 +447,7 @@ static fracas_err unknown_path(const fracas_file *file, const fracas_node *entry
             if (catalog->section[s].table->hashed)
                 fracas_words_add(&words, catalog->section[s].table->name);
     }
-    return fracas_file_error(file, key, "unknown path `%s` in the sweep%s", key->text,
+    return fracas_file_error(file, key, "unknown path `%s` in the sweep%s%s", key->text, ask.text,
                              inside ? fracas_words_hint(&words, "paths in %s", inside->table->name)
                                     : fracas_words_hint(&words, "known are section.key, and"));
 }

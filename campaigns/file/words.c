@@ -81,7 +81,7 @@ static size_t distance_to(const char *found, const char *word)
 static bool is_listed(const fracas_words *words, const char *word)
 {
     const size_t size = strlen(word);
-    for (const char *at = words->list; (at = strstr(at, word)) && size; at += size)
+    for (const char *at = words->list; words->used && (at = strstr(at, word)) && size; at += size)
         if ((at == words->list || at[-1] == ' ') && (at[size] == ',' || at[size] == '\0'))
             return true;
     return false;
