@@ -67,6 +67,16 @@ fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas
     return fracas_arguments_real(arguments, "segment-size", 1048576.0, &run->segment_bytes);
 }
 
+/* A run that does not report leaves the report of what was there before. */
+static void say_old_report(const char *study)
+{
+    char page[PATH_MAX + 32];
+    snprintf(page, sizeof page, "%s/report/index.html", study);
+    if (access(page, F_OK)) return;
+    fprintf(stderr, "fracas: %s is of earlier results: `fracas report %s` makes it again\n", page,
+            fracas_shell_path(study, NULL).text);
+}
+
 fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv)
 {
     bool ran;
@@ -83,6 +93,7 @@ fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv)
     const fracas_report_view view = {
         .quiet = run->quiet, .columns = run->wide ? 0 : fracas_terminal_of(STDOUT_FILENO).columns};
     if (!run->no_report) TRY(fracas_cli_report(study, &view));
+    else if (ran) say_old_report(study);
     const fracas_err fields = fracas_written_fields(study, campaign, stderr);
     if (!end) return fields;
     if (fields) fprintf(stderr, "fracas: %s\n", fracas_message());

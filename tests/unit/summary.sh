@@ -26,6 +26,28 @@ for keys in 'y: [aspect, aspct]' 'x: aspct' 'x: loading.rate, series: loading.ra
     done
 done
 
+# Keys that it takes are the report's of a complete study, too, in which nothing else changes.
+{ cat one.yaml; echo "report: {y: [aspect]}"; } > keys.yaml
+cp -r one keyed
+cp keyed/study.h5 before.h5
+[ ! -e keyed/report/aspect-against-rate.svg ]
+expect 0 "$fracas" run keys.yaml --study keyed --jobs 2
+said 'keyed is complete, nothing to compute'
+grep -q '^report: .*aspect' keyed/campaign.yaml || fail "the study has the old keys"
+[ -s keyed/report/aspect-against-rate.svg ] || fail "the report has the old keys"
+cmp keyed/study.h5 before.h5
+cp keyed/campaign.yaml before.yaml
+expect 0 "$fracas" run keys.yaml --study keyed --jobs 2
+cmp keyed/campaign.yaml before.yaml
+
+# A report that a run leaves behind is told, and only then.
+expect 0 "$fracas" run keys.yaml --study keyed --jobs 2 --no-report
+! grep -q 'of earlier results' said || fail "a report of these results is called old"
+expect 0 "$fracas" extend keyed --replicas 23 --jobs 2 --no-report
+said 'keyed/report/index.html is of earlier results: `fracas report keyed`'
+expect 0 "$fracas" run one.yaml --study bare --jobs 2 --no-report
+! grep -q 'of earlier results' said || fail "a report that is not there is called old"
+
 cat > planted.py <<'END'
 import copy, json, os, sys
 sys.path[:0] = [os.path.join(sys.argv[1], "tests/support")]

@@ -153,6 +153,27 @@ static fracas_err look_at(const char *study, const fracas_campaign *campaign, bo
     return *settled ? fracas_study_sound(study, index, settled) : FRACAS_OK;
 }
 
+static bool same_key(const char *a, const char *b)
+{
+    return a == b || (a && b && strcmp(a, b) == 0);
+}
+
+/* The file of a complete study takes other keys of the report over: they are in no hash. */
+static fracas_err keep_report_keys(const char *study, const char *file,
+                                   const fracas_campaign *campaign)
+{
+    OWN(fracas_campaign) before = NULL;
+    OWNED char *said = NULL;
+    TRY(fracas_campaign_read(file, &before));
+    const fracas_report_keys *was = &before->report, *is = &campaign->report;
+    if (same_key(was->x, is->x) && same_key(was->series, is->series) &&
+        same_key(was->panels, is->panels) && same_key(was->y, is->y))
+        return FRACAS_OK;
+    TRY(fracas_campaign_keep(campaign, study, "campaign.yaml", &said));
+    if (said) fprintf(stderr, "fracas: %s", said);
+    return FRACAS_OK;
+}
+
 fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign, bool force,
                                 bool *settled, int64_t *failed)
 {
@@ -168,6 +189,7 @@ fracas_err fracas_study_examine(const char *study, const fracas_campaign *campai
     fracas_err err = look_at(study, campaign, settled, failed);
     if (access(file, F_OK)) *settled = false;            /* to be written again */
     if (!err && *settled) fracas_checkpoints_end(study); /* left by a power cut, or written late */
+    if (!err && *settled) err = keep_report_keys(study, file, campaign);
     close(lock);
     return err;
 }

@@ -35,7 +35,8 @@ FRACAS_MUST_USE fracas_err fracas_study_settled(const char *study, fracas_index 
                                                 int64_t *failed);
 
 /* Examines a study under its lock (`force` as in fracas_study_lock), without changing it; only from
- * a settled one it removes the checkpoints that are left.
+ * a settled one it removes the checkpoints that are left, and gives it the campaign's keys of the
+ * report, which are in no hash.
  * FRACAS_USAGE for a folder with files that no run wrote (campaigns/scheduler/session/keep.h),
  * FRACAS_IN_USE when another run has it, FRACAS_DAMAGED when it does not fit, else *settled and
  * *failed as above (false and 0 for a new study). Here a settled study also has all bytes as sealed
