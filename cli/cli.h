@@ -127,7 +127,8 @@ FRACAS_MUST_USE fracas_err fracas_cli_read_time(const struct fracas_units *units
 /* FRACAS_DAMAGED, with the remedy, if `study` is no folder of a study. */
 FRACAS_MUST_USE fracas_err fracas_cli_check_study(const char *study);
 
-/* Reads STUDY/campaign.yaml. FRACAS_DAMAGED if it is damaged. */
+/* Reads STUDY/campaign.yaml. FRACAS_DAMAGED if it is damaged, or if study.h5 is of another campaign
+ * and no run has made it there. */
 FRACAS_MUST_USE fracas_err fracas_cli_read_campaign(const char *study,
                                                     struct fracas_campaign **campaign);
 

@@ -125,10 +125,8 @@ static fracas_err picture(const fracas_arguments *arguments)
                            "--png");
     TRY(read_view(arguments, &request, &view));
     TRY(read_times(arguments, &request, &time));
-    if (!fracas_cli_alone(arguments->operand)) {
-        TRY(fracas_cli_read_campaign(arguments->operand, &campaign));
-        request.campaign = &campaign->hash;
-    }
+    TRY(fracas_cli_campaign_seen(arguments->operand, &campaign));
+    if (campaign) request.campaign = &campaign->hash;
     return fracas_pictures_write(arguments->operand, &request, stdout);
 }
 

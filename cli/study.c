@@ -72,12 +72,36 @@ fracas_err fracas_cli_check_study(const char *study)
                        file, strerror(reason));
 }
 
+/* A study.h5 that somebody has put beside the campaign file of another: no run has been here. */
+static fracas_err check_pair(const char *study, const fracas_campaign *campaign)
+{
+    char file[PATH_MAX];
+    OWN(fracas_reader) reader = NULL;
+    snprintf(file, sizeof file, "%s/study.h5", study);
+    if (!lacks(study, "index.sqlite") || !lacks(study, "segments") || lacks(study, "study.h5") ||
+        fracas_reader_open(file, &reader) ||
+        fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash))
+        return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s is of another campaign than the campaign.yaml beside it, and is there "
+                       "without the index and the segments of its run: `fracas export %s --study "
+                       "NEW` makes a study of it, or move it away",
+                       file, fracas_shell_path(study, "study.h5").text);
+}
+
 fracas_err fracas_cli_read_campaign(const char *study, fracas_campaign **campaign)
 {
     char file[PATH_MAX];
+    OWN(fracas_campaign) made = NULL;
+    *campaign = NULL;
     TRY(fracas_cli_check_study(study));
     snprintf(file, sizeof file, "%s/campaign.yaml", study);
-    fracas_err code = fracas_campaign_read(file, campaign);
+    fracas_err code = fracas_campaign_read(file, &made);
+    if (!code) code = check_pair(study, made);
+    if (!code) {
+        *campaign = made;
+        made = NULL;
+    }
     if (code != FRACAS_USAGE) return code;
     return fracas_fail_within(
         FRACAS_DAMAGED, "the study's campaign file is damaged, or another version of fracas "

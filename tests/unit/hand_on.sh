@@ -172,7 +172,22 @@ mkdir beside
 cp -r away/bar/study.h5 new-bar/campaign.yaml new-bar/attachments beside
 expect 2 "$fracas" run beside/campaign.yaml --study beside
 said 'without the index and the segments of its run'
+for command in report export fit picture status reindex merge gc 'replay 0/0' 'compare first-bar' 'extend --replicas 9' 'retry --failed'; do
+    # shellcheck disable=SC2086
+    set -- $command
+    name=$1
+    shift
+    expect 5 "$fracas" "$name" beside "$@"
+    said 'beside/study.h5 is of another campaign than the campaign.yaml beside it.* .fracas export beside/study.h5 --study NEW. makes'
+done
+expect 5 "$fracas" compare first-bar beside
+said 'is of another campaign than the campaign.yaml beside it'
+expect 5 "$fracas" verify beside
+grep -q 'beside/study.h5 is of another campaign' said || fail "verify does not say what beside has"
 cmp beside/study.h5 away/bar/study.h5 || fail "a run has replaced a study.h5 that was handed on"
+if [ -e beside/index.sqlite ] || [ -e beside/segments ]; then fail "something was made of beside"; fi
+expect 0 "$fracas" export beside/study.h5 --study of-beside
+cmp of-beside/study.h5 away/bar/study.h5
 
 # A whole study that has lost its campaign.yaml is none that was handed on: its segments are not looked at.
 cp -r new-bar lost
@@ -184,7 +199,7 @@ said 'campaign.yaml'
 mkdir bare
 cp away/bar/study.h5 bare
 /usr/bin/python3 -c 'import h5py; del h5py.File("bare/study.h5", "r+")["campaign"]'
-for what in verify report; do
+for what in verify report picture; do
     expect 5 "$fracas" $what bare
     said '/campaign is not there'
 done
