@@ -127,6 +127,10 @@ FRACAS_MUST_USE fracas_err fracas_cli_read_time(const struct fracas_units *units
 /* FRACAS_DAMAGED, with the remedy, if `study` is no folder of a study. */
 FRACAS_MUST_USE fracas_err fracas_cli_check_study(const char *study);
 
+/* `err`, and, of FRACAS_DAMAGED, what to do behind the present message where STUDY/study.h5, or the
+ * file of results `operand`, cannot be read. */
+FRACAS_MUST_USE fracas_err fracas_cli_remedy(const char *operand, fracas_err err);
+
 /* Reads STUDY/campaign.yaml. FRACAS_DAMAGED if it is damaged, or if study.h5 is of another campaign
  * and no run has made it there. */
 FRACAS_MUST_USE fracas_err fracas_cli_read_campaign(const char *study,

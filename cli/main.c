@@ -120,7 +120,9 @@ static fracas_err run_command(int argc, char **argv)
         TRY(take_folder(&arguments.operand, &first));
         TRY(take_folder(&arguments.second, &second));
     }
-    if (!arguments.help) return run(&arguments);
+    if (!arguments.help)
+        return fracas_cli_remedy(arguments.second,
+                                 fracas_cli_remedy(arguments.operand, run(&arguments)));
     print_help(command);
     return FRACAS_OK;
 }

@@ -190,6 +190,39 @@ fracas_err fracas_cli_check_values(fracas_reader *reader, const char *file,
     return FRACAS_OK;
 }
 
+/* ---- a file that is damaged ---- */
+
+/* Some value cannot be read, but not because a later version of fracas wrote the file. */
+static bool is_broken(const char *file)
+{
+    OWN(fracas_reader) reader = NULL;
+    uint64_t version;
+    fracas_err err = fracas_reader_open_old(file, &reader);
+    if (!err) err = fracas_cli_check_values(reader, file, NULL, false);
+    return err == FRACAS_DAMAGED &&
+           (fracas_file_version(file, &version) || version <= FRACAS_FORMAT_VERSION);
+}
+
+fracas_err fracas_cli_remedy(const char *operand, fracas_err err)
+{
+    char file[PATH_MAX];
+    const bool named = operand && fracas_cli_is_study_file(operand);
+    if (err != FRACAS_DAMAGED || !operand) return err;
+    OWNED char *said = strdup(fracas_message());
+    snprintf(file, sizeof file, named ? "%s" : "%s/study.h5", operand);
+    if (!said || access(file, F_OK) || !is_broken(file))
+        return said ? fracas_fail(err, "%s", said) : err;
+    if (named || fracas_cli_alone(operand))
+        return fracas_fail(err,
+                           "%s; %s is damaged: get another copy, or "
+                           "`fracas merge` the study that it is from",
+                           said, file);
+    return fracas_fail(err,
+                       "%s; %s is damaged: remove it, and `fracas merge "
+                       "%s` makes it again",
+                       said, file, fracas_shell_path(operand, NULL).text);
+}
+
 fracas_err fracas_cli_campaign_of_file(const char *file, bool *ours, fracas_campaign **campaign)
 {
     OWN(fracas_reader) reader = NULL;

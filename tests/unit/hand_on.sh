@@ -232,6 +232,35 @@ for what in flipped attribute; do
     [ ! -e never ] || fail "a study is made of a damaged file"
 done
 
+# What to do is said: a study makes the file again, and of one alone there may be another copy.
+for command in report verify 'replay 0/0' 'compare first-bar'; do
+    # shellcheck disable=SC2086
+    set -- $command
+    name=$1
+    shift
+    expect 5 "$fracas" "$name" flipped "$@"
+    said 'flipped/study.h5 is damaged: get another copy'
+done
+expect 5 "$fracas" compare first-bar flipped
+said 'flipped/study.h5 is damaged: get another copy'
+cp -r new-bar hurt
+expect 0 "$fracas" report hurt --quiet
+/usr/bin/python3 - <<'END_OF_SCRIPT'
+import h5py
+with h5py.File("hurt/study.h5") as study:
+    at = study["fragment/mass"].id.get_chunk_info(0).byte_offset
+with open("hurt/study.h5", "r+b") as file:
+    file.seek(at + 3)
+    byte = file.read(1)
+    file.seek(at + 3)
+    file.write(bytes([byte[0] ^ 1]))
+END_OF_SCRIPT
+expect 5 "$fracas" report hurt --quiet
+said 'hurt/study.h5 is damaged: remove it, and .fracas merge hurt. makes it again'
+rm hurt/study.h5
+expect 0 "$fracas" merge hurt
+cmp hurt/study.h5 new-bar/study.h5
+
 # One that was cut off before its campaign file is made by the same command.
 mkdir -p again/segments again/attachments
 expect 0 "$fracas" export away/bar/study.h5 --study again

@@ -141,7 +141,7 @@ static fracas_err open_with(fracas_segments *segments, int64_t id, unsigned part
         return fracas_fail(FRACAS_DAMAGED, "%s has no segment %" PRId64 "; %s",
                            segments->index_path, id, reindex);
     if (segments->bad[s])
-        return fracas_fail(FRACAS_DAMAGED, "segment %s is damaged",
+        return fracas_fail(FRACAS_DAMAGED, "segment %s is damaged; `fracas verify` says what to do",
                            segments->known.segment[s].name);
     if (segments->reader && segments->current == s && (segments->parts & parts) == parts)
         return FRACAS_OK;
