@@ -74,6 +74,8 @@ expect 0 "$fracas" status failed
 said 'point 1 replica 5, 3 attempts'
 expect 1 "$fracas" merge failed
 cmp failed.h5 failed/study.h5 || fail "made anew, study.h5 differs"
+expect 1 "$fracas" export failed/study.h5 --study handed
+cmp failed.h5 handed/study.h5 || fail "handed on, study.h5 differs"
 expect 0 "$fracas" verify failed --full
 printf 'no index' > failed/index.sqlite
 expect 0 "$fracas" reindex failed

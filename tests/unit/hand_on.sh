@@ -152,6 +152,10 @@ for what in seed word; do
     expect 5 "$fracas" export $what --study never
     [ ! -e never ]
 done
+for command in plan sample; do
+    expect 5 "$fracas" $command word/study.h5
+    said 'the campaign in the file is damaged'
+done
 "$fracas" verify seed > said 2>&1 || true
 said '/campaign is not the campaign of its results'
 # Results of another version are looked at, and not gone on with: its campaign is computed anew.
