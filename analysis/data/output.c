@@ -44,11 +44,26 @@ static bool has_text(const char *folder, const char *name, const char *text)
     return strstr(start, text) != NULL;
 }
 
-/* An index.html or a datapackage.json of fracas, or the summary.json of a report that was cut off
- * before its index.html. */
+bool fracas_output_begun(const char *folder, const char *name)
+{
+    const size_t size = strlen(name);
+    DIR *found = opendir(folder);
+    bool begun = false;
+    for (const struct dirent *entry; found && !begun && (entry = readdir(found));) {
+        const char *is = entry->d_name;
+        begun = *is == '.' && strncmp(is + 1, name, size) == 0 && is[size + 1] == '.' &&
+                is[size + 2] && !is[size + 2 + strspn(is + size + 2, "0123456789")];
+    }
+    if (found) closedir(found);
+    return begun;
+}
+
+/* An index.html or a datapackage.json of fracas; of one that was cut off before it the summary.json
+ * of a report, or the begun datapackage.json of an export. */
 static bool is_ours(const char *folder)
 {
-    return has_text(folder, "index.html", " \u00b7 fracas</title>") ||
+    return fracas_output_begun(folder, "datapackage.json") ||
+           has_text(folder, "index.html", " \u00b7 fracas</title>") ||
            has_text(folder, "summary.json", "\"stale_fits\": ") ||
            has_text(folder, "datapackage.json", "of a campaign of fracas");
 }

@@ -5,6 +5,7 @@
 
 #include "base/err.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 
 typedef struct {
@@ -23,12 +24,15 @@ FRACAS_MUST_USE fracas_err fracas_output_folder_in(const char *wanted, const cha
                                                    const char *name, char **folder);
 
 /* FRACAS_USAGE if the folder has a file of this name that no report or export wrote: an index.html
- * or a datapackage.json of fracas beside it tells. */
+ * or a datapackage.json of fracas beside it tells, or what is left of one that was cut off. */
 FRACAS_MUST_USE fracas_err fracas_output_free(const char *folder, const char *const *name,
                                               size_t count);
 
 /* FRACAS_USAGE if the folder has a file and neither index.html nor datapackage.json of fracas. */
 FRACAS_MUST_USE fracas_err fracas_output_empty(const char *folder);
+
+/* True if a program writes FOLDER/NAME, or was cut off while it did: .NAME.PID is there. */
+bool fracas_output_begun(const char *folder, const char *name);
 
 /* Starts folder/name under a temporary name beside it. FRACAS_ENVIRONMENT if it cannot. */
 FRACAS_MUST_USE fracas_err fracas_output_open(const char *folder, const char *name,

@@ -10,6 +10,7 @@
 
 #include <errno.h>
 #include <inttypes.h>
+#include <limits.h>
 #include <stdio.h>
 #include <unistd.h>
 
@@ -153,12 +154,13 @@ static fracas_err remove_file(const char *folder, const char *name, bool *there)
 }
 
 /* Removes the files of an earlier package: the new one must not name them, and its histories and
- * probes are others. Where no package was, the others are somebody else's. */
-static fracas_err remove_package(const char *folder)
+ * probes are others. Where no package was, nor one `begun` and cut off, the others are somebody
+ * else's. */
+static fracas_err remove_package(const char *folder, bool begun)
 {
     bool there;
     TRY(remove_file(folder, package_file, &there));
-    for (size_t i = 0; there && i < SOMETIMES; i++) {
+    for (size_t i = 0; (there || begun) && i < SOMETIMES; i++) {
         char name[64];
         bool had;
         FRACAS_PRINT(name, "%s.csv", sometimes[i]->name);
@@ -214,6 +216,22 @@ static fracas_err check_cracks(const fracas_analysis *analysis)
     return FRACAS_OK;
 }
 
+/* The tables, in an empty package's folder; removed where one fails: without a package they would
+ * be somebody's own. */
+static fracas_err write_tables(const fracas_csv_table *const *table,
+                               const fracas_analysis *analysis, const char *folder)
+{
+    fracas_err err = FRACAS_OK;
+    size_t written = 0;
+    while (table[written] && !(err = fracas_csv_file(table[written], analysis, folder))) written++;
+    for (size_t i = 0; err && i < written; i++) {
+        char path[PATH_MAX];
+        if (FRACAS_PRINT(path, "%s/%s.csv", folder, table[i]->name) < (int)sizeof path)
+            unlink(path);
+    }
+    return err;
+}
+
 fracas_err fracas_export_write(const fracas_analysis *analysis, const char *folder,
                                fracas_export_more more)
 {
@@ -222,8 +240,10 @@ fracas_err fracas_export_write(const fracas_analysis *analysis, const char *fold
     if (more.cracks) TRY(check_cracks(analysis));
     choose_tables(analysis, more, table);
     TRY(fracas_output_folder(folder));
-    TRY(remove_package(folder));
-    for (size_t i = 0; table[i]; i++) TRY(fracas_csv_file(table[i], analysis, folder));
-    TRY(fracas_output_open(folder, package_file, &output));
-    return fracas_output_close(&output, put_package(analysis, table, folder, output.file));
+    const bool begun = fracas_output_begun(folder, package_file);
+    TRY(fracas_output_open(folder, package_file, &output)); /* first: it tells whose tables are */
+    fracas_err err = remove_package(folder, begun);
+    if (!err) err = write_tables(table, analysis, folder);
+    if (!err) err = put_package(analysis, table, folder, output.file);
+    return fracas_output_close(&output, err);
 }

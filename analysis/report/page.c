@@ -205,10 +205,11 @@ static fracas_err write_tables(const fracas_analysis *analysis, const char *fold
                                const fracas_shown_fits *shown)
 {
     fracas_output_file output;
-    for (size_t i = 0; tables[i]; i++) TRY(fracas_csv_file(tables[i], analysis, folder));
-    TRY(fracas_output_open(folder, "summary.json", &output));
+    TRY(fracas_output_open(folder, "summary.json", &output)); /* first: it tells whose they are */
     fracas_summary_write(analysis, shown, analysis->table->npoints > MOST_WHOLE, output.file);
-    return fracas_output_close(&output, FRACAS_OK);
+    TRY(fracas_output_close(&output, FRACAS_OK));
+    for (size_t i = 0; tables[i]; i++) TRY(fracas_csv_file(tables[i], analysis, folder));
+    return FRACAS_OK;
 }
 
 fracas_err fracas_report_write(const fracas_analysis *analysis, const char *study,

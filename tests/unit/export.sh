@@ -58,6 +58,29 @@ expect 6 limited
 said 'cannot write small/'
 [ ! -e small/datapackage.json ] || fail "a package that is not whole"
 [ -z "$(ls -A small | grep '^\.')" ] || fail "temporary files are left"
+expect 0 "$fracas" export one --to small # as after a fault, so after a cut: no table is in the way
+check one small
+for command in "export one --histories" "report one --quiet"; do
+    case $command in
+    export*) to=--to first=.datapackage.json.4194305 ;;
+    *) to=-o first=summary.json ;;
+    esac
+    rm -rf whole cut
+    # shellcheck disable=SC2086
+    expect 0 "$fracas" $command $to whole
+    mkdir cut
+    [ $to = --to ] && : > cut/$first || cp whole/$first cut
+    cp whole/points.csv cut
+    [ $to = -o ] || cp whole/histories.csv cut
+    # shellcheck disable=SC2086
+    expect 0 "$fracas" ${command%--histories} $to cut
+    [ ! -e cut/histories.csv ] || fail "a table of the export that was cut off"
+done
+mkdir mine
+echo mine > mine/points.csv
+: > mine/.datapackage.json.swp
+expect 2 "$fracas" export one --to mine
+said 'mine/points.csv is there already'
 mkdir own
 touch own/histories.csv # somebody else's: there was no package
 expect 0 "$fracas" export one --to own
