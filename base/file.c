@@ -4,8 +4,10 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <ftw.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 /* 0 for a file, else why it is none. */
@@ -92,6 +94,20 @@ bool fracas_folder_is_own(const char *path)
 bool fracas_folder_create(const char *path)
 {
     return !mkdir(path, 0777) || (errno == EEXIST && fracas_folder_is_own(path));
+}
+
+fracas_err fracas_file_set_aside(const char *path, char **aside)
+{
+    char stamp[32];
+    struct tm utc;
+    const time_t now = time(NULL);
+    strftime(stamp, sizeof stamp, "%Y%m%dT%H%M%SZ", gmtime_r(&now, &utc));
+    TRY(fracas_path(aside, "%s.before-%s-%ld", path, stamp, (long)getpid()));
+    if (!rename(path, *aside)) return FRACAS_OK;
+    const int reason = errno;
+    free(*aside);
+    *aside = NULL;
+    return reason == ENOENT ? FRACAS_OK : fracas_fail_system(reason, "cannot rename %s", path);
 }
 
 static int remove_one(const char *path, const struct stat *info, int type, struct FTW *place)

@@ -7,6 +7,8 @@
 #ifndef FRACAS_BASE_FILE_H
 #define FRACAS_BASE_FILE_H
 
+#include "base/err.h"
+
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -24,6 +26,10 @@ FILE *fracas_file_stream(int fd, const char *mode);
 bool fracas_file_begins(const char *path, const char *text);
 /* True if both are there and are one file, by whatever names. */
 bool fracas_file_same(const char *one, const char *other);
+
+/* Gives a file the name PATH.before-TIME-PID, which *aside has, freed by the caller; NULL: nothing
+ * is there. FRACAS_ENVIRONMENT if it cannot. */
+FRACAS_MUST_USE fracas_err fracas_file_set_aside(const char *path, char **aside);
 
 /* True where a file may be written: nothing is there, or a file and no link. False, and errno.
  */

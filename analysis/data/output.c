@@ -58,19 +58,21 @@ bool fracas_output_begun(const char *folder, const char *name)
     return begun;
 }
 
-/* An index.html or a datapackage.json of fracas; of one that was cut off before it the summary.json
- * of a report, or the begun datapackage.json of an export. */
-static bool is_ours(const char *folder)
+bool fracas_output_has_page(const char *folder)
 {
-    return fracas_output_begun(folder, "datapackage.json") ||
-           has_text(folder, "index.html", " \u00b7 fracas</title>") ||
+    return has_text(folder, FRACAS_OUTPUT_PAGE, " \u00b7 fracas</title>");
+}
+
+bool fracas_output_is_ours(const char *folder)
+{
+    return fracas_output_begun(folder, "datapackage.json") || fracas_output_has_page(folder) ||
            has_text(folder, "summary.json", "\"stale_fits\": ") ||
            has_text(folder, "datapackage.json", "of a campaign of fracas");
 }
 
 fracas_err fracas_output_empty(const char *folder)
 {
-    DIR *found = is_ours(folder) ? NULL : opendir(folder);
+    DIR *found = fracas_output_is_ours(folder) ? NULL : opendir(folder);
     fracas_err err = FRACAS_OK;
     if (!found) return FRACAS_OK; /* ours, or to be made */
     for (const struct dirent *entry; !err && (entry = readdir(found));)
@@ -85,7 +87,7 @@ fracas_err fracas_output_empty(const char *folder)
 
 fracas_err fracas_output_free(const char *folder, const char *const *name, size_t count)
 {
-    if (is_ours(folder)) return FRACAS_OK;
+    if (fracas_output_is_ours(folder)) return FRACAS_OK;
     for (size_t i = 0; i < count; i++) {
         OWNED char *path = NULL;
         TRY(fracas_path(&path, "%s/%s", folder, name[i]));

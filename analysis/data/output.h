@@ -14,6 +14,13 @@ typedef struct {
     char *temporary; /* name until it is whole */
 } fracas_output_file;
 
+#define FRACAS_OUTPUT_PAGE "index.html"
+
+/* True if the folder has a page of fracas. */
+bool fracas_output_has_page(const char *folder);
+/* The same, a package, or what a report or an export leaves that is cut off before these. */
+bool fracas_output_is_ours(const char *folder);
+
 /* Makes the folder, which may be there. FRACAS_USAGE if it is a file, FRACAS_ENVIRONMENT if it
  * cannot be made. */
 FRACAS_MUST_USE fracas_err fracas_output_folder(const char *folder);

@@ -122,7 +122,9 @@ static fracas_err forget(void *context, const char *path, const char *name)
     for (size_t k = 0; k < FRACAS_COUNT(kinds); k++) of_kind = of_kind || !strcmp(dot, kinds[k]);
     for (size_t k = 0; k < FRACAS_COUNT(marks); k++)
         of_figure = of_figure || strstr(stem, marks[k]);
-    if (of_kind && of_figure && !is_drawn(context, stem)) unlink(path);
+    const fracas_page *page = context;
+    if (of_kind && of_figure && !is_drawn(page, stem) && !fracas_foreign_has(page->foreign, name))
+        unlink(path);
     return FRACAS_OK;
 }
 
@@ -137,7 +139,8 @@ fracas_err fracas_page_write(fracas_page *page, const char *title, const char *l
     if (!err)
         err = fracas_convert(page->folder, page->drawing, page->ndrawings, FRACAS_DRAWING_PDF);
     fracas_output_file output;
-    if (!err) err = fracas_output_open(page->folder, "index.html", &output);
+    if (!err) err = fracas_foreign_aside(page->foreign, page->folder, FRACAS_OUTPUT_PAGE);
+    if (!err) err = fracas_output_open(page->folder, FRACAS_OUTPUT_PAGE, &output);
     if (!err) {
         put_page(title, lead, section, count, &of, output.file);
         err = fracas_output_close(&output, FRACAS_OK);
@@ -191,6 +194,7 @@ static void say_what(const fracas_analysis *analysis, char *text, size_t size)
 
 /* ---- files ---- */
 
+#define SUMMARY "summary.json"
 enum { MOST_WHOLE = 100 }; /* points whose summary is whole: a whole one has some 10 kB a point */
 
 static const fracas_csv_table *const tables[] = {&fracas_csv_table_points,
@@ -201,11 +205,18 @@ static const fracas_csv_table *const tables[] = {&fracas_csv_table_points,
                                                  &fracas_csv_table_effects,
                                                  NULL};
 
+/* `foreign` gets out of their way. */
 static fracas_err write_tables(const fracas_analysis *analysis, const char *folder,
-                               const fracas_shown_fits *shown)
+                               const fracas_shown_fits *shown, const fracas_foreign *foreign)
 {
     fracas_output_file output;
-    TRY(fracas_output_open(folder, "summary.json", &output)); /* first: it tells whose they are */
+    TRY(fracas_foreign_aside(foreign, folder, SUMMARY));
+    for (size_t i = 0; tables[i]; i++) {
+        char name[64];
+        FRACAS_PRINT(name, "%s.csv", tables[i]->name);
+        TRY(fracas_foreign_aside(foreign, folder, name));
+    }
+    TRY(fracas_output_open(folder, SUMMARY, &output)); /* first: it tells whose they are */
     fracas_summary_write(analysis, shown, analysis->table->npoints > MOST_WHOLE, output.file);
     TRY(fracas_output_close(&output, FRACAS_OK));
     for (size_t i = 0; tables[i]; i++) TRY(fracas_csv_file(tables[i], analysis, folder));
@@ -217,15 +228,17 @@ fracas_err fracas_report_write(const fracas_analysis *analysis, const char *stud
 {
     OWNED char *folder = NULL;
     FRACAS_CLEARED(fracas_shown_fits) shown = {0};
+    FRACAS_CLEARED(fracas_foreign) foreign = {0};
     char lead[512];
     TRY(fracas_output_folder_in(wanted, study, "report", &folder));
     if (wanted) {
-        static const char *const others[] = {"index.html", "summary.json"};
+        static const char *const others[] = {FRACAS_OUTPUT_PAGE, SUMMARY};
         TRY(fracas_output_free(folder, others, FRACAS_COUNT(others)));
         TRY(fracas_csv_free(tables, folder));
     }
     TRY(fracas_shown_fits_read(study, analysis, &shown));
-    TRY(write_tables(analysis, folder, &shown));
+    TRY(fracas_foreign_find(folder, &foreign));
+    TRY(write_tables(analysis, folder, &shown, &foreign));
     say_what(analysis, lead, sizeof lead);
     if (refresh)
         fracas_append(lead, sizeof lead, "; ", "this page loads itself again every %d s", refresh);
@@ -233,6 +246,7 @@ fracas_err fracas_report_write(const fracas_analysis *analysis, const char *stud
                         .folder = folder,
                         .fits = shown.fits,
                         .shown = &shown,
+                        .foreign = &foreign,
                         .refresh = refresh};
     return fracas_page_write(&page, analysis->name, lead, sections, FRACAS_COUNT(sections));
 }

@@ -22,6 +22,18 @@ void fracas_page_grid_end(fracas_page *page)
     page->grid_open = false;
 }
 
+static const char *const kind_of_file[] = {"svg", "pdf", "csv"};
+
+fracas_err fracas_page_make_room(const fracas_page *page, const char *file)
+{
+    for (size_t k = 0; k < FRACAS_COUNT(kind_of_file); k++) {
+        char name[FRACAS_DRAWING + 4];
+        FRACAS_PRINT(name, "%s.%s", file, kind_of_file[k]);
+        TRY(fracas_foreign_aside(page->foreign, page->folder, name));
+    }
+    return FRACAS_OK;
+}
+
 fracas_err fracas_page_drew(fracas_page *page, const char *file)
 {
     TRY(fracas_grow(&page->drawing, sizeof *page->drawing, page->ndrawings, &page->room,
@@ -136,6 +148,7 @@ static fracas_err write_files(fracas_page *page, const fracas_chart *chart)
 {
     char name[FRACAS_DRAWING + 4];
     fracas_output_file output;
+    TRY(fracas_page_make_room(page, chart->file));
     FRACAS_PRINT(name, "%s.svg", chart->file);
     TRY(fracas_output_open(page->folder, name, &output));
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", output.file);
@@ -151,10 +164,11 @@ static fracas_err write_files(fracas_page *page, const fracas_chart *chart)
 /* A figure that is gone leaves no files of an older report behind. */
 static void forget_files(const fracas_page *page, const char *name)
 {
-    static const char *const kind[] = {"svg", "pdf", "csv"};
-    for (size_t k = 0; k < sizeof kind / sizeof *kind; k++) {
-        char path[PATH_MAX];
-        if (FRACAS_PRINT(path, "%s/%s.%s", page->folder, name, kind[k]) < (int)sizeof path)
+    for (size_t k = 0; k < FRACAS_COUNT(kind_of_file); k++) {
+        char file[FRACAS_DRAWING + 4], path[PATH_MAX];
+        FRACAS_PRINT(file, "%s.%s", name, kind_of_file[k]);
+        if (!fracas_foreign_has(page->foreign, file) &&
+            FRACAS_PRINT(path, "%s/%s", page->folder, file) < (int)sizeof path)
             unlink(path);
     }
 }

@@ -124,6 +124,7 @@ static fracas_err write_pattern(fracas_page *page, const fracas_picture *picture
     char name[sizeof picture->file + 8];
     FRACAS_PRINT(name, "%s.svg", picture->file);
     fracas_output_file output;
+    TRY(fracas_page_make_room(page, picture->file));
     TRY(fracas_output_open(page->folder, name, &output));
     fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n", output.file);
     fracas_picture_write(picture, true, output.file);

@@ -114,6 +114,7 @@ static fracas_err put_moment(const gallery *to, const fracas_broken_surface *sur
     }
     FRACAS_PRINT(name, "surface-point-%zu-%zu", p, picture_number);
     FRACAS_PRINT(file, "%s.svg", name);
+    TRY(fracas_page_make_room(to->page, name));
     TRY(fracas_page_drew(to->page, name));
     fprintf(to->page->out, "<figure id=\"%s\" data-time=\"%s\">\n", name, at.text);
     TRY(fracas_broken_surface_draw(surface, time, &picture, to->page->out));
@@ -194,6 +195,7 @@ static fracas_err put_row(gallery *to, const fracas_broken_surface *surface, siz
     to->drawn += count * weight_of(&surface->mesh);
     if (filmed) to->filmed += film;
     fracas_output_file output;
+    TRY(fracas_page_make_room(to->page, name));
     TRY(fracas_output_open(to->page->folder, file, &output));
     write_interfaces(surface, output.file);
     return fracas_output_close(&output, FRACAS_OK);

@@ -48,6 +48,26 @@ said 'keyed/report/index.html is of earlier results: `fracas report keyed`'
 expect 0 "$fracas" run one.yaml --study bare --jobs 2 --no-report
 ! grep -q 'of earlier results' said || fail "a report that is not there is called old"
 
+# What no report wrote is not lost: a file in the place of one of its own gets another name, and any other stays.
+cp -r one own
+rm -r own/report
+mkdir own/report
+for name in sizes.csv mine-point-3.csv notes.txt; do echo mine > own/report/$name; done
+expect 0 "$fracas" report own --quiet
+said 'own/report/sizes.csv was of no report; it is own/report/sizes.csv.before-'
+[ "$(wc -l < said)" -eq 1 ] || fail "other files were moved"
+for name in sizes.csv.before-* mine-point-3.csv notes.txt; do
+    # shellcheck disable=SC2086
+    [ "$(cat own/report/$name)" = mine ] || fail "$name is lost"
+done
+echo yours > own/report/yours-point-3.csv
+expect 0 "$fracas" report own --quiet --points 0
+[ ! -s said ] || fail "a report takes its own files for somebody else's"
+[ ! -e own/report/sizes-point-1.csv ] || fail "a figure of the report before is left"
+expect 0 "$fracas" report own --quiet --points all
+[ ! -s said ] || fail "a report takes its own files for somebody else's"
+[ "$(cat own/report/yours-point-3.csv)" = yours ] || fail "a file of no report is lost"
+
 cat > planted.py <<'END'
 import copy, json, os, sys
 sys.path[:0] = [os.path.join(sys.argv[1], "tests/support")]

@@ -13,7 +13,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 /* ---- folders and whole files ---- */
@@ -191,14 +190,10 @@ fracas_err fracas_campaign_keeps(const fracas_campaign *campaign, const char *fo
 /* Gives a file with changes by hand another name, which *said tells. */
 static fracas_err set_aside(const char *path, char **said)
 {
-    char stamp[32];
-    struct tm utc;
-    const time_t now = time(NULL);
     OWNED char *aside = NULL;
-    strftime(stamp, sizeof stamp, "%Y%m%dT%H%M%SZ", gmtime_r(&now, &utc));
-    TRY(fracas_path(&aside, "%s.before-%s-%ld", path, stamp, (long)getpid()));
-    if (rename(path, aside)) return fracas_fail_system(errno, "cannot rename %s", path);
-    return fracas_path(said, "%s had changes by hand; it is %s now\n", path, aside);
+    TRY(fracas_file_set_aside(path, &aside));
+    return aside ? fracas_path(said, "%s had changes by hand; it is %s now\n", path, aside)
+                 : FRACAS_OK;
 }
 
 fracas_err fracas_campaign_keep(const fracas_campaign *campaign, const char *folder,
