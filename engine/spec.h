@@ -82,16 +82,19 @@ typedef struct {
 enum { FRACAS_LOADINGS = 3 }; /* at most, at a point */
 /* How a surface starts, beside its load. NaN: not given; 0: none. */
 typedef struct {
-    double velocity[3];    /* m/s */
-    double spin;           /* rad/s, about an axis along z */
-    double at[3], within;  /* m: a place of this axis; nodes that far from it move */
-    double from[3], to[3]; /* m: they lie within these limits */
-    double strain[3];      /* 1, along x, y, z */
-    double strain_xy;      /* 1 */
-    double stress[2];      /* Pa, along x, y */
-    double stress_xy;      /* Pa */
-    double temperature;    /* K */
-    double expansion;      /* 1/K */
+    double velocity[3];      /* m/s */
+    double radial;           /* m/s, away from `at` or the axis */
+    double spin;             /* rad/s, about an axis along z or `axis` */
+    const fracas_kind *axis; /* x, y, z, through `at`; NULL: none */
+    double half_waves[3];    /* 1: half waves of a sine from `from` to `to` */
+    double at[3], within;    /* m: a place of this axis; nodes that far from it move */
+    double from[3], to[3];   /* m: they lie within these limits */
+    double strain[3];        /* 1, along x, y, z */
+    double strain_xy;        /* 1 */
+    double stress[2];        /* Pa, along x, y */
+    double stress_xy;        /* Pa */
+    double temperature;      /* K */
+    double expansion;        /* 1/K */
 } fracas_initial;
 
 typedef struct {

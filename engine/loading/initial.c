@@ -1,12 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/loading/initial.h"
 
+#include "base/elementary.h"
+#include "engine/loading/load.h"
+
 #include <math.h>
 
 #define KEY(key, place, measure, models, what)                                            \
     FRACAS_BRACES(.name = key, .type = FRACAS_REAL, .unit = measure, .doc = what,         \
                   .fallback = FRACAS_REQUIRED, .minimum = -INFINITY, .maximum = INFINITY, \
                   .offset = offsetof(fracas_initial, place), .only = models, .optional = true)
+#define HALF_WAVES(axis, i, models)                                                             \
+    FRACAS_BRACES(.name = "half_waves_" axis, .type = FRACAS_REAL, .unit = "1",                 \
+                  .doc = "the velocity is a sine along " axis " with so many half waves, from " \
+                         "from_" axis " to to_" axis,                                           \
+                  .fallback = FRACAS_REQUIRED, .maximum = INFINITY, .minimum_open = true,       \
+                  .offset = offsetof(fracas_initial, half_waves[i]), .only = models,            \
+                  .optional = true)
 #define ALL FRACAS_GROUP_SURFACES
 #define SHELL FRACAS_GROUP_SHELL
 
@@ -36,6 +46,15 @@ static const fracas_param params[] = {
     KEY("to_y", to[1], "m", ALL, "nodes with a larger y start without it"),
     KEY("from_z", from[2], "m", SHELL, "nodes with a smaller z start without it"),
     KEY("to_z", to[2], "m", SHELL, "nodes with a larger z start without it"),
+    KEY("radial", radial, "m/s", ALL,
+        "velocity away from at_x, at_y, at_z, or from an axis through it, beside those above"),
+    {FRACAS_ONE_OF("axis", fracas_front_axes, offsetof(fracas_initial, axis),
+                   "direction of the axis of radial and spin, through at_x, at_y, at_z; without "
+                   "it radial is away from that place, and spin about z"),
+     .only = SHELL, .optional = true},
+    HALF_WAVES("x", 0, ALL),
+    HALF_WAVES("y", 1, ALL),
+    HALF_WAVES("z", 2, SHELL),
     KEY("strain_x", strain[0], "1", ALL, "uniform strain along x, from the stress-free state"),
     KEY("strain_y", strain[1], "1", ALL, "along y"),
     KEY("strain_z", strain[2], "1", SHELL, "along z"),
@@ -63,7 +82,7 @@ static bool is_set(double value)
 
 bool fracas_initial_moves(const fracas_initial *initial)
 {
-    bool moves = is_set(initial->spin);
+    bool moves = is_set(initial->spin) || is_set(initial->radial);
     for (int i = 0; i < 3; i++) moves = moves || is_set(initial->velocity[i]);
     return moves;
 }
@@ -77,7 +96,7 @@ static bool is_limited(const fracas_initial *initial, int i)
 
 bool fracas_initial_parts(const fracas_initial *initial)
 {
-    bool parts = initial->within > 0;
+    bool parts = initial->within > 0 || is_set(initial->radial);
     for (int i = 0; i < 3; i++) parts = parts || is_limited(initial, i);
     return parts && fracas_initial_moves(initial);
 }
@@ -101,18 +120,46 @@ static bool has(const fracas_initial *initial, const double x[3])
     return !(initial->within > 0) || sqrt(square) <= initial->within + slack;
 }
 
+/* s(x): 1 without half waves  (initial.2) */
+static double wave_at(const fracas_initial *initial, const double x[3])
+{
+    double wave = 1;
+    for (int i = 0; i < 3; i++)
+        if (initial->half_waves[i] > 0) /* NaN: no */
+            wave *= fracas_sinpi(initial->half_waves[i] * (x[i] - initial->from[i]) /
+                                 (initial->to[i] - initial->from[i]));
+    return wave;
+}
+
+/* Component of the axis; none: -1. */
+static int axis_of(const fracas_initial *initial)
+{
+    for (int i = 0; i < 3; i++)
+        if (initial->axis == fracas_front_axes[i]) return i;
+    return -1;
+}
+
 /* (initial.1) */
 void fracas_initial_velocity(const fracas_initial *initial, const double x[3], double velocity[3])
 {
-    const double spin = given(initial->spin);
+    const int axis = axis_of(initial), about = axis < 0 ? 2 : axis;
+    const double spin = given(initial->spin), wave = wave_at(initial, x);
+    double from[3], square = 0;
     for (int i = 0; i < 3; i++) velocity[i] = 0;
     if (!has(initial, x)) return;
-    for (int i = 0; i < 3; i++) velocity[i] = given(initial->velocity[i]);
-    velocity[0] -= spin * (x[1] - given(initial->at[1]));
-    velocity[1] += spin * (x[0] - given(initial->at[0]));
+    for (int i = 0; i < 3; i++) {
+        velocity[i] = given(initial->velocity[i]);
+        from[i] = x[i] - given(initial->at[i]);
+        if (i != axis) square += from[i] * from[i];
+    }
+    for (int i = 0; i < 3 && square > 0; i++)
+        if (i != axis) velocity[i] += given(initial->radial) * (from[i] / sqrt(square));
+    velocity[(about + 1) % 3] -= spin * from[(about + 2) % 3];
+    velocity[(about + 2) % 3] += spin * from[(about + 1) % 3];
+    for (int i = 0; i < 3; i++) velocity[i] *= wave;
 }
 
-/* (initial.2) */
+/* (initial.3) */
 fracas_initial_strain fracas_initial_strain_of(const fracas_spec *spec)
 {
     const fracas_initial *initial = &spec->initial;
@@ -135,7 +182,7 @@ bool fracas_initial_is_strained(const fracas_spec *spec)
     return is_set(s.x) || is_set(s.y) || is_set(s.z) || is_set(s.xy);
 }
 
-/* (initial.3) */
+/* (initial.4) */
 void fracas_initial_displacement(const fracas_initial_strain *s, const double x[3],
                                  double displacement[3])
 {
@@ -188,7 +235,7 @@ double fracas_initial_largest_strain(const fracas_spec *spec)
 /* One is given, also 0 as in a sweep. */
 static bool has_velocity(const fracas_initial *initial)
 {
-    bool has = !isnan(initial->spin);
+    bool has = !isnan(initial->spin) || !isnan(initial->radial);
     for (int i = 0; i < 3; i++)
         has = has || (i < 2 ? !isnan(initial->velocity[i]) : is_set(initial->velocity[i]));
     return has;
@@ -216,13 +263,38 @@ static fracas_err check_region(const fracas_initial *initial)
         middle = middle || is_set(initial->at[i]);
     }
     if (limited && !has_velocity(initial))
-        return fracas_fail(FRACAS_USAGE,
-                           "limits of a region are given, but no velocity_x, _y, _z or spin: the "
-                           "region is that of the velocity, strains and stresses are those of all "
-                           "of the body");
-    if (middle && !(initial->within > 0) && isnan(initial->spin))
-        return fracas_fail(FRACAS_USAGE, "at_x, at_y or at_z is given, but neither spin nor "
+        return fracas_fail(
+            FRACAS_USAGE,
+            "limits of a region are given, but no velocity_x, _y, _z, radial or "
+            "spin: the region is that of the velocity, strains and stresses are those of all "
+            "of the body");
+    if (middle && !(initial->within > 0) && isnan(initial->spin) && isnan(initial->radial))
+        return fracas_fail(FRACAS_USAGE, "at_x, at_y or at_z is given, but no spin, radial or "
                                          "within, whose middle it would be");
+    if (initial->axis && isnan(initial->spin) && isnan(initial->radial))
+        return fracas_fail(FRACAS_USAGE,
+                           "axis is %s, but there is no radial and no spin, whose "
+                           "axis it would be",
+                           initial->axis->name);
+    return FRACAS_OK;
+}
+
+static fracas_err check_waves(const fracas_initial *initial)
+{
+    static const char axis[] = "xyz";
+    for (int i = 0; i < 3; i++) {
+        if (!(initial->half_waves[i] > 0)) continue;
+        if (!has_velocity(initial))
+            return fracas_fail(FRACAS_USAGE,
+                               "half_waves_%c is %g, but no velocity_x, _y, _z, radial or spin is "
+                               "given, which they would shape",
+                               axis[i], initial->half_waves[i]);
+        if (isnan(initial->from[i]) || isnan(initial->to[i]))
+            return fracas_fail(FRACAS_USAGE,
+                               "half_waves_%c is %g: give from_%c and to_%c too, where the sine "
+                               "begins and ends",
+                               axis[i], initial->half_waves[i], axis[i], axis[i]);
+    }
     return FRACAS_OK;
 }
 
@@ -236,6 +308,7 @@ static fracas_err check_initial(const void *section)
                            "material's, for instance expansion_coefficient: 8e-6 1/K",
                            initial->temperature);
     TRY(check_limits(initial));
+    TRY(check_waves(initial));
     return check_region(initial);
 }
 

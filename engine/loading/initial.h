@@ -10,14 +10,14 @@ extern const fracas_section fracas_initial_section;
 /* True if some node may start with a velocity. */
 bool fracas_initial_moves(const fracas_initial *initial);
 
-/* True if such velocities strain a free body: only a part of it has them. */
+/* True if such velocities strain a free body: only a part of it has them, or they part. */
 bool fracas_initial_parts(const fracas_initial *initial);
 
 /* True if stresses along x and y are given: the body must be flat. */
 bool fracas_initial_has_stress(const fracas_initial *initial);
 
-/* Velocity at a place x before any strain [m/s]: (velocity + spin e_z x (x - at)) where the region
- * has x, else 0  (initial.1) */
+/* Velocity at a place x before any strain [m/s]: (velocity + radial e_r + spin e_axis x (x - at))
+ * s(x) where the region has x, else 0  (initial.1) */
 void fracas_initial_velocity(const fracas_initial *initial, const double x[3], double velocity[3]);
 
 /* A uniform strain: tensor components [1]. */
@@ -25,12 +25,12 @@ typedef struct {
     double x, y, z, xy;
 } fracas_initial_strain;
 
-/* eps_0 of strains, stresses and temperature together, 0 where none is given  (initial.2) */
+/* eps_0 of strains, stresses and temperature together, 0 where none is given  (initial.3) */
 fracas_initial_strain fracas_initial_strain_of(const fracas_spec *spec);
 
 bool fracas_initial_is_strained(const fracas_spec *spec);
 
-/* u_0 = eps_0 x at a place x [m]  (initial.3) */
+/* u_0 = eps_0 x at a place x [m]  (initial.4) */
 void fracas_initial_displacement(const fracas_initial_strain *strain, const double x[3],
                                  double displacement[3]);
 

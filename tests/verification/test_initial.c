@@ -355,6 +355,7 @@ static void starts_without_sense_are_refused(void **unused)
     start = (fracas_initial){.within = NAN};
     FAILS(fracas_initial_section.check(&start), FRACAS_USAGE, "to_x is 0 m", "not beyond from_x");
     const fracas_initial none = {.velocity = {NAN, NAN},
+                                 .radial = NAN,
                                  .spin = NAN,
                                  .at = {NAN, NAN},
                                  .within = NAN,
@@ -368,7 +369,7 @@ static void starts_without_sense_are_refused(void **unused)
     OK(fracas_initial_section.check(&start));
     start = none;
     start.at[0] = 1;
-    FAILS(fracas_initial_section.check(&start), FRACAS_USAGE, "neither spin nor within", "");
+    FAILS(fracas_initial_section.check(&start), FRACAS_USAGE, "no spin, radial or within", "");
     start = (fracas_initial){.temperature = 5};
     FAILS(fracas_initial_section.check(&start), FRACAS_USAGE, "temperature is 5 K", "8e-6 1/K");
 }

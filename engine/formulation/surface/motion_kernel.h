@@ -35,7 +35,7 @@ __attribute__((noinline, cold)) static void surface_place_moved(const surface_co
         if (!(c->tables->moved[e] >> i & 1)) continue;
         const vd moved = path * lanes_set(direction[i]);
         lanes_store(surface_at(at, SURFACE_U * size + i),
-                    start ? moved + lanes_set(start[i]) : moved); /* (initial.3) */
+                    start ? moved + lanes_set(start[i]) : moved); /* (initial.4) */
     }
 }
 

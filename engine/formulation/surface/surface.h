@@ -360,7 +360,7 @@ void fracas_surface_at(const fracas_surface *surface, size_t e, double xi, doubl
 /* ---- start ---- */
 
 /* By the section `initial`: velocity [m/s], 0 of held components, and displacement [m] of unknown i
- * of element e  (initial.1), (initial.3) */
+ * of element e  (initial.1), (initial.4) */
 double fracas_surface_initial_velocity(const fracas_model *model, size_t e, size_t i);
 double fracas_surface_initial_displacement(const fracas_model *model, size_t e, size_t i);
 /* FRACAS_USAGE for stresses in a bent body, strains across a flat one, velocities of no node, and
