@@ -114,10 +114,13 @@ typedef struct {
     double ratio_z;                 /* 1, expansion of shells: as ratio, along z; NaN: 1 */
     double pressure;                /* Pa, pressure */
     double body_force[3];           /* m/s2, body-force */
-    const fracas_kind *edge;        /* traction, edge-motion: this edge */
+    const fracas_kind *edge;        /* traction, edge-motion, line-force: this edge */
     const fracas_kind *second_edge; /* edge-motion: as the first; NULL: none */
     double displacement;            /* m, edge-motion; 0: velocity */
     const fracas_kind *rise_by;     /* edge-motion: smooth, linear */
+    double line_force[3], line_across; /* N/m, line-force; across: along the surface's normal */
+    double line_from[3], line_to[3];   /* m, line-force: ends, as of a notch */
+    double line_within;                /* m, line-force: as of a notch */
     double traction[3]; /* Pa, traction: outward, along the edge, along the surface's normal */
     /* amplitude of pressure, body-force, traction (engine/loading/load.h), of which edge-motion has
      * rise and history; NaN: not given */

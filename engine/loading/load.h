@@ -13,11 +13,13 @@
 
 #include "base/profile.h"
 #include "engine/loading/loading.h"
+#include "engine/mesh/line.h"
 
 typedef enum {
     FRACAS_LOAD_ON_AREA, /* d in N/m2 of the mid-surface */
     FRACAS_LOAD_ON_MASS, /* d in m/s2 */
-    FRACAS_LOAD_ON_EDGE  /* d in N/m of an edge; of a motion without a unit */
+    FRACAS_LOAD_ON_EDGE, /* d in N/m of an edge; of a motion without a unit */
+    FRACAS_LOAD_ON_LINE  /* d in N/m of edges inside the body */
 } fracas_load_on;
 
 /* Where a load acts. */
@@ -34,8 +36,12 @@ struct fracas_load {
     void (*density)(const fracas_spec *spec, const fracas_loading *loading, const fracas_place *at,
                     double density[3]);
     /* Key of the i-th edge of the shape on which it acts, from 0; NULL after the last. NULL of
-     * loads on areas and masses. */
+     * loads on areas and masses, and on
+     * a line by its ends. */
     const char *(*edge)(const fracas_loading *loading, int i);
+    /* The line of a load on one, where it has no such key; NULL of other loads. `size`: as of
+     * fracas_line_of. */
+    fracas_line (*line)(const fracas_loading *loading, const char *section, double size);
     /* Path of a motion, from s(0) = 0 [m]; NULL: a force. */
     double (*path)(const fracas_loading *loading, const fracas_profile *history, double t);
 };

@@ -286,8 +286,9 @@ static const fracas_kind *const loadings[] = {&fracas_loading_imposed_rate,
                                               &fracas_loading_expansion,
                                               &fracas_loading_centrifugal,
                                               LOADS,
-                                              &fracas_loading_none},
-                                *const loads[] = {LOADS};
+                                              &fracas_loading_none,
+                                              &fracas_loading_line_force},
+                                *const loads[] = {LOADS, &fracas_loading_line_force};
 
 /* Members of other loadings are 0. */
 static fracas_err check_loading(const void *section)

@@ -76,7 +76,8 @@ extern const fracas_section fracas_loading_sections[FRACAS_LOADINGS];
 extern const fracas_kind fracas_loading_imposed_rate, fracas_loading_initial_velocity,
     fracas_loading_held_velocity, fracas_loading_force, fracas_loading_expansion,
     fracas_loading_centrifugal, fracas_loading_pressure, fracas_loading_body_force,
-    fracas_loading_traction, fracas_loading_edge_motion, fracas_loading_none;
+    fracas_loading_traction, fracas_loading_edge_motion, fracas_loading_none,
+    fracas_loading_line_force;
 extern const fracas_kind fracas_start_moving, fracas_start_rest;
 extern const fracas_kind fracas_axis_radial, fracas_axis_circumferential;
 

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engine/formulation/surface/loads.h"
 
+#include "base/own.h"
 #include "engine/loading/load.h"
 #include "engine/mesh/body.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* The load of a loading, but a motion. */
 static const fracas_load *force_of(const fracas_model *model, int n)
@@ -122,27 +124,29 @@ static void fill_mass_load(const forcing *of, size_t e, double *force)
     }
 }
 
-/* F_k = int N_k d ds  (loads.3) */
-static void fill_edge(const forcing *of, const fracas_surface_border *border, double *force)
+/* F_k = share int N_k d ds  (loads.3) */
+static void fill_edge(const forcing *of, const fracas_surface_border *border, double share,
+                      double *force)
 {
     static const double at[3] = FRACAS_EDGE_POINTS_2, weight[3] = FRACAS_EDGE_WEIGHTS_2;
     for (int g = 0; g < 3; g++) {
         double speed;
         const element_point p = edge_point_at(of->model->surface, border, at[g], &speed);
-        add_force(of, &p, weight[g] * speed, force);
+        add_force(of, &p, share * weight[g] * speed, force);
     }
 }
 
 /* ---- edges ---- */
 
-static bool is_loaded(const fracas_model *model, int32_t tag)
+/* A load acts on edges of this tag, inside the body or on its boundary. */
+static bool is_loaded(const fracas_model *model, int32_t tag, bool inside)
 {
     for (int n = 0; n < FRACAS_LOADINGS; n++) {
         const fracas_load *load = fracas_loading_load(&model->spec, n);
         const char *key;
         int32_t loaded;
-        for (int i = 0;
-             load && load->edge && (key = load->edge(fracas_loading_at(&model->spec, n), i)); i++)
+        if (!load || !load->edge || (load->on == FRACAS_LOAD_ON_LINE) != inside) continue;
+        for (int i = 0; (key = load->edge(fracas_loading_at(&model->spec, n), i)); i++)
             if (!fracas_shape_edge_tag(&model->spec.geometry, "edge", key, &loaded) &&
                 loaded == tag)
                 return true;
@@ -150,15 +154,26 @@ static bool is_loaded(const fracas_model *model, int32_t tag)
     return false;
 }
 
+bool fracas_surface_loads_inside(const fracas_model *model, int32_t tag)
+{
+    return is_loaded(model, tag, true);
+}
+
 int32_t fracas_surface_edge_key(const fracas_model *model, int32_t tag)
 {
     if (tag <= 0 || tag >= FRACAS_EDGES) return 0;
     const bool own = fracas_shape_edge(&model->spec, tag) || model->spec.geometry.edge[tag] ||
-                     is_loaded(model, tag);
+                     is_loaded(model, tag, false);
     return own ? tag : 0;
 }
 
 /* ---- tables ---- */
+
+static double length_of(const fracas_surface *surface, size_t interface)
+{
+    const fracas_surface_interface *of = &surface->interface[interface];
+    return fracas_surface_length(surface, of->element[0], of->edge[0]);
+}
 
 fracas_err fracas_surface_load_tag(const fracas_model *model, int n, int i, int32_t *tag)
 {
@@ -173,22 +188,51 @@ fracas_err fracas_surface_load_tag(const fracas_model *model, int n, int i, int3
         return fracas_fail(FRACAS_USAGE, "%s is not given: on which edge does it act?", asked);
     if (!key) return FRACAS_OK;
     TRY(fracas_shape_edge_tag(&model->spec.geometry, asked, key, tag));
-    for (size_t b = 0; b < surface->nborders; b++)
+    const bool inside = load->on == FRACAS_LOAD_ON_LINE;
+    for (size_t b = 0; !inside && b < surface->nborders; b++)
         if (surface->border[b].tag == *tag) return FRACAS_OK;
+    for (size_t b = 0; inside && b < surface->ninterfaces; b++)
+        if (surface->interface[b].tag == *tag) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
-                       "%s is %s, but the mesh has no edge on its boundary of the physical group "
+                       "%s is %s, but the mesh has no edge %s of the physical group "
                        "%d: give the lines that number, or the group the name %s",
-                       asked, key, (int)*tag, key);
+                       asked, key, inside ? "inside the body" : "on its boundary", (int)*tag, key);
 }
 
-/* Number of elements under the load of loading number n. */
+/* Sets on[interface] where the load of loading number n acts. *share: of its density, so that the
+ * force of a path is that of its line; 1 of a group  (loads.11) */
+static fracas_err find_line(const fracas_model *model, int n, bool *on, double *share)
+{
+    const fracas_surface *surface = model->surface;
+    const fracas_load *load = fracas_loading_load(&model->spec, n);
+    int32_t tag;
+    double all = 0, path = 0;
+    TRY(fracas_surface_load_tag(model, n, 0, &tag));
+    for (size_t i = 0; i < surface->ninterfaces; i++) {
+        on[i] = tag != 0 && surface->interface[i].tag == tag;
+        all += length_of(surface, i);
+    }
+    *share = 1;
+    if (tag != 0) return FRACAS_OK;
+    const fracas_line line = load->line(fracas_loading_at(&model->spec, n),
+                                        fracas_loading_sections[n].name,
+                                        all / (double)surface->ninterfaces);
+    TRY(fracas_line_find(&line, surface, on));
+    for (size_t i = 0; i < surface->ninterfaces; i++)
+        if (on[i]) path += length_of(surface, i);
+    *share = line.length / path;
+    return FRACAS_OK;
+}
+
+/* Number of elements under the load of loading number n, at most. */
 static fracas_err count_of(const fracas_model *model, int n, size_t *count)
 {
     const fracas_surface *surface = model->surface;
     int32_t tag;
     *count = surface->nelements;
     TRY(fracas_surface_load_tag(model, n, 0, &tag));
-    if (tag == 0) return FRACAS_OK;
+    if (tag == 0 || fracas_loading_load(&model->spec, n)->on == FRACAS_LOAD_ON_LINE)
+        return FRACAS_OK;
     *count = 0;
     for (size_t b = 0; b < surface->nborders; b++) *count += surface->border[b].tag == tag;
     return FRACAS_OK;
@@ -225,8 +269,26 @@ static void fill_edges(const forcing *of, int32_t tag)
         double speed;
         if (border->tag != tag) continue;
         const element_point middle = edge_point_at(of->model->surface, border, 0.5, &speed);
-        fill_edge(of, border, row_of(of, border->element, middle.at.x));
+        fill_edge(of, border, 1, row_of(of, border->element, middle.at.x));
     }
+}
+
+/* Half of the force goes to the element on each side. */
+static fracas_err fill_line(const forcing *of, int n)
+{
+    const fracas_surface *surface = of->model->surface;
+    OWNED bool *on = calloc(surface->ninterfaces + 1, sizeof *on);
+    double share, speed;
+    if (!on) return fracas_no_memory("a load of a body");
+    TRY(find_line(of->model, n, on, &share));
+    for (size_t i = 0; i < surface->ninterfaces; i++)
+        for (int side = 0; on[i] && side < 2; side++) {
+            const fracas_surface_border edge = {.element = surface->interface[i].element[side],
+                                                .edge = surface->interface[i].edge[side]};
+            const element_point middle = edge_point_at(surface, &edge, 0.5, &speed);
+            fill_edge(of, &edge, 0.5 * share, row_of(of, edge.element, middle.at.x));
+        }
+    return FRACAS_OK;
 }
 
 static void fill_elements(const forcing *of)
@@ -286,7 +348,8 @@ static fracas_err fill_force(const fracas_model *model, fracas_surface_tables *t
     t->force[t->forces++] = n;
     TRY(fracas_load_history(of.loading, &t->history[n]));
     TRY(fracas_surface_load_tag(model, n, 0, &tag));
-    if (tag != 0) fill_edges(&of, tag);
+    if (of.load->on == FRACAS_LOAD_ON_LINE) TRY(fill_line(&of, n));
+    else if (tag != 0) fill_edges(&of, tag);
     else fill_elements(&of);
     return check_moves(&of, n);
 }

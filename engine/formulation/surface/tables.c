@@ -262,7 +262,8 @@ static fracas_err check_edge_tags(const fracas_model *model)
     const fracas_surface *surface = model->surface;
     for (int32_t tag = 1; fracas_shape_of(&model->spec)->from_file && tag < FRACAS_EDGES; tag++) {
         size_t found = 0;
-        if (surface->passed >> tag & 1 && fracas_surface_edge_key(model, tag) == tag)
+        if (surface->passed >> tag & 1 &&
+            (fracas_surface_edge_key(model, tag) == tag || fracas_surface_loads_inside(model, tag)))
             return fracas_fail(FRACAS_USAGE,
                                "edge_%d is used, but the mesh has lines of the physical group %d "
                                "in a group of a lesser number, too: an edge has one: take these "
