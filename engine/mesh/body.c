@@ -2,6 +2,7 @@
 #include "engine/mesh/body.h"
 
 #include "base/elementary.h"
+#include "engine/mesh/surface/capsule.h"
 #include "engine/mesh/surface/cylinder.h"
 #include "engine/mesh/surface/gmsh.h"
 #include "engine/mesh/surface/gmsh_file.h"
@@ -292,6 +293,28 @@ const fracas_kind fracas_shape_cylinder = {
                                     .concentration = cylinder_concentration,
                                     .swing = cylinder_swing}};
 
+static const fracas_param capsule[] = {
+    LENGTH("radius", radius, "radius of the mid-surface, of tube and half spheres"),
+    LENGTH("length", length, "of the whole tube between the half spheres: along y, from -length/2"),
+    THICKNESS,
+    {FRACAS_ONE_OF("part", tube_parts, offsetof(fracas_geometry, part), "how much of it is there")},
+};
+
+static fracas_err make_capsule(const fracas_geometry *geometry,
+                               const fracas_surface_fineness *fineness,
+                               const fracas_surface **surface)
+{
+    return fracas_surface_capsule(geometry->radius, geometry->length, planes_of(geometry), fineness,
+                                  surface);
+}
+
+const fracas_kind fracas_shape_capsule = {
+    "capsule",
+    "a thin tube around the y axis, closed by half spheres; mesh.divisions are along a quarter of "
+    "its circumference",
+    FRACAS_PARAMS(capsule),
+    .traits = &(const fracas_shape){.make = make_capsule, .edge = sphere_edge}};
+
 static const fracas_param file[] = {
     {.name = "file",
      .type = FRACAS_ATTACHMENT,
@@ -330,7 +353,7 @@ const fracas_kind fracas_shape_file = {
 
 static const fracas_kind *const shapes[] = {
     &fracas_shape_bar,    &fracas_shape_ring,     &fracas_shape_plate, &fracas_shape_annulus,
-    &fracas_shape_sphere, &fracas_shape_cylinder, &fracas_shape_file};
+    &fracas_shape_sphere, &fracas_shape_cylinder, &fracas_shape_file,  &fracas_shape_capsule};
 
 static fracas_err check_cylinder(const fracas_geometry *geometry)
 {

@@ -57,7 +57,8 @@ typedef struct {
 
 extern const fracas_section fracas_geometry_section;
 extern const fracas_kind fracas_shape_bar, fracas_shape_ring, fracas_shape_plate,
-    fracas_shape_annulus, fracas_shape_sphere, fracas_shape_cylinder, fracas_shape_file;
+    fracas_shape_annulus, fracas_shape_sphere, fracas_shape_cylinder, fracas_shape_capsule,
+    fracas_shape_file;
 extern const fracas_kind fracas_part_whole, fracas_part_half, fracas_part_quarter,
     fracas_part_octant;
 extern const fracas_kind fracas_ends_periodic, fracas_ends_held, fracas_ends_free;

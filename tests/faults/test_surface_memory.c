@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Making and reading a surface when the k-th allocation fails, for every k: an error, never a
  * crash. */
+#include "engine/mesh/surface/capsule.h"
 #include "tests/support/gmsh.h"
 
 #ifdef __SANITIZE_ADDRESS__
@@ -29,6 +30,16 @@ static fracas_err make_octant(const void *context)
     return err;
 }
 
+static fracas_err make_capsule(const void *context)
+{
+    (void)context;
+    const fracas_surface_fineness fineness = {.divisions = 2, .order = 1};
+    const fracas_surface *s = NULL;
+    const fracas_err err = fracas_surface_capsule(1.0, 1.0, 0, &fineness, &s);
+    fracas_surface_destroy(s);
+    return err;
+}
+
 static fracas_err read_mesh(const void *context)
 {
     const gmsh_file *f = context;
@@ -44,6 +55,7 @@ static void test_made(void **state)
     shift = numbers;
     nshifts = 10;
     fail_each_of(make_octant, NULL, LONG_MAX);
+    fail_each_of(make_capsule, NULL, LONG_MAX);
 }
 
 static void test_read(void **state)

@@ -301,10 +301,10 @@ static const fracas_surface_body body = {.dimension = 3,
                                          .normal = normal_at,
                                          .add_node = add_node};
 
-static const fracas_kind *const goes_with[] = {&fracas_shape_sphere,  &fracas_shape_plate,
-                                               &fracas_shape_annulus, &fracas_shape_cylinder,
-                                               &fracas_shape_file,    &fracas_spacing_triangles,
-                                               &fracas_spacing_given, &fracas_loading_expansion};
+static const fracas_kind *const goes_with[] = {
+    &fracas_shape_sphere,      &fracas_shape_plate,   &fracas_shape_annulus,
+    &fracas_shape_cylinder,    &fracas_shape_file,    &fracas_shape_capsule,
+    &fracas_spacing_triangles, &fracas_spacing_given, &fracas_loading_expansion};
 const fracas_formulation fracas_formulation_shell = {
     .kind = {.name = "shell",
              .groups = FRACAS_GROUP_SHELL,

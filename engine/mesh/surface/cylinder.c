@@ -59,7 +59,7 @@ fracas_err fracas_surface_cylinder(double radius, double length, int planes,
     TRY(fracas_surface_draft_init(&draft, row * (body.along + 1.0), 2.0 * columns * body.along,
                                   2.0 * columns + (closed ? 0.0 : 2.0 * body.along)));
     draft.round = radius;
-    draft.tube = true;
+    draft.axis = INFINITY;
     for (int t = 0; t < FRACAS_SURFACE_TAGS; t++) draft.radius[t] = radius;
     bend(&body, (size_t)row, draft.node);
     fracas_surface_fill_grid(&draft, (size_t)columns, (size_t)body.along, closed);

@@ -64,13 +64,19 @@ void fracas_surface_project(double point[3], double radius)
     for (int i = 0; i < 3; i++) point[i] *= share;
 }
 
-/* The same around the axis of a tube. */
+/* y of the nearest place of the axis. */
+static double beside(const fracas_surface_draft *draft, const double point[3])
+{
+    return fmax(-draft->axis, fmin(point[1], draft->axis));
+}
+
+/* The same around the axis. */
 static void project(const fracas_surface_draft *draft, double point[3], double radius)
 {
-    const double y = point[1];
-    if (draft->tube) point[1] = 0.0;
+    const double y = beside(draft, point);
+    if (draft->axis > 0.0) point[1] -= y;
     fracas_surface_project(point, radius);
-    if (draft->tube) point[1] = y;
+    if (draft->axis > 0.0) point[1] += y;
 }
 
 /* ---- perturbation ---- */
@@ -132,9 +138,11 @@ static void tangents(const fracas_surface_draft *draft, const double point[3], d
     memcpy(first, axis[0], sizeof axis[0]);
     memcpy(second, axis[1], sizeof axis[1]);
     if (draft->round == 0.0) return;
-    const double out[3] = {point[0], draft->tube ? 0.0 : point[1], point[2]};
-    int least = draft->tube ? 1 : 0;
-    for (int i = 0; i < 3 && !draft->tube; i++)
+    const bool tube = fabs(point[1]) < draft->axis;
+    const double out[3] = {point[0], draft->axis > 0.0 ? point[1] - beside(draft, point) : point[1],
+                           point[2]};
+    int least = tube ? 1 : 0;
+    for (int i = 0; i < 3 && !tube; i++)
         if (fabs(out[i]) < fabs(out[least])) least = i;
     fracas_surface_normal(origin, axis[least], out, first);
     fracas_surface_project(first, 1.0);

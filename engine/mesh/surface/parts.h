@@ -98,13 +98,18 @@ typedef struct {
     fracas_surface_tag *tag;
     double radius[FRACAS_SURFACE_TAGS];
     double round; /* radius on which vertices stay; 0: in the plane z = 0 */
-    bool tube;    /* this and all radii are around the y axis */
+    double axis;  /* this and all radii are around the part |y| <= axis of the y axis: 0 a sphere,
+                     INFINITY a tube */
 } fracas_surface_draft;
 
 /* Room for so many; the caller clears. */
 FRACAS_MUST_USE fracas_err fracas_surface_draft_init(fracas_surface_draft *draft, double nvertices,
                                                      double nelements, double ntags);
 void fracas_surface_draft_clear(fracas_surface_draft *draft);
+
+/* The octant of a sphere with so many divisions, as fracas_surface_octant. */
+FRACAS_MUST_USE fracas_err fracas_surface_draft_octant(double radius, double divisions,
+                                                       fracas_surface_draft *draft);
 
 /* Perturbs, adds mid-side nodes, assembles. */
 FRACAS_MUST_USE fracas_err fracas_surface_draft_finish(const fracas_surface_draft *draft,

@@ -141,25 +141,44 @@ static void fill_tags(const polyhedron *solid, size_t n, fracas_surface_tag *put
         }
 }
 
+/* 2 E = 3 F: every edge is that of two faces. */
+static bool is_closed(const polyhedron *solid)
+{
+    return 2 * solid->nedges == 3 * solid->nfaces;
+}
+
+static fracas_err fill(const polyhedron *solid, double radius, double n,
+                       fracas_surface_draft *draft)
+{
+    const double faces = (double)solid->nfaces, edges = (double)solid->nedges;
+    TRY(fracas_surface_draft_init(
+        draft, (double)solid->nvertices + edges * (n - 1.0) + faces * (n - 1.0) * (n - 2.0) / 2.0,
+        faces * n * n, is_closed(solid) ? 0.0 : 3.0 * n));
+    draft->round = radius;
+    for (int t = 0; t < FRACAS_SURFACE_TAGS; t++) draft->radius[t] = radius;
+    for (size_t face = 0; face < solid->nfaces; face++)
+        fill_face(solid, face, (size_t)n, radius, draft);
+    if (!is_closed(solid)) fill_tags(solid, (size_t)n, draft->tag);
+    return FRACAS_OK;
+}
+
 static fracas_err make(const polyhedron *solid, double radius,
                        const fracas_surface_fineness *fineness, const fracas_surface **surface)
 {
     TRY(fracas_surface_check_length("the radius", radius));
-    const double faces = (double)solid->nfaces, edges = (double)solid->nedges;
-    const bool is_closed = 2 * solid->nedges == 3 * solid->nfaces;
-    const double solid_angle = is_closed ? 4.0 * FRACAS_PI : 0.5 * FRACAS_PI;
+    const double solid_angle = is_closed(solid) ? 4.0 * FRACAS_PI : 0.5 * FRACAS_PI;
     double n; /* n^2 equilateral triangles are as large as the part of the sphere over a face */
-    TRY(fracas_surface_divide(fineness, radius, sqrt(EQUILATERAL * faces / solid_angle), &n));
+    TRY(fracas_surface_divide(fineness, radius,
+                              sqrt(EQUILATERAL * (double)solid->nfaces / solid_angle), &n));
     FRACAS_CLEARED(fracas_surface_draft) draft = {0};
-    TRY(fracas_surface_draft_init(
-        &draft, (double)solid->nvertices + edges * (n - 1.0) + faces * (n - 1.0) * (n - 2.0) / 2.0,
-        faces * n * n, is_closed ? 0.0 : 3.0 * n));
-    draft.round = radius;
-    for (int t = 0; t < FRACAS_SURFACE_TAGS; t++) draft.radius[t] = radius;
-    for (size_t face = 0; face < solid->nfaces; face++)
-        fill_face(solid, face, (size_t)n, radius, &draft);
-    if (!is_closed) fill_tags(solid, (size_t)n, draft.tag);
+    TRY(fill(solid, radius, n, &draft));
     return fracas_surface_draft_finish(&draft, fineness, surface);
+}
+
+fracas_err fracas_surface_draft_octant(double radius, double divisions, fracas_surface_draft *draft)
+{
+    const polyhedron solid = octant();
+    return fill(&solid, radius, divisions, draft);
 }
 
 fracas_err fracas_surface_sphere(double radius, const fracas_surface_fineness *fineness,
