@@ -195,6 +195,9 @@ static void a_group_is_loaded_by_its_name(void **unused)
 {
     OWN(fracas_campaign) rib = campaign_of("force_x: 3000, edge: rib");
     OWN(fracas_campaign) line = campaign_of("force_x: 3000, from_x: 1 mm, to_x: 1 mm, to_y: 1 mm");
+    OWNED char *used = plan_text(rib, 1, false), *unused_group = plan_text(line, 1, false);
+    assert_null(strstr(used, "lie inside the body"));
+    assert_non_null(strstr(unused_group, "\"rib\" lie inside the body"));
     for (int k = 0; k < 2; k++) {
         OWN(fracas_model) model = NULL;
         OK(fracas_point_model_create(k ? line : rib, 0, &model));

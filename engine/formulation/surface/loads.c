@@ -195,8 +195,9 @@ fracas_err fracas_surface_load_tag(const fracas_model *model, int n, int i, int3
         if (surface->interface[b].tag == *tag) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "%s is %s, but the mesh has no edge %s of the physical group "
-                       "%d: give the lines that number, or the group the name %s",
-                       asked, key, inside ? "inside the body" : "on its boundary", (int)*tag, key);
+                       "%d: give the lines that number, or the group the name %s; edges %s",
+                       asked, key, inside ? "inside the body" : "on its boundary", (int)*tag, key,
+                       inside ? "of the boundary take a traction" : "inside take a line-force");
 }
 
 /* Sets on[interface] where the load of loading number n acts. *share: of its density, so that the
