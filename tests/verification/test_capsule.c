@@ -126,7 +126,8 @@ static double outward(const fracas_surface *s, size_t e)
 }
 
 /* Vertices moved by up to 0.25 of an edge stay on it, 1 beside the axis: some roundings. Those on
- * planes of symmetry are in them to the last bit; elements keep their side. */
+ * planes of symmetry are in them to the last bit; elements keep their side, and
+ * seams are no edges. */
 static void moved_nodes_stay_on_it(void **unused)
 {
     uint64_t noise = 5;
@@ -157,6 +158,7 @@ static void moved_nodes_stay_on_it(void **unused)
                     assert_true(x[of->tag == 1 ? 0 : of->tag == 2 ? 2 : 1] == 0);
                 }
             for (size_t e = 0; e < s->nelements; e++) assert_true(outward(s, e) > 0);
+            for (size_t i = 0; i < s->ninterfaces; i++) assert_int_equal(s->interface[i].tag, 0);
             fracas_surface_destroy(s);
             fineness.amplitude = 0.3;
             FAILS(fracas_surface_capsule(RADIUS, LENGTH, planes, &fineness, &s), FRACAS_USAGE,
