@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import csv
+import json
 import re
 import sqlite3
+import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from functools import cached_property
@@ -15,7 +17,7 @@ from urllib.parse import quote
 import h5py
 import numpy as np
 
-from .command import Error, PathLike, call_json, meanings
+from .command import Error, PathLike, call, call_json, meanings
 from .table import Column, Table, flatten, from_rows
 
 ASKED_BY = {"interface": "output: {interfaces: true}", "mesh": "output: {interfaces: true} and a surface", "decision": "replicas: {until: ...}",
@@ -475,6 +477,35 @@ class Study:
         >>> study.energies.frame("point", "time", "dissipated.mean")
         """
         return self._listed("energies", read_csv(self.report() / "energies.csv"))
+
+    # ---- cracks over time, of surfaces that kept interfaces ----
+
+    @cached_property
+    def _cracks(self) -> dict[str, Table]:
+        with tempfile.TemporaryDirectory() as folder:
+            call("export", self.path, cracks=True, to=folder)
+            package = json.loads((Path(folder) / "datapackage.json").read_text(encoding="utf-8"))
+            fields = {one["name"]: one["schema"]["fields"] for one in package["resources"]}
+            return {name: from_rows(name, read_csv(Path(folder) / f"{name}.csv"), {of["name"]: of.get("unit", "") for of in fields[name]},
+                                    {of["name"]: of.get("description", "") for of in fields[name]}) for name in ("cracks", "breaks")}
+
+    @property
+    def cracks(self) -> Table:
+        """The cracks of each realization of a surface: where they begin, how long they are, how many tips they have.
+
+        They are made from the interfaces that the study keeps, by `fracas export --cracks` (docs/theory/cracks.md).
+
+        >>> study.cracks.frame("point", "replica", "number", "length", "fastest")
+        """
+        return self._cracks["cracks"]
+
+    @property
+    def breaks(self) -> Table:
+        """The breaks of which cracks are made, in the order of time: length of the crack and speed of its tip.
+
+        >>> study.breaks.frame("point", "replica", "crack", "time", "crack_length", "speed")
+        """
+        return self._cracks["breaks"]
 
     def _listed(self, name: str, rows: list[dict[str, Any]]) -> Table:
         known = {"time": ("s", "time"), **meanings("statistics")}

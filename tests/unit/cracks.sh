@@ -80,6 +80,27 @@ for name, folder in ("plate", "first"), ("shell", "shell/export"):
             assert all(float(row["extent"] or 0) < float(row["reach"]) * (1 + 1e-12) for row in ends if row["extent"])
 END_OF_CHECK
 
+# Python has both tables, with units.
+FRACAS=$fracas PYTHONPATH=$source/python PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 - <<'END_OF_CHECK' || fail "the cracks of Python"
+import csv
+import fracas
+
+study = fracas.open("plate")
+assert study.cracks.units["fastest"] == "m/s" and study.breaks.units["time"] == "s" and study.cracks.descriptions["met"]
+for name, table in ("cracks", study.cracks), ("breaks", study.breaks):
+    rows = list(csv.DictReader(open(f"first/{name}.csv")))
+    assert list(table) == list(rows[0]) and len(rows) > 3
+    for key in table:
+        assert len(table[key]) == len(rows)
+        assert all(row[key] == "" if number != number else float(row[key]) == number for row, number in zip(rows, table[key])), key
+try:
+    fracas.open("bar").cracks
+except fracas.Error as error:
+    assert error.status == 2 and "bars and rings have no cracks that run" in str(error)
+else:
+    raise AssertionError("a bar has no cracks")
+END_OF_CHECK
+
 # The figure draws one realization's breaks, and its last; speeds are over the c_R of its caption.
 /usr/bin/python3 - <<'END_OF_CHECK' || fail "the figure of cracks"
 import csv
