@@ -156,6 +156,7 @@ const fracas_figure fracas_figures[] = {
     {"energies-over-time", "wide", true, fracas_figure_energies},
     {"energies-over-time", "wide", true, fracas_figure_bands},
     {"probes-over-time", "wide", true, fracas_figure_probes},
+    {"reactions-over-time", "wide", true, fracas_figure_reactions},
     {"cracks-over-time", "wide", true, fracas_figure_cracks},
     {"convergence", "small", true, fracas_figure_convergence},
     {NULL, NULL, false, NULL},

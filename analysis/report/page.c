@@ -164,6 +164,7 @@ static const fracas_page_entry sections[] = {
     {"fragments-over-time", "Fragments over time", NULL},
     {"energies-over-time", "Energies over time", NULL},
     {"probes-over-time", "Probes over time", NULL},
+    {"reactions-over-time", "Reactions over time", NULL},
     {"cracks-over-time", "Cracks over time", NULL},
     {"convergence", "Convergence with replicas", NULL},
     {"table-of-results", "Results", fracas_section_results},

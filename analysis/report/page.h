@@ -38,7 +38,7 @@ typedef struct {
 
 typedef fracas_err fracas_page_section(fracas_page *page);
 
-enum { FRACAS_PAGE_SECTIONS = 16 }; /* at most */
+enum { FRACAS_PAGE_SECTIONS = 20 }; /* at most */
 
 typedef struct {
     const char *id, *title;

@@ -58,8 +58,8 @@ static fracas_err begin_bands(history_reading *reading, size_t p)
                               &reading->collector);
 }
 
-/* Takes the history into the bands of its point; history and probes of the typical replica are also
- * kept. */
+/* Takes the history into the bands of its point; history, probes and reactions of the typical
+ * replica are also kept. */
 static fracas_err add_history(void *context, fracas_result *result)
 {
     history_reading *reading = context;
@@ -73,9 +73,12 @@ static fracas_err add_history(void *context, fracas_result *result)
     statistics->nhistory = result->record.nhistory;
     statistics->probe = result->record.probe;
     statistics->nprobe = result->record.nprobe;
+    statistics->reaction = result->record.reaction;
+    statistics->nreaction = result->record.nreaction;
     result->record.history = NULL;
     result->record.probe = NULL;
-    result->record.nhistory = result->record.nprobe = 0;
+    result->record.reaction = NULL;
+    result->record.nhistory = result->record.nprobe = result->record.nreaction = 0;
     return FRACAS_OK;
 }
 
@@ -85,7 +88,8 @@ static fracas_err read_histories(fracas_analysis *analysis)
     history_reading reading = {
         .analysis = analysis, .point = SIZE_MAX, .collector = {.bands = &none}};
     fracas_err err = fracas_results_walk(
-        analysis->results, FRACAS_READ_HISTORY | FRACAS_READ_PROBES, add_history, &reading);
+        analysis->results, FRACAS_READ_HISTORY | FRACAS_READ_PROBES | FRACAS_READ_REACTIONS,
+        add_history, &reading);
     fracas_bands_end(&reading.collector);
     return err;
 }

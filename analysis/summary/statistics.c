@@ -358,5 +358,6 @@ void fracas_point_statistics_clear(fracas_point_statistics *statistics)
     free(statistics->fragment_size);
     free(statistics->history);
     free(statistics->probe);
+    free(statistics->reaction);
     *statistics = (fracas_point_statistics){.typical_replica = -1, .broken_replica = -1};
 }

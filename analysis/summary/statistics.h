@@ -84,6 +84,8 @@ typedef struct {
     fracas_history_row *history; /* for that replica; NULL until someone reads it */
     size_t nprobe;
     fracas_probe_row *probe; /* the same */
+    size_t nreaction;
+    fracas_reaction_row *reaction; /* the same */
 } fracas_point_statistics;
 
 /* A realization whose residual is a larger part of its largest energy is warned of; ENERGY_DRIFT

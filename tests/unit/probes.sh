@@ -47,6 +47,8 @@ expect 0 "$fracas" run held/campaign.yaml --study third --jobs 2
 cmp held/study.h5 third/study.h5 || fail "the resolved file has no reactions"
 expect 0 "$fracas" verify --full held
 expect 0 "$fracas" replay held 0/2
+[ -e held/report/reactions-point-0.svg ] && grep -q 'id="reactions-over-time"' held/report/index.html || fail "no figure of reactions"
+! grep -q reactions-over-time one/report/index.html || fail "a figure without reactions"
 sed 's/, reactions: edges//' plate.yaml > free.yaml
 expect 5 "$fracas" run free.yaml --study held
 said 'output.reactions is edges in the study, but nothing in this campaign file'
@@ -86,6 +88,7 @@ expect 0 "$fracas" export held
 /usr/bin/python3 "$source/tests/support/check_export.py" held
 PYTHONPATH=$source/python /usr/bin/python3 - <<'END'
 import csv
+import re
 
 import fracas
 import h5py
@@ -118,6 +121,18 @@ with fracas.open("held") as held:
     early = forces[1]["time"] < held.realization(0, 1)["onset_time"]
     left, right = (forces[tag]["force"][:, 0] for tag in (1, 2))
     assert (left[1:] < 0).any() and np.abs(left + right)[early].max() < 0.02 * np.abs(left).max() < np.abs(left + right).max()
+# The figure of reactions draws the typical replica: forces as in the study, to the digits of the figure.
+drawn = list(csv.reader(open("held/report/reactions-point-0.csv")))
+scale = {"N": 1, "kN": 1e-3, "MN": 1e-6, "mN": 1e3}
+unit = re.search(r"\[(\w+)\]", drawn[0][4]).group(1)
+with fracas.open("held") as held:
+    dissipated = held.realizations["dissipated"]
+    typical = int(np.argmin(np.abs(dissipated - dissipated.mean())))
+    forces = held.realization(0, typical).reactions
+    force = {tag: forces[tag]["force"][:, 0] for tag in (1, 2)}
+for tag in 1, 2:
+    curve = np.array([float(row[4]) for row in drawn[1:] if row[:2] == ["1", f"edge {tag}"]])
+    assert np.allclose(curve, scale[unit] * force[tag], rtol=1e-9, atol=1e-9 * np.abs(curve).max()), tag
 names = [line["probe"] for line in csv.DictReader(open("one/export/probes.csv"))]
 assert [list(places)[n] for n in study.probes["probe"]] == names
 END
