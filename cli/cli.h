@@ -126,6 +126,9 @@ FRACAS_MUST_USE fracas_err fracas_cli_read_time(const struct fracas_units *units
 
 /* FRACAS_DAMAGED, with the remedy, if `study` is no folder of a study. */
 FRACAS_MUST_USE fracas_err fracas_cli_check_study(const char *study);
+/* The same, and if it has a study.h5 alone beside its campaign file, of which merge-studies knows
+ * nothing. */
+FRACAS_MUST_USE fracas_err fracas_cli_check_run(const char *study);
 
 /* `err`, and, of FRACAS_DAMAGED, what to do behind the present message where STUDY/study.h5, or the
  * file of results `operand`, cannot be read. */

@@ -72,14 +72,32 @@ fracas_err fracas_cli_check_study(const char *study)
                        file, strerror(reason));
 }
 
-/* A study.h5 that somebody has put beside the campaign file of another: no run has been here. */
+/* No run has been where study.h5 is without an index and segments. */
+static bool is_put_there(const char *study)
+{
+    return lacks(study, "index.sqlite") && lacks(study, "segments") && !lacks(study, "study.h5");
+}
+
+fracas_err fracas_cli_check_run(const char *study)
+{
+    TRY(fracas_cli_check_study(study));
+    if (!is_put_there(study)) return FRACAS_OK;
+    return fracas_fail(FRACAS_DAMAGED,
+                       "%s has a study.h5 without the index and the segments of its run, from "
+                       "which studies are merged: `fracas export %s --study NEW` makes a study "
+                       "with them; if index and segments were lost, `fracas reindex %s` makes an "
+                       "index",
+                       study, fracas_shell_path(study, "study.h5").text,
+                       fracas_shell_path(study, NULL).text);
+}
+
+/* A study.h5 that somebody has put beside the campaign file of another. */
 static fracas_err check_pair(const char *study, const fracas_campaign *campaign)
 {
     char file[PATH_MAX];
     OWN(fracas_reader) reader = NULL;
     snprintf(file, sizeof file, "%s/study.h5", study);
-    if (!lacks(study, "index.sqlite") || !lacks(study, "segments") || lacks(study, "study.h5") ||
-        fracas_reader_open(file, &reader) ||
+    if (!is_put_there(study) || fracas_reader_open(file, &reader) ||
         fracas_hash_equal(&fracas_reader_header(reader)->campaign, &campaign->hash))
         return FRACAS_OK;
     return fracas_fail(FRACAS_DAMAGED,

@@ -192,8 +192,8 @@ static fracas_err merge_studies(const fracas_arguments *arguments)
     fracas_joined joined;
     fracas_index_counts end;
     int64_t both;
-    TRY(fracas_cli_check_study(arguments->operand));
-    TRY(fracas_cli_check_study(from));
+    TRY(fracas_cli_check_run(arguments->operand));
+    TRY(fracas_cli_check_run(from));
     begin_lines(&out, arguments);
     fracas_err code = fracas_upkeep_join(out.study, from, &out.said, &joined, &both, &end);
     if (!code) {

@@ -430,12 +430,13 @@ WARNING(warn_stretch,
 /* Share of the initial stress on outer edges that may be let go, for instance in corners. */
 #define LET_GO 0.1
 
-WARNING(warn_released, forecast->released > LET_GO,
-        forecast->released *fracas_initial_stress(&point->spec),
-        "the body starts with a stress of %.3g MPa, and no edge keeps %.0f %% of it: there it "
-        "springs back, and waves swing between that and its opposite: hold edges (geometry) along "
-        "and across it, or load them",
-        1e-6 * fracas_initial_stress(&point->spec), 100 * forecast->released)
+WARNING(
+    warn_released, forecast->released > LET_GO,
+    forecast->released *fracas_initial_stress(&point->spec),
+    "the body starts with a stress of %.3g MPa, and no edge keeps %.0f %% of its tractions on the "
+    "outer edges: there it springs back, and waves swing between that and its opposite: hold "
+    "edges (geometry) along and across it, or load them",
+    1e-6 * fracas_initial_stress(&point->spec), 100 * forecast->released)
 
 /* Strains are small: docs/limits.md. */
 #define LARGE_STRAIN 0.2
@@ -463,19 +464,19 @@ WARNING(warn_started,
         forecast->started / wave_speed(&point->spec.material),
         "the body starts at up to %.3g m/s, and waves go in it at %.3g m/s: where that velocity "
         "ends, or an edge is held, it strains by %.0f %% and more, and fracas takes strains as "
-        "small: are velocity or spin of initial, and material, in the units meant? A bare number "
-        "is SI",
+        "small: are velocity, radial or spin of initial, and material, in the units meant? A bare "
+        "number is SI",
         forecast->started, wave_speed(&point->spec.material),
         50 * forecast->started / wave_speed(&point->spec.material))
 
-WARNING(warn_begun,
-        fracas_spec_is_surface(&point->spec) &&
-            fracas_initial_stress(&point->spec) > forecast->mean,
-        fracas_initial_stress(&point->spec) / forecast->mean,
-        "the body starts with a stress of %.3g MPa, the mean strength is %.3g MPa: interfaces "
-        "crack at once, and the energy that falls off then is in no ledger: start below, and load "
-        "it further",
-        1e-6 * fracas_initial_stress(&point->spec), 1e-6 * forecast->mean)
+WARNING(
+    warn_begun,
+    fracas_spec_is_surface(&point->spec) && fracas_initial_effective(&point->spec) > forecast->mean,
+    fracas_initial_effective(&point->spec) / forecast->mean,
+    "the body starts with %.3g MPa on its interfaces, the mean strength is %.3g MPa: interfaces "
+    "crack at once, and the energy that falls off then is in no ledger: start below, and load "
+    "it further",
+    1e-6 * fracas_initial_effective(&point->spec), 1e-6 * forecast->mean)
 
 fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
     warn_parts,       warn_unit,       warn_coarse,

@@ -212,16 +212,38 @@ static int principals_of(const fracas_spec *spec)
 }
 
 /* E (a + nu b)/(1 - nu^2) of every two principal strains a, b. */
+/* Principal stresses of two principal strains in a plane [Pa]. */
+static void stresses_of(const fracas_spec *spec, double one, double other, double stress[2])
+{
+    const double nu = spec->material.poisson, plane = spec->material.young / (1 - nu * nu);
+    stress[0] = plane * (one + nu * other);
+    stress[1] = plane * (other + nu * one);
+}
+
 double fracas_initial_stress(const fracas_spec *spec)
 {
-    const double nu = spec->material.poisson;
-    double principal[3], largest = 0;
+    double principal[3], s[2], largest = 0;
     principal_of(spec, principal);
     for (int i = 0; i < principals_of(spec); i++)
-        for (int j = 0; j < i; j++)
-            largest = fmax(largest, fmax(fabs(principal[i] + nu * principal[j]),
-                                         fabs(principal[j] + nu * principal[i])));
-    return spec->material.young / (1 - nu * nu) * largest;
+        for (int j = 0; j < i; j++) {
+            stresses_of(spec, principal[i], principal[j], s);
+            largest = fmax(largest, fmax(fabs(s[0]), fabs(s[1])));
+        }
+    return largest;
+}
+
+double fracas_initial_effective(const fracas_spec *spec)
+{
+    const double coupling = spec->cohesive.coupling;
+    double principal[3], s[2], largest = 0;
+    principal_of(spec, principal);
+    for (int i = 0; i < principals_of(spec); i++)
+        for (int j = 0; j < i; j++) {
+            stresses_of(spec, principal[i], principal[j], s);
+            largest = fmax(largest, fmax(s[0], s[1]));
+            if (coupling > 0) largest = fmax(largest, 0.5 * fabs(s[0] - s[1]) / coupling);
+        }
+    return largest;
 }
 
 double fracas_initial_largest_strain(const fracas_spec *spec)

@@ -36,6 +36,9 @@ void fracas_initial_displacement(const fracas_initial_strain *strain, const doub
 
 /* Largest |stress| of the initial strain along any direction of a surface [Pa]. */
 double fracas_initial_stress(const fracas_spec *spec);
+/* Largest tension of it, or shear over the coupling of the law, at an interface of any direction
+ * [Pa]; 0 under equal pressure. */
+double fracas_initial_effective(const fracas_spec *spec);
 
 /* Largest |principal strain| of it, within the body's plane where it is flat. */
 double fracas_initial_largest_strain(const fracas_spec *spec);

@@ -166,7 +166,8 @@ fracas_err fracas_line_find(const fracas_line *l, const fracas_surface *surface,
     if (isinf(p.cost[at]))
         return fracas_fail(FRACAS_USAGE,
                            "no interfaces lead from one end of the %s to the other and stay "
-                           "within %.4g m of its line: raise %s.within",
+                           "within %.4g m of its line: raise %s.within; edges on the boundary and "
+                           "in planes of symmetry are no interfaces",
                            l->what, l->within, l->section);
     while (at != start) {
         on[p.via[at]] = true;

@@ -121,6 +121,12 @@ static void try_mutation(const fracas_units *units, const unsigned char *example
     fracas_campaign_destroy(campaign);
 }
 
+#ifdef __SANITIZE_ADDRESS__ /* which sees more than crashes */
+enum { MUTATIONS = 1500 };
+#else
+enum { MUTATIONS = 300 };
+#endif
+
 /* FRACAS_FUZZ_SECONDS: by time, with another seed. The test itself makes the same mutations on
  * every machine. */
 static void test_mutations_of(const unsigned char *example, size_t size, bool of_strengths)
@@ -131,7 +137,7 @@ static void test_mutations_of(const unsigned char *example, size_t size, bool of
     const double start = seconds(), most = longer ? strtod(longer, NULL) : 0;
     uint64_t x = longer ? (uint64_t)time(NULL) : 20261121;
     tally count = {0};
-    while (longer ? seconds() - start < most : count.tried < 1500)
+    while (longer ? seconds() - start < most : count.tried < MUTATIONS)
         try_mutation(units, example, size, of_strengths, &x, &count);
     fracas_units_destroy(units);
     print_message("%zu mutations, %zu still a campaign, slowest %.1f ms\n", count.tried,

@@ -186,6 +186,11 @@ for command in report export fit picture status reindex merge gc 'replay 0/0' 'c
 done
 expect 5 "$fracas" compare first-bar beside
 said 'is of another campaign than the campaign.yaml beside it'
+for two in 'beside new-bar' 'new-bar beside'; do
+    # shellcheck disable=SC2086
+    expect 5 "$fracas" merge-studies $two
+    said 'beside has a study.h5 without the index and the segments of its run.*export beside/study.h5 --study NEW'
+done
 expect 5 "$fracas" verify beside
 grep -q 'beside/study.h5 is of another campaign' said || fail "verify does not say what beside has"
 cmp beside/study.h5 away/bar/study.h5 || fail "a run has replaced a study.h5 that was handed on"

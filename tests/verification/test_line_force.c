@@ -168,17 +168,19 @@ static void a_strip_bends_as_a_beam(void **unused)
 
 /* ---- groups of a mesh file ---- */
 
-/* Four triangles in [0, 2] x [0, 1] mm; the edge at x = 1 mm is the group 5, "rib". */
-static fracas_campaign *campaign_of(const char *loading)
+/* Four triangles in [0, 2] x [0, 1] mm; the edge at x = 1 mm is the group 5, "rib", and with `more`
+ * that at x = 0. */
+static fracas_campaign *campaign_of(const char *loading, bool more)
 {
     static const char mesh[] =
         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n1 5 \"rib\"\n"
         "$EndPhysicalNames\n$Nodes\n6\n1 0 0 0\n2 1e-3 0 0\n3 2e-3 0 0\n4 0 1e-3 0\n"
-        "5 1e-3 1e-3 0\n6 2e-3 1e-3 0\n$EndNodes\n$Elements\n5\n1 1 2 5 1 2 5\n2 2 0 1 2 5\n"
-        "3 2 0 1 5 4\n4 2 0 2 3 6\n5 2 0 2 6 5\n$EndElements\n";
-    char path[40], text[2000];
+        "5 1e-3 1e-3 0\n6 2e-3 1e-3 0\n$EndNodes\n$Elements\n%d\n1 1 2 5 1 2 5\n2 2 0 1 2 5\n"
+        "3 2 0 1 5 4\n4 2 0 2 3 6\n5 2 0 2 6 5\n%s$EndElements\n";
+    char path[40], text[2000], file[1000];
     make_path(path);
-    write_bytes(path, mesh, strlen(mesh));
+    snprintf(file, sizeof file, mesh, more ? 6 : 5, more ? "6 1 2 5 1 1 4\n" : "");
+    write_bytes(path, file, strlen(file));
     snprintf(text, sizeof text,
              "name: rib\nseed: 7\nmodel: membrane\n"
              "geometry: {shape: file, file: %s, thickness: 1 mm}\nmesh: {spacing: given}\n"
@@ -193,8 +195,9 @@ static fracas_campaign *campaign_of(const char *loading)
 
 static void a_group_is_loaded_by_its_name(void **unused)
 {
-    OWN(fracas_campaign) rib = campaign_of("force_x: 3000, edge: rib");
-    OWN(fracas_campaign) line = campaign_of("force_x: 3000, from_x: 1 mm, to_x: 1 mm, to_y: 1 mm");
+    OWN(fracas_campaign) rib = campaign_of("force_x: 3000, edge: rib", false);
+    OWN(fracas_campaign) line = campaign_of("force_x: 3000, from_x: 1 mm, to_x: 1 mm, to_y: 1 mm",
+                                            false);
     OWNED char *used = plan_text(rib, 1, false), *unused_group = plan_text(line, 1, false);
     assert_null(strstr(used, "lie inside the body"));
     assert_non_null(strstr(unused_group, "\"rib\" lie inside the body"));
@@ -211,6 +214,14 @@ static void a_group_is_loaded_by_its_name(void **unused)
         assert_close((momentum[0] - start[0]) / (run.batch->step.time[0] - from), 3, 1e-12);
         fracas_batch_destroy(run.batch);
     }
+}
+
+static void a_group_on_the_boundary_too_is_refused(void **unused)
+{
+    OWN(fracas_campaign) both = campaign_of("force_x: 3000, edge: rib", true);
+    fracas_model *model = NULL;
+    FAILS(fracas_point_model_create(both, 0, &model), FRACAS_USAGE,
+          "1 edges inside the body and 1 on its boundary", "load them by a traction");
 }
 
 /* ---- refusals ---- */
@@ -239,4 +250,5 @@ static void lines_without_sense_are_refused(void **unused)
 }
 
 TESTS(a_path_has_the_force_of_its_line, free_bodies_take_up_the_momentum, a_strip_bends_as_a_beam,
-      a_group_is_loaded_by_its_name, lines_without_sense_are_refused)
+      a_group_is_loaded_by_its_name, a_group_on_the_boundary_too_is_refused,
+      lines_without_sense_are_refused)

@@ -292,6 +292,18 @@ static void starts_without_sense_are_refused(void **unused)
     sphere.initial = (fracas_initial){.radial = 1, .at = {0.1}};
     FAILS(fracas_model_create(&sphere, &model), FRACAS_USAGE, "a plane of symmetry the velocity",
           "the whole body");
+    /* a unit square: of 8 divisions two edges are a quarter long, and more by the diagonals */
+    fracas_spec plate = shell_spec(&fracas_shape_plate);
+    plate.mesh.divisions = 8;
+    plate.loading = bare_load(&fracas_loading_none);
+    plate.initial = (fracas_initial){.velocity = {0, 0, 1}, .half_waves = {4}};
+    plate.initial.from[0] = -0.5;
+    plate.initial.to[0] = 0.5;
+    FAILS(fracas_model_create(&plate, &model), FRACAS_USAGE, "half_waves_x of initial is 4",
+          "a half wave is 0.25 m long", "give it 2 edges");
+    plate.initial.half_waves[0] = 3;
+    OK(fracas_model_create(&plate, &model));
+    fracas_model_destroy(model);
 }
 
 TESTS(plates_with_a_hole_part, round_bodies_breathe, a_tube_spins_about_its_axis,

@@ -103,10 +103,38 @@ static fracas_err check_planes(const fracas_model *model)
     return FRACAS_OK;
 }
 
+static double mean_length(const fracas_surface *surface)
+{
+    double sum = 0;
+    for (size_t e = 0; e < surface->nelements; e++)
+        for (size_t k = 0; k < 3; k++) sum += fracas_surface_length(surface, e, k);
+    return sum / (3 * (double)surface->nelements);
+}
+
+/* A half wave of fewer edges would be another one, or none, at the nodes. */
+static fracas_err check_waves(const fracas_model *model)
+{
+    enum { EDGES = 2 };
+    const fracas_initial *initial = &model->spec.initial;
+    const double edge = mean_length(model->surface);
+    for (int i = 0; i < 3; i++) {
+        const double half = (initial->to[i] - initial->from[i]) / initial->half_waves[i];
+        if (!(initial->half_waves[i] > 0) || half >= EDGES * edge) continue;
+        return fracas_fail(
+            FRACAS_USAGE,
+            "half_waves_%c of initial is %g: a half wave is %.3g m long, and an edge "
+            "of the mesh %.3g m: give it %d edges at least, by a finer mesh or fewer "
+            "half waves",
+            "xyz"[i], initial -> half_waves[i], half, edge, EDGES);
+    }
+    return FRACAS_OK;
+}
+
 fracas_err fracas_surface_check_initial(const fracas_model *model)
 {
     const fracas_surface_tables *t = model->plan;
     TRY(check_flat(model));
+    TRY(check_waves(model));
     TRY(check_planes(model));
     if (!fracas_initial_moves(&model->spec.initial)) return FRACAS_OK;
     for (size_t e = 0; e < t->nelements; e++)

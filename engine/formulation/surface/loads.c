@@ -189,10 +189,17 @@ fracas_err fracas_surface_load_tag(const fracas_model *model, int n, int i, int3
     if (!key) return FRACAS_OK;
     TRY(fracas_shape_edge_tag(&model->spec.geometry, asked, key, tag));
     const bool inside = load->on == FRACAS_LOAD_ON_LINE;
-    for (size_t b = 0; !inside && b < surface->nborders; b++)
-        if (surface->border[b].tag == *tag) return FRACAS_OK;
-    for (size_t b = 0; inside && b < surface->ninterfaces; b++)
-        if (surface->interface[b].tag == *tag) return FRACAS_OK;
+    size_t borders = 0, interfaces = 0;
+    for (size_t b = 0; b < surface->nborders; b++) borders += surface->border[b].tag == *tag;
+    for (size_t b = 0; b < surface->ninterfaces; b++)
+        interfaces += surface->interface[b].tag == *tag;
+    if (inside && borders > 0 && interfaces > 0)
+        return fracas_fail(FRACAS_USAGE,
+                           "%s is %s, whose group has %zu edges inside the body and %zu on its "
+                           "boundary: the latter would carry nothing: take them out of the group, "
+                           "and load them by a traction",
+                           asked, key, interfaces, borders);
+    if ((inside ? interfaces : borders) > 0) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "%s is %s, but the mesh has no edge %s of the physical group "
                        "%d: give the lines that number, or the group the name %s; edges %s",

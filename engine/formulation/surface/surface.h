@@ -363,8 +363,8 @@ void fracas_surface_at(const fracas_surface *surface, size_t e, double xi, doubl
  * of element e  (initial.1), (initial.4) */
 double fracas_surface_initial_velocity(const fracas_model *model, size_t e, size_t i);
 double fracas_surface_initial_displacement(const fracas_model *model, size_t e, size_t i);
-/* FRACAS_USAGE for stresses in a bent body, strains across a flat one, velocities of no node, and
- * velocities or shear across a plane of symmetry. */
+/* FRACAS_USAGE for stresses in a bent body, strains across a flat one, velocities of no node, half
+ * waves shorter than two edges, and velocities or shear across a plane of symmetry. */
 FRACAS_MUST_USE fracas_err fracas_surface_check_initial(const fracas_model *model);
 
 /* ---- broken interfaces ---- */
