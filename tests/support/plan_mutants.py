@@ -1,8 +1,8 @@
-"""`fracas plan` of files that a fuzzer made of campaign files: each ends with a documented status, and one line with a place.
+"""`fracas plan` of files that a fuzzer made of campaign files: each ends with a documented status, and lines with a place.
 
     plan_mutants.py FRACAS MUTANTS MOST
 
-MUTANTS: a folder; of its files a sample of MOST, always the same. A plan has a line for each point; a refusal is one line that names the
+MUTANTS: a folder; of its files a sample of MOST, always the same. A plan has a line for each point; each line of a refusal names the
 place in the file, or the point; what is too large for the LIMIT of memory or seconds may say so, or is left after these seconds.
 """
 import collections
@@ -25,12 +25,12 @@ def limited():
 def judge(done):
     """How it went; None where it went wrong."""
     text, error = done.stdout.decode(errors="replace"), done.stderr.decode(errors="replace")
-    lines = [line for line in error.splitlines() if not re.match(r"warning: |fracas: point \d+ of \d+ is looked at$", line)]
+    lines = [line for line in error.splitlines() if not re.match(r"warning: |fracas: point \d+ of \d+ is looked at(;.*)?$", line)]
     if done.returncode == 0:
         return "planned" if re.search(r"^Campaign .*: \d+ points?", text, re.M) and not lines else None
     if done.returncode == 2:
-        place = re.match(r"fracas: (c\.yaml:\d+:\d+: |point \d+: |c\.yaml: )", lines[0] if lines else "")
-        return "refused" if len(lines) == 1 and place else None
+        placed = [re.match(r"fracas: (c\.yaml:\d+:\d+: |point \d+: |c\.yaml: )", line) for line in lines]
+        return "refused" if placed and all(placed) else None
     return "too large" if done.returncode == 6 and len(lines) == 1 and "memory" in error else None
 
 
