@@ -67,7 +67,7 @@ fracas_err fracas_cli_read_run_options(const fracas_arguments *arguments, fracas
     return fracas_arguments_real(arguments, "segment-size", 1048576.0, &run->segment_bytes);
 }
 
-/* A run that does not report leaves the report of what was there before. */
+/* Without a report of its own a run leaves the earlier one. */
 static void say_old_report(const char *study)
 {
     char page[PATH_MAX + 32];

@@ -91,7 +91,7 @@ fracas_err fracas_cli_check_run(const char *study)
                        fracas_shell_path(study, NULL).text);
 }
 
-/* A study.h5 that somebody has put beside the campaign file of another. */
+/* Somebody has put a study.h5 beside the campaign file of another. */
 static fracas_err check_pair(const char *study, const fracas_campaign *campaign)
 {
     char file[PATH_MAX];

@@ -87,7 +87,7 @@ typedef struct {
     double spin;             /* rad/s, about an axis along z or `axis` */
     const fracas_kind *axis; /* x, y, z, through `at`; NULL: none */
     double half_waves[3];    /* 1: half waves of a sine from `from` to `to` */
-    double at[3], within;    /* m: a place of this axis; nodes that far from it move */
+    double at[3], within;    /* m: a place of this axis; nodes so far from it move */
     double from[3], to[3];   /* m: they lie within these limits */
     double strain[3];        /* 1, along x, y, z */
     double strain_xy;        /* 1 */
@@ -122,7 +122,7 @@ typedef struct {
     double line_from[3], line_to[3];   /* m, line-force: ends, as of a notch */
     double line_within;                /* m, line-force: as of a notch */
     double traction[3]; /* Pa, traction: outward, along the edge, along the surface's normal */
-    /* amplitude of pressure, body-force, traction (engine/loading/load.h), of which edge-motion has
+    /* amplitude of loads (engine/loading/load.h), of which edge-motion has
      * rise and history; NaN: not given */
     double rise, decay, duration;     /* s */
     const fracas_attachment *history; /* times [s] and factors; NULL: none */

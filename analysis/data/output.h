@@ -18,7 +18,7 @@ typedef struct {
 
 /* True if the folder has a page of fracas. */
 bool fracas_output_has_page(const char *folder);
-/* The same, a package, or what a report or an export leaves that is cut off before these. */
+/* The same, a package, or the remains of a report or an export cut off before these. */
 bool fracas_output_is_ours(const char *folder);
 
 /* Makes the folder, which may be there. FRACAS_USAGE if it is a file, FRACAS_ENVIRONMENT if it
@@ -31,7 +31,7 @@ FRACAS_MUST_USE fracas_err fracas_output_folder_in(const char *wanted, const cha
                                                    const char *name, char **folder);
 
 /* FRACAS_USAGE if the folder has a file of this name that no report or export wrote: an index.html
- * or a datapackage.json of fracas beside it tells, or what is left of one that was cut off. */
+ * or a datapackage.json of fracas beside it tells, or the remains of one cut off. */
 FRACAS_MUST_USE fracas_err fracas_output_free(const char *folder, const char *const *name,
                                               size_t count);
 

@@ -65,7 +65,7 @@ fracas_figure_draw fracas_figure_energies;
 /* Displacements of the probes in the point's typical replica over time, a panel a component that
  * moves. */
 fracas_figure_draw fracas_figure_probes;
-/* Forces of the edges that keep their reactions, likewise. */
+/* Reactions of edges, likewise. */
 fracas_figure_draw fracas_figure_reactions;
 /* Length of all cracks and of the longest in the point's typical replica over time, and the speed
  * of its tip over that of Rayleigh waves. */

@@ -45,7 +45,7 @@ static fracas_err add_component(const fracas_analysis *analysis, const vectors *
     return FRACAS_OK;
 }
 
-/* A panel a component that is more than rounding of the largest. */
+/* A panel for each component above rounding of the largest. */
 static fracas_err draw(const fracas_analysis *analysis, const vectors *of, const char *what,
                        fracas_chart *chart)
 {

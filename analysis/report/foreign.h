@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Files in the folder of a report that no report wrote: the page names all that one does. */
+/* Somebody's own files in the folder of a report: its page names all of the report's. */
 #ifndef FRACAS_ANALYSIS_REPORT_FOREIGN_H
 #define FRACAS_ANALYSIS_REPORT_FOREIGN_H
 

@@ -27,7 +27,7 @@ typedef struct {
     const void *of;                 /* subject of the sections of a page other than a study's */
     const char *source;             /* source of its figures; NULL: the study */
     int refresh;                    /* the page loads itself again after so many s; 0: never */
-    const fracas_foreign *foreign;  /* files in the folder that no report wrote; NULL: none */
+    const fracas_foreign *foreign;  /* somebody's own files in the folder; NULL: none */
     FILE *out;                      /* for the section */
     int figures, tables;            /* numbered so far */
     size_t ndrawings, room;
@@ -70,7 +70,7 @@ void fracas_page_figure_end(fracas_page *page, const char *title, const char *ca
 
 /* " SVG PDF" of a drawing, as links. */
 void fracas_page_links(fracas_page *page, const char *file, bool drawn, bool csv);
-/* Sets FILE.svg, .csv and .pdf aside that no report wrote. */
+/* Sets somebody's own FILE.svg, .csv and .pdf aside. */
 FRACAS_MUST_USE fracas_err fracas_page_make_room(const fracas_page *page, const char *file);
 /* Records that the folder has FILE.svg. */
 FRACAS_MUST_USE fracas_err fracas_page_drew(fracas_page *page, const char *file);

@@ -192,7 +192,7 @@ static fracas_err count_file(void *context, const fracas_attachment *of)
     return FRACAS_OK;
 }
 
-enum { NEAR = 2 }; /* letters that a misspelt key may differ in */
+enum { NEAR = 2 }; /* letters between a misspelt key and a known one */
 
 /* True if the key that names stand for takes the value, or the first of a list. */
 static bool is_value_of_name(const fracas_file *file, const fracas_file_section *section,

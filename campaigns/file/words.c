@@ -60,7 +60,7 @@ static bool is_other_name(const char *found, const char *word)
     return false;
 }
 
-/* The first load has no number, those after it have. */
+/* The first load has no number, later ones have. */
 static size_t distance_of_load(const char *found, const char *word)
 {
     static const char first[] = "loading_1", section[] = "loading";

@@ -234,7 +234,7 @@ static fracas_err describe_file(const fracas_model *model, fracas_forecast *fore
         if (fracas_surface_edge_key(model, surface->border[b].tag) == 0)
             keep_lesser(surface, surface->border[b].tag, &forecast->loose);
     for (size_t i = 0; i < surface->ninterfaces; i++)
-        if (!fracas_surface_loads_inside(model, surface->interface[i].tag))
+        if (!fracas_surface_is_loaded(model, surface->interface[i].tag, true))
             keep_lesser(surface, surface->interface[i].tag, &forecast->inner);
     return fracas_surface_survey_make(surface, &forecast->mesh);
 }

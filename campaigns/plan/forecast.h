@@ -53,7 +53,7 @@ typedef struct {
     bool stress_grows;  /* it is larger until twice that time ... */
     bool opening_grows; /* ... and so is `available` */
     double started;     /* fastest node at the start, by `initial` [m/s] */
-    double released;    /* share of the initial stress that no edge keeps (start.h) */
+    double released;    /* share of the initial stress without an edge to keep it (start.h) */
 } fracas_forecast;
 
 /* The forecast of one point, without speed, time and bytes. FRACAS_USAGE if strengths from a file

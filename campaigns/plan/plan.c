@@ -175,7 +175,7 @@ static const char *const own_heads[OWN_COLUMNS][2] = {{"replicas", ""},    {"ele
                                                       {"time step", "s"},  {"steps", "at most"},
                                                       {"time", "at most"}, {"size", "about"}};
 
-/* `text`, or, where it is a key of edges, the name that the mesh file of point p gives to them. */
+/* `text`; of a key of edges the name in the mesh file of point p. */
 static const char *edge_named(const campaign_plan *plan, size_t p, const char *text,
                               char name[FRACAS_RENAMED])
 {

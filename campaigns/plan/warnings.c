@@ -427,7 +427,7 @@ WARNING(warn_stretch,
         "along its axis as well: give loading.ratio or ratio_z, 0 for none along y or z",
         forecast->mesh.box[0], forecast->mesh.box[1], forecast->mesh.box[2])
 
-/* Share of the initial stress on outer edges that may be let go, for instance in corners. */
+/* Share of the initial stress on outer edges to be let go without a word, as in corners. */
 #define LET_GO 0.1
 
 WARNING(
@@ -450,7 +450,7 @@ WARNING(warn_strained,
         "A bare number is SI",
         100 * fracas_initial_largest_strain(&point->spec), 100 * LARGE_STRAIN)
 
-/* Strain v/(2 c) that waves from the rim of a region with velocity v carry; 0 without a rim. */
+/* Strain v/(2 c) of waves from the rim of a region with velocity v; 0 without a rim. */
 static double rim_strain(const fracas_point *point, const fracas_forecast *forecast)
 {
     return fracas_initial_parts(&point->spec.initial)

@@ -30,7 +30,7 @@ static double left_of(const double a[2], const double b[2], const double x[2])
     return (b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0]);
 }
 
-/* Keeps what is to the left of the line from a to b: the number of its corners. */
+/* Keeps the part to the left of the line from a to b: the number of its corners. */
 static int cut(double (*corner)[2], int count, const double a[2], const double b[2])
 {
     double left[CUT + 1][2];
@@ -110,7 +110,7 @@ static int by_low(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Sum of what pieces of different fragments, in the order of `low`, have in common. */
+/* Common area of pieces of different fragments, in the order of `low`. */
 static double sum_common(const piece *p, size_t count, int corners)
 {
     double sum = 0;

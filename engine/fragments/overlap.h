@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far fragments lie over each other: those that were no neighbours pass through each other. */
+/* How far fragments lie over each other: without contact they pass through each other. */
 #ifndef FRACAS_ENGINE_FRAGMENTS_OVERLAP_H
 #define FRACAS_ENGINE_FRAGMENTS_OVERLAP_H
 

@@ -191,7 +191,7 @@ void fracas_initial_displacement(const fracas_initial_strain *s, const double x[
     displacement[2] = s->z * x[2];
 }
 
-/* Principal strains: two in the plane x, y, and that along z. */
+/* Principal strains: two in the plane x, y, and the one along z. */
 static void principal_of(const fracas_spec *spec, double principal[3])
 {
     const fracas_initial_strain s = fracas_initial_strain_of(spec);
@@ -202,7 +202,7 @@ static void principal_of(const fracas_spec *spec, double principal[3])
     principal[2] = s.z;
 }
 
-/* Two of a body that lies in the plane x, y, else three. */
+/* Two of a body in the plane x, y, else three. */
 static int principals_of(const fracas_spec *spec)
 {
     return spec->formulation->groups & FRACAS_GROUP_MEMBRANE ||
@@ -211,8 +211,7 @@ static int principals_of(const fracas_spec *spec)
                : 3;
 }
 
-/* E (a + nu b)/(1 - nu^2) of every two principal strains a, b. */
-/* Principal stresses of two principal strains in a plane [Pa]. */
+/* E (a + nu b)/(1 - nu^2) and E (b + nu a)/(1 - nu^2) of two principal strains a, b [Pa]. */
 static void stresses_of(const fracas_spec *spec, double one, double other, double stress[2])
 {
     const double nu = spec->material.poisson, plane = spec->material.young / (1 - nu * nu);

@@ -53,7 +53,7 @@ static fracas_line line_of(const fracas_loading *loading, const char *section, d
                           loading->line_within, size);
 }
 
-/* Keys that the model does not have are 0 at both ends. */
+/* A key of other models is 0 at both ends. */
 static fracas_err check(const fracas_loading *loading)
 {
     const fracas_line line = line_of(loading, "loading", 1);

@@ -46,9 +46,9 @@ typedef struct {
 
 /* Traits of an edge. */
 typedef struct {
-    bool held;     /* something holds it */
+    bool held;     /* something holds it: a component, or its turn; false of free edges alone */
     bool moving;   /* at the velocity of the loading; else it rests */
-    bool director; /* a shell does not turn about it */
+    bool director; /* a shell does not turn about it; the body then has rims (fill_rim) */
     bool sliding;  /* held across itself alone */
     bool mirror;   /* lies in a plane x, y or z = const, and is held across that plane alone */
     bool in_plane; /* lies in such a plane, and is held within that plane alone */

@@ -18,13 +18,12 @@ fracas_line fracas_line_of(const char *what, const char *section, const double f
 /* Distance of x from the line [m]; *share: of the nearest place on it, 0 to 1 from end to end. */
 double fracas_line_distance(const fracas_line *line, const double x[3], double *share);
 
-/* FRACAS_USAGE: its `part` is that far from the nearest `from` [m]. */
+/* FRACAS_USAGE: its `part` is too far from the `nearest` `from` [m]. */
 FRACAS_MUST_USE fracas_err fracas_line_too_far(const fracas_line *line, const char *part,
                                                const char *from, double nearest);
 
-/* Sets on[interface] of the path along interfaces from the vertex nearest to one end to that
- * nearest to the other that is short and keeps to the line (meshes.9). FRACAS_USAGE names the
- * distance and the remedy. */
+/* Sets on[interface] of a short path near the line, along interfaces, between the vertices nearest
+ * to its ends (meshes.9). FRACAS_USAGE names the distance and the remedy. */
 FRACAS_MUST_USE fracas_err fracas_line_find(const fracas_line *line, const fracas_surface *surface,
                                             bool *on);
 

@@ -478,7 +478,7 @@ class Study:
         """
         return self._listed("energies", read_csv(self.report() / "energies.csv"))
 
-    # ---- cracks over time, of surfaces that kept interfaces ----
+    # ---- cracks over time, of surfaces with interfaces kept ----
 
     @cached_property
     def _cracks(self) -> dict[str, Table]:

@@ -18,8 +18,8 @@
 #include "base/err.h"
 #include "base/own.h"
 
-/* A test that goes through many cases takes each seventh under the sanitizers: kernels take ten to
- * twenty times as long there, and faults of memory do not hide in one case of seven. */
+/* A long series of cases takes each seventh under the sanitizers: kernels take ten to twenty times
+ * as long there, and each case goes through the same memory. */
 #ifdef __SANITIZE_ADDRESS__
 enum { CASE_STRIDE = 7 };
 #else

@@ -223,25 +223,31 @@ expect 0 "$fracas" report cut/study.h5 --quiet
 mkdir flipped attribute
 cp away/bar/study.h5 flipped
 cp away/bar/study.h5 attribute
-/usr/bin/python3 - <<'END_OF_SCRIPT'
+# flip FILE: a bit of a value.
+flip()
+{
+    /usr/bin/python3 - "$1" <<'END_OF_SCRIPT'
+import sys
 import h5py
-with h5py.File("flipped/study.h5") as study:
+with h5py.File(sys.argv[1]) as study:
     at = study["fragment/mass"].id.get_chunk_info(0).byte_offset
-with open("flipped/study.h5", "r+b") as file:
+with open(sys.argv[1], "r+b") as file:
     file.seek(at + 3)
     byte = file.read(1)
     file.seek(at + 3)
     file.write(bytes([byte[0] ^ 1]))
-with h5py.File("attribute/study.h5", "r+") as study:
-    study.attrs.modify("seed", study.attrs["seed"] + 1)
 END_OF_SCRIPT
+}
+flip flipped/study.h5
+/usr/bin/python3 -c 'import h5py
+with h5py.File("attribute/study.h5", "r+") as study: study.attrs.modify("seed", study.attrs["seed"] + 1)'
 for what in flipped attribute; do
     expect 5 "$fracas" verify $what
     expect 5 "$fracas" export $what/study.h5 --study never
     [ ! -e never ] || fail "a study is made of a damaged file"
 done
 
-# What to do is said: a study makes the file again, and of one alone there may be another copy.
+# The message says what to do: a study makes the file again; a lone file may have another copy.
 for command in report verify 'replay 0/0' 'compare first-bar'; do
     # shellcheck disable=SC2086
     set -- $command
@@ -254,16 +260,7 @@ expect 5 "$fracas" compare first-bar flipped
 said 'flipped/study.h5 is damaged: get another copy'
 cp -r new-bar hurt
 expect 0 "$fracas" report hurt --quiet
-/usr/bin/python3 - <<'END_OF_SCRIPT'
-import h5py
-with h5py.File("hurt/study.h5") as study:
-    at = study["fragment/mass"].id.get_chunk_info(0).byte_offset
-with open("hurt/study.h5", "r+b") as file:
-    file.seek(at + 3)
-    byte = file.read(1)
-    file.seek(at + 3)
-    file.write(bytes([byte[0] ^ 1]))
-END_OF_SCRIPT
+flip hurt/study.h5
 expect 5 "$fracas" report hurt --quiet
 said 'hurt/study.h5 is damaged: remove it, and .fracas merge hurt. makes it again'
 rm hurt/study.h5

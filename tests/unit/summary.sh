@@ -40,7 +40,7 @@ cp keyed/campaign.yaml before.yaml
 expect 0 "$fracas" run keys.yaml --study keyed --jobs 2
 cmp keyed/campaign.yaml before.yaml
 
-# A report that a run leaves behind is told, and only then.
+# An old report left behind is told, and no other.
 expect 0 "$fracas" run keys.yaml --study keyed --jobs 2 --no-report
 ! grep -q 'of earlier results' said || fail "a report of these results is called old"
 expect 0 "$fracas" extend keyed --replicas 23 --jobs 2 --no-report
@@ -48,7 +48,7 @@ said 'keyed/report/index.html is of earlier results: `fracas report keyed`'
 expect 0 "$fracas" run one.yaml --study bare --jobs 2 --no-report
 ! grep -q 'of earlier results' said || fail "a report that is not there is called old"
 
-# What no report wrote is not lost: a file in the place of one of its own gets another name, and any other stays.
+# No report loses a file of somebody's own: in the place of one of the report's it gets another name, any other stays.
 cp -r one own
 rm -r own/report
 mkdir own/report

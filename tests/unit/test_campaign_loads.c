@@ -103,7 +103,7 @@ static void test_opening_of_a_start(void **state)
     assert_true(forecast.available > opens && forecast.available < 2 * opens);
 }
 
-/* True if plan warns of the campaign's point with a text that has these words. */
+/* True if a warning of plan on the campaign's point has these words. */
 static bool warns_with(const fracas_campaign *campaign, const char *words)
 {
     char text[FRACAS_WARNING_TEXT];

@@ -64,7 +64,7 @@ static void squares_over_each_other(void **unused)
             for (int e = 0; e < ELEMENTS; e++) b.fragment[e] = 3;
             assert_true(overlap_of(&b) == 0);
         }
-    begin(&b, ELEMENTS, 3); /* what both have is a regular octagon, 2 (sqrt 2 - 1) */
+    begin(&b, ELEMENTS, 3); /* their common part is a regular octagon, 2 (sqrt 2 - 1) */
     add_square(&b, 0, 0.1, 2, 3);
     add_square(&b, 1, 0.1 + PI / 4, 2, 3);
     assert_true(fabs(overlap_of(&b) - (sqrt(2) - 1)) < 1e-13);

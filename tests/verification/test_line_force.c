@@ -121,7 +121,7 @@ static void free_bodies_take_up_the_momentum(void **unused)
     }
 }
 
-/* ---- a strip that bends ---- */
+/* ---- a bent strip ---- */
 
 /* On simple supports, nu 0, under a force by length F on a line across its middle:
  * w = F L^3/(48 D), D = E h^3/12, and the energy F w b/2. The force rises in two periods of the

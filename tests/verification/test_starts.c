@@ -135,7 +135,7 @@ static void round_bodies_breathe(void **unused)
     assert_true(miss[0].mean < 1e-3 && miss[0].node < 0.05);
 }
 
-/* A tube that spins about its axis y keeps its velocities spin e_y x x. Rounding of 100 steps. */
+/* A tube spinning about its axis y keeps its velocities spin e_y x x. Rounding of 100 steps. */
 static void a_tube_spins_about_its_axis(void **unused)
 {
     fracas_spec spec = shell_spec(&fracas_shape_cylinder);
@@ -283,7 +283,7 @@ static void starts_without_sense_are_refused(void **unused)
     start.axis = &fracas_front_y;
     start.velocity[0] = 1;
     FAILS(fracas_initial_section.check(&start), FRACAS_USAGE, "axis is y", "no radial and no spin");
-    /* from a place beside a plane of symmetry, it would cross that */
+    /* from a place beside a plane of symmetry it would cross the plane */
     fracas_model *model = NULL;
     fracas_spec sphere = shell_spec(&fracas_shape_sphere);
     sphere.mesh.divisions = 4;

@@ -103,20 +103,12 @@ static fracas_err check_planes(const fracas_model *model)
     return FRACAS_OK;
 }
 
-static double mean_length(const fracas_surface *surface)
-{
-    double sum = 0;
-    for (size_t e = 0; e < surface->nelements; e++)
-        for (size_t k = 0; k < 3; k++) sum += fracas_surface_length(surface, e, k);
-    return sum / (3 * (double)surface->nelements);
-}
-
 /* A half wave of fewer edges would be another one, or none, at the nodes. */
 static fracas_err check_waves(const fracas_model *model)
 {
     enum { EDGES = 2 };
     const fracas_initial *initial = &model->spec.initial;
-    const double edge = mean_length(model->surface);
+    const double edge = model->element_size;
     for (int i = 0; i < 3; i++) {
         const double half = (initial->to[i] - initial->from[i]) / initial->half_waves[i];
         if (!(initial->half_waves[i] > 0) || half >= EDGES * edge) continue;

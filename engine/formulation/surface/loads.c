@@ -4,6 +4,7 @@
 #include "base/own.h"
 #include "engine/loading/load.h"
 #include "engine/mesh/body.h"
+#include "engine/mesh/make.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -138,8 +139,7 @@ static void fill_edge(const forcing *of, const fracas_surface_border *border, do
 
 /* ---- edges ---- */
 
-/* A load acts on edges of this tag, inside the body or on its boundary. */
-static bool is_loaded(const fracas_model *model, int32_t tag, bool inside)
+bool fracas_surface_is_loaded(const fracas_model *model, int32_t tag, bool inside)
 {
     for (int n = 0; n < FRACAS_LOADINGS; n++) {
         const fracas_load *load = fracas_loading_load(&model->spec, n);
@@ -154,26 +154,15 @@ static bool is_loaded(const fracas_model *model, int32_t tag, bool inside)
     return false;
 }
 
-bool fracas_surface_loads_inside(const fracas_model *model, int32_t tag)
-{
-    return is_loaded(model, tag, true);
-}
-
 int32_t fracas_surface_edge_key(const fracas_model *model, int32_t tag)
 {
     if (tag <= 0 || tag >= FRACAS_EDGES) return 0;
     const bool own = fracas_shape_edge(&model->spec, tag) || model->spec.geometry.edge[tag] ||
-                     is_loaded(model, tag, false);
+                     fracas_surface_is_loaded(model, tag, false);
     return own ? tag : 0;
 }
 
 /* ---- tables ---- */
-
-static double length_of(const fracas_surface *surface, size_t interface)
-{
-    const fracas_surface_interface *of = &surface->interface[interface];
-    return fracas_surface_length(surface, of->element[0], of->edge[0]);
-}
 
 fracas_err fracas_surface_load_tag(const fracas_model *model, int n, int i, int32_t *tag)
 {
@@ -207,27 +196,27 @@ fracas_err fracas_surface_load_tag(const fracas_model *model, int n, int i, int3
                        inside ? "of the boundary take a traction" : "inside take a line-force");
 }
 
-/* Sets on[interface] where the load of loading number n acts. *share: of its density, so that the
- * force of a path is that of its line; 1 of a group  (loads.11) */
+/* Sets on[interface] under the load of loading number n. *share: of its density, for a path to have
+ * the force of its line; 1 of a group  (loads.11) */
 static fracas_err find_line(const fracas_model *model, int n, bool *on, double *share)
 {
     const fracas_surface *surface = model->surface;
     const fracas_load *load = fracas_loading_load(&model->spec, n);
     int32_t tag;
-    double all = 0, path = 0;
+    double path = 0;
     TRY(fracas_surface_load_tag(model, n, 0, &tag));
-    for (size_t i = 0; i < surface->ninterfaces; i++) {
+    for (size_t i = 0; i < surface->ninterfaces; i++)
         on[i] = tag != 0 && surface->interface[i].tag == tag;
-        all += length_of(surface, i);
-    }
     *share = 1;
     if (tag != 0) return FRACAS_OK;
     const fracas_line line = load->line(fracas_loading_at(&model->spec, n),
                                         fracas_loading_sections[n].name,
-                                        all / (double)surface->ninterfaces);
+                                        fracas_mesh_mean_length(surface));
     TRY(fracas_line_find(&line, surface, on));
     for (size_t i = 0; i < surface->ninterfaces; i++)
-        if (on[i]) path += length_of(surface, i);
+        if (on[i])
+            path += fracas_surface_length(surface, surface->interface[i].element[0],
+                                          surface->interface[i].edge[0]);
     *share = line.length / path;
     return FRACAS_OK;
 }

@@ -15,8 +15,8 @@ FRACAS_MUST_USE fracas_err fracas_surface_load_tag(const fracas_model *model, in
  * else 0, that of all others. */
 int32_t fracas_surface_edge_key(const fracas_model *model, int32_t tag);
 
-/* A load acts on edges of this tag inside the body. */
-bool fracas_surface_loads_inside(const fracas_model *model, int32_t tag);
+/* A load acts on edges of this tag, inside the body or on its boundary. */
+bool fracas_surface_is_loaded(const fracas_model *model, int32_t tag, bool inside);
 
 /* The kind of the edges of a tag: the shape's, that of `geometry`, or else that of all others. */
 const fracas_kind *fracas_surface_edge_kind(const fracas_spec *spec, int32_t tag);

@@ -225,7 +225,8 @@ struct fracas_surface_body {
     void (*fill_rim)(const fracas_model *model, const fracas_surface_border *border, double *rim);
     /* Direction t and matrix R of an element's whole rotary inertia; NULL: the body has none. */
     void (*fill_rotary)(const fracas_model *model, size_t element, double t[3], double *rotary);
-    /* Components held by an edge of this kind, as bits; FRACAS_USAGE where it cannot be. */
+    /* Components held by an edge of this kind, as bits, 0: none; of one that a load moves those
+     * that go along. FRACAS_USAGE where the body cannot have such an edge. */
     fracas_err (*hold_edge)(const fracas_model *model, const fracas_surface_border *border,
                             const fracas_kind *kind, unsigned *components);
     /* Turns the stresses of a bulk point, by its table, into tensors in space: xx, yy, zz, xy, yz,

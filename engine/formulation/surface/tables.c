@@ -262,8 +262,8 @@ static fracas_err check_edge_tags(const fracas_model *model)
     const fracas_surface *surface = model->surface;
     for (int32_t tag = 1; fracas_shape_of(&model->spec)->from_file && tag < FRACAS_EDGES; tag++) {
         size_t found = 0;
-        if (surface->passed >> tag & 1 &&
-            (fracas_surface_edge_key(model, tag) == tag || fracas_surface_loads_inside(model, tag)))
+        if (surface->passed >> tag & 1 && (fracas_surface_edge_key(model, tag) == tag ||
+                                           fracas_surface_is_loaded(model, tag, true)))
             return fracas_fail(FRACAS_USAGE,
                                "edge_%d is used, but the mesh has lines of the physical group %d "
                                "in a group of a lesser number, too: an edge has one: take these "
@@ -297,7 +297,8 @@ static fracas_err fill_edges(const fracas_model *model, fracas_surface_tables *t
         const bool moves = fracas_surface_is_moved(border->tag, moved);
         unsigned components = 0;
         uint32_t held = 0;
-        if (edge->held || moves) TRY(body->hold_edge(model, border, kind, &components));
+        if (edge->held || edge->director || moves)
+            TRY(body->hold_edge(model, border, kind, &components));
         for (int n = 0; n < t->order + 1; n++) held |= components << dimension * (int)node[n];
         t->held[border->element] |= held;
         if (moves) t->moved[border->element] |= held;

@@ -26,7 +26,7 @@ static void place_tube(double radius, double half, size_t n, size_t m, double (*
         }
 }
 
-/* The node of the tube's last row that is nearest to a node of the octant's rim. */
+/* The node of the tube's last row nearest to a node of the octant's rim. */
 static uint32_t nearest(const fracas_surface_draft *tube, size_t n, size_t m, const double x[3])
 {
     uint32_t best = 0;
@@ -41,7 +41,7 @@ static uint32_t nearest(const fracas_surface_draft *tube, size_t n, size_t m, co
     return best;
 }
 
-/* Adds the octant behind the tube: nodes at y = 0 are those of the tube's last row, others move up
+/* Adds the octant behind the tube: nodes at y = 0 are the tube's last row, others move up
  * by `half`. */
 static fracas_err add_cap(const fracas_surface_draft *cap, double half, size_t n, size_t m,
                           fracas_surface_draft *all)
