@@ -79,7 +79,8 @@ typedef struct {
     const fracas_kind *contact; /* surfaces: law, none; NULL: law */
 } fracas_notch;
 
-enum { FRACAS_LOADINGS = 3 }; /* at most, at a point */
+enum { FRACAS_LOADINGS = 3 };  /* at most, at a point */
+enum { FRACAS_LOAD_OWN = 11 }; /* numbers of a load's own, at most */
 /* How a surface starts, beside its load. NaN: not given; 0: none. */
 typedef struct {
     double velocity[3];      /* m/s */
@@ -112,16 +113,11 @@ typedef struct {
     double force;                   /* N/m, force: per length of the ring */
     double force_rate;              /* N/(m s), force */
     double ratio_z;                 /* 1, expansion of shells: as ratio, along z; NaN: 1 */
-    double pressure;                /* Pa, pressure */
-    double body_force[3];           /* m/s2, body-force */
     const fracas_kind *edge;        /* traction, edge-motion, line-force: this edge */
     const fracas_kind *second_edge; /* edge-motion: as the first; NULL: none */
     double displacement;            /* m, edge-motion; 0: velocity */
     const fracas_kind *rise_by;     /* edge-motion: smooth, linear */
-    double line_force[3], line_across; /* N/m, line-force; across: along the surface's normal */
-    double line_from[3], line_to[3];   /* m, line-force: ends, as of a notch */
-    double line_within;                /* m, line-force: as of a notch */
-    double traction[3]; /* Pa, traction: outward, along the edge, along the surface's normal */
+    double own[FRACAS_LOAD_OWN];    /* numbers of one load alone: its file names them */
     /* amplitude of loads (engine/loading/load.h), of which edge-motion has
      * rise and history; NaN: not given */
     double rise, decay, duration;     /* s */

@@ -207,13 +207,15 @@ static bool takes_prefix(const char *unit)
 }
 
 /* The column in words, or its path where another of the columns has the same words. */
-static const char *words_of(const fracas_point_table *table, const fracas_columns *columns,
-                            size_t i)
+static fracas_parameter_words words_of(const fracas_point_table *table,
+                                       const fracas_columns *columns, size_t i)
 {
-    const char *words = fracas_column_words(table, columns->column[i]);
+    fracas_parameter_words words = fracas_column_words(table, columns->column[i]);
     for (size_t j = 0; j < columns->count; j++)
-        if (j != i && !strcmp(words, fracas_column_words(table, columns->column[j])))
-            return table->column[columns->column[i]].path;
+        if (j != i && !strcmp(words.text, fracas_column_words(table, columns->column[j]).text)) {
+            FRACAS_PRINT(words.text, "%.95s", table->column[columns->column[i]].path);
+            break;
+        }
     return words;
 }
 
@@ -236,9 +238,8 @@ void fracas_columns_label(const fracas_point_table *table, const fracas_columns 
             prefix = fracas_prefix_for(&table->point[point].value[columns->column[i]].real, 1);
         fracas_columns_value(table, columns->column[i], point, prefix.factor, value, sizeof value);
         bool unit = !column->text && !absent && strcmp(column->unit, "1");
-        const char *name = words_of(table, columns, i);
-        fracas_append(text, size, ", ", "%s %s%s%s%s", name, value, unit ? " " : "", prefix.symbol,
-                      unit ? column->unit : "");
+        fracas_append(text, size, ", ", "%s %s%s%s%s", words_of(table, columns, i).text, value,
+                      unit ? " " : "", prefix.symbol, unit ? column->unit : "");
     }
 }
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/data/words.h"
 
+#include "analysis/data/text.h"
+
 static const struct {
     const char *path, *words;
 } names[] = {
@@ -11,11 +13,33 @@ static const struct {
 
 static const char shape_path[] = "strength.shape", modulus_path[] = "derived.strength_modulus";
 
-const char *fracas_words_of(const char *path)
+static const char *listed(const char *path)
 {
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         if (!strcmp(names[i].path, path)) return names[i].words;
-    return path;
+    return NULL;
+}
+
+fracas_parameter_words fracas_words_of(const char *path)
+{
+    fracas_parameter_words words = {""};
+    const char *dot = strchr(path, '.'), *number = strchr(path, '_');
+    const bool several = dot && number && number < dot;
+    char first[96];
+    snprintf(first, sizeof first, "%.*s%s",
+             (int)((several ? number
+                    : dot   ? dot
+                            : path) -
+                   path),
+             path, dot ? dot : path);
+    const char *found = listed(first);
+    snprintf(words.text, sizeof words.text, "%.60s", found ? found : dot ? dot + 1 : path);
+    for (char *c = words.text; !found && dot && *c; c++)
+        if (*c == '_') *c = ' ';
+    if (several)
+        fracas_append(words.text, sizeof words.text, "", " of %.*s %.*s", (int)(number - path),
+                      path, (int)(dot - number - 1), number + 1);
+    return words;
 }
 
 /* Whether every shape is the exponent of a law with a modulus. */
@@ -29,9 +53,10 @@ static bool is_modulus(const fracas_point_table *table, size_t shape)
     return modulus != SIZE_MAX;
 }
 
-const char *fracas_column_words(const fracas_point_table *table, size_t column)
+fracas_parameter_words fracas_column_words(const fracas_point_table *table, size_t column)
 {
     const char *path = table->column[column].path;
-    if (!strcmp(path, shape_path) && is_modulus(table, column)) return "Weibull modulus";
+    if (!strcmp(path, shape_path) && is_modulus(table, column))
+        return (fracas_parameter_words){"Weibull modulus"};
     return fracas_words_of(path);
 }

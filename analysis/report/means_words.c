@@ -122,7 +122,7 @@ static void name_columns(const fracas_means_plot *plot, const fracas_columns *co
 {
     for (size_t i = 0; i < columns->count; i++)
         fracas_append(text, size, " and ", "%s",
-                      fracas_column_words(plot->analysis->table, columns->column[i]));
+                      fracas_column_words(plot->analysis->table, columns->column[i]).text);
 }
 
 /* Drawings with more series or panels of the same figure differ in nothing else. */

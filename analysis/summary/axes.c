@@ -133,7 +133,7 @@ static fracas_err take_column(const fracas_analysis *analysis, size_t column,
 {
     const fracas_point_table *table = analysis->table;
     FRACAS_PRINT(axes->key, "%s", table->column[column].path);
-    FRACAS_PRINT(axes->words, "%s", fracas_column_words(table, column));
+    FRACAS_PRINT(axes->words, "%s", fracas_column_words(table, column).text);
     if (table->column[column].text) return take_texts(analysis, column, axes);
     for (size_t p = 0; p < table->npoints; p++) axes->value[p] = table->point[p].value[column].real;
     scale(table->column[column].unit, table->npoints, axes);

@@ -103,10 +103,10 @@ static bool alike_in_others(const making *of, size_t a, size_t b)
 static void words_of(const making *of, char *text, size_t size)
 {
     const fracas_point_table *table = of->analysis->table;
-    snprintf(text, size, "%s", fracas_column_words(table, of->column));
+    snprintf(text, size, "%s", fracas_column_words(table, of->column).text);
     for (size_t i = 0; i < of->partners.count; i++)
         fracas_append(text, size, i ? ", " : ", with ", "%s",
-                      fracas_column_words(table, of->partners.column[i]));
+                      fracas_column_words(table, of->partners.column[i]).text);
 }
 
 /* The values of the other parameters that name points. */
@@ -146,7 +146,7 @@ static void value_text(const making *of, size_t point, char *text, size_t size)
     const fracas_columns one = {1, &column};
     char label[160];
     fracas_columns_label(table, &one, point, label, sizeof label);
-    const size_t name = strlen(fracas_column_words(table, column));
+    const size_t name = strlen(fracas_column_words(table, column).text);
     snprintf(text, size, "%.127s", strlen(label) > name ? label + name + 1 : label);
 }
 

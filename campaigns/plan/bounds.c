@@ -43,10 +43,11 @@ static holding holding_of(const fracas_spec *spec, const fracas_stretch *stretch
     for (int tag = fracas_shape_of(spec)->from_file ? 0 : 1; tag < FRACAS_EDGES; tag++) {
         if (!spec->geometry.edge[tag] || fracas_shape_edge(spec, tag)) continue;
         const fracas_edge *edge = fracas_edge_of(spec->geometry.edge[tag]);
-        of.any = of.any || edge->held;
-        of.against = of.against || (edge->held && !(edge->moving && stretch->moving));
-        fast = fast || (edge->held && !edge->sliding);
-        released = released || !edge->held;
+        const bool held = fracas_edge_is_held(edge);
+        of.any = of.any || held;
+        of.against = of.against || (held && !(edge->moving && stretch->moving));
+        fast = fast || (held && !edge->plane);
+        released = released || !held;
     }
     of.corners = fast && released;
     return of;

@@ -2,10 +2,9 @@
 /* Load `body-force`: on every unit of mass. */
 #include "engine/loading/load.h"
 
-#define COMPONENT(key, i, models)                                                             \
-    FRACAS_BRACES(key, FRACAS_REAL, "m/s2",                                                   \
-                  "force along " key " on a unit of mass, times its amplitude", 0, -INFINITY, \
-                  INFINITY, false, offsetof(fracas_loading, body_force[i]), .only = models)
+#define COMPONENT(key, i, models)           \
+    FRACAS_LOAD_NUMBER(key, own[i], "m/s2", \
+                       "force along " key " on a unit of mass, times its amplitude", models)
 
 static const fracas_param params[] = {
     COMPONENT("x", 0, 0), COMPONENT("y", 1, 0),  COMPONENT("z", 2, FRACAS_GROUP_SHELL),
@@ -16,7 +15,7 @@ static void density(const fracas_spec *spec, const fracas_loading *loading, cons
                     double density[3])
 {
     (void)spec, (void)at;
-    for (int i = 0; i < 3; i++) density[i] = loading->body_force[i];
+    for (int i = 0; i < 3; i++) density[i] = loading->own[i];
 }
 
 static const fracas_load load = {.on = FRACAS_LOAD_ON_MASS, .density = density};

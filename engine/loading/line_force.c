@@ -4,9 +4,10 @@
 
 #include <math.h>
 
-#define FORCE(key, place, what, models)                                                          \
-    FRACAS_BRACES(key, FRACAS_REAL, "N/m", what ", times its amplitude", 0, -INFINITY, INFINITY, \
-                  false, offsetof(fracas_loading, place), .only = models)
+enum { FORCE, ACROSS = 3, FROM, TO = 7, WITHIN = 10 }; /* FORCE, FROM, TO: x, y, z */
+
+#define LINE_FORCE(key, place, what, models) \
+    FRACAS_LOAD_NUMBER(key, place, "N/m", what ", times its amplitude", models)
 #define END(key, place, models, what)                                                     \
     FRACAS_BRACES(.name = key, .type = FRACAS_REAL, .unit = "m", .doc = what,             \
                   .fallback = FRACAS_REQUIRED, .minimum = -INFINITY, .maximum = INFINITY, \
@@ -14,18 +15,18 @@
 #define SHELL FRACAS_GROUP_SHELL
 
 static const fracas_param params[] = {
-    FORCE("force_x", line_force[0], "force along x by the line's length", 0),
-    FORCE("force_y", line_force[1], "force along y by the line's length", 0),
-    FORCE("force_z", line_force[2], "force along z by the line's length", SHELL),
-    FORCE("force_across", line_across,
-          "force along the normal of the mid-surface by the line's length", SHELL),
-    END("from_x", line_from[0], 0, "x of one end of the line; none is 0"),
-    END("from_y", line_from[1], 0, "y of this end; none is 0"),
-    END("from_z", line_from[2], SHELL, "z of this end; none is 0"),
-    END("to_x", line_to[0], 0, "x of the other end; none is that of the first"),
-    END("to_y", line_to[1], 0, "y of the other end; none is that of the first"),
-    END("to_z", line_to[2], SHELL, "z of the other end; none is that of the first"),
-    FRACAS_LOAD_LENGTH("within", line_within,
+    LINE_FORCE("force_x", own[FORCE], "force along x by the line's length", 0),
+    LINE_FORCE("force_y", own[FORCE + 1], "force along y by the line's length", 0),
+    LINE_FORCE("force_z", own[FORCE + 2], "force along z by the line's length", SHELL),
+    LINE_FORCE("force_across", own[ACROSS],
+               "force along the normal of the mid-surface by the line's length", SHELL),
+    END("from_x", own[FROM], 0, "x of one end of the line; none is 0"),
+    END("from_y", own[FROM + 1], 0, "y of this end; none is 0"),
+    END("from_z", own[FROM + 2], SHELL, "z of this end; none is 0"),
+    END("to_x", own[TO], 0, "x of the other end; none is that of the first"),
+    END("to_y", own[TO + 1], 0, "y of the other end; none is that of the first"),
+    END("to_z", own[TO + 2], SHELL, "z of the other end; none is that of the first"),
+    FRACAS_LOAD_LENGTH("within", own[WITHIN],
                        "no loaded edge is farther from the line; none is the mean length of an "
                        "edge"),
     {FRACAS_LOAD_EDGE("edge", edge,
@@ -39,7 +40,7 @@ static void density(const fracas_spec *spec, const fracas_loading *loading, cons
 {
     (void)spec;
     for (int i = 0; i < 3; i++)
-        density[i] = loading->line_force[i] + loading->line_across * at->normal[i];
+        density[i] = loading->own[FORCE + i] + loading->own[ACROSS] * at->normal[i];
 }
 
 static const char *edge_of(const fracas_loading *loading, int i)
@@ -49,8 +50,8 @@ static const char *edge_of(const fracas_loading *loading, int i)
 
 static fracas_line line_of(const fracas_loading *loading, const char *section, double size)
 {
-    return fracas_line_of("line", section, loading->line_from, loading->line_to,
-                          loading->line_within, size);
+    const double *own = loading->own;
+    return fracas_line_of("line", section, own + FROM, own + TO, own[WITHIN], size);
 }
 
 /* A key of other models is 0 at both ends. */
@@ -61,7 +62,7 @@ static fracas_err check(const fracas_loading *loading)
         return fracas_fail(FRACAS_USAGE,
                            "line-force has no line: give its ends, `from_y: -5 mm, to_y: 5 mm`, or "
                            "the group of a mesh file's edges, `edge: NAME`");
-    if (loading->edge && (line.length > 0 || loading->line_within > 0))
+    if (loading->edge && (line.length > 0 || loading->own[WITHIN] > 0))
         return fracas_fail(FRACAS_USAGE,
                            "line-force has both a line and the edges %s: leave one out",
                            loading->edge->name);

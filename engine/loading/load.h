@@ -3,9 +3,10 @@
  *
  *   f(x, t) = a(t, x) d(x)                                                          (loads.1)
  *
- * A load is one file, with its parameters and its density, and a line in loading.c. The surface
- * integrates the density with the shape functions; masses, rotary inertia, reactions and the work
- * in the ledger follow for every body. A load with a path s(t) moves its edges instead:
+ * A load is one file, with its parameters and its density, and a line in loads.list.h. A number of
+ * one load alone is own[] of the section (FRACAS_LOAD_NUMBER). The surface integrates the density
+ * with the shape functions; masses, rotary inertia, reactions and the work in the ledger follow for
+ * every body. A load with a path s(t) moves its edges instead:
  *
  *   u(x, t) = s(t) d(x)                                                             (loads.5) */
 #ifndef FRACAS_ENGINE_LOADING_LOAD_H
@@ -89,6 +90,11 @@ FRACAS_MUST_USE fracas_err fracas_load_check(const fracas_loading *loading);
 
 extern const fracas_kind fracas_front_x, fracas_front_y, fracas_front_z;
 extern const fracas_kind *const fracas_front_axes[3];
+
+/* A number of any sign, 0 where it is not given; `member`: own[...] of a load's own. */
+#define FRACAS_LOAD_NUMBER(key, member, si, what, models)                    \
+    FRACAS_BRACES(key, FRACAS_REAL, si, what, 0, -INFINITY, INFINITY, false, \
+                  offsetof(fracas_loading, member), .only = models)
 
 /* The keys of the spot, before those of the amplitude. */
 #define FRACAS_LOAD_LENGTH(key, member, what)                                             \

@@ -275,20 +275,19 @@ const fracas_kind fracas_loading_none = {
     .only = FRACAS_GROUP_SURFACES,
     .traits = &(const fracas_loading_traits){.surface = still, .idle = true}};
 
-/* Forces on surfaces and motions of their edges, which also act beside another loading. */
-#define LOADS                                                                       \
-    &fracas_loading_pressure, &fracas_loading_body_force, &fracas_loading_traction, \
-        &fracas_loading_edge_motion
+#define LOAD(name) &fracas_loading_##name,
 static const fracas_kind *const loadings[] = {&fracas_loading_imposed_rate,
                                               &fracas_loading_initial_velocity,
                                               &fracas_loading_held_velocity,
                                               &fracas_loading_force,
                                               &fracas_loading_expansion,
                                               &fracas_loading_centrifugal,
-                                              LOADS,
-                                              &fracas_loading_none,
-                                              &fracas_loading_line_force},
-                                *const loads[] = {LOADS, &fracas_loading_line_force};
+#include "engine/loading/loads.list.h"
+                                              &fracas_loading_none},
+                                *const loads[] = {
+#include "engine/loading/loads.list.h"
+};
+#undef LOAD
 
 /* Members of other loadings are 0. */
 static fracas_err check_loading(const void *section)

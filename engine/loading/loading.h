@@ -75,9 +75,10 @@ fracas_stretch fracas_loading_stretch(const fracas_spec *spec, double t);
 extern const fracas_section fracas_loading_sections[FRACAS_LOADINGS];
 extern const fracas_kind fracas_loading_imposed_rate, fracas_loading_initial_velocity,
     fracas_loading_held_velocity, fracas_loading_force, fracas_loading_expansion,
-    fracas_loading_centrifugal, fracas_loading_pressure, fracas_loading_body_force,
-    fracas_loading_traction, fracas_loading_edge_motion, fracas_loading_none,
-    fracas_loading_line_force;
+    fracas_loading_centrifugal, fracas_loading_none;
+#define LOAD(name) extern const fracas_kind fracas_loading_##name;
+#include "engine/loading/loads.list.h"
+#undef LOAD
 extern const fracas_kind fracas_start_moving, fracas_start_rest;
 extern const fracas_kind fracas_axis_radial, fracas_axis_circumferential;
 

@@ -4,12 +4,14 @@
 
 #include <math.h>
 
+enum { PRESSURE };
+
 static const fracas_param params[] = {
     {"pressure", FRACAS_REAL, "Pa",
      "pressure, times its amplitude, along the normal of the mid-surface: outward of spheres and "
      "cylinders, of mesh files to the side from which most triangles are counter-clockwise; "
      "negative: against it",
-     FRACAS_REQUIRED, -INFINITY, INFINITY, false, offsetof(fracas_loading, pressure)},
+     FRACAS_REQUIRED, -INFINITY, INFINITY, false, offsetof(fracas_loading, own[PRESSURE])},
     FRACAS_LOAD_SPOT,
     FRACAS_LOAD_AMPLITUDE,
 };
@@ -18,7 +20,7 @@ static void density(const fracas_spec *spec, const fracas_loading *loading, cons
                     double density[3])
 {
     (void)spec;
-    for (int i = 0; i < 3; i++) density[i] = loading->pressure * at->normal[i];
+    for (int i = 0; i < 3; i++) density[i] = loading->own[PRESSURE] * at->normal[i];
 }
 
 static const fracas_load load = {.on = FRACAS_LOAD_ON_AREA, .density = density};
@@ -30,7 +32,7 @@ static fracas_stretch surface(const fracas_spec *spec, const fracas_loading *loa
 {
     const bool partial = fracas_load_has_front(loading) || loading->spot > 0;
     const double radius = spec->geometry.radius, h = spec->geometry.thickness,
-                 p = fabs(loading->pressure) * fracas_load_largest(loading, t);
+                 p = fabs(loading->own[PRESSURE]) * fracas_load_largest(loading, t);
     return (fracas_stretch){
         .strain = p == 0 ? 0 : p * t * t / (2 * spec->material.density * h * radius),
         .ratio = 1,

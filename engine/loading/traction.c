@@ -2,15 +2,14 @@
 /* Load `traction`: on the face of an edge, by its area at the start. */
 #include "engine/loading/load.h"
 
-#define STRESS(key, member, what, models)                                                       \
-    FRACAS_BRACES(key, FRACAS_REAL, "Pa", what ", times its amplitude", 0, -INFINITY, INFINITY, \
-                  false, offsetof(fracas_loading, member), .only = models)
+#define STRESS(key, member, what, models) \
+    FRACAS_LOAD_NUMBER(key, member, "Pa", what ", times its amplitude", models)
 
 static const fracas_param params[] = {
     {FRACAS_LOAD_EDGE("edge", edge, "edge on which it acts"), .fallback = FRACAS_REQUIRED},
-    STRESS("normal", traction[0], "stress outward in the surface, that pulls", 0),
-    STRESS("shear", traction[1], "stress along the edge, the body on its left", 0),
-    STRESS("across", traction[2], "stress along the normal of the mid-surface", FRACAS_GROUP_SHELL),
+    STRESS("normal", own[0], "stress outward in the surface, that pulls", 0),
+    STRESS("shear", own[1], "stress along the edge, the body on its left", 0),
+    STRESS("across", own[2], "stress along the normal of the mid-surface", FRACAS_GROUP_SHELL),
     FRACAS_LOAD_SPOT,
     FRACAS_LOAD_AMPLITUDE,
 };
@@ -18,7 +17,7 @@ static const fracas_param params[] = {
 static void density(const fracas_spec *spec, const fracas_loading *loading, const fracas_place *at,
                     double density[3])
 {
-    const double *stress = loading->traction;
+    const double *stress = loading->own;
     for (int i = 0; i < 3; i++)
         density[i] = spec->geometry.thickness *
                      (stress[0] * at->outward[i] + stress[1] * at->along[i] +

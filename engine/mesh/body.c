@@ -27,40 +27,6 @@ const fracas_kind fracas_direction_current = {
 static const fracas_kind *const directions[] = {&fracas_direction_current,
                                                 &fracas_direction_initial};
 
-const fracas_kind fracas_edge_free = {
-    "free", "nothing holds the edge",
-    .traits = &(const fracas_edge){.membrane = true, .shell = true}};
-const fracas_kind fracas_edge_held = {
-    "held",
-    "the edge moves with the velocity of the loading all the time: that of the expansion, "
-    "or none; a shell may turn about it",
-    .traits = &(const fracas_edge){.held = true, .moving = true, .membrane = true, .shell = true}};
-const fracas_kind fracas_edge_sliding = {
-    "sliding", "membranes: as held, but free to slide along itself; an edge along x or y only",
-    .traits = &(const fracas_edge){
-        .held = true, .moving = true, .sliding = true, .membrane = true}};
-const fracas_kind fracas_edge_fixed = {
-    "fixed", "the edge stays where it is; a shell may turn about it",
-    .traits = &(const fracas_edge){.held = true, .membrane = true, .shell = true}};
-const fracas_kind fracas_edge_clamped = {
-    "clamped", "shells: the edge stays where it is and does not turn",
-    .traits = &(const fracas_edge){.held = true, .director = true, .shell = true}};
-const fracas_kind fracas_edge_symmetry = {
-    "symmetry",
-    "shells: the edge lies in a plane x, y or z = const, and what is beyond is the mirror "
-    "image",
-    .traits = &(const fracas_edge){.held = true, .director = true, .mirror = true, .shell = true}};
-const fracas_kind fracas_edge_diaphragm = {
-    "diaphragm",
-    "shells: the edge lies in a plane x, y or z = const and does not move in it; it may "
-    "leave it, and the shell turn about it",
-    .traits = &(const fracas_edge){.held = true, .in_plane = true, .shell = true}};
-static const fracas_kind *const edges[] = {
-    &fracas_edge_free,    &fracas_edge_held,     &fracas_edge_sliding,  &fracas_edge_fixed,
-    &fracas_edge_clamped, &fracas_edge_symmetry, &fracas_edge_diaphragm};
-static const fracas_kind *const shell_edges[] = {&fracas_edge_free,     &fracas_edge_held,
-                                                 &fracas_edge_fixed,    &fracas_edge_clamped,
-                                                 &fracas_edge_symmetry, &fracas_edge_diaphragm};
 const fracas_kind fracas_part_whole = {"whole", "all of it",
                                        .traits = &(const fracas_part_of_shape){0}};
 const fracas_kind fracas_part_half = {"half", "z >= 0; the other one is the mirror image",
@@ -93,15 +59,14 @@ static const fracas_kind unit_m = {"m", "metres", .traits = &(const length_unit)
                          unit_in = {"in", "inches", .traits = &(const length_unit){0.0254}};
 static const fracas_kind *const units[] = {&unit_m, &unit_cm, &unit_mm, &unit_um, &unit_in};
 
-#define EDGE_OF(kinds, key, tag, what) \
-    FRACAS_BRACES(                     \
-        FRACAS_ONE_OF(key, kinds, offsetof(fracas_geometry, edge[tag]), "what holds " what))
-#define EDGE(key, tag, what) EDGE_OF(edges, key, tag, what)
+#define EDGE(key, tag, what)                                                                  \
+    FRACAS_BRACES(FRACAS_ONE_OF(key, fracas_edge_kinds, offsetof(fracas_geometry, edge[tag]), \
+                                "what holds " what))
 #define AS_EDGES "; none is as `edges` says"
-#define EDGE_OF_GROUP(n, without, more)                                                \
-    FRACAS_BRACES(FRACAS_ONE_OF("edge_" #n, edges, offsetof(fracas_geometry, edge[n]), \
-                                "what holds the edges of the physical group " #n       \
-                                ", or of that of this name" more),                     \
+#define EDGE_OF_GROUP(n, without, more)                                                            \
+    FRACAS_BRACES(FRACAS_ONE_OF("edge_" #n, fracas_edge_kinds, offsetof(fracas_geometry, edge[n]), \
+                                "what holds the edges of the physical group " #n                   \
+                                ", or of that of this name" more),                                 \
                   .optional = without)
 #define LENGTH(key, member, what)                                                  \
     FRACAS_BRACES(key, FRACAS_REAL, "m", what, FRACAS_REQUIRED, 0, INFINITY, true, \
@@ -253,8 +218,8 @@ static const fracas_param cylinder[] = {
     LENGTH("length", length, "of the whole cylinder: along y, from -length/2 to length/2"),
     THICKNESS,
     {FRACAS_ONE_OF("part", tube_parts, offsetof(fracas_geometry, part), "how much of it is there")},
-    EDGE_OF(shell_edges, "bottom", 3, "the end at the smallest y; of an octant it is a symmetry"),
-    EDGE_OF(shell_edges, "top", 4, "the end at the largest y"),
+    EDGE("bottom", 3, "the end at the smallest y; of an octant it is a symmetry"),
+    EDGE("top", 4, "the end at the largest y"),
 };
 
 static fracas_err make_cylinder(const fracas_geometry *geometry,

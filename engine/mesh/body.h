@@ -3,6 +3,7 @@
 #ifndef FRACAS_ENGINE_MESH_BODY_H
 #define FRACAS_ENGINE_MESH_BODY_H
 
+#include "engine/mesh/edge.h"
 #include "engine/mesh/surface/surface.h"
 #include "engine/spec.h"
 
@@ -44,17 +45,6 @@ typedef struct {
     fracas_err (*fill)(const fracas_mesh *, double length, double *size);
 } fracas_spacing;
 
-/* Traits of an edge. */
-typedef struct {
-    bool held;     /* something holds it: a component, or its turn; false of free edges alone */
-    bool moving;   /* at the velocity of the loading; else it rests */
-    bool director; /* a shell does not turn about it; the body then has rims (fill_rim) */
-    bool sliding;  /* held across itself alone */
-    bool mirror;   /* lies in a plane x, y or z = const, and is held across that plane alone */
-    bool in_plane; /* lies in such a plane, and is held within that plane alone */
-    bool membrane, shell; /* edges of membranes, of shells can be such */
-} fracas_edge;
-
 extern const fracas_section fracas_geometry_section;
 extern const fracas_kind fracas_shape_bar, fracas_shape_ring, fracas_shape_plate,
     fracas_shape_annulus, fracas_shape_sphere, fracas_shape_cylinder, fracas_shape_capsule,
@@ -63,8 +53,6 @@ extern const fracas_kind fracas_part_whole, fracas_part_half, fracas_part_quarte
     fracas_part_octant;
 extern const fracas_kind fracas_ends_periodic, fracas_ends_held, fracas_ends_free;
 extern const fracas_kind fracas_direction_initial, fracas_direction_current;
-extern const fracas_kind fracas_edge_free, fracas_edge_held, fracas_edge_sliding, fracas_edge_fixed,
-    fracas_edge_clamped, fracas_edge_symmetry, fracas_edge_diaphragm;
 
 extern const fracas_section fracas_mesh_section;
 extern const fracas_kind fracas_spacing_uniform, fracas_spacing_graded, fracas_spacing_perturbed,
@@ -86,10 +74,6 @@ static inline const fracas_shape *fracas_shape_of(const fracas_spec *spec)
 static inline const fracas_spacing *fracas_spacing_of(const fracas_spec *spec)
 {
     return spec->mesh.spacing->traits;
-}
-static inline const fracas_edge *fracas_edge_of(const fracas_kind *edge)
-{
-    return edge->traits;
 }
 
 /* Kind of the edges of a tag, by the shape; NULL: the campaign chooses. */

@@ -38,4 +38,24 @@ static inline const fracas_kind *motion_choice(const char *key, const char *name
     return found;
 }
 
+/* Place of a load's number of this key. */
+static inline size_t load_place(const fracas_loading *loading, const char *key)
+{
+    for (size_t p = 0; p < loading->type->nparams; p++)
+        if (strcmp(loading->type->params[p].name, key) == 0)
+            return loading->type->params[p].offset / sizeof(double);
+    fail_msg("%s has no %s", loading->type->name, key);
+    return 0;
+}
+
+static inline double *load_number(fracas_loading *loading, const char *key)
+{
+    return (double *)(void *)loading + load_place(loading, key);
+}
+
+static inline double load_value(const fracas_loading *loading, const char *key)
+{
+    return *((const double *)(const void *)loading + load_place(loading, key));
+}
+
 #endif

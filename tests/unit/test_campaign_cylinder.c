@@ -78,7 +78,6 @@ static void test_parts(void **state)
     refused("", "sweep:\n  - geometry.shape: [cylinder, sphere]\n", "length");
     refused("part: quarter,", "part: octant, bottom: clamped,",
             "bottom is clamped, but part: octant ends in the plane y = 0");
-    refused("part: quarter", "part: quarter, top: sliding", "`top` cannot be `sliding` here");
     refused("part: quarter,", "left: free,", "`left` belongs to shape plate");
     refused("part: quarter,", "inner_edge: free,", "`inner_edge` belongs to shape annulus");
 }
@@ -98,6 +97,11 @@ static void test_edges(void **state)
     assert_ptr_equal(fracas_shape_edge(&octant->point[0].spec, 4), NULL);
     OWN(fracas_model) model = NULL;
     OK(fracas_point_model_create(campaign, 0, &model)); /* edges are as such edges must be */
+    OWN(fracas_campaign) sliding = tube_with("part: quarter", "part: quarter, top: sliding");
+    OWN(fracas_model) none = NULL;
+    FAILS(fracas_point_model_create(sliding, 0, &none), FRACAS_USAGE,
+          "an edge with tag 4 is sliding, which edges of a shell cannot be: let it be free, held, "
+          "fixed, clamped, symmetry or diaphragm");
 }
 
 /* A quarter of 4 by 8 squares: elements; interfaces are the lines between squares, and diagonals.

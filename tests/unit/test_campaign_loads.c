@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Campaign files with several loads and with initial states: values, hashes, bounds, warnings. */
 #include "tests/support/campaign_text.h"
+#include "tests/support/loads.h"
 
 #include "campaigns/plan/forecast.h"
 #include "engine/loading/loading.h"
@@ -35,8 +36,8 @@ static void test_list_of_loads(void **state)
     assert_true(same_hash(plain, one) && same_hash(plain, empty));
     assert_false(same_hash(plain, all) || same_hash(all, turned));
     const fracas_spec *spec = &all->point[0].spec;
-    assert_true(spec->loading.rate == 1e4 && spec->also[0].traction[0] == 1e6 &&
-                spec->also[1].body_force[0] == 2);
+    assert_true(spec->loading.rate == 1e4 && load_value(&spec->also[0], "normal") == 1e6 &&
+                load_value(&spec->also[1], "x") == 2);
     assert_ptr_equal(spec->also[0].type, &fracas_loading_traction);
     assert_ptr_equal(spec->also[1].type, &fracas_loading_body_force);
     assert_null(plain->point[0].spec.also[0].type);
@@ -60,10 +61,10 @@ static void test_swept_loads(void **state)
     for (size_t p = 0; p < 6; p++) {
         const fracas_spec *spec = &campaign->point[p].spec;
         const fracas_loading *second = &spec->also[0], *third = &spec->also[1];
-        assert_true(spec->loading.body_force[1] == (p < 3 ? 1 : 2));
-        if (p % 3 == 2) assert_true(second->body_force[0] == 3);
-        else assert_true(second->traction[0] == (p % 3 == 0 ? 2e6 : 1e6));
-        assert_true(p % 3 == 1 ? third->body_force[0] == 4 : third->type == NULL);
+        assert_true(load_value(&spec->loading, "y") == (p < 3 ? 1 : 2));
+        if (p % 3 == 2) assert_true(load_value(second, "x") == 3);
+        else assert_true(load_value(second, "normal") == (p % 3 == 0 ? 2e6 : 1e6));
+        assert_true(p % 3 == 1 ? load_value(third, "x") == 4 : third->type == NULL);
     }
     check_round_trip(campaign);
 }

@@ -22,7 +22,7 @@ static fracas_spec capsule_of(const fracas_kind *part, int64_t divisions)
     spec.geometry.thickness = 0.05;
     spec.mesh.divisions = divisions;
     spec.loading = bare_load(&fracas_loading_pressure);
-    spec.loading.pressure = PRESSURE;
+    *load_number(&spec.loading, "pressure") = PRESSURE;
     return spec;
 }
 

@@ -27,23 +27,25 @@ static fracas_spec plate_of(int which)
     spec.time.end = 1e3;
     spec.cohesive.fracture_energy = 1e12;
     spec.loading = bare_load(&fracas_loading_line_force);
-    memcpy(spec.loading.line_force, (double[3]){2, -3, which == 2 ? 5 : 0}, 3 * sizeof(double));
-    spec.loading.line_across = which == 2 ? -1 : 0;
-    memcpy(spec.loading.line_from, (double[3]){-0.3 * w, -0.25 * w}, 3 * sizeof(double));
-    memcpy(spec.loading.line_to, (double[3]){0.35 * w, 0.2 * w}, 3 * sizeof(double));
-    spec.loading.line_within = 0.3 * w;
+    memcpy(load_number(&spec.loading, "force_x"), (double[3]){2, -3, which == 2 ? 5 : 0},
+           3 * sizeof(double));
+    *load_number(&spec.loading, "force_across") = which == 2 ? -1 : 0;
+    memcpy(load_number(&spec.loading, "from_x"), (double[3]){-0.3 * w, -0.25 * w},
+           3 * sizeof(double));
+    memcpy(load_number(&spec.loading, "to_x"), (double[3]){0.35 * w, 0.2 * w}, 3 * sizeof(double));
+    *load_number(&spec.loading, "within") = 0.3 * w;
     return spec;
 }
 
 /* Force by length in all, and the length given. */
 static double force_of(const fracas_loading *loading, size_t i)
 {
-    return loading->line_force[i] + (i == 2 ? loading->line_across : 0);
+    return loading->own[i] + (i == 2 ? load_value(loading, "force_across") : 0);
 }
 static double length_of(const fracas_loading *loading)
 {
-    return hypot(loading->line_to[0] - loading->line_from[0],
-                 loading->line_to[1] - loading->line_from[1]);
+    return hypot(load_value(loading, "to_x") - load_value(loading, "from_x"),
+                 load_value(loading, "to_y") - load_value(loading, "from_y"));
 }
 
 static one_run begin(fracas_spec spec, double distortion)
@@ -142,9 +144,9 @@ static void a_strip_bends_as_a_beam(void **unused)
         spec.time.end = 1e3;
         spec.time.safety = 0.8;
         spec.loading = bare_load(&fracas_loading_line_force);
-        spec.loading.line_across = force;
-        spec.loading.line_from[1] = -b / 2;
-        spec.loading.line_to[1] = b / 2;
+        *load_number(&spec.loading, "force_across") = force;
+        *load_number(&spec.loading, "from_y") = -b / 2;
+        *load_number(&spec.loading, "to_y") = b / 2;
         spec.loading.rise = 2 * 2 * M_PI / omega;
         one_run run = begin(spec, 0);
         while (run.batch->step.time[0] < spec.loading.rise) step_run(&run);
@@ -234,15 +236,15 @@ static void lines_without_sense_are_refused(void **unused)
     FAILS(traits->check(&load), FRACAS_USAGE, "line-force has no line", "edge: NAME");
     load.edge = fracas_load_edges[6];
     OK(traits->check(&load));
-    load.line_to[1] = 1;
+    *load_number(&load, "to_y") = 1;
     FAILS(traits->check(&load), FRACAS_USAGE, "both a line and the edges edge_1", "leave one out");
     fracas_spec spec = plate_of(0);
-    spec.loading.line_within = NAN;
-    spec.loading.line_from[0] = -3 * spec.geometry.width;
+    *load_number(&spec.loading, "within") = NAN;
+    *load_number(&spec.loading, "from_x") = -3 * spec.geometry.width;
     FAILS(fracas_model_create(&spec, &model), FRACAS_USAGE, "the line's start is",
           "raise loading.within");
     spec = plate_of(0);
-    memset(spec.loading.line_force, 0, sizeof spec.loading.line_force);
+    memset(load_number(&spec.loading, "force_x"), 0, 3 * sizeof(double));
     FAILS(fracas_model_create(&spec, &model), FRACAS_USAGE, "line-force has no force", "give it");
     spec = plate_of(0);
     spec.loading.edge = fracas_load_edges[0]; /* left, on the boundary */

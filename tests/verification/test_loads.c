@@ -16,7 +16,7 @@ static fracas_spec pressed(const fracas_kind *shape, int64_t divisions, double p
     spec.geometry.thickness = 0.02;
     spec.mesh.divisions = divisions;
     spec.loading = bare_load(&fracas_loading_pressure);
-    spec.loading.pressure = pressure;
+    *load_number(&spec.loading, "pressure") = pressure;
     return spec;
 }
 
@@ -26,7 +26,7 @@ static fracas_spec pushed(const fracas_formulation *model, double x, double y, d
                            ? pressed(&fracas_shape_plate, 4, 0)
                            : membrane_spec(&fracas_shape_plate, 2, 4);
     spec.loading = bare_load(&fracas_loading_body_force);
-    memcpy(spec.loading.body_force, (double[3]){x, y, z}, sizeof spec.loading.body_force);
+    memcpy(load_number(&spec.loading, "x"), (double[3]){x, y, z}, 3 * sizeof(double));
     return spec;
 }
 
@@ -38,7 +38,8 @@ static fracas_spec pulled(fracas_spec spec, const char *edge, double normal, dou
     spec.loading = bare_load(&fracas_loading_traction);
     for (size_t k = 0; k < FRACAS_COUNT(edges); k++)
         if (strcmp(edges[k]->name, edge) == 0) spec.loading.edge = edges[k];
-    memcpy(spec.loading.traction, (double[3]){normal, shear, across}, sizeof spec.loading.traction);
+    memcpy(load_number(&spec.loading, "normal"), (double[3]){normal, shear, across},
+           3 * sizeof(double));
     return spec;
 }
 
@@ -183,7 +184,7 @@ static void loads_that_move_nothing_are_refused(void **unused)
     refuses(strip, "traction", "free the edge");
     strip.geometry.edge[2] = &fracas_edge_sliding; /* held along x */
     refuses(strip, "traction", "free the edge");
-    strip.loading.traction[1] = 1;
+    *load_number(&strip.loading, "shear") = 1;
     fracas_model_destroy(distorted_model(strip, 0, 0));
     refuses(pushed(&fracas_formulation_membrane, 0, 0, 5), "body-force", "are 0");
     refuses(pulled(membrane_spec(&fracas_shape_annulus, 2, 3), "right", 1, 0, 0),
@@ -277,7 +278,8 @@ static double breathing(const fracas_spec *spec, double t)
 {
     const fracas_material *m = &spec->material;
     const double radius = spec->geometry.radius,
-                 push = spec->loading.pressure / (m->density * spec->geometry.thickness),
+                 push = load_value(&spec->loading, "pressure") /
+                        (m->density * spec->geometry.thickness),
                  omega = sqrt(2 * m->young / ((1 - m->poisson) * m->density)) / radius;
     if (!(spec->loading.decay > 0)) return push / (omega * omega) * (1 - cos(omega * t));
     const double b = 1 / spec->loading.decay;

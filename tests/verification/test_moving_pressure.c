@@ -32,7 +32,7 @@ static steady_wave wave_of(const fracas_spec *spec, double share)
         k = plane * h / (R * R) * (1 - nu * nu / axial), sum = sqrt(k / D),
                  difference = -rho * h * w.speed * w.speed / (2 * D);
     w.shrinks = nu / axial;
-    w.still = spec->loading.pressure / k;
+    w.still = load_value(&spec->loading, "pressure") / k;
     w.alpha = sqrt(0.5 * (sum + difference));
     w.beta = sqrt(0.5 * (sum - difference));
     w.ratio = difference / (2 * w.alpha * w.beta);
@@ -75,7 +75,7 @@ static fracas_spec tube(int64_t divisions)
     spec.geometry.thickness = 0.05;
     spec.mesh.divisions = divisions;
     spec.loading = bare_load(&fracas_loading_pressure);
-    spec.loading.pressure = 1e-3;
+    *load_number(&spec.loading, "pressure") = 1e-3;
     spec.loading.front_along = &fracas_front_y;
     spec.loading.front_at = -0.5 * travel;
     return spec;

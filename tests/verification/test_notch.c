@@ -258,7 +258,7 @@ static double energy_with(double depth, int64_t divisions)
                  bending = 2 * M_PI / 3.516 * 4 * sqrt(12) * passage, rise = 2 * bending;
     spec.loading = bare_load(&fracas_loading_traction);
     spec.loading.edge = &top;
-    spec.loading.traction[0] = PULL;
+    *load_number(&spec.loading, "normal") = PULL;
     spec.loading.rise = rise;
     spec.time.end = 1;
     one_run run = begin_run(distorted_model(spec, 0, 0), 1, STRONG);

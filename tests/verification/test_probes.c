@@ -199,7 +199,7 @@ static void bodies_fall(void **unused)
     fracas_spec spec = shell_spec(&fracas_shape_plate);
     spec.mesh.divisions = 4;
     spec.loading = bare_load(&fracas_loading_body_force);
-    memcpy(spec.loading.body_force, push, sizeof push);
+    memcpy(load_number(&spec.loading, "x"), push, sizeof push);
     spec.time.end = 0.3;
     RECORD(record);
     run_whole(spec, &probes, 30, &record);
@@ -226,7 +226,7 @@ static void a_sphere_breathes(void **unused)
     spec.geometry.thickness = 0.02;
     spec.mesh.divisions = 16;
     spec.loading = bare_load(&fracas_loading_pressure);
-    spec.loading.pressure = 1;
+    *load_number(&spec.loading, "pressure") = 1;
     const double omega = sqrt(2 * 200 / (0.7 * 2)), most = 2 / (2 * 0.02 * omega * omega);
     spec.time.end = 2 * M_PI / omega;
     const double d = sqrt(1.0 / 3), h = sqrt(0.5);

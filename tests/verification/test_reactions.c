@@ -24,7 +24,7 @@ static fracas_spec plate_of(bool shell, int64_t divisions)
 static fracas_spec pushed(fracas_spec spec, double x, double y, double z)
 {
     spec = loaded(spec, &fracas_loading_body_force);
-    memcpy(spec.loading.body_force, (double[3]){x, y, z}, sizeof spec.loading.body_force);
+    memcpy(load_number(&spec.loading, "x"), (double[3]){x, y, z}, 3 * sizeof(double));
     return spec;
 }
 
@@ -33,7 +33,8 @@ static fracas_spec pulled(fracas_spec spec, double normal, double shear, double 
     static const fracas_kind right = {"right", ""};
     spec = loaded(spec, &fracas_loading_traction);
     spec.loading.edge = &right;
-    memcpy(spec.loading.traction, (double[3]){normal, shear, across}, sizeof spec.loading.traction);
+    memcpy(load_number(&spec.loading, "normal"), (double[3]){normal, shear, across},
+           3 * sizeof(double));
     return spec;
 }
 
@@ -148,7 +149,7 @@ static void momentum_changes_by_reactions_and_load(void **unused)
 {
     fracas_spec clamped = loaded(plate_of(true, 4), &fracas_loading_pressure);
     for (int tag = 1; tag <= PLATE_SIDES; tag++) clamped.geometry.edge[tag] = &fracas_edge_clamped;
-    clamped.loading.pressure = 1;
+    *load_number(&clamped.loading, "pressure") = 1;
     clamped.geometry.thickness = 0.02;
     check_momentum(clamped, 1e6, 300, 4, false);
     clamped.time.rotary_inertia = 1;
@@ -297,6 +298,34 @@ static void reactions_depend_on_their_lane_alone(void **unused)
     fracas_model_destroy(model);
 }
 
-TESTS(momentum_changes_by_reactions_and_load, momentum_changes_by_edges_that_move,
-      a_pulled_strip_pulls_its_end, a_hanging_plate_is_held_by_its_weight,
-      bodies_without_held_edges_are_refused, reactions_depend_on_their_lane_alone)
+/* Without an expansion a sliding edge rests, as one in a plane of symmetry does: equal bits. */
+static void membranes_have_planes_of_symmetry(void **unused)
+{
+    const fracas_kind *const edge[2] = {&fracas_edge_sliding, &fracas_edge_symmetry};
+    double sum[2][3];
+    for (int k = 0; k < 2; k++) {
+        fracas_spec spec = pulled(plate_of(false, 4), 1e6, 2e5, 0);
+        spec.geometry.edge[1] = spec.geometry.edge[3] = edge[k];
+        OWN(fracas_model) model = make_model(&spec);
+        const fracas_surface_tables *t = model->plan;
+        OWN(fracas_batch) batch = begin(model, 300e6, 0);
+        RECORD(record);
+        size_t running = 1, edges;
+        OK(fracas_batch_begin(batch));
+        for (int s = 0; s < 200; s++) OK(fracas_batch_step(batch, &record, &running));
+        const vector_sum all = forces_of(batch, &edges);
+        memcpy(sum[k], all.sum, sizeof sum[k]);
+        assert_true(edges == 2 && t->nrims == 0 && all.size > 0);
+    }
+    assert_memory_equal(sum[0], sum[1], sizeof sum[0]);
+    fracas_spec leaning = membrane_spec(&fracas_shape_annulus, 2, 4);
+    leaning.geometry.edge[1] = &fracas_edge_symmetry;
+    OWN(fracas_model) none = NULL;
+    FAILS(fracas_model_create(&leaning, &none), FRACAS_USAGE,
+          "an edge with tag 1 is symmetry, but at", "that the body meets at a right angle");
+}
+
+TESTS(membranes_have_planes_of_symmetry, momentum_changes_by_reactions_and_load,
+      momentum_changes_by_edges_that_move, a_pulled_strip_pulls_its_end,
+      a_hanging_plate_is_held_by_its_weight, bodies_without_held_edges_are_refused,
+      reactions_depend_on_their_lane_alone)

@@ -22,14 +22,14 @@ static fracas_spec plate(void)
 static fracas_loading pressure(double p)
 {
     fracas_loading load = bare_load(&fracas_loading_pressure);
-    load.pressure = p;
+    *load_number(&load, "pressure") = p;
     return load;
 }
 
 static fracas_loading body_force(double x, double y, double z)
 {
     fracas_loading load = bare_load(&fracas_loading_body_force);
-    memcpy(load.body_force, (double[3]){x, y, z}, sizeof load.body_force);
+    memcpy(load_number(&load, "x"), (double[3]){x, y, z}, 3 * sizeof(double));
     return load;
 }
 
@@ -37,8 +37,8 @@ static fracas_loading traction(const fracas_kind *edge, double normal, double ac
 {
     fracas_loading load = bare_load(&fracas_loading_traction);
     load.edge = edge;
-    load.traction[0] = normal;
-    load.traction[2] = across;
+    *load_number(&load, "normal") = normal;
+    *load_number(&load, "across") = across;
     return load;
 }
 

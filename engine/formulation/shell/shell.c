@@ -203,12 +203,8 @@ static void fill_rim(const fracas_model *model, const fracas_surface_border *bor
     }
 }
 
-/* Least cosine at a plane of symmetry: bent edges of coarse meshes are off by some degrees. */
-#define UPRIGHT 0.93
-
-/* The axis normal to the plane of an edge, of two the one nearer to the edge's own normal; 3: there
- * is none, or its cosine with the edge's normal is below `least`. */
-static int axis_of(const fracas_surface *surface, const fracas_surface_border *border, double least)
+static unsigned axis_of(const fracas_surface *surface, const fracas_surface_border *border,
+                        double least)
 {
     double xi, eta, tangent[3], normal[3];
     fracas_shell_geometry at;
@@ -227,29 +223,7 @@ static int axis_of(const fracas_surface *surface, const fracas_surface_border *b
             (axis == 3 || fabs(normal[i]) > fabs(normal[axis])))
             axis = i;
     }
-    return axis;
-}
-
-static fracas_err hold_edge(const fracas_model *model, const fracas_surface_border *border,
-                            const fracas_kind *kind, unsigned *components)
-{
-    const fracas_edge *edge = fracas_edge_of(kind);
-    const bool plane = edge->mirror || edge->in_plane;
-    const int axis = plane ? axis_of(model->surface, border, edge->mirror ? UPRIGHT : 0) : 3;
-    const double *at = fracas_surface_node(model->surface, border->element, border->edge);
-    if (!edge->shell)
-        return fracas_fail(FRACAS_USAGE,
-                           "an edge with tag %d is %s, which edges of shells cannot be: let it be "
-                           "a symmetry, a diaphragm, held, fixed, clamped or free",
-                           (int)border->tag, kind->name);
-    if (plane && axis == 3)
-        return fracas_fail(FRACAS_USAGE,
-                           "an edge with tag %d is a %s, but at (%g, %g, %g) m it does not lie in "
-                           "a plane x, y or z = const%s: hold it otherwise, or leave it free",
-                           (int)border->tag, kind->name, at[0], at[1], at[2],
-                           edge->mirror ? " that the shell meets at a right angle" : "");
-    *components = edge->mirror ? 1u << axis : edge->in_plane ? 7u & ~(1u << axis) : 7u;
-    return FRACAS_OK;
+    return axis < 3 ? 1u << axis : 0;
 }
 
 /* ---- the body ---- */
@@ -296,7 +270,7 @@ static const fracas_surface_body body = {.dimension = 3,
                                          .fill_point = fill_point,
                                          .fill_rim = fill_rim,
                                          .fill_rotary = fill_rotary,
-                                         .hold_edge = hold_edge,
+                                         .edge_axis = axis_of,
                                          .turn_stress = turn_stress,
                                          .normal = normal_at,
                                          .add_node = add_node};

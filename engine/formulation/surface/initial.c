@@ -60,7 +60,7 @@ static fracas_err check_plane(const fracas_model *model, const fracas_surface_bo
     const fracas_surface *surface = model->surface;
     const fracas_initial_strain strain = fracas_initial_strain_of(&model->spec);
     unsigned components = 0;
-    TRY(t->body->hold_edge(model, border, kind, &components));
+    TRY(fracas_surface_hold_edge(model, border, kind, false, &components));
     for (size_t k = 0; k < 2; k++) {
         const double *x = surface->node[surface->element[border->element * surface->corners +
                                                          (border->edge + k) % 3]];
@@ -96,7 +96,7 @@ static fracas_err check_planes(const fracas_model *model)
         for (size_t b = 0; b < surface->nborders; b++) {
             const fracas_surface_border *border = &surface->border[b];
             const fracas_kind *kind = fracas_surface_edge_kind(&model->spec, border->tag);
-            if (border->tag == tag && kind == &fracas_edge_symmetry)
+            if (border->tag == tag && fracas_edge_of(kind)->mirror)
                 TRY(check_plane(model, border, kind, &first));
         }
     }

@@ -21,6 +21,19 @@ bool fracas_surface_is_loaded(const fracas_model *model, int32_t tag, bool insid
 /* The kind of the edges of a tag: the shape's, that of `geometry`, or else that of all others. */
 const fracas_kind *fracas_surface_edge_kind(const fracas_spec *spec, int32_t tag);
 
+/* Components that an edge of this kind holds, as bits, 0: none; of one that a load moves those that
+ * go along. FRACAS_USAGE where the body cannot have such an edge there. */
+FRACAS_MUST_USE fracas_err fracas_surface_hold_edge(const fracas_model *model,
+                                                    const fracas_surface_border *border,
+                                                    const fracas_kind *kind, bool moved,
+                                                    unsigned *components);
+/* A shell does not turn about it. */
+bool fracas_surface_has_rim(const fracas_model *model, const fracas_surface_border *border);
+/* Fills held, fixed, moved and rims of the tables; `moved`: fracas_surface_moved_tags.
+ * FRACAS_USAGE where an edge does not exist, or cannot be such. */
+FRACAS_MUST_USE fracas_err fracas_surface_edges_fill(const fracas_model *model,
+                                                     fracas_surface_tables *tables, unsigned moved);
+
 /* A place at s in (0, 1) on an edge, and |dx/ds| there [m]. */
 fracas_place fracas_surface_place_on(const fracas_surface *surface,
                                      const fracas_surface_border *border, double s, double *speed);

@@ -76,27 +76,17 @@ static void fill_point(const fracas_model *model, const fracas_surface_interface
     point[MEMBRANE_AREA] = weight * speed * model->spec.geometry.thickness;
 }
 
-static fracas_err hold_edge(const fracas_model *model, const fracas_surface_border *border,
-                            const fracas_kind *kind, unsigned *components)
+/* Edges along an axis meet their plane at a right angle. */
+static unsigned axis_of(const fracas_surface *surface, const fracas_surface_border *border,
+                        double least)
 {
-    const fracas_edge *edge = fracas_edge_of(kind);
     double x[6][2];
-    nodes_of(model->surface, border->element, x);
+    nodes_of(surface, border->element, x);
     const double *a = x[border->edge], *b = x[(border->edge + 1) % 3], dx = fabs(b[0] - a[0]),
                  dy = fabs(b[1] - a[1]);
-    if (!edge->membrane)
-        return fracas_fail(
-            FRACAS_USAGE,
-            "an edge with tag %d is %s, which edges of shells are: let an edge of a membrane be %s",
-            (int)border->tag, kind->name,
-            edge->mirror ? "sliding" : "fixed, held, sliding or free");
-    if (edge->sliding && fmin(dx, dy) > 1e-9 * fmax(dx, dy))
-        return fracas_fail(FRACAS_USAGE,
-                           "an edge with tag %d slides, but it is neither along x nor along y at "
-                           "(%g, %g) m: hold it, or leave it free",
-                           (int)border->tag, a[0], a[1]);
-    *components = edge->sliding ? (dy > dx) | (dx > dy) << 1 : 3;
-    return FRACAS_OK;
+    (void)least;
+    if (fmin(dx, dy) > 1e-9 * fmax(dx, dy)) return 0;
+    return dy > dx ? 1 : 2;
 }
 
 /* ---- the body ---- */
@@ -142,7 +132,7 @@ static const fracas_surface_body body = {.dimension = 2,
                                          .fill_bulk = fill_bulk,
                                          .fill_head = fill_head,
                                          .fill_point = fill_point,
-                                         .hold_edge = hold_edge,
+                                         .edge_axis = axis_of,
                                          .turn_stress = turn_stress,
                                          .normal = normal_at,
                                          .add_node = add_node};

@@ -134,14 +134,14 @@ static void measure(fracas_model *model)
 }
 
 /* Motion that can never become strain energy: the rigid motion of a free body; the imposed
- * expansion if every held edge follows it; none if an edge is fixed. */
+ * expansion if every held edge follows it; none if an edge is fixed, or must not turn. */
 static fracas_motion rigid_part(const fracas_model *model)
 {
     const fracas_surface_tables *t = tables_of(model);
     if (t->moves && stretch_of(model).moving) return FRACAS_MOTION_HOMOGENEOUS;
     for (size_t e = 0; e < t->nelements; e++)
         if (t->held[e]) return FRACAS_MOTION_NONE;
-    return FRACAS_MOTION_RIGID;
+    return t->nrims ? FRACAS_MOTION_NONE : FRACAS_MOTION_RIGID;
 }
 
 fracas_err fracas_surface_model_init(fracas_model *model)

@@ -225,10 +225,10 @@ struct fracas_surface_body {
     void (*fill_rim)(const fracas_model *model, const fracas_surface_border *border, double *rim);
     /* Direction t and matrix R of an element's whole rotary inertia; NULL: the body has none. */
     void (*fill_rotary)(const fracas_model *model, size_t element, double t[3], double *rotary);
-    /* Components held by an edge of this kind, as bits, 0: none; of one that a load moves those
-     * that go along. FRACAS_USAGE where the body cannot have such an edge. */
-    fracas_err (*hold_edge)(const fracas_model *model, const fracas_surface_border *border,
-                            const fracas_kind *kind, unsigned *components);
+    /* The axis across the plane x, y or z = const of an edge, as a bit, of two the one nearer to
+     * the edge's own normal; 0: there is none, or its cosine with that is below `least`. */
+    unsigned (*edge_axis)(const fracas_surface *surface, const fracas_surface_border *border,
+                          double least);
     /* Turns the stresses of a bulk point, by its table, into tensors in space: xx, yy, zz, xy, yz,
      * xz of each three. */
     void (*turn_stress)(const double *bulk, const double *stress, double *tensor);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Tables of a surface: masses, held edges, and the body's own geometry. */
+/* Tables of a surface: masses, and the body's own geometry. */
 #include "engine/formulation/surface/surface.h"
 
 #include "engine/formulation/surface/loads.h"
@@ -234,85 +234,6 @@ static void fill_positions(const fracas_surface *surface, fracas_surface_tables 
             t->position[2 * (e * surface->corners + k) + i] = fracas_surface_node(surface, e, k)[i];
 }
 
-/* ---- edges ---- */
-
-const fracas_kind *fracas_surface_edge_kind(const fracas_spec *spec, int32_t tag)
-{
-    const fracas_kind *const *edge = spec->geometry.edge, *decided = fracas_shape_edge(spec, tag);
-    if (decided) return decided;
-    if (tag > 0 && tag < FRACAS_EDGES && edge[tag]) return edge[tag];
-    return edge[0] ? edge[0] : &fracas_edge_free;
-}
-
-unsigned fracas_surface_held_by(const fracas_model *model, const fracas_surface_border *border)
-{
-    const fracas_surface_body *body = model->formulation->kind.traits;
-    const fracas_kind *kind = fracas_surface_edge_kind(&model->spec, border->tag);
-    unsigned components = 0, moved = 0;
-    const bool moves = !fracas_surface_moved_tags(model, &moved) &&
-                       fracas_surface_is_moved(border->tag, moved);
-    if (!(fracas_edge_of(kind)->held || moves) || body->hold_edge(model, border, kind, &components))
-        return 0;
-    return components;
-}
-
-/* Each edge of a mesh file held by the campaign must exist, and be whole. */
-static fracas_err check_edge_tags(const fracas_model *model)
-{
-    const fracas_surface *surface = model->surface;
-    for (int32_t tag = 1; fracas_shape_of(&model->spec)->from_file && tag < FRACAS_EDGES; tag++) {
-        size_t found = 0;
-        if (surface->passed >> tag & 1 && (fracas_surface_edge_key(model, tag) == tag ||
-                                           fracas_surface_is_loaded(model, tag, true)))
-            return fracas_fail(FRACAS_USAGE,
-                               "edge_%d is used, but the mesh has lines of the physical group %d "
-                               "in a group of a lesser number, too: an edge has one: take these "
-                               "lines out of one of them, or leave edge_%d to `edges`",
-                               (int)tag, (int)tag, (int)tag);
-        for (size_t b = 0; b < surface->nborders; b++) found += surface->border[b].tag == tag;
-        const fracas_kind *edge = model->spec.geometry.edge[tag];
-        if (found == 0 && edge && fracas_edge_of(edge)->held)
-            return fracas_fail(
-                FRACAS_USAGE,
-                "geometry.edge_%d is %s, but the mesh has no edge on its boundary of the physical "
-                "group %d: give the lines that number, or the group the name edge_%d, or use "
-                "`edges` "
-                "for all others",
-                (int)tag, edge->name, (int)tag, (int)tag);
-    }
-    return FRACAS_OK;
-}
-
-/* Held nodes, and rims, element by element: borders are sorted by element. */
-static fracas_err fill_edges(const fracas_model *model, fracas_surface_tables *t, unsigned moved)
-{
-    const fracas_surface_body *body = t->body;
-    const int dimension = body->dimension;
-    size_t r = 0, e = 0;
-    for (size_t b = 0; b < model->surface->nborders; b++) {
-        const fracas_surface_border *border = &model->surface->border[b];
-        const fracas_kind *kind = fracas_surface_edge_kind(&model->spec, border->tag);
-        const fracas_edge *edge = fracas_edge_of(kind);
-        const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
-        const bool moves = fracas_surface_is_moved(border->tag, moved);
-        unsigned components = 0;
-        uint32_t held = 0;
-        if (edge->held || edge->director || moves)
-            TRY(body->hold_edge(model, border, kind, &components));
-        for (int n = 0; n < t->order + 1; n++) held |= components << dimension * (int)node[n];
-        t->held[border->element] |= held;
-        if (moves) t->moved[border->element] |= held;
-        else if (!edge->moving) t->fixed[border->element] |= held;
-        while (e < border->element) t->rim_from[++e] = (uint32_t)r;
-        if (!edge->director) continue;
-        t->rim_edge[r] = (uint8_t)k;
-        body->fill_rim(model, border, t->rim + r++ * body->rim_table);
-    }
-    while (e < t->nelements) t->rim_from[++e] = (uint32_t)r;
-    for (e = 0; t->moved && e < t->nelements; e++) t->moved[e] &= ~t->fixed[e];
-    return FRACAS_OK;
-}
-
 /* ---- elements and interfaces ---- */
 
 static void fill_element(const fracas_model *model, fracas_surface_tables *t, size_t e)
@@ -349,8 +270,7 @@ static void fill_interface(const fracas_model *model, fracas_surface_tables *t, 
 
 static fracas_err fill(const fracas_model *model, fracas_surface_tables *t, unsigned moved)
 {
-    TRY(check_edge_tags(model));
-    TRY(fill_edges(model, t, moved));
+    TRY(fracas_surface_edges_fill(model, t, moved));
     TRY(fracas_surface_motion_fill(model, t));
     for (size_t e = 0; e < t->nelements; e++) fill_element(model, t, e);
     for (size_t i = 0; i < t->ninterfaces; i++) fill_interface(model, t, i);
@@ -367,8 +287,7 @@ fracas_err fracas_surface_tables_create(const fracas_model *model, fracas_surfac
     t->nelements = surface->nelements;
     t->ninterfaces = surface->ninterfaces;
     for (size_t b = 0; b < surface->nborders; b++)
-        t->nrims += fracas_edge_of(fracas_surface_edge_kind(&model->spec, surface->border[b].tag))
-                        ->director;
+        t->nrims += fracas_surface_has_rim(model, &surface->border[b]);
     const fracas_time *time = &model->spec.time;
     size_t forces, loads;
     unsigned moved = 0;

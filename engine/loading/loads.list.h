@@ -1,0 +1,8 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* LOAD(name): fracas_loading_NAME, a force on surfaces or a motion of their edges (load.h), which
+ * also acts beside another loading. In the order of the reference. */
+LOAD(pressure)
+LOAD(body_force)
+LOAD(traction)
+LOAD(edge_motion)
+LOAD(line_force)
