@@ -25,16 +25,12 @@ fracas_parameter_words fracas_words_of(const char *path)
     fracas_parameter_words words = {""};
     const char *dot = strchr(path, '.'), *number = strchr(path, '_');
     const bool several = dot && number && number < dot;
-    char first[96];
-    snprintf(first, sizeof first, "%.*s%s",
-             (int)((several ? number
-                    : dot   ? dot
-                            : path) -
-                   path),
-             path, dot ? dot : path);
+    char first[96]; /* the path with the section's name alone */
+    if (several) snprintf(first, sizeof first, "%.*s%s", (int)(number - path), path, dot);
+    else snprintf(first, sizeof first, "%s", path);
     const char *found = listed(first);
     snprintf(words.text, sizeof words.text, "%.60s", found ? found : dot ? dot + 1 : path);
-    for (char *c = words.text; !found && dot && *c; c++)
+    for (char *c = words.text; !found && *c; c++)
         if (*c == '_') *c = ' ';
     if (several)
         fracas_append(words.text, sizeof words.text, "", " of %.*s %.*s", (int)(number - path),

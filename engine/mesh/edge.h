@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Conditions of edges: what holds the edges of a surface, by their keys in `geometry`. */
+/* Conditions of a surface's edges, by their keys in `geometry`. */
 #ifndef FRACAS_ENGINE_MESH_EDGE_H
 #define FRACAS_ENGINE_MESH_EDGE_H
 
@@ -8,11 +8,11 @@
 /* Traits of a condition. */
 typedef struct {
     unsigned models; /* groups of models whose edges can be such, bits */
-    /* Components of displacement that it holds, bits 1, 2, 4 for x, y, z, among `all` of the body.
-     * `across`: the axis across the plane of a `plane`, else 0. NULL: none. */
+    /* Held components of displacement, bits 1, 2, 4 for x, y, z, among `all` of the body. `across`:
+     * the axis across its plane, 0 without `plane`. NULL: none. */
     unsigned (*holds)(unsigned all, unsigned across);
     bool plane;    /* the edge lies in a plane x, y or z = const */
-    bool mirror;   /* ... that the body meets at a right angle; beyond it is the mirror image */
+    bool mirror;   /* ... at a right angle to the body; beyond it is the mirror image */
     bool director; /* a shell does not turn about it; the body then has rims (fill_rim) */
     bool moving;   /* at the velocity of the loading; else it rests */
 } fracas_edge;

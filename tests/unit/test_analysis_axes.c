@@ -355,7 +355,7 @@ static void six_series_are_the_most(void **state)
     clear(&of);
 }
 
-/* Words of the list stand for a parameter that there is. */
+/* Those of the list stand for a parameter; all others are words, not keys. */
 static void every_parameter_has_words(void **state)
 {
     static const char *const listed[] = {
@@ -379,6 +379,11 @@ static void every_parameter_has_words(void **state)
         if (strncmp(listed[i], "derived.", 8) != 0 && strcmp(listed[i], "case") != 0 &&
             !fracas_catalog_leaf(catalog, listed[i]))
             fail_msg("words.list.h: there is no %s", listed[i]);
+    for (size_t i = 0; i < catalog->nleaves; i++) {
+        const fracas_parameter_words words = fracas_words_of(catalog->leaf[i].path);
+        if (words.text[0] == '\0' || strpbrk(words.text, "_."))
+            fail_msg("%s is called \"%s\"", catalog->leaf[i].path, words.text);
+    }
     for (size_t i = 0; i < sizeof some / sizeof *some; i++)
         assert_string_equal(fracas_words_of(some[i].path).text, some[i].words);
     static made of;

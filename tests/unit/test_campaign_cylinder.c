@@ -99,9 +99,10 @@ static void test_edges(void **state)
     OK(fracas_point_model_create(campaign, 0, &model)); /* edges are as such edges must be */
     OWN(fracas_campaign) sliding = tube_with("part: quarter", "part: quarter, top: sliding");
     OWN(fracas_model) none = NULL;
-    FAILS(fracas_point_model_create(sliding, 0, &none), FRACAS_USAGE,
-          "an edge with tag 4 is sliding, which edges of a shell cannot be: let it be free, held, "
-          "fixed, clamped, symmetry or diaphragm");
+    FAILS(
+        fracas_point_model_create(sliding, 0, &none), FRACAS_USAGE,
+        "an edge with tag 4 is `sliding`, which edges of a shell cannot be: let it be free, held, "
+        "fixed, clamped, symmetry or diaphragm");
 }
 
 /* A quarter of 4 by 8 squares: elements; interfaces are the lines between squares, and diagonals.

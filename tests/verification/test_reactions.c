@@ -322,7 +322,7 @@ static void membranes_have_planes_of_symmetry(void **unused)
     leaning.geometry.edge[1] = &fracas_edge_symmetry;
     OWN(fracas_model) none = NULL;
     FAILS(fracas_model_create(&leaning, &none), FRACAS_USAGE,
-          "an edge with tag 1 is symmetry, but at", "that the body meets at a right angle");
+          "an edge with tag 1 is `symmetry`, but at", "that the body meets at a right angle");
 }
 
 TESTS(membranes_have_planes_of_symmetry, momentum_changes_by_reactions_and_load,

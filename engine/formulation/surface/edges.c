@@ -20,7 +20,7 @@ static fracas_err cannot_be(const fracas_model *model, const fracas_surface_bord
     char names[120];
     const fracas_kind *of = &model->formulation->kind;
     return fracas_fail(
-        FRACAS_USAGE, "an edge with tag %d is %s, which edges of a %s cannot be: let it be %s",
+        FRACAS_USAGE, "an edge with tag %d is `%s`, which edges of a %s cannot be: let it be %s",
         (int)border->tag, kind->name, of->name, fracas_edge_names(of->groups, names));
 }
 
@@ -36,7 +36,7 @@ fracas_err fracas_surface_hold_edge(const fracas_model *model, const fracas_surf
         across = body->edge_axis(model->surface, border, edge->mirror ? UPRIGHT : 0);
         if (!across)
             return fracas_fail(FRACAS_USAGE,
-                               "an edge with tag %d is %s, but at (%g, %g, %g) m it does not lie "
+                               "an edge with tag %d is `%s`, but at (%g, %g, %g) m it does not lie "
                                "in a plane x, y or z = const%s: hold it otherwise, or leave it "
                                "free",
                                (int)border->tag, kind->name, at[0], at[1], at[2],
@@ -90,7 +90,7 @@ static fracas_err check_edge_tags(const fracas_model *model)
     return FRACAS_OK;
 }
 
-/* Element by element: borders are sorted by element. */
+/* Element by element: so the borders are sorted. */
 fracas_err fracas_surface_edges_fill(const fracas_model *model, fracas_surface_tables *t,
                                      unsigned moved)
 {

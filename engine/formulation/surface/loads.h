@@ -21,8 +21,9 @@ bool fracas_surface_is_loaded(const fracas_model *model, int32_t tag, bool insid
 /* The kind of the edges of a tag: the shape's, that of `geometry`, or else that of all others. */
 const fracas_kind *fracas_surface_edge_kind(const fracas_spec *spec, int32_t tag);
 
-/* Components that an edge of this kind holds, as bits, 0: none; of one that a load moves those that
- * go along. FRACAS_USAGE where the body cannot have such an edge there. */
+/* Components of displacement held by an edge of this kind, bits 1, 2, 4 for x, y, z; 0: none. A
+ * free one goes along whole where a load has `moved` it. FRACAS_USAGE where the body cannot have
+ * such an edge there. */
 FRACAS_MUST_USE fracas_err fracas_surface_hold_edge(const fracas_model *model,
                                                     const fracas_surface_border *border,
                                                     const fracas_kind *kind, bool moved,
