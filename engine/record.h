@@ -60,8 +60,8 @@ typedef struct {
 
 typedef struct {
     double time;     /* s */
-    int64_t edge;    /* its tag, 1 to 8; 0: all other edges */
-    double force[3]; /* N, of the edge on the body */
+    int64_t edge;    /* its tag, 1 to 8; 0: all other edges; -n: nodes of the n-th loading */
+    double force[3]; /* N, of the edge, or nodes, on the body */
 } fracas_reaction_row;
 
 /* "tip 0.009 0 0; middle 0 0 0"; "" without a probe. */

@@ -79,7 +79,9 @@ typedef struct {
     const fracas_kind *contact; /* surfaces: law, none; NULL: law */
 } fracas_notch;
 
-enum { FRACAS_LOADINGS = 3 };  /* at most, at a point */
+enum { FRACAS_LOADINGS = 3 }; /* at most, at a point */
+/* Edges of each tag, and sets of nodes, one of a loading, that hold a surface. */
+enum { FRACAS_HOLDERS = FRACAS_EDGES + FRACAS_LOADINGS };
 enum { FRACAS_LOAD_OWN = 11 }; /* numbers of a load's own, at most */
 /* How a surface starts, beside its load. NaN: not given; 0: none. */
 typedef struct {
@@ -107,18 +109,19 @@ typedef struct {
     double ramp;                    /* s, centrifugal: time to reach it */
     double radial, circumferential; /* m/s, initial-velocity */
     const fracas_kind *direction;   /* held-velocity, force: radial, circumferential; edge-motion:
-                                       outward, along, across */
-    double velocity;                /* m/s, held-velocity, edge-motion; 0 there: displacement */
+                                       outward, along, across; node-motion: x, y, z */
+    double velocity;                /* m/s, held-velocity, motions; 0 there: displacement */
     double acceleration;            /* m/s2, held-velocity */
     double force;                   /* N/m, force: per length of the ring */
     double force_rate;              /* N/(m s), force */
     double ratio_z;                 /* 1, expansion of shells: as ratio, along z; NaN: 1 */
-    const fracas_kind *edge;        /* traction, edge-motion, line-force: this edge */
+    const fracas_kind *edge;        /* loads on an edge: this one */
     const fracas_kind *second_edge; /* edge-motion: as the first; NULL: none */
-    double displacement;            /* m, edge-motion; 0: velocity */
-    const fracas_kind *rise_by;     /* edge-motion: smooth, linear */
+    double displacement;            /* m, motions; 0: velocity */
+    const fracas_kind *rise_by;     /* motions: smooth, linear */
     double own[FRACAS_LOAD_OWN];    /* numbers of one load alone: its file names them */
-    /* amplitude of loads (engine/loading/load.h), of which edge-motion has
+    const fracas_kind *own_choice;  /* a choice of one load alone */
+    /* amplitude of loads (engine/loading/load.h), of which motions have
      * rise and history; NaN: not given */
     double rise, decay, duration;     /* s */
     const fracas_attachment *history; /* times [s] and factors; NULL: none */

@@ -118,6 +118,8 @@ static void name_reaction(const fracas_analysis *analysis,
     const long long edge = (long long)statistics->reaction[group].edge;
     (void)analysis;
     if (edge > 0) FRACAS_PRINT(series->name, "edge %lld", edge);
+    else if (edge == -1) FRACAS_PRINT(series->name, "nodes of loading");
+    else if (edge < 0) FRACAS_PRINT(series->name, "nodes of loading %lld", -edge);
     else FRACAS_PRINT(series->name, "other edges");
 }
 

@@ -92,14 +92,15 @@ typedef struct {
     };
     double power[FRACAS_LANES_MAX];
     /* the formulation's own: power of the drive at the velocities after the step before [W], of
-     * moved edges the force along their path [N]; square of the angular velocity [1/s2] */
-    double driven[FRACAS_LANES_MAX];
+     * each motion of nodes the force along its path [N]; square of the angular velocity [1/s2] */
+    double driven[FRACAS_LOADINGS][FRACAS_LANES_MAX];
     _Alignas(64) double spin[FRACAS_LANES_MAX];
     /* the same: amplitudes of loads now, a step before  (loads.2) */
     _Alignas(64) double amplitude[FRACAS_LOADINGS][FRACAS_LANES_MAX];
     _Alignas(64) double amplitude_before[FRACAS_LOADINGS][FRACAS_LANES_MAX];
-    /* the same: path of moved edges now and a step later [m]  (loads.6) */
-    _Alignas(64) double path[FRACAS_LANES_MAX], path_next[FRACAS_LANES_MAX];
+    /* the same: path of each motion of nodes now and a step later [m]  (loads.6) */
+    _Alignas(64) double path[FRACAS_LOADINGS][FRACAS_LANES_MAX];
+    _Alignas(64) double path_next[FRACAS_LOADINGS][FRACAS_LANES_MAX];
     /* accumulated: counts of interfaces, time of the first onset [s, NaN] */
     double first_onset[FRACAS_LANES_MAX];
     int64_t cracked[FRACAS_LANES_MAX], broken[FRACAS_LANES_MAX];
@@ -173,7 +174,7 @@ struct fracas_formulation {
     void (*motion_at)(const fracas_model *model, const fracas_step *step, int lane,
                       const fracas_spot *spot, double displacement[3], double velocity[3]);
     /* Edges that hold the body, by their tags, rising; returns their number. NULL: it has none. */
-    size_t (*held_edges)(const fracas_model *model, int64_t tag[FRACAS_EDGES]);
+    size_t (*held_edges)(const fracas_model *model, int64_t tag[FRACAS_HOLDERS]);
     /* Forces of these edges on the body after a step [N], where the division has `reactions`. */
     void (*reactions)(const fracas_model *model, const fracas_step *step, int lane,
                       double (*force)[3]);

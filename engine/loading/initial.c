@@ -3,6 +3,7 @@
 
 #include "base/elementary.h"
 #include "engine/loading/load.h"
+#include "engine/loading/region.h"
 
 #include <math.h>
 
@@ -106,18 +107,15 @@ bool fracas_initial_has_stress(const fracas_initial *initial)
     return is_set(initial->stress[0]) || is_set(initial->stress[1]) || is_set(initial->stress_xy);
 }
 
-static bool has(const fracas_initial *initial, const double x[3])
+static fracas_region region_of(const fracas_initial *initial)
 {
-    const double slack = 1e-9 * (fabs(x[0]) + fabs(x[1]) + fabs(x[2])); /* round-off of nodes */
-    double square = 0;
+    fracas_region region = {.within = initial->within};
     for (int i = 0; i < 3; i++) {
-        const double apart = x[i] - given(initial->at[i]);
-        square += apart * apart;
-        if (is_limited(initial, i) &&
-            (x[i] < initial->from[i] - slack || x[i] > initial->to[i] + slack))
-            return false; /* NaN: no limit */
+        region.at[i] = given(initial->at[i]);
+        region.from[i] = is_limited(initial, i) ? initial->from[i] : NAN;
+        region.to[i] = is_limited(initial, i) ? initial->to[i] : NAN;
     }
-    return !(initial->within > 0) || sqrt(square) <= initial->within + slack;
+    return region;
 }
 
 /* s(x): 1 without half waves  (initial.2) */
@@ -143,10 +141,11 @@ static int axis_of(const fracas_initial *initial)
 void fracas_initial_velocity(const fracas_initial *initial, const double x[3], double velocity[3])
 {
     const int axis = axis_of(initial), about = axis < 0 ? 2 : axis;
+    const fracas_region region = region_of(initial);
     const double spin = given(initial->spin), wave = wave_at(initial, x);
     double from[3], square = 0;
     for (int i = 0; i < 3; i++) velocity[i] = 0;
-    if (!has(initial, x)) return;
+    if (!fracas_region_has(&region, x)) return;
     for (int i = 0; i < 3; i++) {
         velocity[i] = given(initial->velocity[i]);
         from[i] = x[i] - given(initial->at[i]);

@@ -6,7 +6,7 @@
  * A load is one file, with its parameters and its density, and a line in loads.list.h. A number of
  * one load alone is own[] of the section (FRACAS_LOAD_NUMBER). The surface integrates the density
  * with the shape functions; masses, rotary inertia, reactions and the work in the ledger follow for
- * every body. A load with a path s(t) moves its edges instead:
+ * every body. A load with a path s(t) moves its edges or nodes instead:
  *
  *   u(x, t) = s(t) d(x)                                                             (loads.5) */
 #ifndef FRACAS_ENGINE_LOADING_LOAD_H
@@ -20,7 +20,8 @@ typedef enum {
     FRACAS_LOAD_ON_AREA, /* d in N/m2 of the mid-surface */
     FRACAS_LOAD_ON_MASS, /* d in m/s2 */
     FRACAS_LOAD_ON_EDGE, /* d in N/m of an edge; of a motion without a unit */
-    FRACAS_LOAD_ON_LINE  /* d in N/m of edges inside the body */
+    FRACAS_LOAD_ON_LINE, /* d in N/m of edges inside the body */
+    FRACAS_LOAD_ON_NODES /* motions: d without a unit */
 } fracas_load_on;
 
 /* Where a load acts. */
@@ -37,14 +38,18 @@ struct fracas_load {
     void (*density)(const fracas_spec *spec, const fracas_loading *loading, const fracas_place *at,
                     double density[3]);
     /* Key of the i-th edge of the shape on which it acts, from 0; NULL after the last. NULL of
-     * loads on areas and masses, and on
-     * a line by its ends. */
+     * loads on areas and masses, on a line by its ends, and on nodes by limits. */
     const char *(*edge)(const fracas_loading *loading, int i);
     /* The line of a load on one, where it has no such key; NULL of other loads. `size`: as of
      * fracas_line_of. */
     fracas_line (*line)(const fracas_loading *loading, const char *section, double size);
     /* Path of a motion, from s(0) = 0 [m]; NULL: a force. */
     double (*path)(const fracas_loading *loading, const fracas_profile *history, double t);
+    /* Motion of nodes: the components that it prescribes, bits 1, 2, 4 for x, y, z; how far x
+     * lies beside its nodes [m], 0: a node there is one; whether they rest. */
+    unsigned (*components)(const fracas_loading *loading, int dimension);
+    double (*beside)(const fracas_loading *loading, int dimension, const double x[3]);
+    bool (*rests)(const fracas_loading *loading);
 };
 
 /* Share of the load at a place: 1 up to spot from the middle of its spot, and exp(-(r - spot)/L) at

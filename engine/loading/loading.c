@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "engine/loading/loading.h"
+#include "engine/loading/load.h"
 
 #include <math.h>
 
@@ -347,7 +347,14 @@ bool fracas_loading_is_alone(const fracas_spec *spec)
 
 bool fracas_loading_is_idle(const fracas_spec *spec)
 {
-    return fracas_loading_traits_of(spec)->idle && fracas_loading_is_alone(spec);
+    for (int n = 0; n < FRACAS_LOADINGS; n++) {
+        const fracas_loading *loading = fracas_loading_at(spec, n);
+        const fracas_loading_traits *traits = loading ? loading->type->traits : NULL;
+        const bool rests = traits && traits->load && traits->load->rests &&
+                           traits->load->rests(loading);
+        if (traits && !traits->idle && !rests) return false;
+    }
+    return true;
 }
 
 fracas_stretch fracas_loading_stretch(const fracas_spec *spec, double t)

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* LOAD(name): fracas_loading_NAME, a force on surfaces or a motion of their edges (load.h), which
+/* LOAD(name): fracas_loading_NAME, a force on surfaces or a motion of their nodes (load.h), which
  * also acts beside another loading. In the order of the reference. */
 LOAD(pressure)
 LOAD(body_force)
 LOAD(traction)
 LOAD(edge_motion)
+LOAD(node_motion)
 LOAD(line_force)

@@ -104,7 +104,7 @@ static void begin_lane(fracas_batch *batch, size_t l)
                           .counted = -1};
     fracas_history_begin(&lane->history);
     for (int e = 0; e < FRACAS_ENERGIES; e++) step->energy[e][l] = 0;
-    step->driven[l] = 0;
+    for (int m = 0; m < FRACAS_LOADINGS; m++) step->driven[m][l] = 0;
     step->first_onset[l] = NAN;
     step->cracked[l] = step->broken[l] = 0;
 }

@@ -53,10 +53,12 @@ static fracas_err transfer_lane(fracas_batch *batch, size_t l, bool load, fracas
         *lane = copy;
     }
     TRY(transfer_history(&lane->history, load, transfer, context));
-    double *const one[] = {step->time,  step->drift,  step->kick,       step->next,
-                           step->power, step->driven, step->first_onset};
+    double *const one[] = {step->time, step->drift, step->kick,
+                           step->next, step->power, step->first_onset};
     for (size_t i = 0; i < sizeof one / sizeof *one; i++)
         TRY(transfer(context, &one[i][l], sizeof **one));
+    for (int m = 0; m < FRACAS_LOADINGS; m++)
+        TRY(transfer(context, &step->driven[m][l], sizeof **step->driven));
     for (int e = 0; e < FRACAS_ENERGIES; e++)
         TRY(transfer(context, &step->energy[e][l], sizeof **step->energy));
     TRY(transfer(context, &step->cracked[l], sizeof *step->cracked));

@@ -9,10 +9,11 @@ static fracas_err find_edges(const fracas_model *model, fracas_spots *spots)
     const fracas_formulation *body = model->formulation;
     spots->edges = body->held_edges ? body->held_edges(model, spots->edge) : 0;
     if (spots->edges > 0) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE,
-                       "output.reactions asks for the forces of held edges, but %s; leave it out%s",
-                       body->held_edges ? "no edge is held" : "surfaces alone have edges",
-                       body->held_edges ? ", or hold one" : "");
+    return fracas_fail(
+        FRACAS_USAGE,
+        "output.reactions asks for the forces of held edges and nodes, but %s; leave it out%s",
+        body->held_edges ? "none is held" : "surfaces alone have edges",
+        body->held_edges ? ", or hold one" : "");
 }
 
 fracas_err fracas_spots_find(const fracas_model *model, const fracas_probes *probes, bool reactions,
@@ -48,7 +49,7 @@ void fracas_spots_look(const fracas_spots *spots, const fracas_model *model,
 {
     for (size_t p = 0; p < spots->count; p++, value += FRACAS_SPOT_VALUES)
         model->formulation->motion_at(model, step, lane, &spots->spot[p], value, value + 3);
-    double force[FRACAS_EDGES][3];
+    double force[FRACAS_HOLDERS][3];
     if (spots->edges == 0) return;
     model->formulation->reactions(model, step, lane, force);
     memcpy(value, force, spots->edges * sizeof *force);

@@ -8,14 +8,14 @@
 /* Values of a probe: displacement, velocity. */
 enum {
     FRACAS_SPOT_VALUES = 6,
-    FRACAS_SPOTS_VALUES = FRACAS_MOST_PROBES * FRACAS_SPOT_VALUES + 3 * FRACAS_EDGES
+    FRACAS_SPOTS_VALUES = FRACAS_MOST_PROBES * FRACAS_SPOT_VALUES + 3 * FRACAS_HOLDERS
 };
 
 typedef struct {
     size_t count;
     fracas_spot spot[FRACAS_MOST_PROBES];
     size_t edges; /* held ones, whose forces are kept behind the probes' values */
-    int64_t edge[FRACAS_EDGES];
+    int64_t edge[FRACAS_HOLDERS];
 } fracas_spots;
 
 /* The points of the probes (NULL: none) and, with `reactions`, the held edges; errors of

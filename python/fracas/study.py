@@ -164,7 +164,8 @@ class Realization:
 
     @property
     def reactions(self) -> dict[int, Table]:
-        """Time and force on the body of each held edge by its tag, if the campaign keeps reactions.
+        """Time and force on the body of each held edge by its tag, of nodes held by the n-th loading by -n, if
+        the campaign keeps reactions.
 
         >>> realization.reactions[1]["force"][:, 0].min()
         """

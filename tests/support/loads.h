@@ -25,10 +25,11 @@ static inline fracas_loading bare_load(const fracas_kind *type)
                             .spot_at = {NAN, NAN, NAN}};
 }
 
-/* The choice of this name for a key of edge-motion; of the last table with the key. */
-static inline const fracas_kind *motion_choice(const char *key, const char *name)
+/* The choice of this name for a key of a load; of the last table with the key. */
+static inline const fracas_kind *load_choice(const fracas_kind *load, const char *key,
+                                             const char *name)
 {
-    const fracas_kind *load = &fracas_loading_edge_motion, *found = NULL;
+    const fracas_kind *found = NULL;
     for (size_t p = 0; p < load->nparams; p++)
         for (size_t c = 0; strcmp(load->params[p].name, key) == 0 && c < load->params[p].nchoices;
              c++)
@@ -36,6 +37,10 @@ static inline const fracas_kind *motion_choice(const char *key, const char *name
                 found = load->params[p].choices[c];
     assert_non_null(found);
     return found;
+}
+static inline const fracas_kind *motion_choice(const char *key, const char *name)
+{
+    return load_choice(&fracas_loading_edge_motion, key, name);
 }
 
 /* Place of a load's number of this key. */

@@ -54,10 +54,10 @@ expect 5 "$fracas" run free.yaml --study held
 said 'output.reactions is edges in the study, but nothing in this campaign file'
 sed 's/, left: held, right: held//' plate.yaml > free.yaml
 expect 2 "$fracas" plan free.yaml
-said 'point 0: output.reactions asks for the forces of held edges, but no edge is held; leave it out, or hold one'
+said 'point 0: output.reactions asks for the forces of held edges and nodes, but none is held; leave it out, or hold one'
 sed 's/interfaces: true}/interfaces: true, reactions: edges}/' plain.yaml > free.yaml
 expect 2 "$fracas" plan free.yaml
-said 'point 0: output.reactions asks for the forces of held edges, but surfaces alone have edges; leave it out'
+said 'point 0: output.reactions asks for the forces of held edges and nodes, but surfaces alone have edges; leave it out'
 
 # A study keeps its probes.
 expect 5 "$fracas" run plain.yaml --study one

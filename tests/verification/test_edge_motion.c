@@ -267,7 +267,7 @@ static void a_slow_pull_stretches_evenly(void **unused)
             while (run.batch->step.time[0] < 21 * height / c) step_run(&run);
             const fracas_ledger *ledger = &run.batch->lane[0].ledger;
             const double energy = 0.5 * modulus * strain * strain * volume,
-                         force = run.batch->step.driven[0]; /* of both edges along their paths */
+                         force = run.batch->step.driven[0][0]; /* of both edges along their paths */
             print_message(
                 "%s sides, order %d: energy %.1e, work %.1e, stress %.1e, residual %.1e\n",
                 constrained ? "sliding" : "free", (int)order, ledger->elastic / energy - 1,
@@ -344,7 +344,7 @@ static void an_edge_takes_the_body_along(void **unused)
     double impulse = 0;
     while (run.batch->step.time[0] < rise) {
         step_run(&run);
-        impulse += run.batch->step.driven[0] * run.batch->step.kick[0];
+        impulse += run.batch->step.driven[0][0] * run.batch->step.kick[0];
     }
     const fracas_ledger *ledger = &run.batch->lane[0].ledger;
     const double mass = run.model->mass;

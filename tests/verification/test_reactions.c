@@ -77,8 +77,8 @@ static vector_sum forces_of(const fracas_batch *batch, size_t *edges)
 {
     const fracas_model *model = batch->model;
     const fracas_surface_tables *t = model->plan;
-    int64_t tag[FRACAS_EDGES];
-    double force[FRACAS_EDGES][3];
+    int64_t tag[FRACAS_HOLDERS];
+    double force[FRACAS_HOLDERS][3];
     vector_sum all = {{0}};
     *edges = model->formulation->held_edges(model, tag);
     model->formulation->reactions(model, &batch->step, 0, force);
@@ -142,6 +142,43 @@ static void momentum_changes_by_edges_that_move(void **unused)
         spec.time.mass = shell ? spec.time.mass : &fracas_mass_consistent;
         spec.time.rotary_inertia = shell ? 1 : spec.time.rotary_inertia;
         check_momentum(spec, shell ? 1e6 : 1e12, 300, 2, false);
+    }
+}
+
+/* Nodes inside that a load moves along y, others that rest along x, beside a fixed edge, of which
+ * the nodes' components are the edge's; of a body that cracks, too. */
+static void momentum_changes_by_nodes_that_loads_hold(void **unused)
+{
+    for (int shell = 0; shell < 2; shell++) {
+        const fracas_kind *const type = &fracas_loading_node_motion;
+        fracas_spec spec = plate_of(shell, 4);
+        const double w = spec.geometry.width;
+        fracas_loading nodes = bare_load(type);
+        for (int i = 0; i < FRACAS_LOAD_OWN; i++) nodes.own[i] = NAN;
+        nodes.rise_by = load_choice(type, "rise_by", "smooth");
+        nodes.direction = load_choice(type, "direction", "x");
+        nodes.own_choice = load_choice(type, "holds", "along");
+        *load_number(&nodes, "to_x") = -0.2 * w;
+        spec.also[0] = spec.loading = nodes;
+        *load_number(&spec.loading, "to_x") = 0.5 * w;
+        *load_number(&spec.loading, "from_x") = 0.2 * w;
+        spec.loading.direction = load_choice(type, "direction", "y");
+        spec.loading.displacement = shell ? 0.01 : 1e-6;
+        spec.loading.rise = shell ? 0.5 : 2e-6;
+        spec.geometry.edge[1] = &fracas_edge_fixed;
+        spec.cohesive.fracture_energy = 1e12;
+        spec.time.end = shell ? 100 : 1;
+        check_momentum(spec, shell ? 1e6 : 1e12, 300, 3, false);
+        spec.time.mass = shell ? spec.time.mass : &fracas_mass_consistent;
+        spec.time.rotary_inertia = shell ? 1 : spec.time.rotary_inertia;
+        check_momentum(spec, shell ? 1e6 : 1e12, 300, 3, false);
+        if (shell) continue;
+        spec.cohesive.fracture_energy = 100;
+        spec.loading.displacement = 0.01 * w;
+        spec.time.safety = 0.5;
+        spec.time.end = 1e-5;
+        spec.mesh.divisions = 6;
+        check_momentum(spec, 300e6, 400, 3, true);
     }
 }
 
@@ -260,7 +297,7 @@ static void bodies_without_held_edges_are_refused(void **unused)
     fracas_model *model = make_model(&spec);
     fracas_batch *batch = NULL;
     FAILS(fracas_batch_create(model, 1, &(fracas_batch_options){.reactions = true}, &batch),
-          FRACAS_USAGE, "no edge is held; leave it out, or hold one");
+          FRACAS_USAGE, "none is held; leave it out, or hold one");
     fracas_model_destroy(model);
     spec = bar_reference(10, 1e4, 1e-7);
     model = make_model(&spec);
@@ -325,7 +362,7 @@ static void membranes_have_planes_of_symmetry(void **unused)
           "an edge with tag 1 is `symmetry`, but at", "that the body meets at a right angle");
 }
 
-TESTS(membranes_have_planes_of_symmetry, momentum_changes_by_reactions_and_load,
-      momentum_changes_by_edges_that_move, a_pulled_strip_pulls_its_end,
-      a_hanging_plate_is_held_by_its_weight, bodies_without_held_edges_are_refused,
-      reactions_depend_on_their_lane_alone)
+TESTS(momentum_changes_by_nodes_that_loads_hold, membranes_have_planes_of_symmetry,
+      momentum_changes_by_reactions_and_load, momentum_changes_by_edges_that_move,
+      a_pulled_strip_pulls_its_end, a_hanging_plate_is_held_by_its_weight,
+      bodies_without_held_edges_are_refused, reactions_depend_on_their_lane_alone)

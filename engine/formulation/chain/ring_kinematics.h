@@ -177,8 +177,8 @@ LANES_FUNCTION vd ring_drive_work(const ring_context *c)
 {
     if (c->ring->drive == FRACAS_RING_FREE) return lanes_set(0.0);
     const vd half = lanes_set(0.5), area = lanes_set(c->ring->area);
-    vd before = lanes_load(c->step->driven + c->first);
-    lanes_store(c->step->driven + c->first, area * c->driven_next);
+    vd before = lanes_load(c->step->driven[0] + c->first);
+    lanes_store(c->step->driven[0] + c->first, area * c->driven_next);
     return half * c->drift * (before + area * c->driven);
 }
 

@@ -53,10 +53,10 @@ typedef struct {
     fracas_surface_copy *copy;
 } fracas_surface_part;
 
-/* Components of an element that an edge holds. */
+/* Components of an element that an edge holds, or a set of nodes. */
 typedef struct {
     uint32_t element;
-    uint32_t edge; /* number among the body's held edges */
+    uint32_t edge; /* number among the body's held edges, then its sets of nodes */
     uint32_t held; /* bit dimension node + component */
 } fracas_surface_hold;
 

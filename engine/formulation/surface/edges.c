@@ -57,9 +57,8 @@ bool fracas_surface_has_rim(const fracas_model *model, const fracas_surface_bord
 unsigned fracas_surface_held_by(const fracas_model *model, const fracas_surface_border *border)
 {
     const fracas_kind *kind = fracas_surface_edge_kind(&model->spec, border->tag);
-    unsigned components = 0, moved = 0;
-    const bool moves = !fracas_surface_moved_tags(model, &moved) &&
-                       fracas_surface_is_moved(border->tag, moved);
+    unsigned components = 0;
+    const bool moves = fracas_surface_mover(model, border->tag) < FRACAS_LOADINGS;
     return fracas_surface_hold_edge(model, border, kind, moves, &components) ? 0 : components;
 }
 
@@ -91,8 +90,7 @@ static fracas_err check_edge_tags(const fracas_model *model)
 }
 
 /* Element by element: so the borders are sorted. */
-fracas_err fracas_surface_edges_fill(const fracas_model *model, fracas_surface_tables *t,
-                                     unsigned moved)
+fracas_err fracas_surface_edges_fill(const fracas_model *model, fracas_surface_tables *t)
 {
     TRY(check_edge_tags(model));
     const fracas_surface_body *body = t->body;
@@ -103,7 +101,7 @@ fracas_err fracas_surface_edges_fill(const fracas_model *model, fracas_surface_t
         const fracas_kind *kind = fracas_surface_edge_kind(&model->spec, border->tag);
         const fracas_edge *edge = fracas_edge_of(kind);
         const uint32_t k = border->edge, node[3] = {k, (k + 1) % 3, 3 + k};
-        const bool moves = fracas_surface_is_moved(border->tag, moved);
+        const bool moves = fracas_surface_mover(model, border->tag) < FRACAS_LOADINGS;
         unsigned components = 0;
         uint32_t held = 0;
         TRY(fracas_surface_hold_edge(model, border, kind, moves, &components));

@@ -145,7 +145,9 @@ bool fracas_surface_is_loaded(const fracas_model *model, int32_t tag, bool insid
         const fracas_load *load = fracas_loading_load(&model->spec, n);
         const char *key;
         int32_t loaded;
-        if (!load || !load->edge || (load->on == FRACAS_LOAD_ON_LINE) != inside) continue;
+        const bool anywhere = load && load->on == FRACAS_LOAD_ON_NODES;
+        if (!load || !load->edge || (!anywhere && (load->on == FRACAS_LOAD_ON_LINE) != inside))
+            continue;
         for (int i = 0; (key = load->edge(fracas_loading_at(&model->spec, n), i)); i++)
             if (!fracas_shape_edge_tag(&model->spec.geometry, "edge", key, &loaded) &&
                 loaded == tag)
@@ -177,7 +179,8 @@ fracas_err fracas_surface_load_tag(const fracas_model *model, int n, int i, int3
         return fracas_fail(FRACAS_USAGE, "%s is not given: on which edge does it act?", asked);
     if (!key) return FRACAS_OK;
     TRY(fracas_shape_edge_tag(&model->spec.geometry, asked, key, tag));
-    const bool inside = load->on == FRACAS_LOAD_ON_LINE;
+    const bool inside = load->on == FRACAS_LOAD_ON_LINE,
+               anywhere = load->on == FRACAS_LOAD_ON_NODES;
     size_t borders = 0, interfaces = 0;
     for (size_t b = 0; b < surface->nborders; b++) borders += surface->border[b].tag == *tag;
     for (size_t b = 0; b < surface->ninterfaces; b++)
@@ -188,7 +191,7 @@ fracas_err fracas_surface_load_tag(const fracas_model *model, int n, int i, int3
                            "boundary: the latter would carry nothing: take them out of the group, "
                            "and load them by a traction",
                            asked, key, interfaces, borders);
-    if ((inside ? interfaces : borders) > 0) return FRACAS_OK;
+    if ((inside ? interfaces : borders) > 0 || (anywhere && interfaces > 0)) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "%s is %s, but the mesh has no edge %s of the physical group "
                        "%d: give the lines that number, or the group the name %s; edges %s",

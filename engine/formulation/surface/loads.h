@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Forces of a load on the nodes of a surface, and motion of its edges (docs/theory/loads.md). */
+/* Forces of loads on the nodes of a surface, and nodes that they move (docs/theory/loads.md). */
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_LOADS_H
 #define FRACAS_ENGINE_FORMULATION_SURFACE_LOADS_H
 
@@ -30,29 +30,29 @@ FRACAS_MUST_USE fracas_err fracas_surface_hold_edge(const fracas_model *model,
                                                     unsigned *components);
 /* A shell does not turn about it. */
 bool fracas_surface_has_rim(const fracas_model *model, const fracas_surface_border *border);
-/* Fills held, fixed, moved and rims of the tables; `moved`: fracas_surface_moved_tags.
- * FRACAS_USAGE where an edge does not exist, or cannot be such. */
+/* Fills held, fixed, moved and rims of the tables. FRACAS_USAGE where an edge does not exist, or
+ * cannot be such. */
 FRACAS_MUST_USE fracas_err fracas_surface_edges_fill(const fracas_model *model,
-                                                     fracas_surface_tables *tables, unsigned moved);
+                                                     fracas_surface_tables *tables);
+/* Number of loads that hold sets of nodes, and their loadings. */
+int fracas_surface_node_sets(const fracas_model *model, int number[FRACAS_LOADINGS]);
+/* Then the sets of nodes, and adds them to these tables. FRACAS_USAGE where one has no node, holds
+ * nothing, or holds what another does. */
+FRACAS_MUST_USE fracas_err fracas_surface_nodes_fill(const fracas_model *model,
+                                                     fracas_surface_tables *tables);
 
 /* A place at s in (0, 1) on an edge, and |dx/ds| there [m]. */
 fracas_place fracas_surface_place_on(const fracas_surface *surface,
                                      const fracas_surface_border *border, double s, double *speed);
 
-/* Number of the loading that moves edges; FRACAS_LOADINGS: none does. */
-int fracas_surface_motion_number(const fracas_model *model);
-/* Edges that it moves: bits by tags; 0: none. FRACAS_USAGE as fracas_surface_load_tag, and where
- * another loading prescribes velocities, too. */
-FRACAS_MUST_USE fracas_err fracas_surface_moved_tags(const fracas_model *model, unsigned *tags);
-/* True if such an edge has the tag. */
-static inline bool fracas_surface_is_moved(int32_t tag, unsigned tags)
-{
-    return tag > 0 && tag < FRACAS_EDGES && (tags >> tag & 1);
-}
-/* Number of elements with such an edge. */
-size_t fracas_surface_moved_count(const fracas_surface *surface, unsigned tags);
-/* Fills moved_row, direction and the history of tables with `moved`. FRACAS_USAGE where the load
- * moves a component that nothing holds, or none. */
+/* Number of the loading that moves edges of a tag; FRACAS_LOADINGS: none does. */
+int fracas_surface_mover(const fracas_model *model, int32_t tag);
+/* Fills motions of the tables. FRACAS_USAGE as fracas_surface_load_tag, where two move an edge, and
+ * where another loading prescribes velocities, too. */
+FRACAS_MUST_USE fracas_err fracas_surface_motions(const fracas_model *model,
+                                                  fracas_surface_tables *tables);
+/* Makes and fills rows of the tables' motions, and their histories. FRACAS_USAGE where one moves a
+ * component that nothing holds, or none, and where an element has nodes of two. */
 FRACAS_MUST_USE fracas_err fracas_surface_motion_fill(const fracas_model *model,
                                                       fracas_surface_tables *tables);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The sweep of a surface over lanes: elements with edges that a load moves
+/* The sweep of a surface over lanes: elements with nodes that a load moves
  * (docs/theory/loads.md). They are few: functions of their own, for any order. */
 #ifndef FRACAS_ENGINE_FORMULATION_SURFACE_MOTION_KERNEL_H
 #define FRACAS_ENGINE_FORMULATION_SURFACE_MOTION_KERNEL_H
@@ -22,13 +22,19 @@ LANES_FUNCTION const double *surface_direction(const surface_context *c, int siz
     return c->tables->direction + (c->tables->moved_row[e] - 1) * (size_t)size;
 }
 
+/* Which motion moves it. */
+LANES_FUNCTION int surface_mover(const surface_context *c, size_t e)
+{
+    return c->tables->moved_by[c->tables->moved_row[e] - 1];
+}
+
 /* Places moved unknowns, u = s(t_n) d: no rounding of a step is left  (loads.5) */
 __attribute__((noinline, cold)) static void surface_place_moved(const surface_context *c, int order,
                                                                 size_t e, double *at)
 {
     const int size = BODY_SIZE(order);
     const double *direction = surface_direction(c, size, e);
-    const vd path = lanes_load(c->step->path + c->first);
+    const vd path = lanes_load(c->step->path[surface_mover(c, e)] + c->first);
     const double *start = c->tables->start ? c->tables->start + (direction - c->tables->direction)
                                            : NULL;
     for (int i = 0; i < size; i++) {
@@ -101,10 +107,10 @@ LANES_FUNCTION void surface_lead_moved(const surface_context *c, int order, size
                                        surface_moving *of)
 {
     const fracas_surface_motion *m = &c->constants->motion;
-    const int size = BODY_SIZE(order);
+    const int size = BODY_SIZE(order), motion = surface_mover(c, e);
     const double *direction = surface_direction(c, size, e);
-    const vd path = lanes_load(c->step->path_next + c->first) -
-                    lanes_load(c->step->path + c->first);
+    const vd path = lanes_load(c->step->path_next[motion] + c->first) -
+                    lanes_load(c->step->path[motion] + c->first);
     for (int i = 0; i < size; i++) {
         const vd none = lanes_set(0.0),
                  now = m->alpha ? lanes_load(surface_at(at, SURFACE_A_NEXT * size + i)) : none;

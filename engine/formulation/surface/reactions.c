@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Forces of held edges on a surface, from the forces that the sweep kept (docs/theory/probes.md).
+/* Forces of held edges and nodes on a surface, from the forces that the sweep kept
+ * (docs/theory/probes.md).
  */
 #include "engine/formulation/surface/loads.h"
 
@@ -17,8 +18,9 @@ static uint32_t held_at(const fracas_model *model, const fracas_surface_border *
     return held;
 }
 
-size_t fracas_surface_held_edges(const fracas_model *model, int64_t tag[FRACAS_EDGES])
+size_t fracas_surface_held_edges(const fracas_model *model, int64_t tag[FRACAS_HOLDERS])
 {
+    int number[FRACAS_LOADINGS];
     bool holds[FRACAS_EDGES] = {false};
     size_t count = 0;
     for (size_t b = 0; b < model->surface->nborders; b++) {
@@ -28,6 +30,8 @@ size_t fracas_surface_held_edges(const fracas_model *model, int64_t tag[FRACAS_E
     }
     for (int64_t edge = 0; edge < FRACAS_EDGES; edge++)
         if (holds[edge]) tag[count++] = edge;
+    const int sets = fracas_surface_node_sets(model, number);
+    for (int s = 0; s < sets; s++) tag[count++] = -(number[s] + 1);
     return count;
 }
 
@@ -49,9 +53,11 @@ static uint32_t held_alone(const fracas_model *model, size_t b)
 
 fracas_err fracas_surface_holds_fill(const fracas_model *model, fracas_surface_division *division)
 {
-    int64_t tag[FRACAS_EDGES];
-    const size_t edges = fracas_surface_held_edges(model, tag), borders = model->surface->nborders;
-    division->hold = malloc((borders + 1) * sizeof *division->hold);
+    const fracas_surface_tables *t = model->plan;
+    int64_t tag[FRACAS_HOLDERS];
+    const size_t holders = fracas_surface_held_edges(model, tag), sets = (size_t)t->sets,
+                 edges = holders - sets, borders = model->surface->nborders;
+    division->hold = malloc((borders + sets * t->nelements + 1) * sizeof *division->hold);
     if (!division->hold) return fracas_no_memory("the reactions of a body");
     for (size_t n = 0; n < edges; n++)
         for (size_t b = 0; b < borders; b++) {
@@ -62,6 +68,13 @@ fracas_err fracas_surface_holds_fill(const fracas_model *model, fracas_surface_d
             if (held)
                 division->hold[division->holds++] = (fracas_surface_hold){border->element,
                                                                           (uint32_t)n, held};
+        }
+    for (size_t s = 0; s < sets; s++)
+        for (size_t e = 0; e < t->nelements; e++) {
+            const uint32_t held = t->set[s * t->nelements + e];
+            if (held)
+                division->hold[division->holds++] = (fracas_surface_hold){
+                    (uint32_t)e, (uint32_t)(edges + s), held};
         }
     return FRACAS_OK;
 }

@@ -13,11 +13,11 @@ double fracas_surface_spin(const fracas_surface_constants *c, double time)
     return w * w;
 }
 
-double fracas_surface_path(const fracas_surface_constants *c, double time)
+double fracas_surface_path(const fracas_surface_constants *c, int motion, double time)
 {
-    if (!c->moving) return 0;
-    const fracas_loading_traits *traits = c->moving->type->traits;
-    return traits->load->path(c->moving, c->moving_history, time);
+    const fracas_loading *loading = c->moving[motion];
+    const fracas_loading_traits *traits = loading->type->traits;
+    return traits->load->path(loading, &c->tables->history[c->tables->motion[motion]], time);
 }
 
 /* Adds blocks of `size` sums in pairs, pairs of pairs, ...: the first one holds them all then. */
@@ -37,13 +37,16 @@ static double work_of(const fracas_surface_constants *c, const fracas_step *step
     return step->drift[l] * 0.5 * (before + step->spin[l]) * moment;
 }
 
-/* Work of moved edges since the step before [J], by the mean of their forces  (loads.8) */
-static double work_of_edges(const fracas_surface_constants *c, fracas_step *step, int l,
-                            double force)
+/* Work of moved nodes since the step before [J], by the mean of their forces  (loads.8) */
+static double work_of_motions(const fracas_surface_constants *c, fracas_step *step, int l,
+                              const double *force)
 {
-    const double before = fracas_surface_path(c, step->time[l] - step->drift[l]),
-                 work = 0.5 * (step->driven[l] + force) * (step->path[l] - before);
-    step->driven[l] = force;
+    double work = 0;
+    for (int m = 0; m < c->tables->motions; m++) {
+        const double before = fracas_surface_path(c, m, step->time[l] - step->drift[l]);
+        work += 0.5 * (step->driven[m][l] + force[m]) * (step->path[m][l] - before);
+        step->driven[m][l] = force[m];
+    }
     return work;
 }
 
@@ -64,7 +67,7 @@ static void set_totals(const fracas_surface_constants *c, fracas_step *step, int
     if (c->tables->position) step->work[l] += work_of(c, step, l, sum[SURFACE_MOMENT]);
     if (!c->tables->moved) return;
     step->power[l] = 0;
-    step->work[l] += work_of_edges(c, step, l, sum[SURFACE_POWER]);
+    step->work[l] += work_of_motions(c, step, l, sum + SURFACE_POWER);
 }
 
 void fracas_surface_totals(const fracas_surface_constants *c, fracas_step *step)

@@ -55,11 +55,7 @@ fracas_surface_constants fracas_surface_constants_of(const fracas_model *model)
         .motion = {accelerations, alpha.alpha_m, alpha.beta, alpha.gamma, alpha.excess,
                    alpha.damping, sqrt(0.5 * (1 - alpha.alpha_m))}};
     for (int n = 0; n < t->forces; n++) c.force[n] = fracas_loading_at(spec, t->force[n]);
-    if (t->moved) {
-        const int n = fracas_surface_motion_number(model);
-        c.moving = fracas_loading_at(spec, n);
-        c.moving_history = &t->history[n];
-    }
+    for (int m = 0; m < t->motions; m++) c.moving[m] = fracas_loading_at(spec, t->motion[m]);
     c.c12 = nu * c.c11;
     c.d11 = bending * c.c11;
     c.d12 = bending * nu * c.c11;
@@ -104,9 +100,10 @@ static fracas_err check_motion(const fracas_model *model)
         fracas_initial_moves(&model->spec.initial) || fracas_initial_is_strained(&model->spec))
         return FRACAS_OK;
     if (idle)
-        return fracas_fail(FRACAS_USAGE, "loading.type is none, and initial gives no velocity and "
-                                         "no strain: nothing would ever move; give it one, or "
-                                         "another load");
+        return fracas_fail(FRACAS_USAGE,
+                           "loading.type is %s, and initial gives no velocity and no strain: "
+                           "nothing would ever move; give it one, or another load",
+                           model->spec.loading.type->name);
     return fracas_fail(FRACAS_USAGE, "loading.start is rest, and no edge moves: nothing would ever "
                                      "move; let an edge be held, or start moving");
 }
@@ -383,8 +380,10 @@ void fracas_surface_advance(const fracas_model *model, fracas_step *step)
             step->amplitude[n][l] = amplitude_at(c, n, step->time[l]);
             step->amplitude_before[n][l] = amplitude_at(c, n, step->time[l] - step->drift[l]);
         }
-        step->path[l] = fracas_surface_path(c, step->time[l]);
-        step->path_next[l] = fracas_surface_path(c, step->time[l] + step->kick[l]);
+        for (int m = 0; m < c->tables->motions; m++) {
+            step->path[m][l] = fracas_surface_path(c, m, step->time[l]);
+            step->path_next[m][l] = fracas_surface_path(c, m, step->time[l] + step->kick[l]);
+        }
     }
     fracas_team_run(step->team, advance_part, &task);
     fracas_surface_totals(c, step);

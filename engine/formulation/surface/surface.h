@@ -62,11 +62,11 @@ enum {
     SURFACE_SUMS_BY_TURN,
     SURFACE_KINETIC = SURFACE_SUMS_BY_TURN, /* twice the kinetic energy [J] */
     SURFACE_DAMPED,                         /* energy damped in this step [J] */
-    SURFACE_POWER,                          /* power of reactions [W]; where a load moves edges:
-                                               their force along the path [N] */
     SURFACE_MOMENT,                         /* membranes: sum of m r.du/dt of this step [kg m2/s] */
     SURFACE_WORK,                           /* work of loads in this step [J] */
-    SURFACE_SUMS
+    SURFACE_POWER,                          /* power of reactions [W]; where loads move nodes:
+                                               of each motion the force along its path [N] */
+    SURFACE_SUMS = SURFACE_POWER + FRACAS_LOADINGS
 };
 enum { SURFACE_BLOCK = 64 }; /* elements */
 
@@ -124,12 +124,16 @@ typedef struct {
     double *load;       /* [row][unknown] [N] */
     fracas_load_clock *load_clock;           /* [row] */
     fracas_profile history[FRACAS_LOADINGS]; /* by loading */
-    /* Elements with edges that a load moves, u = s(t) d  (loads.5) */
+    /* Elements with nodes that a load moves, u = s(t) d  (loads.5) */
+    int motions, motion[FRACAS_LOADINGS]; /* loads that do: numbers of their loadings */
     size_t nmoved;
-    uint32_t *moved;     /* [element]: bits as of `held`, among them; NULL: no edge is moved */
+    uint32_t *moved;     /* [element]: bits as of `held`, among them; NULL: no node is moved */
     uint32_t *moved_row; /* [element]: its row + 1; 0: none */
+    uint8_t *moved_by;   /* [row]: by which motion */
     double *direction;   /* [row][unknown]: d, 0 of components not moved */
     double *start;       /* [row][unknown]: u_0 [m]; NULL: 0 */
+    int sets;            /* number of sets of nodes that loads hold */
+    uint32_t *set;       /* [set][element]: bits as of `held`: what it holds, and no edge does */
     /* A shell's edges whose director is held. */
     size_t nrims;
     double *rim;        /* [rim][body->rim_table] */
@@ -159,9 +163,8 @@ typedef struct fracas_surface_constants {
     int fields, point_fields; /* an element's, by its unknowns; an interface's point's */
     int strengths;            /* an interface's: 1, or one for each Gauss point */
     double speed, ramp;       /* rad/s, s: w = speed min(1, t/ramp) */
-    const fracas_loading *force[FRACAS_LOADINGS]; /* loads that are forces, tables->forces */
-    const fracas_loading *moving;                 /* moves edges; NULL: none does */
-    const fracas_profile *moving_history;
+    const fracas_loading *force[FRACAS_LOADINGS];  /* loads that are forces, tables->forces */
+    const fracas_loading *moving[FRACAS_LOADINGS]; /* loads that move nodes, tables->motions */
     int strained; /* the body starts with a strain, and so with accelerations */
     fracas_surface_motion motion;
     int contact; /* the operator: all interfaces broken and in contact; else whole */
@@ -330,8 +333,8 @@ double fracas_surface_inverse_size(const fracas_surface *surface, size_t interfa
 
 /* w(t)^2, w = speed min(1, t/ramp): 0 where no body force acts [1/s2]. */
 double fracas_surface_spin(const fracas_surface_constants *constants, double time);
-/* s(t) of moved edges: 0 where no load moves any [m]  (loads.6) */
-double fracas_surface_path(const fracas_surface_constants *constants, double time);
+/* s(t) of a motion, 0 to tables->motions - 1 [m]  (loads.6) */
+double fracas_surface_path(const fracas_surface_constants *constants, int motion, double time);
 /* After a sweep: sums of all blocks to energies [J], those of the potential (membrane.8),
  * (shell.11), power [W] and work [J]. */
 void fracas_surface_totals(const fracas_surface_constants *constants, fracas_step *step);
@@ -414,7 +417,7 @@ void fracas_surface_fields(const fracas_model *model, const fracas_step *step, i
 /* Fills the holds of a division. */
 FRACAS_MUST_USE fracas_err fracas_surface_holds_fill(const fracas_model *model,
                                                      fracas_surface_division *division);
-size_t fracas_surface_held_edges(const fracas_model *model, int64_t tag[FRACAS_EDGES]);
+size_t fracas_surface_held_edges(const fracas_model *model, int64_t tag[FRACAS_HOLDERS]);
 void fracas_surface_reactions(const fracas_model *model, const fracas_step *step, int lane,
                               double (*force)[3]);
 void fracas_surface_locate(const fracas_model *model, const double place[3], fracas_spot *spot);

@@ -166,8 +166,8 @@ LANES_FUNCTION void surface_enter(surface_context *c, int order, size_t e, doubl
 }
 
 /* Accelerations by internal and body forces, 0 of held components; power of their reactions at
- * `velocity`. */
-LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size_t e,
+ * `velocity`, added to the sum `power`. */
+LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size_t e, int power,
                                        const vd *velocity, const vd *force, vd *acceleration)
 {
     const int nodes = SURFACE_NODES(order), size = BODY_SIZE(order);
@@ -197,7 +197,7 @@ LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size
         surface_turn(rotary, pushed, acceleration);
     }
     if (__builtin_expect(held != 0, 0)) {
-        vd power = lanes_set(0.0);
+        vd sum = lanes_set(0.0);
         for (int i = 0; i < size; i++) {
             if (!(held >> i & 1)) continue;
             acceleration[i] = lanes_set(0.0);
@@ -206,10 +206,10 @@ LANES_FUNCTION void surface_accelerate(const surface_context *c, int order, size
                 if (!(held >> (2 * k + i % 2) & 1))
                     reaction += lanes_set(consistent[(2 * nodes + i / 2) * nodes + k]) *
                                 acceleration[2 * k + i % 2];
-            power += reaction * velocity[i];
+            sum += reaction * velocity[i];
         }
-        if (rotary) power += surface_twist(rotary, held, acceleration, velocity);
-        surface_add(surface_at(surface_sums(c, e), SURFACE_POWER), power);
+        if (rotary) sum += surface_twist(rotary, held, acceleration, velocity);
+        surface_add(surface_at(surface_sums(c, e), power), sum);
     }
 }
 
@@ -219,13 +219,14 @@ __attribute__((noinline, cold)) static void surface_accelerate_moved(const surfa
                                                                      int order, size_t e,
                                                                      double *at, surface_moving *of)
 {
+    const int power = SURFACE_POWER + surface_mover(c, e);
     surface_lead_moved(c, order, e, at, of);
     if (BODY_PLANE && order == 1)
-        surface_accelerate(c, 1, e, of->direction, of->force, of->acceleration);
-    else surface_accelerate(c, 2, e, of->direction, of->force, of->acceleration);
+        surface_accelerate(c, 1, e, power, of->direction, of->force, of->acceleration);
+    else surface_accelerate(c, 2, e, power, of->direction, of->force, of->acceleration);
     for (int i = 0; i < BODY_SIZE(order); i++) of->acceleration[i] += of->lead[i];
     if (BODY_PLANE && c->tables->position)
-        surface_add(surface_at(surface_sums(c, e), SURFACE_POWER),
+        surface_add(surface_at(surface_sums(c, e), power),
                     -surface_spin_along(c, order, e, of->direction));
 }
 
@@ -236,7 +237,7 @@ LANES_FUNCTION void surface_accelerate_any(const surface_context *c, int order, 
 {
     const int size = BODY_SIZE(order);
     if (!surface_is_moved(c, e)) {
-        surface_accelerate(c, order, e, velocity, force, acceleration);
+        surface_accelerate(c, order, e, SURFACE_POWER, velocity, force, acceleration);
         return;
     }
     surface_moving of;
@@ -333,7 +334,7 @@ LANES_FUNCTION void surface_finish(surface_context *c, int order, int law,
     if (law != SURFACE_OPERATOR) {
         surface_accelerate_any(c, order, e, at, v, force, a);
     } else {
-        surface_accelerate(c, order, e, v, force, a);
+        surface_accelerate(c, order, e, SURFACE_POWER, v, force, a);
         UNROLL_FOR (int i = 0; i < size; i++)
             lanes_store(surface_at(at, SURFACE_V * size + i), a[i]);
         return;

@@ -32,6 +32,8 @@
     TABLE(load_clock)      \
     TABLE(moved)           \
     TABLE(moved_row)       \
+    TABLE(moved_by)        \
+    TABLE(set)             \
     TABLE(direction)       \
     TABLE(start)
 
@@ -44,7 +46,9 @@ typedef struct {
 
 typedef struct {
     bool consistent, rotary, positions, start; /* there are such tables */
-    size_t forces, loads, moved; /* loads that are forces, rows of them, of moved edges */
+    size_t forces, loads, sets; /* loads that are forces, rows of them, sets of nodes */
+    bool moves;                 /* a load moves nodes ... */
+    size_t moved;               /* ... in rows: made once they are known */
 } optional;
 
 static lengths lengths_of(const fracas_surface_tables *t, optional has)
@@ -69,8 +73,10 @@ static lengths lengths_of(const fracas_surface_tables *t, optional has)
         .load_row = has.forces * n,
         .load = has.loads * nodes * (size_t)body->dimension,
         .load_clock = has.loads,
-        .moved = has.moved ? n : 0,
-        .moved_row = has.moved ? n : 0,
+        .moved = has.moves ? n : 0,
+        .moved_row = has.moves ? n : 0,
+        .moved_by = has.moved,
+        .set = has.sets * n,
         .direction = has.moved * nodes * (size_t)body->dimension,
         .start = has.start ? has.moved * nodes * (size_t)body->dimension : 0,
     };
@@ -100,8 +106,9 @@ static bool allocate(fracas_surface_tables *t, const lengths *length)
 
 static lengths own_lengths(const fracas_surface_tables *t)
 {
-    return lengths_of(t, (optional){t->consistent, t->rotary, t->position, t->start,
-                                    (size_t)t->forces, t->nloads, t->nmoved});
+    return lengths_of(t,
+                      (optional){t->consistent, t->rotary, t->position, t->start, (size_t)t->forces,
+                                 t->nloads, (size_t)t->sets, t->moved, t->nmoved});
 }
 
 size_t fracas_surface_tables_bytes(const fracas_surface_tables *t)
@@ -268,9 +275,10 @@ static void fill_interface(const fracas_model *model, fracas_surface_tables *t, 
                          head + body->head + g * body->point_table);
 }
 
-static fracas_err fill(const fracas_model *model, fracas_surface_tables *t, unsigned moved)
+static fracas_err fill(const fracas_model *model, fracas_surface_tables *t)
 {
-    TRY(fracas_surface_edges_fill(model, t, moved));
+    TRY(fracas_surface_edges_fill(model, t));
+    TRY(fracas_surface_nodes_fill(model, t));
     TRY(fracas_surface_motion_fill(model, t));
     for (size_t e = 0; e < t->nelements; e++) fill_element(model, t, e);
     for (size_t i = 0; i < t->ninterfaces; i++) fill_interface(model, t, i);
@@ -290,9 +298,10 @@ fracas_err fracas_surface_tables_create(const fracas_model *model, fracas_surfac
         t->nrims += fracas_surface_has_rim(model, &surface->border[b]);
     const fracas_time *time = &model->spec.time;
     size_t forces, loads;
-    unsigned moved = 0;
+    int number[FRACAS_LOADINGS];
     fracas_err err = fracas_surface_loads_count(model, &forces, &loads);
-    if (!err) err = fracas_surface_moved_tags(model, &moved);
+    if (!err) err = fracas_surface_motions(model, t);
+    t->sets = fracas_surface_node_sets(model, number);
     const lengths length = lengths_of(
         t, (optional){.consistent = fracas_mass_is_consistent(time),
                       .rotary = t->body->fill_rotary && time->rotary_inertia > 0,
@@ -300,10 +309,10 @@ fracas_err fracas_surface_tables_create(const fracas_model *model, fracas_surfac
                       .start = fracas_initial_is_strained(&model->spec),
                       .forces = forces,
                       .loads = loads,
-                      .moved = fracas_surface_moved_count(surface, moved)});
+                      .sets = (size_t)t->sets,
+                      .moves = t->motions > 0});
     if (!err)
-        err = allocate(t, &length) ? fill(model, t, moved)
-                                   : fracas_no_memory("the tables of a surface");
+        err = allocate(t, &length) ? fill(model, t) : fracas_no_memory("the tables of a surface");
     if (err) fracas_surface_tables_destroy(t);
     else *tables = t;
     return err;
