@@ -42,7 +42,7 @@ struct fracas_model {
 
 /* Fragments of a lane. */
 typedef struct {
-    int64_t all, held; /* held: on an edge moved by the load, which never stops */
+    int64_t all, held; /* held: with nodes that a load moves, which never stops */
     double size;       /* m, of a mean one of the others: length, or square root of the area */
 } fracas_census;
 
