@@ -72,7 +72,7 @@ const char *fracas_edge_names(unsigned group, char text[120])
     for (int k = 0; k < FRACAS_EDGE_KINDS; k++)
         if (fracas_edge_of(fracas_edge_kinds[k])->models & group) last = k;
     text[0] = '\0';
-    for (int k = 0; k <= last; k++) {
+    for (int k = 0; k <= last && used < 120; k++) {
         const fracas_kind *kind = fracas_edge_kinds[k];
         if (!(fracas_edge_of(kind)->models & group)) continue;
         used += snprintf(text + used, 120 - (size_t)used, "%s%s",

@@ -195,11 +195,15 @@ fracas_err fracas_surface_check_strength(const fracas_model *model, double stren
                  "geometry.unit: mm",
                  side[0], side[1], side[2]);
     }
+    const double times = ceil(100 * model->longest / most) / 100;
+    char remedy[100] = "check the units of strength and fracture energy";
+    if (times < 100)
+        snprintf(remedy, sizeof remedy, "refine the mesh %.3g times (or raise cohesive.beta)",
+                 times);
     return fracas_fail(FRACAS_USAGE,
                        "strength %g Pa needs elements of which area/edge is below %.4g m, the "
-                       "largest is %.4g m: refine the mesh %.3g times (or raise cohesive.beta)%s",
-                       strength, most, model->longest, ceil(100 * model->longest / most) / 100,
-                       unit);
+                       "largest is %.4g m: %s%s",
+                       strength, most, model->longest, remedy, unit);
 }
 
 /* A third of its two elements. */
