@@ -203,8 +203,8 @@ static void write_meshes(meshes *of)
     }
 }
 
-/* The first mesh, nothing held but by `keys`, with this loading and sweep, in which A and B are the
- * two files. */
+/* The first mesh, nothing held but by `keys`, with this loading and sweep, in which @1 and @2 are
+ * the two files. */
 static char *named_campaign(const meshes *of, const char *keys, const char *loading,
                             const char *sweep)
 {
@@ -217,7 +217,7 @@ static char *named_campaign(const meshes *of, const char *keys, const char *load
     FILE *out = open_memstream(&text, &size);
     fputs(loaded, out);
     for (const char *at = sweep; *at; at++)
-        if (*at == 'A' || *at == 'B') fputs(*at == 'A' ? of->first : of->second, out);
+        if (*at == '@') fputs(*++at == '1' ? of->first : of->second, out);
         else fputc(*at, out);
     fclose(out);
     return text;
@@ -272,19 +272,19 @@ static void test_names_in_a_sweep(void **state)
         /* beside its own file, a name is that file's; without one, it is one in all */
         {"",
          RATE,
-         "sweep:\n  - cases:\n    - {geometry.left: held, geometry.file: A}\n"
-         "    - {geometry: {left: held, file: B}}\n",
+         "sweep:\n  - cases:\n    - {geometry.left: held, geometry.file: @1}\n"
+         "    - {geometry: {left: held, file: @2}}\n",
          {"geometry.edge_1", "geometry.edge_2"},
          {"held", "held"}},
         {"",
          "loading: {type: traction, normal: 1 MPa}",
-         "sweep:\n  - cases:\n    - {loading.edge: left, geometry.file: A}\n"
-         "    - {geometry.file: B, loading: {edge: left}}\n",
+         "sweep:\n  - cases:\n    - {loading.edge: left, geometry.file: @1}\n"
+         "    - {geometry.file: @2, loading: {edge: left}}\n",
          {"loading.edge", "loading.edge"},
          {"edge_1", "edge_2"}},
         {"",
          PULLED,
-         "sweep:\n  - geometry.file: [A, B]\n",
+         "sweep:\n  - geometry.file: [@1, @2]\n",
          {"loading.edge", "loading.edge"},
          {"edge_3", "edge_3"}},
     };
@@ -309,8 +309,8 @@ static void test_names_in_a_plan(void **state)
     } of[] = {
         {"sweep:\n  - geometry.lower side: [held, free]\n", "  geometry.lower side  ", " free  "},
         {"sweep:\n  - loading.edge: [lower side, right]\n", "  loading.edge  ", " lower side  "},
-        {"sweep:\n  - cases:\n    - {geometry: {file: A, lower side: held}}\n"
-         "    - {geometry: {file: B, left: held}}\n    - {geometry: {file: B}}\n",
+        {"sweep:\n  - cases:\n    - {geometry: {file: @1, lower side: held}}\n"
+         "    - {geometry: {file: @2, left: held}}\n    - {geometry: {file: @2}}\n",
          "  geometry.edge_2  ", " held  "},
     };
     meshes files;
@@ -339,17 +339,18 @@ static void test_wrong_names(void **state)
         {"", "loading: {type: traction, edge: rigth, normal: 1 MPa}", "",
          "unknown edge `rigth`; did you mean `right`? edge can be: lower side, left, right, "
          "bottom, top, "},
-        {"", RATE, "sweep:\n  - geometry.left: [held, free]\n  - geometry.file: [A, B]\n",
+        {"", RATE, "sweep:\n  - geometry.left: [held, free]\n  - geometry.file: [@1, @2]\n",
          "`left` is edge_1 in /tmp/"},
-        {", left: held", RATE, "sweep:\n  - geometry.file: [A, B]\n", "`left` is edge_1 in /tmp/"},
+        {", left: held", RATE, "sweep:\n  - geometry.file: [@1, @2]\n",
+         "`left` is edge_1 in /tmp/"},
         {"", RATE, "sweep:\n  - geometry.left: [held, free]\n  - geometry.edge_1: [held, free]\n",
          "is swept by two axes"},
         {"", RATE, "sweep:\n  - geometry.left: [helt, free]\n", "did you mean `held`"},
         {"", RATE,
-         "sweep:\n  - geometry.left: [held, free]\n  - geometry.file: [A, " FRACAS_SOURCE_DIR
+         "sweep:\n  - geometry.left: [held, free]\n  - geometry.file: [@1, " FRACAS_SOURCE_DIR
          "/tests/data/gmsh/plate-order1-msh22-text.msh]\n",
          "`left`: the mesh file's physical group of this name has the number 11"},
-        {"", RATE, "sweep:\n  - geometry.file: [A, /none.msh]\n  - geometry.left: [held, free]\n",
+        {"", RATE, "sweep:\n  - geometry.file: [@1, /none.msh]\n  - geometry.left: [held, free]\n",
          "cannot open /none.msh"},
     };
     meshes of;
