@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cli/cli.h"
+#include "cli/film.h"
 
 #include "base/json.h"
 #include "base/own.h"
@@ -19,9 +20,14 @@ static const fracas_option options[] = {
     {"at", "LIST",
      "fields at these instants: onset (first), peak (of elastic + cohesive energy), end; all "
      "three without --every"},
+    {"film", "FILE",
+     "write FILE.html, a film for a browser, of 49 instants evenly unless --every or --at say "
+     "otherwise"},
     {"one-file", NULL, "all instants in one file, VTKHDF 2, for VTK 9.3, ParaView 5.12 and later"},
     {"json", NULL, "print it as JSON"},
     {0}};
+
+enum { INTERVALS = 48 }; /* between instants of a film */
 
 /* A number from 0 on at *text, which then points behind it; false if there is none. */
 static bool read_number(const char **text, int64_t *number)
@@ -85,18 +91,32 @@ static fracas_err read_at(const char *text, fracas_fields_request *request)
 static fracas_err read_request(const fracas_arguments *arguments, fracas_fields_request *request)
 {
     const char *every = fracas_given(arguments, "every"), *at = fracas_given(arguments, "at");
+    const bool film = fracas_given(arguments, "film") != NULL;
     const bool one_file = fracas_given(arguments, "one-file") != NULL;
     *request = (fracas_fields_request){.folder = fracas_given(arguments, "fields"),
                                        .one_file = one_file};
-    if (!request->folder && (every || at || one_file))
-        return fracas_fail(FRACAS_USAGE, "replay: --%s is for fields: say --fields DIR, too",
-                           every ? "every"
-                           : at  ? "at"
-                                 : "one-file");
+    if (!request->folder && one_file)
+        return fracas_fail(FRACAS_USAGE, "replay: --one-file is for fields: say --fields DIR, too");
+    if (!request->folder && !film && (every || at))
+        return fracas_fail(FRACAS_USAGE,
+                           "replay: --%s is for fields and films: say --fields DIR or --film FILE, "
+                           "too",
+                           every ? "every" : "at");
     if (request->folder && !*request->folder)
         return fracas_fail(FRACAS_USAGE, "replay: --fields is empty; it must be a folder");
     TRY(read_every(every, &request->every));
+    if (film && !every && !at) return FRACAS_OK; /* see_film */
     return at || !every ? read_at(at ? at : "onset,peak,end", request) : FRACAS_OK;
+}
+
+/* Has the film see every instant: those asked for, else evenly from 0 to the end. */
+static void see_film(const fracas_replay *replay, fracas_cli_film *film,
+                     fracas_fields_request *request)
+{
+    const bool said = request->every > 0 || request->onset || request->peak || request->end;
+    if (!said) request->every = replay->stored.end_time / INTERVALS;
+    request->show = fracas_cli_film_show;
+    request->context = film;
 }
 
 static fracas_err replay(const fracas_arguments *arguments)
@@ -105,13 +125,19 @@ static fracas_err replay(const fracas_arguments *arguments)
     size_t point = 0;
     int64_t replica = 0;
     FRACAS_CLEARED(fracas_replay) replay = {0};
+    FRACAS_CLEARED(fracas_cli_film) film = {0};
     fracas_fields_request request;
+    const bool as_json = fracas_given(arguments, "json");
+    FILE *out = as_json ? stderr : stdout;
+    const char *path = fracas_given(arguments, "film");
     TRY(read_realization(arguments->second, &point, &replica));
     TRY(read_request(arguments, &request));
+    if (path) TRY(fracas_cli_film_open(path, out, &film));
     TRY(fracas_cli_campaign_of(arguments->operand, &campaign));
     TRY(fracas_replay_find(arguments->operand, campaign, point, replica, &replay));
-    const bool as_json = fracas_given(arguments, "json");
-    TRY(fracas_replay_run(&replay, request.folder ? &request : NULL, as_json ? stderr : stdout));
+    if (path) see_film(&replay, &film, &request);
+    TRY(fracas_replay_run(&replay, request.folder || path ? &request : NULL, out));
+    if (path) TRY(fracas_cli_film_write(&film, &replay));
     const fracas_record *record = &replay.stored;
     if (as_json) {
         fracas_json json;
@@ -150,7 +176,9 @@ const fracas_command fracas_command_replay = {
         "velocity, stress and fragments, and\n"
         "interfaces.hdf.series, with damage, opening, strength and onset. How large they "
         "are is said before. Of bars and of bodies in a plane, the share on which fragments lie "
-        "over each other\nis said after.\n",
+        "over each other\nis said after.\n\n"
+        "With --film, FILE is a page that a browser plays: the moved body from any side, coloured "
+        "by fragment, speed or stress.\n",
     .options = options,
     .run = replay,
 };

@@ -119,5 +119,6 @@ extern const char fracas_chart_style[];   /* every drawing: Colours of Okabe and
 extern const char fracas_surface_style[]; /* pictures of surfaces, beside it */
 extern const char fracas_page_style[];    /* for the page; drawings in the dark, too */
 extern const char fracas_page_script[];
+extern const char fracas_film_script[]; /* the film of a body that moves */
 
 #endif

@@ -52,3 +52,14 @@ fracas_err fracas_sha256_of_text(const char *text, char base64[FRACAS_SHA256_BAS
     EVP_EncodeBlock((unsigned char *)base64, result, DIGEST);
     return FRACAS_OK;
 }
+
+void fracas_base64_write(const void *bytes, size_t size, FILE *out)
+{
+    enum { PIECE = 3 * 1024 }; /* whole groups of three: no padding but at the end */
+    unsigned char text[PIECE / 3 * 4 + 1];
+    for (size_t at = 0; at < size; at += PIECE) {
+        const size_t n = size - at < PIECE ? size - at : PIECE;
+        EVP_EncodeBlock(text, (const unsigned char *)bytes + at, (int)n);
+        fputs((const char *)text, out);
+    }
+}

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* SHA-256 by libcrypto: the digest of files in data packages, as sha256sum has it, and of the
- * script of a page. */
+/* SHA-256 and base64 by libcrypto: the digest of files in data packages, as sha256sum has it, and
+ * of the script of a page; the data of a film. */
 #ifndef FRACAS_ANALYSIS_EXPORT_SHA256_H
 #define FRACAS_ANALYSIS_EXPORT_SHA256_H
 
 #include "base/err.h"
 
 #include <stdint.h>
+#include <stdio.h>
 
 enum { FRACAS_SHA256_HEX = 65, FRACAS_SHA256_BASE64 = 45 }; /* characters and the end */
 
@@ -17,5 +18,8 @@ FRACAS_MUST_USE fracas_err fracas_sha256_of_file(const char *path, char hex[FRAC
 /* Digest of the text in base64. FRACAS_ENVIRONMENT without memory. */
 FRACAS_MUST_USE fracas_err fracas_sha256_of_text(const char *text,
                                                  char base64[FRACAS_SHA256_BASE64]);
+
+/* Writes the bytes in base64, in one line without an end. */
+void fracas_base64_write(const void *bytes, size_t size, FILE *out);
 
 #endif

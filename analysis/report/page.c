@@ -63,9 +63,9 @@ static void put_head(const char *title, const char *lead, const char *script, in
         title, lead);
 }
 
-static void put_end(FILE *out)
+static void put_end(const char *script, FILE *out)
 {
-    fprintf(out, "</main>\n<script>%s</script>\n</body>\n</html>\n", fracas_page_script);
+    fprintf(out, "</main>\n<script>%s</script>\n</body>\n</html>\n", script);
 }
 
 static void put_page(const char *title, const char *lead, const fracas_page_entry *section,
@@ -83,19 +83,19 @@ static void put_page(const char *title, const char *lead, const fracas_page_entr
         fwrite(of->text[i], 1, of->size[i], out);
         fputs("</section>\n", out);
     }
-    put_end(out);
+    put_end(fracas_page_script, out);
 }
 
-fracas_err fracas_page_film(const char *folder, const char *file, const char *title,
-                            const char *lead, const char *film)
+fracas_err fracas_page_alone(const char *folder, const char *file, const char *title,
+                             const char *lead, const char *body, const char *script)
 {
-    char script[FRACAS_SHA256_BASE64];
+    char digest[FRACAS_SHA256_BASE64];
     fracas_output_file output;
-    TRY(fracas_sha256_of_text(fracas_page_script, script));
+    TRY(fracas_sha256_of_text(script, digest));
     TRY(fracas_output_open(folder, file, &output));
-    put_head(title, lead, script, 0, output.file);
-    fprintf(output.file, "<main>\n<div class=\"film alone\">\n%s</div>\n", film);
-    put_end(output.file);
+    put_head(title, lead, digest, 0, output.file);
+    fprintf(output.file, "<main>\n%s", body);
+    put_end(script, output.file);
     return fracas_output_close(&output, FRACAS_OK);
 }
 

@@ -105,9 +105,10 @@ FRACAS_MUST_USE fracas_err fracas_convert_check(void);
 FRACAS_MUST_USE fracas_err fracas_convert(const char *folder, char (*name)[FRACAS_DRAWING],
                                           size_t count, fracas_drawing_format as);
 
-/* A page of one figure with its own style and script: FILE of the folder. */
-FRACAS_MUST_USE fracas_err fracas_page_film(const char *folder, const char *file, const char *title,
-                                            const char *lead, const char *film);
+/* A page without sections: FILE of the folder, with the style of a report and this script. */
+FRACAS_MUST_USE fracas_err fracas_page_alone(const char *folder, const char *file,
+                                             const char *title, const char *lead, const char *body,
+                                             const char *script);
 
 /* The surface of a point, and its interfaces in a realization; of a bar or ring, its strip. */
 typedef struct {

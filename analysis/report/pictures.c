@@ -122,9 +122,10 @@ static fracas_err save_pictures(const making *m, const fracas_broken_surface *su
     char stem[STEM], title[128], file[FRACAS_DRAWING + 4];
     if (!name) return fracas_no_memory("the names of pictures");
     name_realization(m, stem);
+    const int digits = snprintf(NULL, 0, "%zu", count); /* in order by their names, too */
     for (size_t k = 0; k < count; k++) {
         const fracas_surface_picture picture = picture_at(m, surface, time[k], title);
-        FRACAS_PRINT(name[k], "%s-%zu", stem, k + 1);
+        FRACAS_PRINT(name[k], "%s-%0*zu", stem, digits, k + 1);
         FRACAS_PRINT(file, "%s.svg", name[k]);
         TRY(fracas_broken_surface_save(surface, time[k], &picture, m->folder, file));
         fprintf(m->out, "%s/%s: %s\n", m->folder, file, fracas_surface_time(time[k], false).text);
@@ -160,7 +161,9 @@ static fracas_err save_film(const making *m, const fracas_broken_surface *surfac
     char stem[STEM], file[STEM + 5], lead[128];
     FILE *out = open_memstream(&frames, &size);
     if (!out) return fracas_no_memory("a film");
+    fputs("<div class=\"film alone\">\n", out);
     fracas_err err = put_frames(m, surface, time, count, out);
+    fputs("</div>\n", out);
     const bool bad = ferror(out);
     if ((fclose(out) || bad) && !err) err = fracas_no_memory("a film");
     if (err) return err;
@@ -168,7 +171,7 @@ static fracas_err save_film(const making *m, const fracas_broken_surface *surfac
     FRACAS_PRINT(file, "%s.html", stem);
     FRACAS_PRINT(lead, "Point %zu, replica %" PRId64 ", as it was before any motion",
                  m->request->point, m->request->replica);
-    TRY(fracas_page_film(m->folder, file, m->study, lead, frames));
+    TRY(fracas_page_alone(m->folder, file, m->study, lead, frames, fracas_page_script));
     fprintf(m->out, "%s/%s: %zu times\n", m->folder, file, count);
     return FRACAS_OK;
 }

@@ -153,8 +153,8 @@ static fracas_err write_parts(const fracas_field_files *files)
     OWNED char *body = NULL;
     OWNED char *interfaces = NULL;
     part_grid p;
-    TRY(fracas_path(&body, "%s/%s-%zu.hdf", files->folder, parts[0], files->ntaken));
-    TRY(fracas_path(&interfaces, "%s/%s-%zu.hdf", files->folder, parts[1], files->ntaken));
+    TRY(fracas_path(&body, "%s/%s-%zu.hdf", files->request->folder, parts[0], files->ntaken));
+    TRY(fracas_path(&interfaces, "%s/%s-%zu.hdf", files->request->folder, parts[1], files->ntaken));
     TRY(fracas_vtk_write(body, make_part(files, 0, &p)));
     const fracas_err err = fracas_vtk_write(interfaces, make_part(files, 1, &p));
     if (err) unlink(body);
@@ -165,7 +165,8 @@ static fracas_err write_instant(const fracas_field_files *files)
 {
     TRY(write_parts(files));
     for (int part = 0; part < 2; part++)
-        TRY(fracas_vtk_write_series(files->folder, parts[part], files->taken, files->ntaken));
+        TRY(fracas_vtk_write_series(files->request->folder, parts[part], files->taken,
+                                    files->ntaken));
     return FRACAS_OK;
 }
 
@@ -188,6 +189,9 @@ static fracas_err take(void *context, fracas_batch *batch, const fracas_record *
     while (files->next < files->count && now >= files->due[files->next]) files->next++;
     fracas_batch_fields(batch, 0, files->fields);
     files->taken[files->ntaken++] = now;
+    const fracas_fields_request *request = files->request;
+    if (request->show) TRY(request->show(request->context, files->fields, files->count));
+    if (!request->folder) return FRACAS_OK;
     return files->film[0] ? add_instant(files, now) : write_instant(files);
 }
 
@@ -226,7 +230,7 @@ static fracas_err open_films(fracas_field_files *files)
 {
     for (int part = 0; part < 2; part++) {
         part_grid p;
-        TRY(fracas_path(&files->path[part], "%s/%s.vtkhdf", files->folder, parts[part]));
+        TRY(fracas_path(&files->path[part], "%s/%s.vtkhdf", files->request->folder, parts[part]));
         TRY(fracas_vtk_film_create(files->path[part], make_part(files, part, &p), files->count,
                                    &files->film[part]));
     }
@@ -264,7 +268,7 @@ static void announce(const fracas_field_files *files, bool evenly, FILE *out)
     const double bytes = sum_bytes(files) - still;
     fprintf(out, "fields: %s%zu instant%s of %s, %s in all, into %s\n", evenly ? "up to " : "",
             files->count, files->count == 1 ? "" : "s", fracas_size_write(bytes, one),
-            fracas_size_write(bytes * (double)files->count + still, all), files->folder);
+            fracas_size_write(bytes * (double)files->count + still, all), files->request->folder);
     fflush(out);
 }
 
@@ -272,13 +276,14 @@ fracas_err fracas_field_files_open(const fracas_fields_request *request, const f
                                    const fracas_record *stored, fracas_field_files *files,
                                    FILE *out)
 {
-    *files = (fracas_field_files){.folder = request->folder,
+    *files = (fracas_field_files){.request = request,
                                   .watch = {.pause = take, .end = take, .every = 1}};
     files->watch.context = files;
     TRY(list_instants(request, stored, files));
     TRY(fracas_fields_create(model, &files->fields));
+    if (!request->folder) return FRACAS_OK;
     TRY(number_corners(files));
-    TRY(prepare_folder(files->folder));
+    TRY(prepare_folder(request->folder));
     if (request->one_file) TRY(open_films(files));
     if (out) announce(files, request->every > 0, out);
     return FRACAS_OK;
@@ -313,8 +318,8 @@ fracas_err fracas_field_files_finish(fracas_field_files *files, FILE *out)
     TRY(fracas_fragments_overlap(files->fields, &files->overlap));
     for (int part = 0; part < 2; part++) {
         if (files->film[part]) TRY(fracas_vtk_film_finish(files->film[part]));
-        if (!out) continue;
-        fprintf(out, "%s/%s.%s: %zu instant%s\n", files->folder, parts[part],
+        if (!out || !files->request->folder) continue;
+        fprintf(out, "%s/%s.%s: %zu instant%s\n", files->request->folder, parts[part],
                 files->film[part] ? "vtkhdf" : "hdf.series", files->ntaken,
                 files->ntaken == 1 ? "" : "s");
     }

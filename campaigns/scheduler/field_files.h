@@ -10,15 +10,18 @@
 #include <stdio.h>
 
 typedef struct {
-    const char *folder;    /* new or empty */
+    const char *folder;    /* new or empty; NULL: none is written */
     double every;          /* s, from 0 on; 0: not evenly */
     bool onset, peak, end; /* first onset, largest elastic + cohesive energy, end */
     bool one_file;         /* all instants of a part in one */
+    /* Sees each instant, of at most so many; NULL: nobody does. An error ends the run. */
+    fracas_err (*show)(void *context, const fracas_fields *fields, size_t most);
+    void *context;
 } fracas_fields_request;
 
 /* All zero: none. */
 typedef struct {
-    const char *folder;
+    const fracas_fields_request *request;
     fracas_fields *fields; /* owned, as all below */
     int64_t *corner;       /* 0, 1, 2, ...: no two cells have a common point */
     double *due;           /* [count] s, rising: the next step takes them all */
@@ -36,9 +39,9 @@ typedef struct {
  * FOLDER/body.hdf.series, FOLDER/interfaces.hdf.series, which list those that are whole; or
  * FOLDER/body.vtkhdf and FOLDER/interfaces.vtkhdf, which are there once they are whole. The
  * instants are those of the stored record. Prints how many they are at most, and their size, unless
- * `out` is NULL. FRACAS_USAGE for a folder that is not empty and where there is no instant,
- * FRACAS_ENVIRONMENT for one that cannot be written. `request` must outlive `files`, `files` the
- * batch, and stay where it is. */
+ * `out` is NULL. Without a folder no file is written. FRACAS_USAGE for a folder that is not empty
+ * and where there is no instant, FRACAS_ENVIRONMENT for one that cannot be written. `request` must
+ * outlive `files`, `files` the batch, and stay where it is. */
 FRACAS_MUST_USE fracas_err fracas_field_files_open(const fracas_fields_request *request,
                                                    const fracas_model *model,
                                                    const fracas_record *stored,

@@ -115,12 +115,13 @@ fracas_err fracas_replay_run(fracas_replay *replay, const fracas_fields_request 
     fracas_record_compare(&replay->stored, &record, replay->campaign->output.interfaces,
                           &difference);
     if (!difference.column) return FRACAS_OK;
+    const char *folder = request ? request->folder : NULL;
     return fracas_fail(FRACAS_DAMAGED,
                        "realization %zu/%" PRId64
                        " differs from the study: first in %s, row %zu of "
                        "the realization: stored %s, computed %s; `fracas verify --full` checks the "
                        "study%s%s%s",
                        replay->point, replay->replica, difference.column, difference.row,
-                       difference.value[0], difference.value[1], request ? "; fields in " : "",
-                       request ? request->folder : "", request ? " are of the computed one" : "");
+                       difference.value[0], difference.value[1], folder ? "; fields in " : "",
+                       folder ? folder : "", folder ? " are of the computed one" : "");
 }

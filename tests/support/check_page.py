@@ -370,6 +370,45 @@ def check_films():
     return len(films)
 
 
+def check_film(path):
+    """A film of a replay: drawn at every instant, in every colour, as wide as the window."""
+    browser.get("file://" + path)
+    canvas = one_of("canvas")
+    shown = lambda: int(canvas.get_attribute("data-drawn") or -1)
+    pixels = lambda: browser.execute_script("return arguments[0].toDataURL()", canvas)
+    play, slider = all_of("button")[0], all_of("input[type=range]")[0]
+    last = int(slider.get_attribute("max"))
+    wait = lambda wanted: WebDriverWait(browser, 30).until(lambda _: shown() == wanted)
+    wait(last)
+    seen = {pixels()}
+
+    def differs():
+        """The next drawing is like none before."""
+        WebDriverWait(browser, 30).until(lambda _: pixels() not in seen)
+        seen.add(pixels())
+
+    slider.send_keys(Keys.HOME)
+    wait(0)
+    assert "at 0 s: 1 fragment" in canvas.get_attribute("aria-label"), canvas.get_attribute("aria-label")
+    differs()
+    click(play)
+    WebDriverWait(browser, 60).until(lambda _: shown() == last and play.text == "Play")
+    for value in "speed", "stress":
+        all_of(f"option[value={value}]")[0].click()
+        differs()
+    for _ in "motion", "apart":
+        all_of("input[type=range]")[1 + (_ == "apart")].send_keys(Keys.END)
+        differs()
+    canvas.send_keys(Keys.ARROW_LEFT)
+    differs()
+    media("dark")
+    differs()
+    media()
+    resize(400)
+    assert browser.execute_script("return document.documentElement.scrollWidth") <= 400
+    resize(1200)
+
+
 def check_pdfs():
     """Vectors of the size of the drawing, with its words."""
     names = [name for name in sorted(os.listdir(report)) if name.endswith(".pdf")]
@@ -431,6 +470,11 @@ try:
     asked = [message["params"]["request"]["url"] for message in asked if message["method"] == "Network.requestWillBeSent"]
     asked = asked[asked.index(url):]  # before it, the browser's own first page
     assert all(address == url or address.startswith("data:") for address in asked), asked
+    film = os.path.abspath(os.path.join(sys.argv[1], "film.html"))
+    if os.path.exists(film):
+        check_film(film)
+        errors = browser.get_log("browser")
+        assert not errors, errors
 finally:
     browser.quit()
     home.cleanup()

@@ -1,6 +1,6 @@
 # ctest-labels: ci
 # The page of a report in headless Chromium (tests/support/check_page.py): a bar at three rates, and rings with their crack patterns
-# and films.
+# and films, and a film of a replay.
 . tests/support/campaigns.sh
 
 lacking=
@@ -37,6 +37,7 @@ sweep:
   - loading.radial: [50 m/s, 100 m/s]
 END
 expect 0 "$fracas" run rings.yaml --study rings
+expect 0 "$fracas" replay rings 1/0 --film rings/film.html
 
 # Three factors: small multiples.
 sed -n '/^sweep/q;p' rates.yaml > factors.yaml
