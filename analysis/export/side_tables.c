@@ -5,9 +5,11 @@
 #include "analysis/summary/effects.h"
 #include "base/param.h"
 #include "base/own.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 static const char *const slope_legend[] = {
     "slope: of log(mean size) against log(strain rate), weighted least squares, each point by the "
@@ -52,11 +54,21 @@ static const char *const motion_legend[] = {
     NULL,
 };
 
+static const char *const effect_each_legend[] = {
+    "From the first value of a parameter to the last (of texts, to the next), with all others as "
+    "in "
+    "`setting`: the 95 % interval of each change. Where two intervals lie apart, the effect "
+    "depends "
+    "on what differs in their settings.",
+    NULL,
+};
+
 static const char *const effect_legend[] = {
-    "From one value of a parameter to the next, with all other parameters the same: change of the "
+    "From one value of a parameter to the next, and from the first to the last, with all other "
+    "parameters the same: change of the "
     "mean number of fragments and of the mean size, with 95 % intervals: the geometric mean of the "
     "ratios in all settings of the others (Student's t, degrees of freedom by Welch and "
-    "Satterthwaite). least to most: in single settings, which effects.csv has.",
+    "Satterthwaite). least to most: in single settings, which effects.csv and the next table have.",
     "An interval without 0 shows an effect; where least and most are far apart, it depends on the "
     "other parameters. `with`: these change along, as in a zipped sweep, and share the effect; "
     "mesh "
@@ -167,7 +179,20 @@ static bool is_whole(const void *row)
     return !*((const fracas_effect *)row)->at;
 }
 
+static bool is_each(const void *row)
+{
+    return !is_whole(row) && ((const fracas_effect *)row)->headline;
+}
+
 #define AT(member) offsetof(fracas_effect, member)
+static const fracas_table_column effect_each_column[] = {
+    {"parameter", "", FRACAS_CELL_TEXT, AT(words)},
+    {"from", "", FRACAS_CELL_TEXT, AT(from)},
+    {"to", "", FRACAS_CELL_TEXT, AT(to)},
+    {"count", "", FRACAS_CELL_FORMAT, .format = count_text},
+    {"size", "", FRACAS_CELL_FORMAT, .format = size_text},
+    {"setting", "", FRACAS_CELL_TEXT, AT(at)},
+};
 static const fracas_table_column effect_column[] = {
     {"parameter", "", FRACAS_CELL_TEXT, AT(words)},
     {"from", "", FRACAS_CELL_TEXT, AT(from)},
@@ -215,6 +240,8 @@ const fracas_side_table fracas_side_tables[FRACAS_SIDE_TABLES] = {
      sizeof(fracas_point_statistics), is_ring, NULL},
     {"effects", "Change of the means with each parameter", COLUMNS(effect), sizeof(fracas_effect),
      is_whole, list_effects},
+    {"effects-each", "Change of the means over the range of each parameter, in each setting",
+     COLUMNS(effect_each), sizeof(fracas_effect), is_each, list_effects},
 };
 
 fracas_err fracas_side_table_create(const fracas_analysis *analysis, fracas_side_table_name name,
@@ -229,4 +256,34 @@ fracas_err fracas_side_table_create(const fracas_analysis *analysis, fracas_side
         rows.first = list;
     }
     return fracas_table_make(of->column, of->columns, &rows, true, table);
+}
+
+/* "; in single settings +51.0 to +119.5 %" */
+static void range_words(const fracas_change *change, int64_t settings, char *text, size_t size)
+{
+    char range[FRACAS_CELL];
+    range_text(change, settings, range);
+    if (strcmp(range, "-") == 0) text[0] = '\0';
+    else snprintf(text, size, ", in single settings %s", range);
+}
+
+fracas_err fracas_effects_print(const fracas_analysis *analysis, int width, FILE *out)
+{
+    OWNED fracas_effect *effect = NULL;
+    size_t count;
+    if (!fracas_effects_shown(analysis)) return FRACAS_OK;
+    TRY(fracas_effects(analysis, &effect, &count));
+    for (size_t i = 0; i < count; i++) {
+        const fracas_effect *of = &effect[i];
+        char number[FRACAS_CELL], size[FRACAS_CELL], range[2][2 * FRACAS_CELL], line[1024];
+        if (!of->headline || !is_whole(of)) continue;
+        change_text(&of->count, number);
+        change_text(&of->size, size);
+        range_words(&of->count, of->settings, range[0], sizeof range[0]);
+        range_words(&of->size, of->settings, range[1], sizeof range[1]);
+        snprintf(line, sizeof line, "effect of %s, %s to %s: count %s%s; size %s%s", of->words,
+                 of->from, of->to, number, range[0], size, range[1]);
+        fracas_text_wrap(line, 0, width, out);
+    }
+    return FRACAS_OK;
 }

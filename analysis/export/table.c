@@ -248,6 +248,7 @@ void fracas_analysis_print_table(const fracas_analysis *analysis, int width, FIL
     char beside[768];
     if (fracas_result_table_beside(analysis, beside, sizeof beside))
         print_line(width, out, "%s", beside);
+    if (fracas_effects_print(analysis, width, out)) fprintf(out, "%s\n", fracas_message());
     print_decisions(analysis, width, out);
     print_warnings(analysis, width, out);
 }

@@ -100,7 +100,8 @@ bool fracas_result_table_beside(const fracas_analysis *analysis, char *text, siz
 /* Tables beside the headline one. A row for each series with a slope and for all points, of the
  * size and of the count; a row for every two neighbouring rates of a series; a row a series: its
  * crossover, or why there is none; a row a ring: velocities of its fragments; a row for every two
- * neighbouring values of a parameter. A table without rows has only its head. */
+ * neighbouring values of a parameter, and one for its whole range. A table without rows has only
+ * its head. */
 typedef enum {
     FRACAS_SLOPES,
     FRACAS_COUNT_SLOPES,
@@ -109,6 +110,7 @@ typedef enum {
     FRACAS_CROSSOVERS,
     FRACAS_MOTION,
     FRACAS_EFFECTS,
+    FRACAS_EFFECTS_EACH, /* in each setting, over the whole range */
     FRACAS_SIDE_TABLES
 } fracas_side_table_name;
 
@@ -127,6 +129,11 @@ extern const fracas_side_table fracas_side_tables[FRACAS_SIDE_TABLES];
 FRACAS_MUST_USE fracas_err fracas_side_table_create(const fracas_analysis *analysis,
                                                     fracas_side_table_name name,
                                                     fracas_result_table *table);
+
+/* For a terminal: what each parameter does over its range, with 95 % intervals, a line each;
+ * nothing where points differ in the strain rate alone. */
+FRACAS_MUST_USE fracas_err fracas_effects_print(const fracas_analysis *analysis, int width,
+                                                FILE *out);
 
 /* A row a fitted family of a point, by rank: distances, their p-values, parameters. For
  * a page. */

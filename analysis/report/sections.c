@@ -5,6 +5,7 @@
 #include "analysis/export/tables.h"
 #include "analysis/report/figures.h"
 #include "analysis/report/page.h"
+#include "analysis/summary/effects.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -265,11 +266,20 @@ fracas_err fracas_section_slopes(fracas_page *page)
     return put_side_table(page, FRACAS_CROSSOVERS);
 }
 
+enum { MOST_EACH = 60 }; /* rows of single settings: effects.csv has any number */
+
 /* Against the strain rate alone slopes say more. */
 fracas_err fracas_section_effects(fracas_page *page)
 {
-    const bool rate_alone = page->analysis->axes.rate && page->analysis->shown.count < 2;
-    return rate_alone ? FRACAS_OK : put_side_table(page, FRACAS_EFFECTS);
+    if (!fracas_effects_shown(page->analysis)) return FRACAS_OK;
+    TRY(put_side_table(page, FRACAS_EFFECTS));
+    const fracas_side_table *of = &fracas_side_tables[FRACAS_EFFECTS_EACH];
+    fracas_result_table table = {0};
+    TRY(fracas_side_table_create(page->analysis, FRACAS_EFFECTS_EACH, &table));
+    if (table.rows <= FRACAS_RESULT_TABLE_HEAD + MOST_EACH)
+        return fracas_page_table(page, of->id, of->title, true, &table, of->legend, FRACAS_OK);
+    fracas_result_table_clear(&table);
+    return FRACAS_OK;
 }
 
 fracas_err fracas_section_motion(fracas_page *page)

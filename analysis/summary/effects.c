@@ -206,6 +206,8 @@ static fracas_err add_row(making *of, size_t from, size_t to, const char *at,
     TRY(fracas_grow(&of->effect, sizeof *of->effect, of->count, &of->room, "the effects"));
     fracas_effect *row = &of->effect[of->count++];
     *row = (fracas_effect){.count = change_of(&sums[0]), .size = change_of(&sums[1])};
+    row->headline = of->analysis->table->column[of->column].text ||
+                    (from == of->level[0] && to == of->level[of->nlevels - 1]);
     row->settings = sums[0].settings > sums[1].settings ? sums[0].settings : sums[1].settings;
     FRACAS_PRINT(row->key, "%s", of->analysis->table->column[of->column].path);
     words_of(of, row->words, sizeof row->words);
@@ -239,17 +241,29 @@ static fracas_err add_pairs(making *of, size_t from, size_t to, change_sums whol
     return FRACAS_OK;
 }
 
+/* From one value to another: all settings, then each. */
+static fracas_err add_step(making *of, size_t from, size_t to)
+{
+    change_sums whole[2] = {none, none};
+    TRY(add_pairs(of, from, to, whole, false));
+    TRY(add_row(of, from, to, "", whole));
+    const bool several = whole[0].settings > 1 || whole[1].settings > 1;
+    return several ? add_pairs(of, from, to, whole, true) : FRACAS_OK;
+}
+
 static fracas_err add_parameter(making *of)
 {
+    const bool texts = of->analysis->table->column[of->column].text;
     for (size_t p = 0; p < of->analysis->table->npoints; p++) take_level(of, p);
-    for (size_t l = 0; of->nlevels <= FRACAS_MOST_LEVELS && l + 1 < of->nlevels; l++) {
-        change_sums whole[2] = {none, none};
-        TRY(add_pairs(of, of->level[l], of->level[l + 1], whole, false));
-        TRY(add_row(of, of->level[l], of->level[l + 1], "", whole));
-        if (whole[0].settings > 1 || whole[1].settings > 1)
-            TRY(add_pairs(of, of->level[l], of->level[l + 1], whole, true));
-    }
-    return FRACAS_OK;
+    if (of->nlevels > FRACAS_MOST_LEVELS) return FRACAS_OK;
+    for (size_t l = 0; l + 1 < of->nlevels; l++) TRY(add_step(of, of->level[l], of->level[l + 1]));
+    if (of->nlevels < 3 || texts) return FRACAS_OK;
+    return add_step(of, of->level[0], of->level[of->nlevels - 1]);
+}
+
+bool fracas_effects_shown(const fracas_analysis *analysis)
+{
+    return !(analysis->axes.rate && analysis->shown.count < 2);
 }
 
 fracas_err fracas_effects(const fracas_analysis *analysis, fracas_effect **effect, size_t *count)

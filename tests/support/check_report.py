@@ -72,7 +72,7 @@ def effect_of(pairs, key):
 
 with open(os.path.join(report, "effects.csv"), encoding="utf-8") as file:
     effects = list(csv.DictReader(file))
-place, whole = 0, []
+place, whole, each = 0, [], 0
 parameters = [point["parameters"] for point in summary["points"]]
 names = {name for of in parameters for name in of if not name.startswith("derived.") and (name in summary["varying"] or not re.match("mesh|time", name))}
 changing = [name for name in names if len({str(of.get(name)) for of in parameters}) > 1]
@@ -83,7 +83,9 @@ for path in summary["varying"]:
     others = [name for name in changing if name != path and not all(alike(name, p, q) for p in points for q in points if value[p] == value[q])]
     levels = list(dict.fromkeys(x for x in value if x is not None))
     levels = levels if isinstance(levels[0], str) else sorted(levels)
-    for a, b in zip(levels, levels[1:]) if len(levels) <= 12 else ():
+    steps = list(zip(levels, levels[1:])) if len(levels) <= 12 else []
+    steps += [(levels[0], levels[-1])] * (len(steps) > 1 and not isinstance(levels[0], str))
+    for a, b in steps:
         pairs = [(p, q) for p in range(len(rows)) for q in range(len(rows)) if (value[p], value[q]) == (a, b) and all(alike(name, p, q) for name in others)]
         known = [pair for pair in pairs if any(rows[i][key + ".mean"] > 0 for key in ("count", "size") for i in pair[:1]) and
                  any(rows[pair[0]][key + ".mean"] > 0 and rows[pair[1]][key + ".mean"] > 0 for key in ("count", "size"))]
@@ -92,6 +94,7 @@ for path in summary["varying"]:
             place += 1
             assert line["parameter"] == path and int(line["settings"]) == len(group) and (line["at"] == "" or group is not known)
             whole += [line] * (group is known)
+            each += group is not known and (isinstance(a, str) or (a, b) == (levels[0], levels[-1]))
             for key in ("count", "size"):
                 for name, wanted in zip(("value", "low", "high", "least", "most"), effect_of(group, key)):
                     found = line[f"{key}_change.{name}"]
@@ -664,6 +667,7 @@ if os.path.exists(os.path.join(study, "fits.csv")):
     assert page.rows.pop("fits-table") == sum(row["quantity"] == "rank" for row in fits)
 rate_alone = summary["axes"]["x"] == "derived.strain_rate" and len(summary["varying"]) < 2
 assert page.rows.pop("effects", 0) == (0 if rate_alone else len(whole))
+assert page.rows.pop("effects-each", 0) == (0 if rate_alone or each > 60 else each)
 assert page.rows.pop("motion", 0) == model.count("ring") and not page.rows
 firsts = [np.flatnonzero((realization["point"] == p) & (realization["outcome"] == 0))[0] for p in pictures]
 assert page.bands == sum(realization["fragments"][i] for i in firsts)

@@ -69,7 +69,7 @@ static void settings_are_pairs(void **state)
                     1e-3 / (l ? 2 : 1));
     OK(fracas_columns_create(&of.table, &of.analysis.shown));
     OK(fracas_effects(&of.analysis, &effect, &count));
-    assert_int_equal(count, (1 + 6) + (1 + 6) + 2 * (1 + 4));
+    assert_int_equal(count, (1 + 6) + (1 + 6) + 3 * (1 + 4));
     assert_row(effect, "rate", "1e3 1/s", "1e4 1/s", "", 6, 1);
     assert_row(effect + 1, "rate", "1e3 1/s", "1e4 1/s", "law stershic, shape of the strengths 20",
                1, 1);
@@ -81,6 +81,10 @@ static void settings_are_pairs(void **state)
     assert_row(effect + 14, "shape of the strengths", "5", "10", "", 4, 0);
     assert_row(effect + 19, "shape of the strengths", "10", "20", "", 4, sqrt(3) - 1);
     assert_string_equal(effect[19].key, "strength.shape");
+    /* over the range: to three times as much under stershic, to as much under nitsche */
+    assert_row(effect + 24, "shape of the strengths", "5", "20", "", 4, sqrt(3) - 1);
+    assert_true(effect[24].headline && effect[28].headline && effect[0].headline);
+    assert_true(!effect[14].headline && !effect[19].headline && effect[7].headline);
     fracas_columns_clear(&of.analysis.shown);
 }
 
@@ -142,7 +146,7 @@ static void odd_points(void **state)
         for (size_t l = 0; l < levels; l++) add(&of, "nitsche", 1e3, (double)(levels - l), 10, 1);
         OK(fracas_columns_create(&of.table, &of.analysis.shown));
         OK(fracas_effects(&of.analysis, &effect, &count));
-        assert_int_equal(count, levels > FRACAS_MOST_LEVELS ? 0 : levels - 1);
+        assert_int_equal(count, levels > FRACAS_MOST_LEVELS ? 0 : levels);
         fracas_columns_clear(&of.analysis.shown);
         if (levels == FRACAS_MOST_LEVELS) free(effect);
     }
