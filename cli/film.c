@@ -75,7 +75,8 @@ static fracas_err begin(fracas_cli_film *film, const fracas_film_instant *first,
                            "a film of %zu instants would have %s, more than browsers like to hold: "
                            "raise --every, or see --fields in ParaView",
                            most, size);
-    if (film->out) fprintf(film->out, "film: up to %zu instants, %s\n", most, size);
+    if (film->out)
+        fprintf(film->out, "film: up to %zu instant%s, %s\n", most, most == 1 ? "" : "s", size);
     if (film->out) fflush(film->out);
     return fracas_film_create(first, most, &film->film);
 }
@@ -95,6 +96,8 @@ fracas_err fracas_cli_film_write(fracas_cli_film *film, const fracas_replay *rep
     snprintf(title, sizeof title, "%s: point %zu, replica %" PRId64, replay->campaign->name,
              replay->point, replay->replica);
     TRY(fracas_film_write(film->film, film->folder, film->name, title));
-    if (film->out) fprintf(film->out, "%s: %zu instants\n", film->path, film->count);
+    if (film->out)
+        fprintf(film->out, "%s: %zu instant%s\n", film->path, film->count,
+                film->count == 1 ? "" : "s");
     return FRACAS_OK;
 }

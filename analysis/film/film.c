@@ -376,9 +376,9 @@ fracas_err fracas_film_write(const fracas_film *film, const char *folder, const 
     if ((fclose(out) || bad) && !err) err = fracas_no_memory("a film");
     if (err) return err;
     FRACAS_PRINT(lead,
-                 "%zu fragments at %s, the last instant of %zu. Each element is where it has "
+                 "%zu fragment%s at %s, the last instant of %zu. Each element is where it has "
                  "moved. Drag to turn or to move the body, scroll to zoom.",
-                 film->fragments[last], fracas_surface_time(film->time[last], true).text,
-                 film->count);
+                 film->fragments[last], film->fragments[last] == 1 ? "" : "s",
+                 fracas_surface_time(film->time[last], true).text, film->count);
     return fracas_page_alone(folder, name, title, lead, body, fracas_film_script);
 }

@@ -245,8 +245,8 @@ fracas_err fracas_section_surfaces(fracas_page *page)
     fputs("<p>One realization of each point, the first that ended FRAGMENTED, as it was before any "
           "motion; a bar with periodic ends is a circle. Strong lines: broken interfaces; faint "
           "ones: cracked, not yet broken. Fragments have tints by which neighbours differ; orange: "
-          "dust, of one element (surfaces: or two). Others: <code>fracas picture "
-          "STUDY</code>.</p>\n",
+          "dust, of one element (surfaces: or two). Others: <code>fracas picture STUDY</code>; how "
+          "they move: <code>fracas replay STUDY POINT/REPLICA --film FILE.html</code>.</p>\n",
           page->out);
     for (size_t p = 0; p < npoints; p++)
         if (fracas_analysis_draws(page->analysis, p)) TRY(put_point(&to, p));

@@ -100,6 +100,14 @@ for name, corners, ends, dimension in ("ring", 2, 1, 2), ("plate", 3, 2, 2), ("s
     assert broke > 0 and film["instants"][-1]["fragments"] > 1
 END
 
+# The script of docs/how-to/look-at-a-fragment.md sums the fields of a fragment to what study.h5 has.
+for name in ring plate shell; do
+    for fragment in '' 0 1; do
+        expect 0 /usr/bin/python3 "$source/docs/examples/look_at_fragment.py" $name/study.h5 0/1 $name.fields $fragment
+        [ "$(awk -F '\t' '/^(elements|mass)/ && $2 == $4' said | wc -l)" = 2 ] || { cat said; fail "fragment '$fragment' of $name"; }
+    done
+done
+
 # Instants of its own: 49, evenly; a film alone makes no other file.
 expect 0 "$fracas" replay ring 0/0 --film alone.html --json
 said '"same": true'
