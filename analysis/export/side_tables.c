@@ -5,7 +5,6 @@
 #include "analysis/summary/effects.h"
 #include "base/param.h"
 #include "base/own.h"
-#include "base/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -267,7 +266,8 @@ static void range_words(const fracas_change *change, int64_t settings, char *tex
     else snprintf(text, size, ", in single settings %s", range);
 }
 
-fracas_err fracas_effects_print(const fracas_analysis *analysis, int width, FILE *out)
+fracas_err fracas_effects_say(const fracas_analysis *analysis, fracas_effect_line *say,
+                              void *context)
 {
     OWNED fracas_effect *effect = NULL;
     size_t count;
@@ -281,9 +281,9 @@ fracas_err fracas_effects_print(const fracas_analysis *analysis, int width, FILE
         change_text(&of->size, size);
         range_words(&of->count, of->settings, range[0], sizeof range[0]);
         range_words(&of->size, of->settings, range[1], sizeof range[1]);
-        snprintf(line, sizeof line, "effect of %s, %s to %s: count %s%s; size %s%s", of->words,
-                 of->from, of->to, number, range[0], size, range[1]);
-        fracas_text_wrap(line, 0, width, out);
+        snprintf(line, sizeof line, "%s, %s to %s: count %s%s; size %s%s", of->words, of->from,
+                 of->to, number, range[0], size, range[1]);
+        say(context, line);
     }
     return FRACAS_OK;
 }

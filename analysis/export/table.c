@@ -232,6 +232,17 @@ static void print_warnings(const fracas_analysis *analysis, int width, FILE *out
     for (size_t i = 0; i < count; i++) fracas_sheet_warning(line[i].text, width, out);
 }
 
+typedef struct {
+    int width;
+    FILE *out;
+} sheet;
+
+static void print_effect(void *context, const char *line)
+{
+    const sheet *on = context;
+    print_line(on->width, on->out, "effect of %s", line);
+}
+
 void fracas_analysis_print_table(const fracas_analysis *analysis, int width, FILE *out)
 {
     fracas_result_table table;
@@ -248,7 +259,8 @@ void fracas_analysis_print_table(const fracas_analysis *analysis, int width, FIL
     char beside[768];
     if (fracas_result_table_beside(analysis, beside, sizeof beside))
         print_line(width, out, "%s", beside);
-    if (fracas_effects_print(analysis, width, out)) fprintf(out, "%s\n", fracas_message());
+    sheet on = {width, out};
+    if (fracas_effects_say(analysis, print_effect, &on)) fprintf(out, "%s\n", fracas_message());
     print_decisions(analysis, width, out);
     print_warnings(analysis, width, out);
 }

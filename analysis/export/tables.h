@@ -130,10 +130,11 @@ FRACAS_MUST_USE fracas_err fracas_side_table_create(const fracas_analysis *analy
                                                     fracas_side_table_name name,
                                                     fracas_result_table *table);
 
-/* For a terminal: what each parameter does over its range, with 95 % intervals, a line each;
- * nothing where points differ in the strain rate alone. */
-FRACAS_MUST_USE fracas_err fracas_effects_print(const fracas_analysis *analysis, int width,
-                                                FILE *out);
+/* Says what each parameter does over its range, with 95 % intervals, a line each; nothing where
+ * points differ in the strain rate alone. */
+typedef void fracas_effect_line(void *context, const char *line);
+FRACAS_MUST_USE fracas_err fracas_effects_say(const fracas_analysis *analysis,
+                                              fracas_effect_line *say, void *context);
 
 /* A row a fitted family of a point, by rank: distances, their p-values, parameters. For
  * a page. */

@@ -308,6 +308,30 @@ static void put_precision(const fracas_page *page)
     fputs(".</p>\n", page->out);
 }
 
+/* ---- effects ---- */
+
+static void put_effect(void *context, const char *line)
+{
+    fracas_markup(context, "<li>%s</li>\n", line);
+}
+
+/* The list is left out where it is empty. */
+static fracas_err put_effects(const fracas_page *page)
+{
+    OWNED char *list = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&list, &size);
+    if (!out) return fracas_no_memory("the effects of parameters");
+    const fracas_err err = fracas_effects_say(page->analysis, put_effect, out);
+    if (fclose(out)) return fracas_no_memory("the effects of parameters");
+    if (err || size == 0) return err;
+    fprintf(page->out,
+            "<h3>What each parameter does, all others being equal "
+            "(<a href=\"#effects\">effects</a>)</h3>\n<ul>\n%s</ul>\n",
+            list);
+    return FRACAS_OK;
+}
+
 /* ---- warnings ---- */
 
 static fracas_err put_warnings(const fracas_page *page)
@@ -341,6 +365,7 @@ fracas_err fracas_section_summary(fracas_page *page)
     TRY(put_count_slope(page, false, "Their number without dust", "count-large-slopes"));
     TRY(put_crossover(page));
     put_precision(page);
+    TRY(put_effects(page));
     TRY(put_warnings(page));
     fputs("</div>\n<div>\n", page->out);
     put_campaign(page);

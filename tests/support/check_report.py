@@ -72,7 +72,7 @@ def effect_of(pairs, key):
 
 with open(os.path.join(report, "effects.csv"), encoding="utf-8") as file:
     effects = list(csv.DictReader(file))
-place, whole, each = 0, [], 0
+place, whole, each, said = 0, [], 0, 0
 parameters = [point["parameters"] for point in summary["points"]]
 names = {name for of in parameters for name in of if not name.startswith("derived.") and (name in summary["varying"] or not re.match("mesh|time", name))}
 changing = [name for name in names if len({str(of.get(name)) for of in parameters}) > 1]
@@ -94,7 +94,9 @@ for path in summary["varying"]:
             place += 1
             assert line["parameter"] == path and int(line["settings"]) == len(group) and (line["at"] == "" or group is not known)
             whole += [line] * (group is known)
-            each += group is not known and (isinstance(a, str) or (a, b) == (levels[0], levels[-1]))
+            if isinstance(a, str) or (a, b) == (levels[0], levels[-1]):
+                each += group is not known
+                said += group is known
             for key in ("count", "size"):
                 for name, wanted in zip(("value", "low", "high", "least", "most"), effect_of(group, key)):
                     found = line[f"{key}_change.{name}"]
@@ -668,6 +670,8 @@ if os.path.exists(os.path.join(study, "fits.csv")):
 rate_alone = summary["axes"]["x"] == "derived.strain_rate" and len(summary["varying"]) < 2
 assert page.rows.pop("effects", 0) == (0 if rate_alone else len(whole))
 assert page.rows.pop("effects-each", 0) == (0 if rate_alone or each > 60 else each)
+listed = re.search(r"all others being equal.*?<ul>(.*?)</ul>", source_text, re.S)
+assert (listed.group(1).count("<li>") if listed else 0) == (0 if rate_alone else said)
 assert page.rows.pop("motion", 0) == model.count("ring") and not page.rows
 firsts = [np.flatnonzero((realization["point"] == p) & (realization["outcome"] == 0))[0] for p in pictures]
 assert page.bands == sum(realization["fragments"][i] for i in firsts)
