@@ -11,8 +11,8 @@ refused() # STATUS WORDS OPTIONS...
     said "$words"
     [ "$(grep -c . said)" -eq 1 ] || { cat said >&2; fail "more than a message: $*"; }
 }
-refused 2 'every is for fields: say --fields DIR' --every 50ns
-refused 2 'at is for fields: say --fields DIR' --at end
+refused 2 'every is for fields and films: say --fields DIR' --every 50ns
+refused 2 'at is for fields and films: say --fields DIR' --at end
 refused 2 'one-file is for fields: say --fields DIR' --one-file
 refused 2 'fields is empty; it must be a folder' --fields ''
 refused 2 'at has `offset`; did you mean `onset`? it can have: onset, peak, end' --fields f --at end,offset
