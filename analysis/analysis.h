@@ -25,6 +25,9 @@ FRACAS_MUST_USE fracas_err fracas_analysis_create(const char *study, const fraca
 void fracas_analysis_destroy(fracas_analysis *analysis); /* NULL is allowed */
 FRACAS_OWNER(fracas_analysis, fracas_analysis_destroy)
 
+/* Says that the points have common random numbers: means of two settings are not independent. */
+void fracas_analysis_share_numbers(fracas_analysis *analysis);
+
 /* Draws the means of the report against this parameter or statistic, in series by this parameter
  * and panels by that; NULL: chosen by what varies. FRACAS_USAGE for a key that is unknown, does not
  * vary, or is given twice. */

@@ -21,8 +21,8 @@ static const fracas_option options[] = {
      "fields at these instants: onset (first), peak (of elastic + cohesive energy), end; all "
      "three without --every"},
     {"film", "FILE",
-     "write FILE.html, a film for a browser, of 49 instants evenly unless --every or --at say "
-     "otherwise"},
+     "write FILE.html, a film for a browser, of 49 instants evenly (fields, too) unless --every or "
+     "--at say otherwise"},
     {"one-file", NULL, "all instants in one file, VTKHDF 2, for VTK 9.3, ParaView 5.12 and later"},
     {"json", NULL, "print it as JSON"},
     {0}};

@@ -278,8 +278,11 @@ fracas_err fracas_cli_analyse(const char *study, fracas_campaign **campaign,
                               fracas_analysis **analysis)
 {
     TRY(fracas_cli_campaign_seen(study, campaign));
-    if (fracas_cli_alone(study)) return fracas_analysis_create(study, NULL, NULL, analysis);
-    return fracas_analysis_create(study, &(*campaign)->hash, &(*campaign)->table, analysis);
+    const fracas_campaign *known = *campaign;
+    if (fracas_cli_alone(study)) TRY(fracas_analysis_create(study, NULL, NULL, analysis));
+    else TRY(fracas_analysis_create(study, &known->hash, &known->table, analysis));
+    if (known && known->common_random_numbers) fracas_analysis_share_numbers(*analysis);
+    return FRACAS_OK;
 }
 
 fracas_err fracas_cli_read_file(const char *file, fracas_campaign **campaign)

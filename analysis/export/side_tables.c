@@ -56,23 +56,21 @@ static const char *const motion_legend[] = {
 static const char *const effect_each_legend[] = {
     "From the first value of a parameter to the last (of texts, to the next), with all others as "
     "in "
-    "`setting`: the 95 % interval of each change. Where two intervals lie apart, the effect "
-    "depends "
-    "on what differs in their settings.",
+    "`setting`: the 95 % interval of each change, too wide with common random numbers. Where two "
+    "intervals lie apart, the effect depends on what differs in their settings.",
     NULL,
 };
 
 static const char *const effect_legend[] = {
     "From one value of a parameter to the next, and from the first to the last, with all other "
-    "parameters the same: change of the "
-    "mean number of fragments and of the mean size, with 95 % intervals: the geometric mean of the "
-    "ratios in all settings of the others (Student's t, degrees of freedom by Welch and "
-    "Satterthwaite). least to most: in single settings, which effects.csv and the next table have.",
-    "An interval without 0 shows an effect; where least and most are far apart, it depends on the "
-    "other parameters. `with`: these change along, as in a zipped sweep, and share the effect; "
-    "mesh "
-    "and time may change along as well. Parameters of more than twelve values are left out. With "
-    "common random numbers the intervals are too wide.",
+    "parameters the same: change of the mean number of fragments and of the mean size, with 95 % "
+    "intervals: the geometric mean of the ratios in all settings of the others (Student's t, "
+    "degrees of freedom by Welch and Satterthwaite). least to most: in single settings, by their "
+    "scatter alone, too; effects.csv has each with its interval.",
+    "An interval without 0 shows an effect. `with`: these change along, as in a zipped sweep, and "
+    "share the effect; mesh and time may change along as well. Parameters of more than twelve "
+    "values are left out. Settings with common random numbers are not independent: no interval "
+    "over several.",
     NULL,
 };
 
@@ -275,7 +273,7 @@ fracas_err fracas_effects_say(const fracas_analysis *analysis, fracas_effect_lin
     TRY(fracas_effects(analysis, &effect, &count));
     for (size_t i = 0; i < count; i++) {
         const fracas_effect *of = &effect[i];
-        char number[FRACAS_CELL], size[FRACAS_CELL], range[2][2 * FRACAS_CELL], line[1024];
+        char number[FRACAS_CELL], size[FRACAS_CELL], range[2][2 * FRACAS_CELL], line[2048];
         if (!of->headline || !is_whole(of)) continue;
         change_text(&of->count, number);
         change_text(&of->size, size);

@@ -21,7 +21,8 @@ struct fracas_film {
     size_t values;                                 /* at most VALUES */
     char name[VALUES][WORDS], unit[VALUES][WORDS]; /* each has its own */
     size_t components[VALUES];                     /* those of the tensor behind it; 0: none is */
-    float (*place)[3];                             /* [element][corner] m, before any motion */
+    double middle[3];                              /* m, of the nodes before any motion */
+    float (*place)[3];    /* [element][corner] m from the middle, before any motion */
     uint32_t *side;       /* [interface][2][end] nodes of its sides; NO_NODE: they are apart */
     double *time;         /* [instant] s */
     size_t *fragments;    /* [instant] */
@@ -55,6 +56,22 @@ double fracas_film_bytes(const fracas_film_instant *like, size_t instants)
 
 /* ---- the body ---- */
 
+/* The seam of a periodic bar: the nodes of two elements that are farthest apart. */
+static void find_seam(const fracas_film *film, size_t a, size_t b, uint32_t side[2])
+{
+    double most = 0;
+    for (size_t i = a; i < a + 2; i++)
+        for (size_t j = b; j < b + 2; j++) {
+            double apart = 0;
+            for (size_t k = 0; k < 3; k++)
+                apart = fmax(apart, fabs((double)film->place[i][k] - (double)film->place[j][k]));
+            if (!(apart > most)) continue;
+            most = apart;
+            side[0] = (uint32_t)i;
+            side[1] = (uint32_t)j;
+        }
+}
+
 /* Nodes of the two sides of an interface: those which its elements have at one place. */
 static void find_sides(fracas_film *film, const int64_t between[2], uint32_t *side)
 {
@@ -74,15 +91,22 @@ static void find_sides(fracas_film *film, const int64_t between[2], uint32_t *si
             side[found] = (uint32_t)(a + i);
             side[film->ends + found++] = (uint32_t)(b + j);
         }
-    if (found < film->ends)
-        for (size_t i = 0; i < 2 * film->ends; i++) side[i] = NO_NODE;
+    if (found == film->ends) return;
+    for (size_t i = 0; i < 2 * film->ends; i++) side[i] = NO_NODE;
+    if (n == 2) find_seam(film, a, b, side);
 }
 
 static void keep_body(fracas_film *film, const fracas_film_instant *first)
 {
-    for (size_t i = 0; i < nodes_of(film); i++)
-        for (size_t k = 0; k < 3; k++)
-            film->place[i][k] = (float)(first->place[i][k] - first->displacement[i][k]);
+    const size_t nodes = nodes_of(film);
+    for (size_t k = 0; k < 3; k++) { /* from the middle: a body may be far from the origin */
+        double sum = 0;
+        for (size_t i = 0; i < nodes; i++) sum += first->place[i][k] - first->displacement[i][k];
+        film->middle[k] = sum / (double)nodes;
+        for (size_t i = 0; i < nodes; i++)
+            film->place[i][k] = (float)(first->place[i][k] - first->displacement[i][k] -
+                                        film->middle[k]);
+    }
     for (size_t i = 0; i < film->interfaces; i++)
         find_sides(film, first->between[i], film->side + i * 2 * film->ends);
 }
@@ -287,6 +311,9 @@ static void put_header(const measure *of, const char *stem, FILE *out)
     fracas_json_integer(&json, "corners", (int64_t)film->corners);
     fracas_json_integer(&json, "interfaces", (int64_t)film->interfaces);
     fracas_json_integer(&json, "ends", (int64_t)film->ends);
+    fracas_json_array(&json, "middle");
+    for (size_t k = 0; k < 3; k++) fracas_json_real(&json, NULL, film->middle[k]);
+    fracas_json_close(&json);
     fracas_json_array(&json, "moved");
     for (size_t k = 0; k < of->dimension; k++) {
         fracas_json_real(&json, NULL, of->moved[k].low);
@@ -368,7 +395,10 @@ fracas_err fracas_film_write(const fracas_film *film, const char *folder, const 
     OWNED char *body = NULL;
     size_t size;
     char stem[256];
-    snprintf(stem, sizeof stem, "%.*s", (int)strcspn(name, "."), name);
+    snprintf(stem, sizeof stem, "%s", name);
+    if (strlen(stem) > 5 && !strcmp(stem + strlen(stem) - 5, ".html")) stem[strlen(stem) - 5] = 0;
+    for (char *c = stem; *c; c++) /* it stands in a script */
+        if (*c == '<' || *c == '>') *c = '_';
     FILE *out = open_memstream(&body, &size);
     if (!out) return fracas_no_memory("a film");
     fracas_err err = put_body(film, stem, out);

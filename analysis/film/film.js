@@ -30,7 +30,17 @@ function instant(i) {
   return known[i] = {label, moved, damage, value};
 }
 
-/* Middle of each fragment before any motion, by its label, and that of the body. */
+/* Whole parts: the fragment that goes through the seam of a periodic bar lies in two. */
+function partsOf(label) {
+  if (corners !== 2) return label;
+  const at = n => [0, 1, 2].map(k => start[3 * n + k]), between = (a, b) => Math.hypot(...at(a).map((x, k) => x - at(b)[k]));
+  const part = Uint32Array.from(label);
+  for (let e = 1; e < elements; e++) part[e] = label[e] === label[e - 1] ? part[e - 1] : elements + e;
+  const ring = label[0] === label[elements - 1] && between(0, 2 * elements - 1) < 1e-3 * between(0, 1), seam = part[elements - 1];
+  return ring ? part.map(p => p === seam ? part[0] : p) : part;
+}
+
+/* Middle of each part before any motion, and that of the body. */
 function middles(label) {
   const of = new Map(), all = [0, 0, 0, 0];
   for (let e = 0; e < elements; e++) {
@@ -55,9 +65,9 @@ function places(i) {
   const {label, moved} = instant(i), at = new Float32Array(3 * nodes);
   for (let n = 0; n < 3 * nodes; n++) at[n] = start[n] + look.motion * moved[n];
   if (!look.apart) return at;
-  const {of, all} = middles(label);
+  const part = partsOf(label), {of, all} = middles(part);
   for (let e = 0; e < elements; e++) {
-    const middle = of.get(label[e]);
+    const middle = of.get(part[e]);
     for (let c = 3 * e * corners; c < 3 * (e + 1) * corners; c++) at[c] += look.apart * (middle[c % 3] - all[c % 3]);
   }
   return at;
@@ -75,24 +85,23 @@ function view() {
 
 const dot = (v, at, n) => v[0] * at[n] + v[1] * at[n + 1] + v[2] * at[n + 2];
 
-/* The room that the body takes at its start, half-way and at its end. */
+/* The room that the body takes: that of its start, widened by the ranges of all displacements. */
+const still = {low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity], reach: 0};
+for (let n = 0; n < 3 * nodes; n++) {
+  still.low[n % 3] = Math.min(still.low[n % 3], start[n]);
+  still.high[n % 3] = Math.max(still.high[n % 3], start[n]);
+}
+for (let n = 0; n < 3 * nodes; n += 3)
+  still.reach = Math.max(still.reach, Math.hypot(...[0, 1, 2].map(k => start[n + k] - (still.low[k] + still.high[k]) / 2)));
 let room;
 function measure() {
-  const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
-  for (const i of [0, last >> 1, last]) {
-    const at = places(i);
-    for (let n = 0; n < 3 * nodes; n++) {
-      if (at[n] < low[n % 3]) low[n % 3] = at[n];
-      if (at[n] > high[n % 3]) high[n % 3] = at[n];
-    }
-  }
-  const extent = low.map((l, k) => high[k] - l), middle = low.map((l, k) => (l + high[k]) / 2);
-  let reach = 0;
-  for (const i of [0, last]) {
-    const at = places(i);
-    for (let n = 0; n < 3 * nodes; n += 3) reach = Math.max(reach, Math.hypot(at[n] - middle[0], at[n + 1] - middle[1], at[n + 2] - middle[2]));
-  }
-  room = {middle, extent, across: 2 * reach};
+  const axes = [0, 1, 2], half = axes.map(k => (still.high[k] - still.low[k]) / 2);
+  const moved = axes.map(k => k < dimension ? [0, 1].map(end => look.motion * film.moved[2 * k + end]) : [0, 0]);
+  const low = axes.map(k => still.low[k] - look.apart * half[k] + Math.min(0, moved[k][0]));
+  const high = axes.map(k => still.high[k] + look.apart * half[k] + Math.max(0, moved[k][1]));
+  const middle = axes.map(k => (low[k] + high[k]) / 2), extent = axes.map(k => high[k] - low[k]);
+  const beyond = axes.map(k => extent[k] / 2 - (1 + look.apart) * half[k]);
+  room = {middle, extent, across: 2 * ((1 + look.apart) * still.reach + Math.max(...beyond))};
 }
 
 /* ---- colours ---- */
@@ -107,7 +116,10 @@ const hues = new Map();
 function hueOf(label) {
   const key = label + (dark.matches ? 0.5 : 0);
   if (!hues.has(key)) {
-    const h = (205 + label * 137.508) % 360, s = 0.45, l = dark.matches ? 0.42 : 0.74 - 0.1 * (label * 0.618 % 1);
+    let bits = label; /* mixed, so that labels of neighbours, as any, have colours apart */
+    for (const by of [0x85ebca6b, 0xc2b2ae35]) bits = Math.imul(bits ^ bits >>> 15, by);
+    bits = (bits ^ bits >>> 16) >>> 0;
+    const h = (205 + bits % 360) % 360, s = 0.35 + 0.25 * (bits >>> 9 & 7) / 7, l = (dark.matches ? 0.36 : 0.62) + 0.16 * (bits >>> 20 & 15) / 15;
     const part = n => 255 * (l - s * Math.min(l, 1 - l) * Math.max(-1, Math.min((n + h / 30) % 12 - 3, 9 - (n + h / 30) % 12, 1)));
     hues.set(key, [part(0), part(8), part(4)]);
   }
@@ -122,8 +134,10 @@ const part = (name, set = {}, ...inside) => {
   element.append(...inside);
   return element;
 };
+const valued = () => film.values.findIndex(value => value.key === look.colour), head = () => valued() < 0 ? 8 : 52, foot = 36;
 const canvas = part("canvas", {tabIndex: 0}), pen = canvas.getContext("2d"), stage = document.getElementById("stage");
 canvas.setAttribute("role", "img");
+Object.assign(canvas.style, {touchAction: "none", maxWidth: "100%"}); /* a finger turns the body */
 
 /* Interfaces by the element at either of their sides. */
 const sidesOf = Array.from({length: elements}, () => []);
@@ -136,7 +150,7 @@ for (let i = 0; i < interfaces; i++)
 function resize() {
   const width = Math.max(280, stage.clientWidth), dots = devicePixelRatio || 1;
   const tall = dimension === 2 ? room.extent[1] / Math.max(room.extent[0], 1e-300) : 0.8;
-  const height = Math.round(Math.max(120, Math.min(width * Math.min(tall, 1.2) + 60, innerHeight * 0.78)));
+  const height = Math.round(Math.max(150, Math.min(width * Math.min(tall, 1.2) + 60, innerHeight * 0.66)));
   canvas.style.width = width + "px";
   canvas.style.height = height + "px";
   canvas.width = Math.round(width * dots);
@@ -148,11 +162,11 @@ function resize() {
 function project(at, size) {
   const [right, up, toward] = view(), x = new Float32Array(nodes), y = new Float32Array(nodes), near = new Float32Array(nodes);
   const wide = dimension === 2 ? room.extent[0] : room.across, high = dimension === 2 ? room.extent[1] : room.across;
-  const scale = look.zoom * Math.min((size.width - 24) / Math.max(wide, 1e-300), (size.height - 60) / Math.max(high, wide * 1e-6));
+  const scale = look.zoom * Math.min((size.width - 24) / Math.max(wide, 1e-300), (size.height - head() - foot - 12) / Math.max(high, wide * 1e-6));
   const mx = dot(right, room.middle, 0), my = dot(up, room.middle, 0);
   for (let n = 0; n < nodes; n++) {
     x[n] = size.width / 2 + look.pan[0] + scale * (dot(right, at, 3 * n) - mx);
-    y[n] = (size.height - 36) / 2 + look.pan[1] - scale * (dot(up, at, 3 * n) - my);
+    y[n] = (size.height + head() - foot) / 2 + look.pan[1] - scale * (dot(up, at, 3 * n) - my);
     near[n] = dot(toward, at, 3 * n);
   }
   return {x, y, near, scale};
@@ -181,13 +195,15 @@ function outline(on, e) {
 }
 
 /* One side of an interface: a line along it; in a chain across it. */
-function drawSide(on, i, s) {
+function drawSide(on, i, s, within) {
   const first = (2 * i + s) * ends, node = [...side.subarray(first, first + ends)];
   pen.beginPath();
   if (ends === 1) {
     const e = Math.floor(node[0] / corners), a = e * corners, dx = on.x[a + 1] - on.x[a], dy = on.y[a + 1] - on.y[a], l = Math.hypot(dx, dy) || 1;
-    pen.moveTo(on.x[node[0]] - 9 * dy / l, on.y[node[0]] + 9 * dx / l);
-    pen.lineTo(on.x[node[0]] + 9 * dy / l, on.y[node[0]] - 9 * dx / l);
+    for (const way of [-1, 1]) { /* what has cracked alone is marked beside the body */
+      pen.moveTo(on.x[node[0]] + way * within * dy / l, on.y[node[0]] - way * within * dx / l);
+      pen.lineTo(on.x[node[0]] + way * 9 * dy / l, on.y[node[0]] - way * 9 * dx / l);
+    }
   } else {
     node.sort((a, b) => (a % corners) - (b % corners)); /* a middle comes after the corners */
     const order = ends === 3 ? [node[0], node[2], node[1]] : node;
@@ -201,12 +217,12 @@ function drawSides(on, e, damage) {
     if (!damage[i]) continue;
     pen.strokeStyle = damage[i] === 255 ? (dark.matches ? "#f0f3f6" : "#101418") : (dark.matches ? "#9aa4af" : "#77818c");
     pen.lineWidth = damage[i] === 255 ? 1 : 0.6;
-    drawSide(on, i, s);
+    drawSide(on, i, s, damage[i] === 255 ? 0 : 6);
   }
 }
 
 function drawElements(now, on) {
-  const order = Uint32Array.from({length: elements}, (_, e) => e), v = film.values.findIndex(value => value.key === look.colour);
+  const order = Uint32Array.from({length: elements}, (_, e) => e), v = valued();
   if (dimension === 3) {
     const near = Float32Array.from({length: elements}, (_, e) => {
       let sum = 0;
@@ -217,7 +233,7 @@ function drawElements(now, on) {
   }
   pen.lineJoin = "round";
   for (const e of order) {
-    const colour = css(v < 0 ? hueOf(now.label[e]) : ramp[now.value[v][e]], shadeOf(on, e));
+    const shade = shadeOf(on, e), colour = v < 0 ? css(hueOf(now.label[e]), shade) : css(ramp[now.value[v][e]], 0.9 + 0.1 * shade);
     outline(on, e);
     pen.strokeStyle = pen.fillStyle = colour;
     pen.lineWidth = corners === 2 ? 10 : 0.6;
@@ -242,22 +258,25 @@ const fragmentsNow = () => {
 
 /* A length, the instant, and the colours of values. */
 function drawWords(size, scale) {
-  const ink = dark.matches ? "#e6e9ed" : "#1b1f24", foot = size.height - 10, most = size.width / 5 / scale;
+  const ink = dark.matches ? "#e6e9ed" : "#1b1f24", bottom = size.height - 10, most = size.width / 5 / scale;
   const power = 10 ** Math.floor(Math.log10(most)), bar = [5, 2, 1].find(n => n * power <= most) * power;
   pen.fillStyle = pen.strokeStyle = ink;
   pen.lineWidth = 1.5;
   pen.font = "13px system-ui, 'DejaVu Sans', sans-serif";
   pen.beginPath();
-  pen.moveTo(10, foot - 4);
-  pen.lineTo(10, foot);
-  pen.lineTo(10 + bar * scale, foot);
-  pen.lineTo(10 + bar * scale, foot - 4);
+  pen.moveTo(10, bottom - 4);
+  pen.lineTo(10, bottom);
+  pen.lineTo(10 + bar * scale, bottom);
+  pen.lineTo(10 + bar * scale, bottom - 4);
   pen.stroke();
   pen.textAlign = "left";
-  pen.fillText(length(bar), 10, foot - 8);
+  pen.fillText(length(bar), 10, bottom - 8);
   pen.textAlign = "right";
-  pen.fillText(`${film.instants[look.at].text} · ${fragmentsNow()}`, size.width - 10, foot);
-  const value = film.values.find(each => each.key === look.colour);
+  const said = [film.instants[look.at].text, fragmentsNow()];
+  if (look.motion !== 1) said.push(`motion × ${look.motion}`);
+  if (look.apart) said.push(`apart ${look.apart}`);
+  pen.fillText(said.join(" · "), size.width - 10, bottom);
+  const value = film.values[valued()];
   if (!value) return;
   const wide = Math.min(200, size.width / 2), left = size.width - 10 - wide;
   ramp.forEach((rgb, v) => {
@@ -271,7 +290,7 @@ function drawWords(size, scale) {
   pen.fillText(value.low, left, 46);
 }
 
-let asked = 0;
+let asked = 0, drawn = () => {};
 function draw() {
   asked = 0;
   const size = resize(), now = instant(look.at), on = project(places(look.at), size);
@@ -282,6 +301,7 @@ function draw() {
   drawWords(size, on.scale);
   canvas.setAttribute("aria-label", `The body at ${film.instants[look.at].text}: ${fragmentsNow()}`);
   canvas.dataset.drawn = look.at;
+  drawn();
 }
 const redraw = () => asked = asked || requestAnimationFrame(draw);
 
@@ -366,21 +386,26 @@ function save(blob, name) {
 const name = () => `${film.stem}-${String(look.at + 1).padStart(String(last + 1).length, "0")}.png`;
 const picture = button("Save picture", () => canvas.toBlob(blob => save(blob, name())));
 
-/* Each instant is shown for a tenth of a second. */
+/* Each instant is a frame, taken once it is drawn, and shown for a tenth of a second. */
 async function record() {
-  const stream = canvas.captureStream(), recorder = new MediaRecorder(stream), pieces = [];
-  const wait = ms => new Promise(done => setTimeout(done, ms));
+  const stream = canvas.captureStream(0), frame = stream.getVideoTracks()[0], recorder = new MediaRecorder(stream), pieces = [];
+  const wait = ms => new Promise(done => setTimeout(done, ms)), controls = stage.querySelectorAll("button,input,select");
   recorder.addEventListener("dataavailable", event => pieces.push(event.data));
   recorder.addEventListener("stop", () => save(new Blob(pieces, {type: recorder.mimeType}), film.stem + ".webm"));
   stop();
-  go(0);
+  controls.forEach(control => control.disabled = true);
   recorder.start();
   for (let i = 0; i <= last; i++) {
     go(i);
+    await new Promise(done => drawn = done);
+    (frame.requestFrame ? frame : stream).requestFrame();
+    timeSaid.textContent = `recording ${i + 1} of ${last + 1}`;
     await wait(100);
   }
-  await wait(500);
+  await wait(300);
   recorder.stop();
+  controls.forEach(control => control.disabled = false);
+  go(last);
 }
 const video = window.MediaRecorder && canvas.captureStream ? [button("Save video", record)] : [];
 

@@ -278,6 +278,8 @@ fracas_err fracas_section_effects(fracas_page *page)
     TRY(fracas_side_table_create(page->analysis, FRACAS_EFFECTS_EACH, &table));
     if (table.rows <= FRACAS_RESULT_TABLE_HEAD + MOST_EACH)
         return fracas_page_table(page, of->id, of->title, true, &table, of->legend, FRACAS_OK);
+    fprintf(page->out, "<p>effects.csv has the %zu changes in single settings.</p>\n",
+            table.rows - FRACAS_RESULT_TABLE_HEAD);
     fracas_result_table_clear(&table);
     return FRACAS_OK;
 }

@@ -276,3 +276,8 @@ bool fracas_analysis_much_dust(const fracas_analysis *analysis)
         if (analysis->point[p].dust_share > FRACAS_DUST_LIMIT) return true;
     return false;
 }
+
+void fracas_analysis_share_numbers(fracas_analysis *analysis)
+{
+    analysis->common = true;
+}

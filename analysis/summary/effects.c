@@ -60,15 +60,19 @@ static bool alike(const making *of, size_t column, size_t a, size_t b)
     return fracas_value_absent(x) || fracas_value_absent(y) || fracas_value_same(x, y);
 }
 
-/* True if points alike in the parameter are alike in this column. */
+/* True if points alike in the parameter are alike in this column, and others are not: a column that
+ * some points lack may be alike wherever it is. */
 static bool goes_along(const making *of, size_t column)
 {
     const size_t npoints = of->analysis->table->npoints;
+    bool differs = false;
     for (size_t p = 0; p < npoints; p++)
-        for (size_t q = 0; q < p; q++)
-            if (fracas_value_same(value_at(of, p), value_at(of, q)) && !alike(of, column, p, q))
-                return false;
-    return true;
+        for (size_t q = 0; q < p; q++) {
+            if (alike(of, column, p, q)) continue;
+            if (fracas_value_same(value_at(of, p), value_at(of, q))) return false;
+            differs = true;
+        }
+    return differs;
 }
 
 /* True of mesh and time, which serve the other parameters, where they do not name points. */
@@ -109,16 +113,22 @@ static void words_of(const making *of, char *text, size_t size)
                       fracas_column_words(table, of->partners.column[i]).text);
 }
 
-/* The values of the other parameters that name points. */
-static void setting_text(const making *of, size_t point, char *text, size_t size)
+/* The values of the other parameters that name points; of one that a point has not, the other's. */
+static void setting_text(const making *of, size_t from, size_t to, char *text, size_t size)
 {
+    const fracas_point_table *table = of->analysis->table;
     const fracas_columns *shown = &of->analysis->shown;
-    size_t column[FRACAS_MOST_NAMED];
-    fracas_columns named = {0, column};
-    for (size_t i = 0; i < shown->count && named.count < FRACAS_MOST_NAMED; i++)
-        for (size_t j = 0; j < of->others.count; j++)
-            if (of->others.column[j] == shown->column[i]) column[named.count++] = shown->column[i];
-    fracas_columns_label(of->analysis->table, &named, point, text, size);
+    text[0] = '\0';
+    for (size_t i = 0; i < shown->count; i++)
+        for (size_t j = 0; j < of->others.count; j++) {
+            if (of->others.column[j] != shown->column[i]) continue;
+            size_t column = shown->column[i];
+            const fracas_columns one = {1, &column};
+            const bool lacks = fracas_value_absent(&table->point[from].value[column]);
+            char label[160];
+            fracas_columns_label(table, &one, lacks ? to : from, label, sizeof label);
+            fracas_append(text, size, ", ", "%s", label);
+        }
 }
 
 /* ---- the values of a parameter ---- */
@@ -152,46 +162,49 @@ static void value_text(const making *of, size_t point, char *text, size_t size)
 
 /* ---- changes ---- */
 
-/* Sums over settings. */
+/* Sums over settings, and over their points, which may serve several. */
 typedef struct {
     int64_t settings;
-    double log, variance, squares; /* sums of L, v, and u^2/(n - 1) */
+    double log;               /* sum of L */
+    double variance, squares; /* sums of c^2 u and (c^2 u)^2/(n - 1) */
     fracas_change change;
 } change_sums;
 
 static const change_sums none = {.change = {NAN, NAN, NAN, NAN, NAN}};
 
-/* Adds the relative variance of a mean. */
-static void add_error(const fracas_estimate *mean, change_sums *sums)
+/* Adds the relative variance of a mean that serves c settings  (estimators.29) */
+static void add_error(const fracas_estimate *mean, size_t settings, change_sums *sums)
 {
-    const double n = (double)mean->n, relative = mean->deviation / mean->mean,
-                 u = relative * relative / n;
+    if (settings == 0) return;
+    const double n = (double)mean->n, relative = mean->deviation / mean->mean, c = (double)settings,
+                 u = c * c * relative * relative / n;
     sums->variance += u;
     sums->squares += u * u / (n - 1);
 }
 
-/* (estimators.29) */
-static void add_setting(const fracas_estimate *from, const fracas_estimate *to, change_sums *sums)
+/* False for a setting without both means. */
+static bool add_setting(const fracas_estimate *from, const fracas_estimate *to, change_sums *sums)
 {
-    if (!(from->mean > 0) || !(to->mean > 0)) return;
+    if (!(from->mean > 0) || !(to->mean > 0)) return false;
     fracas_change *change = &sums->change;
     const double one = to->mean / from->mean - 1;
     sums->settings++;
     sums->log += log1p(one);
-    add_error(from, sums);
-    add_error(to, sums);
     change->least = fmin(one, change->least); /* not NaN */
     change->most = fmax(one, change->most);
+    return true;
 }
 
-/* Replicas that are all alike tell nothing of their scatter: no interval  (estimators.30) */
-static fracas_change change_of(const change_sums *sums)
+/* Replicas that are all alike tell nothing of their scatter, and settings with common random
+ * numbers are not independent: no interval  (estimators.30) */
+static fracas_change change_of(const change_sums *sums, bool common)
 {
     fracas_change change = sums->change;
     const double k = (double)sums->settings, log = sums->log / k,
                  freedom = sums->variance * sums->variance / sums->squares,
-                 half = freedom > 0 ? gsl_cdf_tdist_Pinv(0.975, freedom) * sqrt(sums->variance) / k
-                                    : NAN;
+                 half = freedom > 0 && !(common && sums->settings > 1)
+                            ? gsl_cdf_tdist_Pinv(0.975, freedom) * sqrt(sums->variance) / k
+                            : NAN;
     if (sums->settings == 0) return change;
     change.value = expm1(log);
     change.low = expm1(log - half);
@@ -205,7 +218,9 @@ static fracas_err add_row(making *of, size_t from, size_t to, const char *at,
     if (sums[0].settings == 0 && sums[1].settings == 0) return FRACAS_OK;
     TRY(fracas_grow(&of->effect, sizeof *of->effect, of->count, &of->room, "the effects"));
     fracas_effect *row = &of->effect[of->count++];
-    *row = (fracas_effect){.count = change_of(&sums[0]), .size = change_of(&sums[1])};
+    const bool common = of->analysis->common;
+    *row = (fracas_effect){.count = change_of(&sums[0], common),
+                           .size = change_of(&sums[1], common)};
     row->headline = of->analysis->table->column[of->column].text ||
                     (from == of->level[0] && to == of->level[of->nlevels - 1]);
     row->settings = sums[0].settings > sums[1].settings ? sums[0].settings : sums[1].settings;
@@ -217,24 +232,53 @@ static fracas_err add_row(making *of, size_t from, size_t to, const char *at,
     return FRACAS_OK;
 }
 
-/* Calls for each pair of points of the two values that are alike in all else: its sums, or those of
- * all pairs in `whole`. */
-static fracas_err add_pairs(making *of, size_t from, size_t to, change_sums whole[2], bool rows)
+static const fracas_estimate *estimate_of(const making *of, size_t point, int which)
 {
-    const fracas_point_table *table = of->analysis->table;
-    for (size_t p = 0; p < table->npoints; p++) {
-        if (!fracas_value_same(value_at(of, p), value_at(of, from))) continue;
-        for (size_t q = 0; q < table->npoints; q++) {
-            if (!fracas_value_same(value_at(of, q), value_at(of, to)) || !alike_in_others(of, p, q))
-                continue;
-            const fracas_point_statistics *a = &of->analysis->point[p],
-                                          *b = &of->analysis->point[q];
-            change_sums one[2] = {none, none}, *sums = rows ? one : whole;
+    const fracas_point_statistics *at = &of->analysis->point[point];
+    return which == 0 ? &at->count : &at->size;
+}
+
+static bool has_level(const making *of, size_t point, size_t level)
+{
+    return fracas_value_same(value_at(of, point), value_at(of, level));
+}
+
+/* Adds all settings, and the errors of the points of `from`; `backwards`: these of `to`, alone. */
+static void add_whole(const making *of, size_t from, size_t to, bool backwards,
+                      change_sums whole[2])
+{
+    const size_t npoints = of->analysis->table->npoints;
+    for (size_t p = 0; p < npoints; p++) {
+        if (!has_level(of, p, backwards ? to : from)) continue;
+        for (int which = 0; which < 2; which++) {
+            change_sums only = none, *sums = backwards ? &only : &whole[which];
+            const int64_t before = sums->settings;
+            for (size_t q = 0; q < npoints; q++)
+                if (has_level(of, q, backwards ? from : to) && alike_in_others(of, p, q))
+                    (void)add_setting(estimate_of(of, p, which), estimate_of(of, q, which), sums);
+            add_error(estimate_of(of, p, which), (size_t)(sums->settings - before), &whole[which]);
+        }
+    }
+}
+
+/* A row for each setting. */
+static fracas_err add_each(making *of, size_t from, size_t to)
+{
+    const size_t npoints = of->analysis->table->npoints;
+    for (size_t p = 0; p < npoints; p++) {
+        if (!has_level(of, p, from)) continue;
+        for (size_t q = 0; q < npoints; q++) {
+            if (!has_level(of, q, to) || !alike_in_others(of, p, q)) continue;
+            change_sums one[2] = {none, none};
             char at[sizeof of->effect->at];
-            add_setting(&a->count, &b->count, &sums[0]);
-            add_setting(&a->size, &b->size, &sums[1]);
-            if (!rows) continue;
-            setting_text(of, p, at, sizeof at);
+            for (int which = 0; which < 2; which++) {
+                const fracas_estimate *a = estimate_of(of, p, which),
+                                      *b = estimate_of(of, q, which);
+                const bool both = add_setting(a, b, &one[which]);
+                add_error(a, both, &one[which]);
+                add_error(b, both, &one[which]);
+            }
+            setting_text(of, p, q, at, sizeof at);
             TRY(add_row(of, from, to, at, one));
         }
     }
@@ -245,10 +289,11 @@ static fracas_err add_pairs(making *of, size_t from, size_t to, change_sums whol
 static fracas_err add_step(making *of, size_t from, size_t to)
 {
     change_sums whole[2] = {none, none};
-    TRY(add_pairs(of, from, to, whole, false));
+    add_whole(of, from, to, false, whole);
+    add_whole(of, from, to, true, whole);
     TRY(add_row(of, from, to, "", whole));
     const bool several = whole[0].settings > 1 || whole[1].settings > 1;
-    return several ? add_pairs(of, from, to, whole, true) : FRACAS_OK;
+    return several ? add_each(of, from, to) : FRACAS_OK;
 }
 
 static fracas_err add_parameter(making *of)

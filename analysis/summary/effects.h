@@ -5,7 +5,7 @@
 
 #include "analysis/summary/study.h"
 
-enum { FRACAS_MOST_LEVELS = 12, FRACAS_MOST_NAMED = 16 }; /* more values are for a figure; others */
+enum { FRACAS_MOST_LEVELS = 12 }; /* more values are for a figure */
 
 /* Relative changes; NaN: none. */
 typedef struct {

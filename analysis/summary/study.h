@@ -25,6 +25,7 @@ struct fracas_analysis {
     fracas_columns shown;   /* columns by which the points differ */
     fracas_means_axes axes; /* for the figures of means */
     bool asked;             /* for the ordinates, by a user */
+    bool common;            /* points have common random numbers, as far as is known */
     size_t nordinates;      /* statistics drawn against them, beside size and count */
     fracas_ordinate ordinate[FRACAS_MOST_ORDINATES];
     bool *drawn;                    /* points with figures of their own; NULL: all */

@@ -405,7 +405,7 @@ def check_film(path):
     differs()
     media()
     resize(400)
-    assert browser.execute_script("return document.documentElement.scrollWidth") <= 400
+    WebDriverWait(browser, 30).until(lambda _: browser.execute_script("return document.documentElement.scrollWidth") <= 400)
     resize(1200)
 
 

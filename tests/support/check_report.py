@@ -64,7 +64,8 @@ def effect_of(pairs, key):
     if not of:
         return [math.nan] * 5
     ratio = [b[key + ".mean"] / a[key + ".mean"] for a, b in of]
-    u = [((row[key + ".deviation"] / row[key + ".mean"]) ** 2 / row[key + ".n"], row[key + ".n"]) for pair in of for row in pair]
+    serves = {p: sum(p in pair for pair in pairs if all(rows[q][key + ".mean"] > 0 for q in pair)) for pair in pairs for p in pair}
+    u = [((c * rows[p][key + ".deviation"] / rows[p][key + ".mean"]) ** 2 / rows[p][key + ".n"], rows[p][key + ".n"]) for p, c in serves.items() if c]
     mean, v = sum(map(math.log, ratio)) / len(of), sum(x for x, n in u)
     freedom = v * v / sum(x * x / (n - 1) for x, n in u) if v > 0 else math.nan
     half = student_of(freedom) * math.sqrt(v) / len(of) if v > 0 else math.nan

@@ -195,4 +195,48 @@ static void partners_are_named(void **state)
     fracas_columns_clear(&of.analysis.shown);
 }
 
-TESTS(settings_are_pairs, intervals_are_of_the_settings, odd_points, partners_are_named)
+/* A parameter of some points, the same in all of them, goes along with none; settings that share a
+ * point are named by the other, and its error counts in both: c = 2. Common random numbers leave
+ * several settings without an interval. */
+static void shared_points(void **state)
+{
+    static made of;
+    OWNED fracas_effect *effect = NULL;
+    size_t count;
+    begin(&of);
+    add(&of, "nitsche", 1e3, 5, 30, 1);
+    add(&of, "nitsche", 1e3, 10, 40, 1);
+    add(&of, "stershic", 1e3, NAN, 60, 1);
+    OK(fracas_columns_create(&of.table, &of.analysis.shown));
+    OK(fracas_effects(&of.analysis, &effect, &count));
+    assert_row(effect, "law", "nitsche", "stershic", "", 2, sqrt(2 * 1.5) - 1);
+    assert_string_equal(effect[1].at, "shape of the strengths 5");
+    double v = 0, squares = 0;
+    for (size_t p = 0; p < 3; p++) {
+        const double c = p == 2 ? 2 : 1, n = 4 + (double)p, u = c * c * 0.1 * 0.1 / n;
+        v += u;
+        squares += u * u / (n - 1);
+    }
+    const double half = gsl_cdf_tdist_Pinv(0.975, v * v / squares) * sqrt(v) / 2;
+    assert_true(fabs(log1p(effect->count.high) - log1p(effect->count.value) - half) < 1e-12);
+    free(effect);
+    of.analysis.common = true;
+    OK(fracas_effects(&of.analysis, &effect, &count));
+    assert_true(isnan(effect->count.low) && isnan(effect->count.high) && effect->count.value > 0);
+    assert_true(effect[1].count.low < effect[1].count.value);
+    fracas_columns_clear(&of.analysis.shown);
+    free(effect);
+    begin(&of);
+    for (int s = 0; s < 2; s++) {
+        add(&of, "nitsche", 1e3, s ? 10 : 5, 30 + 10 * s, 1);
+        add(&of, "stershic", NAN, s ? 10 : 5, 60 + 10 * s, 1);
+    }
+    OK(fracas_columns_create(&of.table, &of.analysis.shown));
+    OK(fracas_effects(&of.analysis, &effect, &count));
+    for (size_t i = 0; i < count; i++) assert_null(strstr(effect[i].words, "with rate"));
+    assert_string_equal(effect[count - 3].words, "shape of the strengths");
+    fracas_columns_clear(&of.analysis.shown);
+}
+
+TESTS(settings_are_pairs, intervals_are_of_the_settings, odd_points, partners_are_named,
+      shared_points)
