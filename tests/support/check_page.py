@@ -246,8 +246,9 @@ def check_values(figure):
         wanted = [row for row in rows if row["kind"] == "mark"]
         covered = 0
         for mark, row in zip(marks, wanted):
-            hover(mark)
-            if sys.argv[1] == "factors" and not browser.execute_script("return document.elementFromPoint(...arguments[0]) === arguments[1]", middle(mark), mark):
+            at = [round(place) for place in middle(mark)]  # whole pixels, as the pointer's
+            point_at(*at)
+            if sys.argv[1] == "factors" and not browser.execute_script("return document.elementFromPoint(...arguments[0]) === arguments[1]", at, mark):
                 covered += 1  # sizes of several series are the same by a law
                 continue
             x, y = list(row.values())[3:5]
@@ -256,7 +257,7 @@ def check_values(figure):
             assert f": {x}\n" in tip() if named else math.isclose(numbers.pop(0), float(x), rel_tol=6e-4), (tip(), row)
             assert math.isclose(numbers[0], float(y), rel_tol=6e-4, abs_tol=1e-12), (tip(), row)
             assert not all_of(":scope > title", mark)  # the browser's own would cover it
-        assert covered < len(marks) / 2
+        assert covered <= len(marks) / 2  # of two series one lies above
         hover(one_of("h1"))
         assert tip() is None
         browser.execute_script("arguments[0].focus()", marks[0])
