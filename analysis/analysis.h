@@ -83,6 +83,22 @@ FRACAS_MUST_USE fracas_err fracas_export_free(const fracas_analysis *analysis, c
 FRACAS_MUST_USE fracas_err fracas_export_write(const fracas_analysis *analysis, const char *folder,
                                                fracas_export_more more);
 
+/* Realizations as they move, for ParaView. */
+typedef struct {
+    size_t point;       /* SIZE_MAX: all */
+    int64_t replica;    /* -1: of each point the one that its report shows */
+    size_t count;       /* times */
+    const double *time; /* s, of each; NULL: as fracas_flight_moments */
+    const char *folder; /* made if it is not there */
+} fracas_grids_request;
+
+/* Writes point-P-replica-R-body-K.hdf and -interfaces-K.hdf for K from 1, and their .hdf.series
+ * (analysis/export/grids.h), and prints these names on `out`. FRACAS_USAGE, with the choices there
+ * are, for an unknown point or replica and a study without interfaces; FRACAS_INTERRUPTED if it is
+ * not complete. */
+FRACAS_MUST_USE fracas_err fracas_export_grids(const fracas_analysis *analysis,
+                                               const fracas_grids_request *request, FILE *out);
+
 /* The keys of a point's "statistics" in the JSON summary: the table of docs/formats/summary.md. */
 void fracas_analysis_reference(FILE *out);
 
@@ -113,18 +129,16 @@ typedef struct {
     const fracas_view *view; /* NULL: a flat surface as it lies, any other by FRACAS_VIEW_DEFAULT */
     double explode;     /* >= 0: fragments moved by this times (their centroid - that of all) */
     bool table;         /* the first times of all replicas as CSV, too */
-    bool grids;         /* for ParaView in the place of pictures: analysis/report/grids.h */
-    bool film;          /* a page of all of them in the place of pictures */
+    bool film;          /* a page that plays the motion in the place of pictures */
     bool dots;          /* pictures, as PNG, too */
     const char *folder; /* made if it is not there; NULL: STUDY/pictures */
 } fracas_picture_request;
 
-/* Writes surface-point-P-replica-R-K.svg for K from 1 (`grids`: .hdf of fragments and cracks of
- * a surface; `film`: surface-point-P-replica-R.html), with `table` also times-point-P.csv. Prints
- * on `out` their names and the times at which the realization first cracked, broke, and cracked
- * through (surfaces). FRACAS_USAGE, with the choices there are, for an unknown point, replica or
- * time, grids of a bar or ring, and a study without interfaces. FRACAS_DAMAGED if study.h5 is
- * missing or of another campaign: only a complete study has the meshes. */
+/* Writes surface-point-P-replica-R-K.svg for K from 1 (`film`: surface-point-P-replica-R.html),
+ * with `table` also times-point-P.csv. Prints on `out` their names and the times at which the
+ * realization first cracked, broke, and cracked through (surfaces). FRACAS_USAGE, with the choices
+ * there are, for an unknown point, replica or time, and a study without interfaces. FRACAS_DAMAGED
+ * if study.h5 is missing or of another campaign: only a complete study has the meshes. */
 FRACAS_MUST_USE fracas_err fracas_pictures_write(const char *study,
                                                  const fracas_picture_request *request, FILE *out);
 

@@ -118,6 +118,11 @@ FRACAS_MUST_USE fracas_err fracas_arguments_time(const fracas_arguments *argumen
 /* Columns for tables on standard output: the terminal's; 0, no limit: there is none, or --wide. */
 int fracas_cli_columns(const fracas_arguments *arguments);
 
+/* The option --times: a list [s], freed by the caller, or how many; *count is what there are
+ * without it, and *time NULL where there is no list. */
+FRACAS_MUST_USE fracas_err fracas_cli_times(const fracas_arguments *arguments, size_t *count,
+                                            double **time);
+
 /* An instant or interval of a realization [s]: "26us" or "26 us". A campaign file wants the space,
  * a command line is easier without. FRACAS_USAGE for anything else. */
 struct fracas_units;

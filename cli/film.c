@@ -95,7 +95,8 @@ fracas_err fracas_cli_film_write(fracas_cli_film *film, const fracas_replay *rep
     char title[256];
     snprintf(title, sizeof title, "%s: point %zu, replica %" PRId64, replay->campaign->name,
              replay->point, replay->replica);
-    TRY(fracas_film_write(film->film, film->folder, film->name, title));
+    TRY(fracas_film_write(film->film, film->folder, film->name, title,
+                          "Each element is where it has moved."));
     if (film->out)
         fprintf(film->out, "%s: %zu instant%s\n", film->path, film->count,
                 film->count == 1 ? "" : "s");

@@ -3,7 +3,6 @@
 
 #include "analysis/analysis.h"
 #include "base/param.h"
-#include "base/units.h"
 #include "campaigns/campaign.h"
 
 #include <limits.h>
@@ -16,56 +15,22 @@ static const fracas_option options[] = {
     {"point", "P", "which point (0): the first column of report/points.csv"},
     {"replica", "R", "which of its replicas (0)"},
     {"times", "LIST",
-     "times, as 26us,28us, or how many, each after as many breaks, the last at the end (6)"},
+     "times, as 26us,28us, or how many, each after as many breaks, the last at the end (6; of a "
+     "film "
+     "24, half of them even)"},
     {"show", "WHAT", "cracks, fragments (these, and the cracks), or mesh (that, too) (fragments)"},
     {"view", "A,H",
      "from where, as 45,30: azimuth from x toward y, elevation above the plane of both, "
      "in degrees"},
     {"explode", "FACTOR",
      "fragments apart: moved by FACTOR times (their centroid - that of the surface) (0)"},
-    {"film", NULL, "one page with a slider in the place of pictures, of 24 times unless said"},
+    {"film", NULL, "in the place of pictures a page that plays how the fragments move"},
     {"png", NULL, "pictures as PNG files, too, 1600 dots wide"},
-    {"vtk", NULL, "grids for ParaView in the place of pictures: fragments and cracks at each time"},
     {"table", NULL, "first onset, break and crack through of all replicas of the point, as CSV"},
     {"output", "FOLDER", "where to; also -o FOLDER (STUDY/pictures)", 'o'},
     {0}};
 
-enum { MOST_TIMES = 1000 };
 static const double most_apart = 10;
-
-/* "26us,28us"; *time freed by the caller. */
-static fracas_err read_list(const char *text, double **time, size_t *count)
-{
-    OWN(fracas_units) units = NULL;
-    OWNED char *copy = strdup(text);
-    *time = malloc((strlen(text) + 1) * sizeof **time); /* at most one a character */
-    *count = 0;
-    if (!copy || !*time) return fracas_no_memory("the times of pictures");
-    TRY(fracas_units_create(&units));
-    char *rest = copy;
-    for (char *one; (one = strsep(&rest, ","));) {
-        fracas_err err = fracas_cli_read_time(units, one, &(*time)[(*count)++]);
-        if (err) return fracas_fail_within(err, "picture: --times is `%s`", text);
-    }
-    return FRACAS_OK;
-}
-
-/* A whole number counts pictures, anything else is a list of times. */
-static fracas_err read_times(const fracas_arguments *arguments, fracas_picture_request *request,
-                             double **time)
-{
-    const char *text = fracas_given(arguments, "times");
-    int count = request->film ? FRACAS_FRAMES : FRACAS_MOMENTS;
-    *time = NULL;
-    if (text && strspn(text, "0123456789") != strlen(text)) {
-        TRY(read_list(text, time, &request->count));
-        request->time = *time;
-        return FRACAS_OK;
-    }
-    TRY(fracas_arguments_integer(arguments, "times", 1, MOST_TIMES, &count));
-    request->count = (size_t)count;
-    return FRACAS_OK;
-}
 
 /* "45,30"; false for anything else. */
 static bool read_pair(const char *text, double *first, double *second)
@@ -115,16 +80,18 @@ static fracas_err picture(const fracas_arguments *arguments)
                                       .replica = replica,
                                       .show = (fracas_surface_show)show,
                                       .table = fracas_given(arguments, "table") != NULL,
-                                      .grids = fracas_given(arguments, "vtk") != NULL,
                                       .film = fracas_given(arguments, "film") != NULL,
                                       .dots = fracas_given(arguments, "png") != NULL,
                                       .folder = fracas_given(arguments, "output")};
-    if (request.grids && (request.film || request.dots))
-        return fracas_fail(FRACAS_USAGE,
-                           "picture: --vtk is in the place of pictures: call it without --film and "
-                           "--png");
+    if (request.film && !request.dots &&
+        (fracas_given(arguments, "show") || fracas_given(arguments, "view") ||
+         fracas_given(arguments, "explode")))
+        return fracas_fail(FRACAS_USAGE, "picture: a film has controls of its own: call --film "
+                                         "without --show, --view and --explode");
     TRY(read_view(arguments, &request, &view));
-    TRY(read_times(arguments, &request, &time));
+    request.count = request.film ? FRACAS_FRAMES : FRACAS_MOMENTS;
+    TRY(fracas_cli_times(arguments, &request.count, &time));
+    request.time = time;
     TRY(fracas_cli_campaign_seen(arguments->operand, &campaign));
     if (campaign) request.campaign = &campaign->hash;
     return fracas_pictures_write(arguments->operand, &request, stdout);
@@ -145,7 +112,10 @@ const fracas_command fracas_command_picture = {
         "and top). The campaign must say `output: {interfaces: true}`.\n\n"
         "A surface that is not flat is shaded and seen from --view (45,35.264: the direction (1, "
         "1, 1)), z upward; what is hidden is left\n"
-        "out. --explode 0.15 moves its fragments apart, so that the gaps and the inside show.\n",
+        "out. --explode 0.15 moves its fragments apart, so that the gaps and the inside show.\n\n"
+        "A film moves each fragment as a rigid body, back from its place, velocity and spin at the "
+        "end; `fracas replay --film`\n"
+        "computes the motion again.\n",
     .options = options,
     .run = picture,
 };

@@ -178,7 +178,53 @@ static const fracas_option export_options[] = {
     {"study", "NEW", "instead make a study of study.h5 in the folder NEW, to go on with"},
     {"histories", NULL, "energies over time of every realization, too: histories.csv"},
     {"cracks", NULL, "lengths, tips and speeds of cracks of surfaces, too: cracks.csv, breaks.csv"},
+    {"vtk", NULL, "instead write how fragments move and cracks grow, for ParaView (STUDY/vtk)"},
+    {"point", "P", "with --vtk: of this point alone"},
+    {"replica", "R", "with --vtk: this replica (the one that the report shows)"},
+    {"times", "LIST",
+     "with --vtk: times, as 26us,28us, or how many: half after equal shares of the breaks, half "
+     "even (24)"},
     {0}};
+
+static fracas_err export_grids(const fracas_arguments *arguments)
+{
+    OWN(fracas_campaign) campaign = NULL;
+    OWN(fracas_analysis) analysis = NULL;
+    OWNED char *folder = NULL;
+    OWNED double *time = NULL;
+    int point = -1, replica = -1;
+    fracas_grids_request request = {.count = FRACAS_FRAMES};
+    TRY(fracas_arguments_integer(arguments, "point", 0, INT_MAX, &point));
+    TRY(fracas_arguments_integer(arguments, "replica", 0, INT_MAX, &replica));
+    TRY(fracas_cli_times(arguments, &request.count, &time));
+    TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
+    TRY(fracas_output_folder_in(fracas_given(arguments, "to"), arguments->operand, "vtk", &folder));
+    request.point = point < 0 ? SIZE_MAX : (size_t)point;
+    request.replica = replica;
+    request.time = time;
+    request.folder = folder;
+    return fracas_export_grids(analysis, &request, stdout);
+}
+
+/* Options of one way to export that say nothing in another. */
+static fracas_err check_export(const fracas_arguments *arguments)
+{
+    static const char *const of_grids[] = {"point", "replica", "times"}, *const of_tables[] = {
+                                                                             "histories", "cracks"};
+    const bool vtk = fracas_given(arguments, "vtk"), study = fracas_given(arguments, "study");
+    for (size_t k = 0; k < FRACAS_COUNT(of_grids); k++)
+        if (!vtk && fracas_given(arguments, of_grids[k]))
+            return fracas_fail(FRACAS_USAGE, "export: --%s is for --vtk: call it with that",
+                               of_grids[k]);
+    for (size_t k = 0; k < FRACAS_COUNT(of_tables); k++)
+        if (vtk && fracas_given(arguments, of_tables[k]))
+            return fracas_fail(FRACAS_USAGE,
+                               "export: --vtk is in the place of tables: call it without --%s",
+                               of_tables[k]);
+    if (vtk && study)
+        return fracas_fail(FRACAS_USAGE, "export: --vtk and --study are two ways: choose one");
+    return FRACAS_OK;
+}
 
 static fracas_err export(const fracas_arguments *arguments)
 {
@@ -191,7 +237,9 @@ static fracas_err export(const fracas_arguments *arguments)
     if (new && (fracas_given(arguments, "to") || more.histories || more.cracks))
         return fracas_fail(FRACAS_USAGE, "export: --study is in the place of tables: call it "
                                          "without --to, --histories and --cracks");
+    TRY(check_export(arguments));
     if (new) return fracas_cli_unpack(arguments, new);
+    if (fracas_given(arguments, "vtk")) return export_grids(arguments);
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
     TRY(fracas_output_folder_in(fracas_given(arguments, "to"), arguments->operand, "export",
                                 &folder));
@@ -216,7 +264,12 @@ const fracas_command fracas_command_export = {
             "With --study NEW, a folder that is not there or empty, study.h5 alone becomes a whole "
             "study: NEW/campaign.yaml, its files, the results\n"
             "and an index, for run, extend and merge-studies. Of a study.h5 of another version of "
-            "fracas NEW gets the campaign alone.\n",
+            "fracas NEW gets the campaign alone.\n\n"
+            "With --vtk each point's realization of the report becomes two series of grids: its "
+            "elements where their fragments have moved, and its\n"
+            "interfaces. Fragments are rigid bodies: `fracas replay --fields` computes them again, "
+            "with stresses. The campaign must say\n"
+            "`output: {interfaces: true}`. After the end of a realization they fly on.\n",
     .options = export_options,
     .run = export,
 };

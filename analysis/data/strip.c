@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/data/strip.h"
 
+#include "analysis/data/chain.h"
+#include "base/own.h"
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -44,20 +47,14 @@ static void put_node(const strip *s, int64_t node, double along, int side)
     at[1] = distance * sin(angle);
 }
 
-/* Elements of a fragment are equally long; a closed chain's last ones may be those of its first. */
-static void place(const strip *s, const fracas_record *record)
+static void place(const strip *s, const double *along)
 {
-    double along = 0;
-    size_t f = 0;
-    for (size_t e = 0; e <= s->n; e++) {
-        const fracas_fragment *fragment = &record->fragment[f % record->nfragment];
-        const double size = fragment->size / (double)fragment->elements;
+    for (size_t e = 0; e <= s->n; e++)
         for (int side = 0; side < (s->closed ? SIDES : NEAR_MIDDLE) && e < s->n + !s->closed;
-             side++)
-            put_node(s, node_of(s, e, side), along + (side >= NEAR_MIDDLE ? size / 2 : 0), side);
-        along += size;
-        if (e < record->ninterface && isfinite(record->interface[e].break_time)) f++;
-    }
+             side++) {
+            const double half = side >= NEAR_MIDDLE ? (along[e + 1] - along[e]) / 2 : 0;
+            put_node(s, node_of(s, e, side), along[e] + half, side);
+        }
 }
 
 /* Both triangles of each element, and the interface between them. */
@@ -94,22 +91,18 @@ static void put_interfaces(const strip *s, size_t count)
 fracas_err fracas_strip_create(fracas_record *record, fracas_stored_mesh *mesh)
 {
     const size_t between = record->ninterface;
-    strip s = {.mesh = mesh};
-    for (size_t f = 0; f < record->nfragment; f++) {
-        s.n += (size_t)record->fragment[f].elements;
-        s.length += record->fragment[f].size;
-    }
-    s.closed = between == s.n;
-    if (s.n < 2 || (!s.closed && between != s.n - 1))
-        return fracas_fail(FRACAS_DAMAGED,
-                           "%zu interfaces are not those between the %zu elements of a bar or ring",
-                           between, s.n);
+    fracas_chain chain;
+    TRY(fracas_chain_of(record, &chain));
+    const strip s = {mesh, chain.elements, chain.closed, chain.length};
+    OWNED double *along = malloc((s.n + 1) * sizeof *along);
+    if (!along) return fracas_no_memory("the elements of a picture");
+    fracas_chain_along(&chain, record, along);
     *mesh = (fracas_stored_mesh){.nnodes = s.closed ? SIDES * s.n : 2 * (s.n + 1),
                                  .nelements = 2 * s.n,
                                  .ninterfaces = between + s.n,
                                  .nborders = 2 * s.n + (s.closed ? 0 : 2)};
     TRY(fracas_stored_mesh_allocate(mesh));
-    place(&s, record);
+    place(&s, along);
     put_interfaces(&s, between);
     put_elements(&s, between);
     fracas_interface_row *row = realloc(record->interface, mesh->ninterfaces * sizeof *row);

@@ -2,8 +2,10 @@
 #include "analysis/film/film.h"
 
 #include "analysis/data/format.h"
+#include "analysis/draw/chart.h"
+#include "analysis/draw/html.h"
+#include "analysis/draw/surface_picture.h"
 #include "analysis/export/sha256.h"
-#include "analysis/report/page.h"
 #include "base/json.h"
 #include "base/param.h"
 
@@ -388,10 +390,10 @@ static fracas_err put_body(const fracas_film *film, const char *stem, FILE *out)
 }
 
 fracas_err fracas_film_write(const fracas_film *film, const char *folder, const char *name,
-                             const char *title)
+                             const char *title, const char *how)
 {
     const size_t last = film->count - 1;
-    char lead[192];
+    char lead[512];
     OWNED char *body = NULL;
     size_t size;
     char stem[256];
@@ -405,10 +407,11 @@ fracas_err fracas_film_write(const fracas_film *film, const char *folder, const 
     const bool bad = ferror(out);
     if ((fclose(out) || bad) && !err) err = fracas_no_memory("a film");
     if (err) return err;
-    FRACAS_PRINT(lead,
-                 "%zu fragment%s at %s, the last instant of %zu. Each element is where it has "
-                 "moved. Drag to turn or to move the body, scroll to zoom.",
-                 film->fragments[last], film->fragments[last] == 1 ? "" : "s",
-                 fracas_surface_time(film->time[last], true).text, film->count);
-    return fracas_page_alone(folder, name, title, lead, body, fracas_film_script);
+    FRACAS_PRINT(
+        lead,
+        "%zu fragment%s at %s, the last instant of %zu. %s Drag to turn or to move the body, "
+        "scroll to zoom.",
+        film->fragments[last], film->fragments[last] == 1 ? "" : "s",
+        fracas_surface_time(film->time[last], true).text, film->count, how);
+    return fracas_html_alone(folder, name, title, lead, body, fracas_film_script);
 }

@@ -47,10 +47,10 @@ FRACAS_OWNER(fracas_film, fracas_film_destroy)
 /* Keeps the body as it is now; no more than `most` times. */
 FRACAS_MUST_USE fracas_err fracas_film_add(fracas_film *film, const fracas_film_instant *now);
 
-/* Writes the page FOLDER/NAME, whole or not at all. Displacements are kept to 1/131070 of the range
- * of their component over all instants, speeds and the principal stresses of the
- * largest amount to 1/510 of theirs. */
+/* Writes the page FOLDER/NAME, where `how` says how the body moves, whole or not at all.
+ * Displacements are kept to 1/131070 of the range of their component over all instants, speeds and
+ * the principal stresses of the largest amount to 1/510 of theirs. */
 FRACAS_MUST_USE fracas_err fracas_film_write(const fracas_film *film, const char *folder,
-                                             const char *name, const char *title);
+                                             const char *name, const char *title, const char *how);
 
 #endif

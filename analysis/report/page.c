@@ -3,9 +3,9 @@
 #include "analysis/report/page.h"
 
 #include "analysis/export/csv.h"
-#include "analysis/export/sha256.h"
 #include "analysis/data/output.h"
 #include "analysis/draw/chart.h"
+#include "analysis/draw/html.h"
 #include "base/param.h"
 #include "base/own.h"
 #include "campaigns/store/file/disk.h"
@@ -18,8 +18,7 @@
 typedef struct {
     char *text[FRACAS_PAGE_SECTIONS];
     size_t size[FRACAS_PAGE_SECTIONS];
-    char script[FRACAS_SHA256_BASE64]; /* digest of the page's */
-    int refresh;                       /* s, 0: never */
+    int refresh; /* s, 0: never */
 } contents;
 
 static fracas_err write_section(fracas_page *page, const fracas_page_entry *section, char **text,
@@ -33,45 +32,10 @@ static fracas_err write_section(fracas_page *page, const fracas_page_entry *sect
     return err;
 }
 
-/* A page loads nothing and runs its own script only, whatever its texts may hold. Drawings have
- * attributes of style, which no hash allows. */
-static void put_policy(const char *script, FILE *out)
+static fracas_err put_page(const char *title, const char *lead, const fracas_page_entry *section,
+                           size_t count, const contents *of, FILE *out)
 {
-    fracas_markup(out,
-                  "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-                  "img-src data:; style-src 'unsafe-inline'; script-src 'sha256-%s'; "
-                  "base-uri 'none'; form-action 'none'\"/>\n",
-                  script);
-}
-
-static void put_head(const char *title, const char *lead, const char *script, int refresh,
-                     FILE *out)
-{
-    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n", out);
-    put_policy(script, out);
-    if (refresh) fprintf(out, "<meta http-equiv=\"refresh\" content=\"%d\"/>\n", refresh);
-    fracas_markup(out,
-                  "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"/>\n"
-                  "<link rel=\"icon\" href=\"data:,\"/>\n<title>"
-                  "%s",
-                  title);
-    fprintf(out, " \u00b7 fracas</title>\n<style>\n%s%s%s", fracas_chart_style,
-            fracas_surface_style, fracas_page_style);
-    fracas_markup(
-        out,
-        "</style>\n</head>\n<body>\n<header>\n<h1>%s</h1>\n<p class=\"lead\">%s</p>\n</header>\n",
-        title, lead);
-}
-
-static void put_end(const char *script, FILE *out)
-{
-    fprintf(out, "</main>\n<script>%s</script>\n</body>\n</html>\n", script);
-}
-
-static void put_page(const char *title, const char *lead, const fracas_page_entry *section,
-                     size_t count, const contents *of, FILE *out)
-{
-    put_head(title, lead, of->script, of->refresh, out);
+    TRY(fracas_html_begin(title, lead, fracas_page_script, of->refresh, out));
     fputs("<nav aria-label=\"Contents\"><ul>\n", out);
     for (size_t i = 0; i < count; i++)
         if (of->size[i] > 0)
@@ -83,20 +47,9 @@ static void put_page(const char *title, const char *lead, const fracas_page_entr
         fwrite(of->text[i], 1, of->size[i], out);
         fputs("</section>\n", out);
     }
-    put_end(fracas_page_script, out);
-}
-
-fracas_err fracas_page_alone(const char *folder, const char *file, const char *title,
-                             const char *lead, const char *body, const char *script)
-{
-    char digest[FRACAS_SHA256_BASE64];
-    fracas_output_file output;
-    TRY(fracas_sha256_of_text(script, digest));
-    TRY(fracas_output_open(folder, file, &output));
-    put_head(title, lead, digest, 0, output.file);
-    fprintf(output.file, "<main>\n%s", body);
-    put_end(script, output.file);
-    return fracas_output_close(&output, FRACAS_OK);
+    fputs("</main>\n", out);
+    fracas_html_end(fracas_page_script, out);
+    return FRACAS_OK;
 }
 
 /* True for a drawing of the page, or the data of its pictures. */
@@ -119,6 +72,12 @@ static fracas_err forget(void *context, const char *path, const char *name)
     const char *dot = strrchr(name, '.');
     if (!dot || (size_t)(dot - name) >= sizeof stem) return FRACAS_OK;
     snprintf(stem, sizeof stem, "%.*s", (int)(dot - name), name);
+    if (!strncmp(stem, FRACAS_FILM_OF_POINT, strlen(FRACAS_FILM_OF_POINT)) &&
+        !strcmp(dot, ".html")) { /* a row of pictures has it */
+        snprintf(stem, sizeof stem, "surface-point-%s", name + strlen(FRACAS_FILM_OF_POINT));
+        *strchr(stem, '.') = 0;
+        of_kind = true;
+    }
     for (size_t k = 0; k < FRACAS_COUNT(kinds); k++) of_kind = of_kind || !strcmp(dot, kinds[k]);
     for (size_t k = 0; k < FRACAS_COUNT(marks); k++)
         of_figure = of_figure || strstr(stem, marks[k]);
@@ -132,7 +91,7 @@ fracas_err fracas_page_write(fracas_page *page, const char *title, const char *l
                              const fracas_page_entry *section, size_t count)
 {
     contents of = {.refresh = page->refresh};
-    fracas_err err = fracas_sha256_of_text(fracas_page_script, of.script);
+    fracas_err err = FRACAS_OK;
     for (size_t i = 0; i < count && !err; i++)
         err = write_section(page, &section[i], &of.text[i], &of.size[i]);
     if (!err) err = fracas_disk_each(page->folder, forget, page);
@@ -141,10 +100,8 @@ fracas_err fracas_page_write(fracas_page *page, const char *title, const char *l
     fracas_output_file output;
     if (!err) err = fracas_foreign_aside(page->foreign, page->folder, FRACAS_OUTPUT_PAGE);
     if (!err) err = fracas_output_open(page->folder, FRACAS_OUTPUT_PAGE, &output);
-    if (!err) {
-        put_page(title, lead, section, count, &of, output.file);
-        err = fracas_output_close(&output, FRACAS_OK);
-    }
+    if (!err)
+        err = fracas_output_close(&output, put_page(title, lead, section, count, &of, output.file));
     for (size_t i = 0; i < count; i++) free(of.text[i]);
     free(page->drawing);
     page->drawing = NULL;

@@ -18,6 +18,7 @@
 #include <stdio.h>
 
 enum { FRACAS_DRAWING = 104 };
+#define FRACAS_FILM_OF_POINT "film-point-" /* 3.html */
 
 typedef struct {
     const fracas_analysis *analysis;
@@ -105,11 +106,6 @@ FRACAS_MUST_USE fracas_err fracas_convert_check(void);
 FRACAS_MUST_USE fracas_err fracas_convert(const char *folder, char (*name)[FRACAS_DRAWING],
                                           size_t count, fracas_drawing_format as);
 
-/* A page without sections: FILE of the folder, with the style of a report and this script. */
-FRACAS_MUST_USE fracas_err fracas_page_alone(const char *folder, const char *file,
-                                             const char *title, const char *lead, const char *body,
-                                             const char *script);
-
 /* The surface of a point, and its interfaces in a realization; of a bar or ring, its strip. */
 typedef struct {
     fracas_stored_mesh mesh;
@@ -141,8 +137,8 @@ FRACAS_MUST_USE fracas_err fracas_broken_surface_save(const fracas_broken_surfac
 /* The section of the page, nothing without surfaces. A partial study has no meshes: the section
  * says that they come. Else one realization of every point, the first FRAGMENTED or the typical
  * one, at FRACAS_MOMENTS times; a figure a point, each picture also as a file of the folder, with a
- * CSV of the times at which each interface cracked and broke. After some 1.5 million drawn elements
- * it only says how to get the others. */
+ * CSV of the times at which each interface cracked and broke, and a film, a page of its own, until
+ * films have 60 MB. After some 1.5 million drawn elements it only says how to get the others. */
 fracas_page_section fracas_section_surfaces;
 
 #endif

@@ -166,61 +166,6 @@ function follow(svg, event) {
   hide();
 }
 
-/* ---- films ---- */
-
-/* Pictures at successive times: side by side, or one after the other. */
-function makeFilm(film) {
-  const frames = [...film.children], last = frames.length - 1, alone = film.classList.contains("alone");
-  if (last < 1) return;
-  const part = (name, text) => Object.assign(document.createElement(name), {textContent: text});
-  const controls = part("div", ""), play = part("button", "Play"), slider = part("input", ""), time = part("output", "");
-  const all = part("button", "Side by side");
-  let timer = 0;
-  const frame = i => {
-    film.classList.add("one");
-    frames.forEach((each, k) => each.classList.toggle("now", k === i));
-    slider.value = i;
-    time.textContent = frames[i].dataset.time;
-    slider.setAttribute("aria-valuetext", frames[i].dataset.time);
-    all.hidden = alone;
-  };
-  const stop = () => {
-    clearInterval(timer);
-    timer = 0;
-    play.textContent = "Play";
-  };
-  const step = () => {
-    const next = Number(slider.value) + 1;
-    if (next > last) stop();
-    else frame(next);
-  };
-  controls.className = "play";
-  Object.assign(slider, {type: "range", min: 0, max: last, value: last});
-  slider.setAttribute("aria-label", "Time");
-  all.hidden = true;
-  slider.addEventListener("input", () => {
-    stop();
-    frame(Number(slider.value));
-  });
-  play.addEventListener("click", () => {
-    if (timer) return stop();
-    if (Number(slider.value) === last || !film.classList.contains("one")) frame(0);
-    play.textContent = "Pause";
-    timer = setInterval(step, 200);
-  });
-  all.addEventListener("click", () => {
-    stop();
-    film.classList.remove("one");
-    play.focus();
-    all.hidden = true;
-    time.textContent = "";
-  });
-  controls.append(play, slider, time, all);
-  film.before(controls);
-  if (alone) frame(last);
-}
-each(document, ".film", makeFilm);
-
 each(document, "figure svg.chart", svg => {
   svg.setAttribute("role", "group"); /* of things that can be reached, no longer one image */
   each(svg, ".entry", makeButton);

@@ -3,7 +3,7 @@
  * a point. */
 #include "analysis/data/field.h"
 #include "analysis/data/output.h"
-#include "analysis/report/grids.h"
+#include "analysis/report/films.h"
 #include "analysis/report/page.h"
 #include "base/own.h"
 #include "base/text.h"
@@ -50,13 +50,6 @@ static fracas_err check_point(making *m)
     if (point >= npoints)
         return fracas_fail(FRACAS_USAGE, "there is no point %zu: %s has %zu of them, from 0", point,
                            m->study, npoints);
-    size_t interfaces;
-    TRY(fracas_results_mesh_interfaces(m->results, point, &interfaces));
-    if (m->request->grids && interfaces == 0)
-        return fracas_fail(FRACAS_USAGE,
-                           "point %zu is no surface: of bars and rings `fracas replay --fields` "
-                           "writes grids",
-                           point);
     for (size_t p = 0; p < point; p++) m->first_row += (size_t)m->table->point[p].replicas;
     return FRACAS_OK;
 }
@@ -138,40 +131,23 @@ static fracas_err save_pictures(const making *m, const fracas_broken_surface *su
     return fracas_convert(m->folder, name, count, FRACAS_DRAWING_PNG);
 }
 
-static fracas_err put_frames(const making *m, const fracas_broken_surface *surface,
-                             const double *time, size_t count, FILE *out)
+static fracas_err save_film(const making *m)
 {
-    char title[128];
-    for (size_t k = 0; k < count; k++) {
-        fracas_surface_picture picture = picture_at(m, surface, time[k], title);
-        picture.standalone = false;
-        fprintf(out, "<figure class=\"frame\" data-time=\"%s\">\n",
-                fracas_surface_time(time[k], true).text);
-        TRY(fracas_broken_surface_draw(surface, time[k], &picture, out));
-        fputs("</figure>\n", out);
-    }
-    return FRACAS_OK;
-}
-
-static fracas_err save_film(const making *m, const fracas_broken_surface *surface,
-                            const double *time, size_t count)
-{
-    OWNED char *frames = NULL;
-    size_t size;
-    char stem[STEM], file[STEM + 5], lead[128];
-    FILE *out = open_memstream(&frames, &size);
-    if (!out) return fracas_no_memory("a film");
-    fputs("<div class=\"film alone\">\n", out);
-    fracas_err err = put_frames(m, surface, time, count, out);
-    fputs("</div>\n", out);
-    const bool bad = ferror(out);
-    if ((fclose(out) || bad) && !err) err = fracas_no_memory("a film");
-    if (err) return err;
+    FRACAS_CLEARED(fracas_flight) flight = {.corners = 0};
+    const fracas_picture_request *request = m->request;
+    const size_t count = request->count < 2 && !request->time ? 2 : request->count;
+    OWNED double *time = calloc(count + 1, sizeof *time);
+    char stem[STEM], file[STEM + 5], title[512];
+    if (!time) return fracas_no_memory("the times of a film");
+    TRY(fracas_flight_read(m->results, request->point, m->first_row + (size_t)request->replica,
+                           &flight));
+    if (request->time) memcpy(time, request->time, count * sizeof *time);
+    else TRY(fracas_flight_moments(&flight, time, count));
     name_realization(m, stem);
     FRACAS_PRINT(file, "%s.html", stem);
-    FRACAS_PRINT(lead, "Point %zu, replica %" PRId64 ", as it was before any motion",
-                 m->request->point, m->request->replica);
-    TRY(fracas_page_alone(m->folder, file, m->study, lead, frames, fracas_page_script));
+    snprintf(title, sizeof title, "%s: point %zu, replica %" PRId64, m->study, request->point,
+             request->replica);
+    TRY(fracas_flight_film(&flight, time, count, m->folder, file, title));
     fprintf(m->out, "%s/%s: %zu times\n", m->folder, file, count);
     return FRACAS_OK;
 }
@@ -180,14 +156,11 @@ static fracas_err save(const making *m, const fracas_broken_surface *surface)
 {
     const fracas_picture_request *request = m->request;
     OWNED double *time = calloc(request->count + 1, sizeof *time);
-    char stem[STEM];
     if (!time) return fracas_no_memory("the times of pictures");
     size_t count = request->count;
     if (request->time) memcpy(time, request->time, count * sizeof *time);
     else TRY(fracas_surface_moments(&surface->record, time, &count));
-    name_realization(m, stem);
-    if (request->grids) return fracas_grids_write(surface, time, count, m->folder, stem, m->out);
-    if (request->film) TRY(save_film(m, surface, time, count));
+    if (request->film) TRY(save_film(m));
     return request->film && !request->dots ? FRACAS_OK : save_pictures(m, surface, time, count);
 }
 

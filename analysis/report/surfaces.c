@@ -5,15 +5,16 @@
 #include "analysis/data/output.h"
 #include "analysis/data/strip.h"
 #include "analysis/draw/chart.h"
+#include "analysis/report/films.h"
 #include "base/own.h"
 
 #include <math.h>
+#include <unistd.h>
 
 static const size_t most_elements = 1500000; /* drawn on a page, some 20 MB of it */
 static const double apart = 0.1;             /* fragments of surfaces in space on a page */
-static const size_t most_apart = 50000;   /* elements; of larger meshes gaps take too much room */
-static const size_t most_filmed = 250000; /* elements in frames of films on a page, some 4 MB */
-enum { FRAMES = 4 };                      /* a film has so many times the pictures of a row */
+static const size_t most_apart = 50000; /* elements; of larger meshes gaps take too much room */
+static const double most_filmed = 60e6; /* bytes of all films of a report */
 
 fracas_err fracas_broken_surface_read(fracas_results *results, size_t point, size_t row,
                                       fracas_broken_surface *surface)
@@ -73,7 +74,8 @@ fracas_err fracas_broken_surface_save(const fracas_broken_surface *surface, doub
 
 typedef struct {
     fracas_page *page;
-    size_t drawn, filmed; /* elements so far; a gap takes twice the room of an element */
+    size_t drawn;  /* elements so far; a gap takes twice the room of an element */
+    double filmed; /* bytes so far */
 } gallery;
 
 static double explode_of(const fracas_stored_mesh *mesh)
@@ -92,7 +94,7 @@ static const char *body_of(const fracas_broken_surface *surface)
     return surface->strip ? "body" : "surface";
 }
 
-/* A picture of the row, with files of its own, or a frame between two of them. */
+/* A picture of the row, with files of its own. */
 static fracas_err put_moment(const gallery *to, const fracas_broken_surface *surface, size_t p,
                              size_t picture_number, double time)
 {
@@ -106,17 +108,11 @@ static fracas_err put_moment(const gallery *to, const fracas_broken_surface *sur
                                       .width = FRACAS_CHART_NARROW,
                                       .explode = explode_of(&surface->mesh),
                                       .thickness = surface->thickness};
-    if (picture_number == 0) {
-        fprintf(to->page->out, "<figure class=\"between\" data-time=\"%s\">\n", at.text);
-        TRY(fracas_broken_surface_draw(surface, time, &picture, to->page->out));
-        fputs("</figure>\n", to->page->out);
-        return FRACAS_OK;
-    }
     FRACAS_PRINT(name, "surface-point-%zu-%zu", p, picture_number);
     FRACAS_PRINT(file, "%s.svg", name);
     TRY(fracas_page_make_room(to->page, name));
     TRY(fracas_page_drew(to->page, name));
-    fprintf(to->page->out, "<figure id=\"%s\" data-time=\"%s\">\n", name, at.text);
+    fprintf(to->page->out, "<figure id=\"%s\">\n", name);
     TRY(fracas_broken_surface_draw(surface, time, &picture, to->page->out));
     fputs("<figcaption>", to->page->out);
     fracas_page_links(to->page, name, true, false);
@@ -169,31 +165,54 @@ static void write_interfaces(const fracas_broken_surface *surface, FILE *out)
     }
 }
 
-static fracas_err put_row(gallery *to, const fracas_broken_surface *surface, size_t p,
+/* "film-point-3.html", a page of its own; "" where the report's films are too large with it. */
+static fracas_err put_film(gallery *to, size_t p, size_t row, const char *title, char name[64])
+{
+    FRACAS_CLEARED(fracas_flight) flight = {.corners = 0};
+    double time[FRACAS_FRAMES];
+    snprintf(name, 64, FRACAS_FILM_OF_POINT "%zu.html", p);
+    TRY(fracas_foreign_aside(to->page->foreign, to->page->folder, name));
+    TRY(fracas_flight_read(to->page->analysis->results, p, row, &flight));
+    const double bytes = fracas_flight_film_bytes(&flight, FRACAS_FRAMES);
+    if (to->filmed + bytes > most_filmed) {
+        OWNED char *older = NULL;
+        TRY(fracas_path(&older, "%s/%s", to->page->folder, name));
+        unlink(older);
+        *name = 0;
+        return FRACAS_OK;
+    }
+    to->filmed += bytes;
+    TRY(fracas_flight_moments(&flight, time, FRACAS_FRAMES));
+    return fracas_flight_film(&flight, time, FRACAS_FRAMES, to->page->folder, name, title);
+}
+
+static fracas_err put_row(gallery *to, const fracas_broken_surface *surface, size_t p, size_t row,
                           int64_t replica, bool broken)
 {
-    char name[64], title[256], caption[640], file[80];
-    double time[FRAMES * FRACAS_MOMENTS];
-    const size_t film = FRAMES * FRACAS_MOMENTS * weight_of(&surface->mesh);
-    const bool filmed = to->filmed + film <= most_filmed;
-    const size_t between = filmed ? FRAMES : 1; /* a picture of the row is every so many frames */
-    size_t count = between * FRACAS_MOMENTS;
+    char name[64], title[256], caption[640], file[80], film[64];
+    double time[FRACAS_MOMENTS];
+    size_t count = FRACAS_MOMENTS;
     TRY(fracas_surface_moments(&surface->record, time, &count));
     const fracas_label label = fracas_analysis_label(to->page->analysis, p);
     FRACAS_PRINT(name, "surface-point-%zu", p);
     FRACAS_PRINT(file, "%s.csv", name);
     FRACAS_PRINT(title, "Broken %s%s%.159s", body_of(surface), *label.text ? ", " : "", label.text);
     TRY(write_caption(surface, replica, broken, caption, sizeof caption));
+    TRY(put_film(to, p, row, title, film));
     fracas_page_figure(to->page, name, "row");
-    fputs("<div class=\"small film\">\n", to->page->out);
-    for (size_t k = 0; k < count; k++) {
-        const size_t left = count - 1 - k; /* the last one is a picture of the row */
-        TRY(put_moment(to, surface, p, left % between ? 0 : k / between + 1, time[k]));
-    }
+    fputs("<div class=\"small pictures\">\n", to->page->out);
+    for (size_t k = 0; k < count; k++) TRY(put_moment(to, surface, p, k + 1, time[k]));
     fputs("</div>\n", to->page->out);
+    if (*film)
+        fprintf(to->page->out, "<p class=\"film\"><a href=\"%s\">Film of its motion</a></p>\n",
+                film);
+    else
+        fprintf(to->page->out,
+                "<p class=\"film\">Film: <code>fracas picture STUDY --film --point %zu --replica "
+                "%lld</code></p>\n",
+                p, (long long)replica);
     fracas_page_figure_end(to->page, title, caption, name, false, true);
     to->drawn += count * weight_of(&surface->mesh);
-    if (filmed) to->filmed += film;
     fracas_output_file output;
     TRY(fracas_page_make_room(to->page, name));
     TRY(fracas_output_open(to->page->folder, file, &output));
@@ -215,10 +234,9 @@ static fracas_err put_point(gallery *to, size_t p)
         return FRACAS_OK;
     }
     FRACAS_CLEARED(fracas_broken_surface) surface = {.thickness = 0};
-    TRY(fracas_broken_surface_read(to->page->analysis->results, p,
-                                   broken ? statistics->broken_row : statistics->typical_row,
-                                   &surface));
-    return put_row(to, &surface, p, replica, broken);
+    const size_t row = broken ? statistics->broken_row : statistics->typical_row;
+    TRY(fracas_broken_surface_read(to->page->analysis->results, p, row, &surface));
+    return put_row(to, &surface, p, row, replica, broken);
 }
 
 /* Meshes come with study.h5. */
@@ -245,8 +263,9 @@ fracas_err fracas_section_surfaces(fracas_page *page)
     fputs("<p>One realization of each point, the first that ended FRAGMENTED, as it was before any "
           "motion; a bar with periodic ends is a circle. Strong lines: broken interfaces; faint "
           "ones: cracked, not yet broken. Fragments have tints by which neighbours differ; orange: "
-          "dust, of one element (surfaces: or two). Others: <code>fracas picture STUDY</code>; how "
-          "they move: <code>fracas replay STUDY POINT/REPLICA --film FILE.html</code>.</p>\n",
+          "dust, of one element (surfaces: or two). Others: <code>fracas picture STUDY</code>; "
+          "computed again, with its stresses: <code>fracas replay STUDY POINT/REPLICA --film "
+          "FILE.html</code>.</p>\n",
           page->out);
     for (size_t p = 0; p < npoints; p++)
         if (fracas_analysis_draws(page->analysis, p)) TRY(put_point(&to, p));

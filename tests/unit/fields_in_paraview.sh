@@ -1,5 +1,5 @@
 # ctest-labels: storm
-# ParaView (5.11, Debian's) opens, by their names alone, the series of a replay and of `fracas picture --vtk`: times, cells and arrays of
+# ParaView (5.11, Debian's) opens, by their names alone, the series of a replay and of `fracas export --vtk`: times, cells and arrays of
 # every model.
 . tests/support/campaigns.sh
 
@@ -8,7 +8,7 @@ for model in bar ring membrane shell; do
     "$fracas" init $model > $model.yaml
     expect 0 "$fracas" run --no-report $model.yaml --study $model --quiet
     expect 0 "$fracas" replay $model 0/1 --fields fields-$model --every 500ns
-    case $model in membrane | shell) expect 0 "$fracas" picture $model --vtk --times 3 -o fields-cracks-of-$model ;; esac
+    case $model in membrane | shell) expect 0 "$fracas" export $model --vtk --times 3 --to fields-flights-of-$model ;; esac
 done
 
 cat > look.py <<'END'

@@ -1,5 +1,5 @@
 # ctest-labels: ci
-# VTK reads what `fracas picture --vtk` writes, and finds the numbers of the study.
+# VTK reads what `fracas export --vtk` writes, and finds the numbers of the study.
 . tests/support/campaigns.sh
 
 cat > plate.yaml <<'END'
@@ -19,7 +19,7 @@ replicas: 2
 output: {interfaces: true}
 END
 expect 0 "$fracas" run --no-report plate.yaml --study plate
-for point in 0 1; do expect 0 "$fracas" picture plate --point $point --replica 1 --times 3 --vtk -o grids; done
+expect 0 "$fracas" export plate --vtk --replica 1 --times 3 --to grids
 
 /usr/bin/python3 - <<'END' || fail "VTK does not read the study's numbers"
 import json
@@ -27,36 +27,42 @@ import h5py, numpy as np, vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
 def read(part, point, k):
-    name = f"grids/surface-point-{point}-replica-1-{part}-{k}.hdf"
+    name = f"grids/point-{point}-replica-1-{part}-{k}.hdf"
     reader = vtk.vtkHDFReader()
     assert reader.CanReadFile(name)
     reader.SetFileName(name)
     reader.Update()
     grid = reader.GetOutput()
-    cells = grid.GetCellData()
-    return (vtk_to_numpy(grid.GetPoints().GetData()), vtk_to_numpy(grid.GetCells().GetConnectivityArray()), grid.GetCellType(0),
-            {cells.GetArrayName(a): vtk_to_numpy(cells.GetArray(a)) for a in range(cells.GetNumberOfArrays())})
+    arrays = lambda data: {data.GetArrayName(a): vtk_to_numpy(data.GetArray(a)) for a in range(data.GetNumberOfArrays())}
+    corners = vtk_to_numpy(grid.GetCells().GetConnectivityArray())
+    assert (corners == np.arange(grid.GetNumberOfPoints())).all()  # cells have nodes of their own
+    return vtk_to_numpy(grid.GetPoints().GetData()), grid.GetCellType(0), arrays(grid.GetCellData()), arrays(grid.GetPointData())
 
 same = lambda a, b: np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
 study = h5py.File("plate/study.h5")
 rows = lambda what, n: slice(study[what + "offset"][n], study[what + "offset"][n + 1])
 for point in 0, 1:
     row, corners = 2 * point + 1, (3, 6)[point]
-    series = json.load(open(f"grids/surface-point-{point}-replica-1-cracks.hdf.series"))["files"]
+    series = json.load(open(f"grids/point-{point}-replica-1-interfaces.hdf.series"))["files"]
     interface = {name: study["interface/" + name][rows("interface/", row)] for name in ("strength", "damage", "onset_time", "break_time")}
+    start = study["mesh/node_position"][rows("mesh/node_", point)]
+    element, edge = (study[f"mesh/{of}_node"][rows(f"mesh/{of}_", point)] for of in ("element", "interface"))
     for k, one in enumerate(series, 1):
-        nodes, corner, kind, cell = read("cracks", point, k)
-        assert one["name"] == f"surface-point-{point}-replica-1-cracks-{k}.hdf"
-        assert same(nodes, study["mesh/node_position"][rows("mesh/node_", point)]) and kind == (3, 21)[point]
-        assert same(corner, study["mesh/interface_node"][rows("mesh/interface_", point)][:, :2 + point].ravel())
+        nodes, kind, cell, _ = read("interfaces", point, k)
+        assert one["name"] == f"point-{point}-replica-1-interfaces-{k}.hdf" and kind == (3, 21)[point]
         for name, values in interface.items():
             assert same(cell["damage_at_end" if name == "damage" else name], values), name
         state = (interface["onset_time"] <= one["time"]) * 1 + (interface["break_time"] <= one["time"])
         assert same(cell["state"], state)
-        nodes, corner, kind, cell = read("fragments", point, k)
-        assert same(nodes, study["mesh/node_position"][rows("mesh/node_", point)]) and kind == (5, 22)[point]
-        assert same(corner, study["mesh/element_node"][rows("mesh/element_", point)][:, :corners].ravel())
+        body, kind, cell, at = read("body", point, k)
+        moved = at["displacement"]
+        assert kind == (5, 22)[point] and abs(body - moved - start[element[:, :corners].ravel()]).max() < 1e-15
+        # An interface is between where its elements have gone, which are apart by no more than they have moved.
+        assert abs(nodes - start[edge[:, :2 + point].ravel()]).max() <= abs(moved).max() + 1e-15
         assert same(np.bincount(cell["fragment"])[cell["fragment"]], cell["elements"])
+        weight = study["fragment/mass"][rows("fragment/", row)].sum()
+        whole = np.unique(np.stack([cell["fragment"], cell["fragment_mass"]]), axis=1)[1].sum()
+        assert abs(whole / weight - 1) < 1e-12 and at["velocity"].shape == moved.shape
     assert one["time"] == study["realization/end_time"][row] and (state == 2).any() and (state == 0).any()
     sizes = np.sort(np.bincount(cell["fragment"]))
     assert len(sizes) > 3 and same(sizes, np.sort(study["fragment/elements"][rows("fragment/", row)]))

@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/data/flight.h"
+
+#include "analysis/data/chain.h"
+#include "analysis/data/columns.h"
+#include "base/own.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the fragments of the end ---- */
+
+static const double *node_of(const fracas_flight *flight, size_t e, size_t corner)
+{
+    return flight->mesh.node[flight->mesh.element[e].node[corner]].position;
+}
+
+/* A rule of degree 4 (Strang and Fix): area coordinates of a point, and its weight. */
+typedef struct {
+    double at[3], weight;
+} spot;
+
+enum { SPOTS = 6 };
+static const spot rule[SPOTS] = {
+    {{0.108103018168070, 0.445948490915965, 0.445948490915965}, 0.223381589678011},
+    {{0.445948490915965, 0.108103018168070, 0.445948490915965}, 0.223381589678011},
+    {{0.445948490915965, 0.445948490915965, 0.108103018168070}, 0.223381589678011},
+    {{0.816847572980459, 0.091576213509771, 0.091576213509771}, 0.109951743655322},
+    {{0.091576213509771, 0.816847572980459, 0.091576213509771}, 0.109951743655322},
+    {{0.091576213509771, 0.091576213509771, 0.816847572980459}, 0.109951743655322},
+};
+
+/* Place at a spot of a triangle, and its derivatives along the second and third coordinate. */
+static void place_at(const fracas_flight *flight, size_t e, const double l[3], double x[3],
+                     double along[2][3])
+{
+    double value[6] = {l[0], l[1], l[2]}, slope[2][6] = {{-1, 1, 0}, {-1, 0, 1}};
+    if (flight->corners == 6)
+        for (int k = 0; k < 3; k++) { /* vertices, then the middles from k to k + 1 */
+            const int next = (k + 1) % 3;
+            for (int d = 0; d < 2; d++) {
+                const double of[3] = {-1, d == 0, d == 1};
+                slope[d][k] = (4 * l[k] - 1) * of[k];
+                slope[d][3 + k] = 4 * (of[k] * l[next] + l[k] * of[next]);
+            }
+            value[k] = l[k] * (2 * l[k] - 1);
+            value[3 + k] = 4 * l[k] * l[next];
+        }
+    memset(x, 0, 3 * sizeof *x);
+    memset(along, 0, 2 * sizeof *along);
+    for (size_t k = 0; k < flight->corners; k++)
+        for (int i = 0; i < 3; i++) {
+            const double node = node_of(flight, e, k)[i];
+            x[i] += value[k] * node;
+            for (int d = 0; d < 2; d++) along[d][i] += slope[d][k] * node;
+        }
+}
+
+static void cross(const double a[3], const double b[3], double c[3])
+{
+    for (int i = 0; i < 3; i++)
+        c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+static double length_of(const double v[3])
+{
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* Adds the integrals of 1 and of the place over an element. */
+static void integrate(const fracas_flight *flight, size_t e, double *whole, double sum[3])
+{
+    if (flight->corners == 2) {
+        const double *a = node_of(flight, e, 0), *b = node_of(flight, e, 1);
+        const double length = length_of((double[3]){b[0] - a[0], b[1] - a[1], b[2] - a[2]});
+        *whole += length;
+        for (int i = 0; i < 3; i++) sum[i] += length * (a[i] + b[i]) / 2;
+        return;
+    }
+    for (int k = 0; k < SPOTS; k++) {
+        double x[3], along[2][3], normal[3];
+        place_at(flight, e, rule[k].at, x, along);
+        cross(along[0], along[1], normal);
+        const double area = rule[k].weight * length_of(normal) / 2;
+        *whole += area;
+        for (int i = 0; i < 3; i++) sum[i] += area * x[i];
+    }
+}
+
+/* A fragment may go through the seam of a bar with periodic ends. */
+static void find_seam(fracas_flight *flight)
+{
+    const uint32_t *of = flight->piece_of;
+    if (!(flight->period > 0) || flight->record.nfragment < 2) return;
+    while (of[flight->mesh.nelements - 1] == 0 && of[flight->head] == 0) flight->head++;
+}
+
+/* The place of that fragment is behind the end of the bar, or in front of its start: behind it. */
+static void put_behind(fracas_flight *flight)
+{
+    fracas_fragment *f = &flight->record.fragment[0];
+    if (flight->head == 0 || f->position[0] > flight->piece[0].centre[0] - flight->period / 2)
+        return;
+    f->position[0] += flight->period * (1 + flight->rate * flight->record.end_time);
+    f->velocity[0] += flight->period * flight->rate;
+}
+
+static fracas_err find_centres(fracas_flight *flight)
+{
+    OWNED double *whole = calloc(flight->record.nfragment + 1, sizeof *whole);
+    if (!whole) return fracas_no_memory("the fragments of a realization");
+    for (size_t e = 0; e < flight->mesh.nelements; e++) {
+        const size_t f = flight->piece_of[e];
+        const double before = whole[f];
+        integrate(flight, e, &whole[f], flight->piece[f].centre);
+        if (e < flight->head) flight->piece[f].centre[0] += flight->period * (whole[f] - before);
+    }
+    for (size_t f = 0; f < flight->record.nfragment; f++)
+        for (int i = 0; i < 3; i++) flight->piece[f].centre[i] /= whole[f];
+    return FRACAS_OK;
+}
+
+static void find_loose(fracas_flight *flight)
+{
+    const fracas_record *record = &flight->record;
+    for (size_t f = 0; f < record->nfragment; f++) flight->piece[f].loose = NAN;
+    for (size_t i = 0; i < flight->mesh.ninterfaces; i++) {
+        const int64_t *element = flight->mesh.interface[i].element;
+        const uint32_t a = flight->piece_of[element[0]], b = flight->piece_of[element[1]];
+        if (a == b) continue;
+        flight->piece[a].loose = fmax(flight->piece[a].loose, record->interface[i].break_time);
+        flight->piece[b].loose = fmax(flight->piece[b].loose, record->interface[i].break_time);
+    }
+    for (size_t f = 0; f < record->nfragment; f++)
+        if (isnan(flight->piece[f].loose)) flight->piece[f].loose = record->end_time;
+}
+
+static fracas_err find_pieces(fracas_flight *flight)
+{
+    FRACAS_CLEARED(fracas_surface_state) end = {0};
+    const fracas_record *record = &flight->record;
+    TRY(fracas_surface_state_create(&flight->mesh, record, INFINITY, &end));
+    bool same = end.nfragments == record->nfragment;
+    for (size_t f = 0; same && f < end.nfragments; f++)
+        same = end.elements[f] == (size_t)record->fragment[f].elements;
+    if (!same)
+        return fracas_fail(FRACAS_DAMAGED,
+                           "the %zu fragments of a realization are not those between its broken "
+                           "interfaces; `fracas verify` checks the study",
+                           record->nfragment);
+    flight->piece_of = end.fragment;
+    end.fragment = NULL;
+    flight->piece = calloc(record->nfragment + 1, sizeof *flight->piece);
+    if (!flight->piece) return fracas_no_memory("the fragments of a realization");
+    find_seam(flight);
+    TRY(find_centres(flight));
+    put_behind(flight);
+    find_loose(flight);
+    return FRACAS_OK;
+}
+
+static fracas_err place_chain(const fracas_point_table *table, size_t point, fracas_flight *flight)
+{
+    const bool ring = fracas_columns_real(table, point, "geometry.radius") > 0;
+    TRY(fracas_chain_mesh(&flight->record, ring, &flight->mesh));
+    const fracas_stored_mesh *mesh = &flight->mesh;
+    if (ring || mesh->ninterfaces < mesh->nelements) return FRACAS_OK;
+    flight->period = mesh->node[mesh->nelements].position[0];
+    flight->rate = fracas_columns_real(table, point, "loading.rate");
+    return FRACAS_OK;
+}
+
+fracas_err fracas_flight_read(fracas_results *results, size_t point, size_t row,
+                              fracas_flight *flight)
+{
+    size_t of;
+    int64_t replica;
+    *flight = (fracas_flight){0};
+    fracas_record_init(&flight->record);
+    TRY(fracas_results_mesh(results, point, &flight->mesh));
+    TRY(fracas_results_record(results, row, FRACAS_READ_INTERFACES | FRACAS_READ_FRAGMENTS, &of,
+                              &replica, &flight->record));
+    if (flight->record.ninterface == 0) {
+        flight->mesh.nelements = 0;
+        return FRACAS_OK;
+    }
+    flight->corners = 2;
+    flight->ends = 1;
+    if (flight->mesh.nelements > 0) {
+        flight->corners = flight->mesh.element[0].node[3] >= 0 ? 6 : 3;
+        flight->ends = flight->corners == 6 ? 3 : 2;
+    } else TRY(place_chain(fracas_results_points(results), point, flight));
+    return find_pieces(flight);
+}
+
+void fracas_flight_clear(fracas_flight *flight)
+{
+    fracas_stored_mesh_clear(&flight->mesh);
+    fracas_record_clear(&flight->record);
+    free(flight->piece_of);
+    free(flight->piece);
+    *flight = (fracas_flight){0};
+}
+
+/* ---- a time ---- */
+
+/* v turned by the vector `turn` [rad]: Rodrigues' formula. */
+static void rotate(const double turn[3], double v[3])
+{
+    const double angle = length_of(turn);
+    if (!(angle > 0)) return;
+    const double c = cos(angle), s = sin(angle),
+                 axis[3] = {turn[0] / angle, turn[1] / angle, turn[2] / angle};
+    const double along = axis[0] * v[0] + axis[1] * v[1] + axis[2] * v[2];
+    double across[3];
+    cross(axis, v, across);
+    for (int i = 0; i < 3; i++) v[i] = c * v[i] + s * across[i] + (1 - c) * along * axis[i];
+}
+
+/* How a node of a fragment has moved, and its velocity  (fragments.10). */
+static void move(const fracas_flight *flight, size_t f, double time, const double from[3],
+                 double displacement[3], double velocity[3])
+{
+    const fracas_flight_piece *piece = &flight->piece[f];
+    const fracas_fragment *end = &flight->record.fragment[f];
+    const double then = fmax(time, piece->loose), left = flight->record.end_time - then;
+    const double share = time < piece->loose ? time / piece->loose : 1;
+    double arm[3], turned[3], turn[3];
+    for (int i = 0; i < 3; i++) {
+        turned[i] = arm[i] = from[i] - piece->centre[i];
+        turn[i] = end->spin[i] * (then - piece->loose);
+    }
+    rotate(turn, turned);
+    cross(end->spin, turned, velocity);
+    for (int i = 0; i < 3; i++) {
+        const double moved = end->position[i] - end->velocity[i] * left - piece->centre[i];
+        displacement[i] = share * moved + (turned[i] - arm[i]);
+        velocity[i] = time < piece->loose ? moved / piece->loose : velocity[i] + end->velocity[i];
+    }
+}
+
+static fracas_err weigh(const fracas_flight *flight, fracas_flight_instant *now)
+{
+    OWNED bool *seen = calloc(flight->record.nfragment + 1, sizeof *seen);
+    now->mass = calloc(now->state.nfragments + 1, sizeof *now->mass);
+    if (!seen || !now->mass) return fracas_no_memory("the fragments of a realization");
+    for (size_t e = 0; e < flight->mesh.nelements; e++) {
+        const size_t f = flight->piece_of[e];
+        if (!seen[f]) now->mass[now->state.fragment[e]] += flight->record.fragment[f].mass;
+        seen[f] = true;
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_flight_at(const fracas_flight *flight, double time, fracas_flight_instant *now)
+{
+    const size_t corners = flight->corners, nodes = flight->mesh.nelements * corners;
+    *now = (fracas_flight_instant){0};
+    TRY(fracas_surface_state_create(&flight->mesh, &flight->record, time, &now->state));
+    TRY(weigh(flight, now));
+    now->place = malloc((nodes + 1) * sizeof *now->place);
+    now->displacement = malloc((nodes + 1) * sizeof *now->displacement);
+    now->velocity = malloc((nodes + 1) * sizeof *now->velocity);
+    if (!now->place || !now->displacement || !now->velocity)
+        return fracas_no_memory("a realization as it moves");
+    for (size_t k = 0; k < nodes; k++) {
+        const double *from = node_of(flight, k / corners, k % corners);
+        move(flight, flight->piece_of[k / corners], time, from, now->displacement[k],
+             now->velocity[k]);
+        if (k / corners < flight->head) {
+            now->displacement[k][0] -= flight->period * flight->rate * time;
+            now->velocity[k][0] -= flight->period * flight->rate;
+        }
+        for (int i = 0; i < 3; i++) now->place[k][i] = from[i] + now->displacement[k][i];
+    }
+    return FRACAS_OK;
+}
+
+void fracas_flight_instant_clear(fracas_flight_instant *now)
+{
+    fracas_surface_state_clear(&now->state);
+    free(now->mass);
+    free(now->place);
+    free(now->displacement);
+    free(now->velocity);
+    *now = (fracas_flight_instant){0};
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+fracas_err fracas_flight_moments(const fracas_flight *flight, double *time, size_t count)
+{
+    size_t shares = count / 2;
+    TRY(fracas_surface_moments(&flight->record, time, &shares));
+    const size_t even = count - shares; /* the end is among the shares */
+    for (size_t k = 0; k < even; k++)
+        time[shares + k] = flight->record.end_time * (double)k / (double)even;
+    qsort(time, count, sizeof *time, by_value);
+    return FRACAS_OK;
+}

@@ -1,0 +1,214 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "analysis/export/grids.h"
+
+#include "analysis/analysis.h"
+
+#include "analysis/data/output.h"
+#include "analysis/data/text.h"
+#include "analysis/summary/study.h"
+#include "base/own.h"
+#include "campaigns/store/vtk.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- one time ---- */
+
+static const uint8_t
+    element_shape[] =
+        {[2] = FRACAS_VTK_LINE, [3] = FRACAS_VTK_TRIANGLE, [6] = FRACAS_VTK_QUADRATIC_TRIANGLE},
+    interface_shape[] = {
+        [1] = FRACAS_VTK_VERTEX, [2] = FRACAS_VTK_LINE, [3] = FRACAS_VTK_QUADRATIC_LINE};
+
+/* 0, 1, 2, ...: cells have nodes of their own. */
+static void count_up(int64_t *number, size_t count)
+{
+    for (size_t k = 0; k < count; k++) number[k] = (int64_t)k;
+}
+
+static fracas_err write_body(const fracas_flight *flight, const fracas_flight_instant *now,
+                             const char *path)
+{
+    const size_t n = flight->mesh.nelements, nodes = n * flight->corners;
+    OWNED int64_t *whole = malloc((nodes + 2 * n + 1) * sizeof *whole);
+    OWNED double *mass = malloc((n + 1) * sizeof *mass);
+    if (!whole || !mass) return fracas_no_memory("a grid");
+    int64_t *number = whole + nodes, *elements = number + n;
+    count_up(whole, nodes);
+    for (size_t e = 0; e < n; e++) {
+        number[e] = now->state.fragment[e];
+        elements[e] = (int64_t)now->state.elements[number[e]];
+        mass[e] = now->mass[number[e]];
+    }
+    const fracas_vtk_array of_cells[] = {
+        {"fragment", NULL, number}, {"elements", NULL, elements}, {"fragment_mass", mass, NULL}};
+    const fracas_vtk_array of_points[] = {
+        {"displacement", (const double *)now->displacement, NULL, .components = 3},
+        {"velocity", (const double *)now->velocity, NULL, .components = 3}};
+    const fracas_vtk_grid grid = {.npoints = nodes,
+                                  .point = (const double(*)[3])now->place,
+                                  .ncells = n,
+                                  .corners = flight->corners,
+                                  .corner = whole,
+                                  .shape = element_shape[flight->corners],
+                                  .narrays = FRACAS_COUNT(of_cells),
+                                  .array = of_cells,
+                                  .npoint_arrays = FRACAS_COUNT(of_points),
+                                  .point_array = of_points};
+    return fracas_vtk_write(path, &grid);
+}
+
+/* Where an element has a node of an interface; the last one of a chain, and the first one behind
+ * it, share a seam without a common node. */
+static const double *side_of(const fracas_flight *flight, const fracas_flight_instant *now,
+                             size_t i, size_t end, int side)
+{
+    const fracas_stored_interface *of = &flight->mesh.interface[i];
+    const size_t e = (size_t)of->element[side], corners = flight->corners;
+    size_t k = 0;
+    while (k < corners && flight->mesh.element[e].node[k] != of->node[end]) k++;
+    return now->place[e * corners + (k < corners ? k : 0)];
+}
+
+/* Half-way between both sides; at the end of a periodic bar, whose other side is at its start. */
+static void place_end(const fracas_flight *flight, const fracas_flight_instant *now, size_t i,
+                      size_t end, double place[3])
+{
+    const double *a = side_of(flight, now, i, end, 0), *b = side_of(flight, now, i, end, 1);
+    if (flight->period > 0 && i + 1 == flight->mesh.nelements) b = a;
+    for (int k = 0; k < 3; k++) place[k] = (a[k] + b[k]) / 2;
+}
+
+static fracas_err write_interfaces(const fracas_flight *flight, const fracas_flight_instant *now,
+                                   const char *path)
+{
+    const size_t n = flight->mesh.ninterfaces, nodes = n * flight->ends;
+    OWNED int64_t *whole = malloc((nodes + n + 1) * sizeof *whole);
+    OWNED double *real = malloc((4 * n + 1) * sizeof *real);
+    OWNED double(*place)[3] = malloc((nodes + 1) * sizeof *place);
+    if (!whole || !real || !place) return fracas_no_memory("a grid");
+    int64_t *state = whole + nodes;
+    count_up(whole, nodes);
+    for (size_t k = 0; k < nodes; k++)
+        place_end(flight, now, k / flight->ends, k % flight->ends, place[k]);
+    for (size_t i = 0; i < n; i++) {
+        const fracas_interface_row *row = &flight->record.interface[i];
+        state[i] = now->state.interface[i];
+        real[i] = row->strength;
+        real[n + i] = row->damage;
+        real[2 * n + i] = row->onset_time;
+        real[3 * n + i] = row->break_time;
+    }
+    const fracas_vtk_array array[] = {{"state", NULL, state},
+                                      {"strength", real, NULL},
+                                      {"damage_at_end", real + n, NULL},
+                                      {"onset_time", real + 2 * n, NULL},
+                                      {"break_time", real + 3 * n, NULL}};
+    const fracas_vtk_grid grid = {.npoints = nodes,
+                                  .point = (const double(*)[3])place,
+                                  .ncells = n,
+                                  .corners = flight->ends,
+                                  .corner = whole,
+                                  .shape = interface_shape[flight->ends],
+                                  .narrays = FRACAS_COUNT(array),
+                                  .array = array};
+    return fracas_vtk_write(path, &grid);
+}
+
+/* ---- all times ---- */
+
+static const char *const parts[] = {"body", "interfaces"};
+
+static fracas_err write_time(const fracas_flight *flight, double time, size_t number,
+                             const char *folder, const char *stem)
+{
+    FRACAS_CLEARED(fracas_flight_instant) now = {.mass = NULL};
+    TRY(fracas_flight_at(flight, time, &now));
+    for (int p = 0; p < 2; p++) {
+        OWNED char *path = NULL;
+        TRY(fracas_path(&path, "%s/%s-%s-%zu.hdf", folder, stem, parts[p], number));
+        TRY(p ? write_interfaces(flight, &now, path) : write_body(flight, &now, path));
+    }
+    return FRACAS_OK;
+}
+
+fracas_err fracas_grids_write(const fracas_flight *flight, const double *time, size_t count,
+                              const char *folder, const char *stem, FILE *out)
+{
+    for (size_t k = 0; k < count; k++) TRY(write_time(flight, time[k], k + 1, folder, stem));
+    for (int p = 0; p < 2; p++) {
+        char name[160];
+        FRACAS_PRINT(name, "%s-%s", stem, parts[p]);
+        TRY(fracas_vtk_write_series(folder, name, time, count));
+        fprintf(out, "%s/%s.hdf.series: %zu times\n", folder, name, count);
+    }
+    return FRACAS_OK;
+}
+
+/* ---- a study ---- */
+
+static fracas_err check(const fracas_analysis *analysis, const fracas_grids_request *request)
+{
+    const size_t npoints = analysis->table->npoints;
+    if (!analysis->header.interfaces)
+        return fracas_fail(FRACAS_USAGE,
+                           "the study keeps no interfaces, by which its cracks are known: set "
+                           "`output: {interfaces: true}` and run it into another folder, or see "
+                           "`fracas replay --fields`");
+    if (fracas_results_partial(analysis->results))
+        return fracas_fail(FRACAS_INTERRUPTED,
+                           "grids need study.h5, and the study has none yet: finish its run first");
+    if (request->point != SIZE_MAX && request->point >= npoints)
+        return fracas_fail(FRACAS_USAGE, "there is no point %zu: the study has %zu of them, from 0",
+                           request->point, npoints);
+    return FRACAS_OK;
+}
+
+/* One of a point that has it, or the one of its report; -1: none of them broke. */
+static int64_t replica_of(const fracas_analysis *analysis, size_t p, int64_t wanted)
+{
+    const fracas_point_statistics *of = &analysis->point[p];
+    if (wanted >= 0) return wanted;
+    return of->broken_replica >= 0 ? of->broken_replica : of->typical_replica;
+}
+
+static fracas_err write_realization(const fracas_analysis *analysis, size_t p, int64_t replica,
+                                    const fracas_grids_request *request, FILE *out)
+{
+    FRACAS_CLEARED(fracas_flight) flight = {.corners = 0};
+    OWNED double *time = malloc((request->count + 1) * sizeof *time);
+    char stem[64];
+    size_t row;
+    if (!time) return fracas_no_memory("the times of grids");
+    TRY(fracas_results_find(analysis->results, p, replica, &row));
+    if (row == fracas_results_realizations(analysis->results))
+        return fracas_fail(FRACAS_USAGE,
+                           "there is no replica %" PRId64 ": point %zu has %" PRId64
+                           " of them, from 0",
+                           replica, p, analysis->table->point[p].replicas);
+    TRY(fracas_flight_read(analysis->results, p, row, &flight));
+    if (flight.mesh.nelements == 0)
+        return fracas_fail(FRACAS_USAGE,
+                           "replica %" PRId64 " of point %zu ended %s and left no elements; choose "
+                           "another",
+                           replica, p, fracas_outcome_name(flight.record.outcome));
+    if (request->time) memcpy(time, request->time, request->count * sizeof *time);
+    else TRY(fracas_flight_moments(&flight, time, request->count));
+    FRACAS_PRINT(stem, "point-%zu-replica-%" PRId64, p, replica);
+    return fracas_grids_write(&flight, time, request->count, request->folder, stem, out);
+}
+
+fracas_err fracas_export_grids(const fracas_analysis *analysis, const fracas_grids_request *request,
+                               FILE *out)
+{
+    const bool all = request->point == SIZE_MAX;
+    TRY(check(analysis, request));
+    TRY(fracas_output_folder(request->folder));
+    for (size_t p = all ? 0 : request->point;
+         p < (all ? analysis->table->npoints : request->point + 1); p++) {
+        const int64_t replica = replica_of(analysis, p, request->replica);
+        if (replica >= 0) TRY(write_realization(analysis, p, replica, request, out));
+    }
+    return FRACAS_OK;
+}
