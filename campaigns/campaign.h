@@ -33,6 +33,7 @@ enum { FRACAS_MOST_INSTANTS = 10000 }; /* at which fields of a realization are w
 typedef struct {
     const fracas_kind *of;          /* which realizations */
     const fracas_numbers *replicas; /* where they are listed */
+    const fracas_kind *by;          /* by which number they are ordered; NULL: fragments */
     double every;                   /* s, from 0 on; 0: at onset, peak and end */
 } fracas_wanted_fields;
 

@@ -154,10 +154,10 @@ static fracas_err replay(const fracas_arguments *arguments)
         return FRACAS_OK;
     }
     printf("%s %zu/%" PRId64
-           ": computed again, the same bytes: %zu fragments, %zu rows of history, "
+           ": computed again, the same bytes: %zu fragment%s, %zu rows of history, "
            "%zu interfaces\n",
-           arguments->operand, point, replica, record->nfragment, record->nhistory,
-           record->ninterface);
+           arguments->operand, point, replica, record->nfragment, record->nfragment == 1 ? "" : "s",
+           record->nhistory, record->ninterface);
     return FRACAS_OK;
 }
 

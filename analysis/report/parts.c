@@ -124,8 +124,11 @@ static bool offered(const fracas_chart *chart, int i)
 /* One drawing a choice of axes; which is seen is for the style sheet to say, without a script. */
 static void put_drawings(fracas_page *page, const fracas_chart *chart)
 {
+    const char *many = chart->columns > 0 ? "multiples" : ""; /* these a narrow window scrolls */
     if (!chart->offers) {
+        fprintf(page->out, "<div class=\"%s\">\n", many);
         fracas_chart_write(chart, false, page->out);
+        fputs("</div>\n", page->out);
         return;
     }
     for (int i = 0; i < DRAWINGS; i++)
@@ -138,7 +141,7 @@ static void put_drawings(fracas_page *page, const fracas_chart *chart)
                     drawings[i].label);
     for (int i = 0; i < DRAWINGS; i++) {
         if (!offered(chart, i)) continue;
-        fprintf(page->out, "<div class=\"drawing %s\">\n", drawings[i].class);
+        fprintf(page->out, "<div class=\"drawing %s %s\">\n", drawings[i].class, many);
         fracas_chart_write_axes(chart, drawings[i].axes, page->out);
         fputs("</div>\n", page->out);
     }

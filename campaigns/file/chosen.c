@@ -4,6 +4,7 @@
 #include "base/param.h"
 
 #include <inttypes.h>
+#include <math.h>
 #include <stdlib.h>
 
 /* Traits of a kind; NULL: nothing is chosen. */
@@ -36,19 +37,29 @@ static size_t choose_listed(const fracas_wanted_fields *wanted, fracas_candidate
     return count;
 }
 
-static int by_fragments(const void *a, const void *b)
+/* Those without a number, as an onset that never came, are the last. */
+static int by_value(const void *a, const void *b)
 {
     const fracas_candidate *x = a, *y = b;
-    if (x->fragments != y->fragments) return x->fragments < y->fragments ? -1 : 1;
+    if (isnan(x->value) != isnan(y->value)) return isnan(x->value) ? 1 : -1;
+    if (x->value < y->value || x->value > y->value) return x->value < y->value ? -1 : 1;
     return (x->replica > y->replica) - (x->replica < y->replica);
+}
+
+/* Sorts them; returns how many have a number, all where none has. */
+static size_t sort(fracas_candidate *candidate, size_t n)
+{
+    size_t count = 0;
+    qsort(candidate, n, sizeof *candidate, by_value);
+    while (count < n && !isnan(candidate[count].value)) count++;
+    return count ? count : n;
 }
 
 static size_t choose_median(const fracas_wanted_fields *wanted, fracas_candidate *candidate,
                             size_t n, int64_t *chosen)
 {
     (void)wanted;
-    qsort(candidate, n, sizeof *candidate, by_fragments);
-    chosen[0] = candidate[(n - 1) / 2].replica;
+    chosen[0] = candidate[(sort(candidate, n) - 1) / 2].replica;
     return 1;
 }
 
@@ -56,10 +67,10 @@ static size_t choose_extreme(const fracas_wanted_fields *wanted, fracas_candidat
                              size_t n, int64_t *chosen)
 {
     (void)wanted;
-    qsort(candidate, n, sizeof *candidate, by_fragments);
+    const size_t count = sort(candidate, n);
     chosen[0] = candidate[0].replica;
-    if (n == 1) return 1;
-    chosen[1] = candidate[n - 1].replica;
+    if (count == 1) return 1;
+    chosen[1] = candidate[count - 1].replica;
     return 2;
 }
 
@@ -71,17 +82,82 @@ static const fracas_param listed_params[] = {
      offsetof(fracas_wanted_fields, replicas)},
 };
 
+/* ---- by which number ---- */
+
+typedef double number_of(const fracas_record *record);
+
+static double fragments_of(const fracas_record *record)
+{
+    return (double)record->fragments;
+}
+
+static double broken_of(const fracas_record *record)
+{
+    return (double)record->broken;
+}
+
+static double dissipated_of(const fracas_record *record)
+{
+    return record->dissipated;
+}
+
+static double onset_of(const fracas_record *record)
+{
+    return record->onset_time;
+}
+
+static double end_of(const fracas_record *record)
+{
+    return record->end_time;
+}
+
+static double largest_of(const fracas_record *record)
+{
+    double mass = 0;
+    for (size_t f = 0; f < record->nfragment; f++) mass = fmax(mass, record->fragment[f].mass);
+    return mass;
+}
+
+/* Traits: a number_of. */
+static const struct {
+    number_of *of;
+} number_fragments = {fragments_of}, number_broken = {broken_of},
+  number_dissipated = {dissipated_of}, number_onset = {onset_of}, number_end = {end_of},
+  number_largest = {largest_of};
+static const fracas_kind
+    by_fragments = {.name = "fragments",
+                    .doc = "fragments, dust included",
+                    .traits = &number_fragments},
+    by_largest = {.name = "largest",
+                  .doc = "mass of the largest fragment",
+                  .traits = &number_largest},
+    by_broken = {.name = "broken", .doc = "broken interfaces", .traits = &number_broken},
+    by_dissipated = {.name = "dissipated",
+                     .doc = "dissipated energy",
+                     .traits = &number_dissipated},
+    by_onset = {.name = "onset_time", .doc = "time of the first onset", .traits = &number_onset},
+    by_end = {.name = "end_time", .doc = "time of the end", .traits = &number_end};
+static const fracas_kind *const numbers[] = {&by_fragments,  &by_largest, &by_broken,
+                                             &by_dissipated, &by_onset,   &by_end};
+
+static const fracas_param by_params[] = {
+    {FRACAS_ONE_OF("by", numbers, offsetof(fracas_wanted_fields, by),
+                   "number of a realization by which they are ordered")},
+};
+
 static const fracas_kind kind_none = {.name = "none", .doc = "no realization"},
                          kind_first = {.name = "first",
                                        .doc = "of each point the first replica that did not FAIL",
                                        .traits = &first},
                          kind_median = {.name = "median",
                                         .doc = "of each point the replica of the median (of an "
-                                               "even number the lower) number of fragments",
+                                               "even number the lower) number `by`",
+                                        FRACAS_PARAMS(by_params),
                                         .traits = &median},
                          kind_extreme = {.name = "extreme",
-                                         .doc = "of each point the replicas of the fewest and of "
-                                                "the most fragments",
+                                         .doc = "of each point the replicas of the least and of "
+                                                "the greatest number `by`",
+                                         FRACAS_PARAMS(by_params),
                                          .traits = &extreme},
                          kind_listed = {.name = "listed",
                                         .doc = "of each point the replicas of these numbers, but "
@@ -149,6 +225,12 @@ fracas_err fracas_fields_check(const fracas_file *file, const fracas_campaign *c
                              "written: every %.2g s",
                              fields->every, end / fields->every, end, FRACAS_MOST_INSTANTS,
                              end / (0.9 * FRACAS_MOST_INSTANTS));
+}
+
+double fracas_fields_number(const fracas_wanted_fields *wanted, const fracas_record *record)
+{
+    const fracas_kind *by = wanted->by ? wanted->by : &by_fragments;
+    return (*(number_of *const *)by->traits)(record);
 }
 
 bool fracas_fields_wanted(const fracas_wanted_fields *wanted)

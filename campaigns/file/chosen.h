@@ -10,8 +10,13 @@ extern const fracas_section fracas_fields_section;
 
 /* A realization of a point that did not FAIL. */
 typedef struct {
-    int64_t replica, fragments;
+    int64_t replica;
+    double value; /* the number by which they are ordered; NaN: it has none */
 } fracas_candidate;
+
+/* The number of a realization by which `wanted` orders them; fragments where it says nothing. The
+ * record has its fragments. */
+double fracas_fields_number(const fracas_wanted_fields *wanted, const fracas_record *record);
 
 bool fracas_fields_wanted(const fracas_wanted_fields *wanted);
 

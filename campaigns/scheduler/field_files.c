@@ -74,6 +74,8 @@ static fracas_err list_instants(const fracas_fields_request *request, const frac
     qsort(due, count, sizeof *due, by_value);
     for (size_t i = 0; i < count; i++)
         if (i == 0 || due[i] > due[files->count - 1]) due[files->count++] = due[i];
+    const size_t steps = (size_t)stored->steps + 1; /* at which something can be taken */
+    files->most = files->count < steps ? files->count : steps;
     if (files->count > 0) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
                        "the realization never cracked: there is no onset; ask for --at peak,end");
@@ -190,7 +192,7 @@ static fracas_err take(void *context, fracas_batch *batch, const fracas_record *
     fracas_batch_fields(batch, 0, files->fields);
     files->taken[files->ntaken++] = now;
     const fracas_fields_request *request = files->request;
-    if (request->show) TRY(request->show(request->context, files->fields, files->count));
+    if (request->show) TRY(request->show(request->context, files->fields, files->most));
     if (!request->folder) return FRACAS_OK;
     return files->film[0] ? add_instant(files, now) : write_instant(files);
 }
@@ -231,7 +233,7 @@ static fracas_err open_films(fracas_field_files *files)
     for (int part = 0; part < 2; part++) {
         part_grid p;
         TRY(fracas_path(&files->path[part], "%s/%s.vtkhdf", files->request->folder, parts[part]));
-        TRY(fracas_vtk_film_create(files->path[part], make_part(files, part, &p), files->count,
+        TRY(fracas_vtk_film_create(files->path[part], make_part(files, part, &p), files->most,
                                    &files->film[part]));
     }
     return FRACAS_OK;
@@ -267,8 +269,8 @@ static void announce(const fracas_field_files *files, bool evenly, FILE *out)
     }
     const double bytes = sum_bytes(files) - still;
     fprintf(out, "fields: %s%zu instant%s of %s, %s in all, into %s\n", evenly ? "up to " : "",
-            files->count, files->count == 1 ? "" : "s", fracas_size_write(bytes, one),
-            fracas_size_write(bytes * (double)files->count + still, all), files->request->folder);
+            files->most, files->most == 1 ? "" : "s", fracas_size_write(bytes, one),
+            fracas_size_write(bytes * (double)files->most + still, all), files->request->folder);
     fflush(out);
 }
 

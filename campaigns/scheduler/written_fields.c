@@ -22,13 +22,15 @@
 typedef struct {
     size_t n, *first; /* for each point, in `candidate` */
     fracas_candidate *candidate;
+    const fracas_wanted_fields *wanted;
 } candidates;
 
 static fracas_err note(void *context, fracas_result *result)
 {
     candidates *of = context;
     if (result->record.outcome == FRACAS_FAILED) return FRACAS_OK;
-    of->candidate[of->n++] = (fracas_candidate){result->replica, result->record.fragments};
+    of->candidate[of->n++] = (fracas_candidate){result->replica,
+                                                fracas_fields_number(of->wanted, &result->record)};
     of->first[result->point + 1] = of->n;
     return FRACAS_OK;
 }
@@ -141,8 +143,8 @@ static fracas_err write_all(const char *study, const fracas_campaign *campaign,
     OWNED size_t *first = calloc(campaign->npoints + 1, sizeof *first);
     OWNED int64_t *chosen = calloc(most + 1, sizeof *chosen);
     if (!candidate || !chosen || !first) return fracas_no_memory("the realizations of a study");
-    candidates of = {0, first, candidate};
-    TRY(fracas_results_walk(results, 0, note, &of));
+    candidates of = {0, first, candidate, &campaign->fields};
+    TRY(fracas_results_walk(results, FRACAS_READ_FRAGMENTS, note, &of));
     for (size_t p = 0; p < campaign->npoints; p++) {
         if (first[p + 1] < first[p]) first[p + 1] = first[p]; /* all FAILED */
         const size_t count = fracas_fields_choose(&campaign->fields, candidate + first[p],
@@ -181,7 +183,7 @@ static fracas_err count_chosen(const fracas_campaign *campaign, size_t point, si
     OWNED fracas_candidate *candidate = calloc(n + 1, sizeof *candidate);
     OWNED int64_t *chosen = calloc(n + 1, sizeof *chosen);
     if (!candidate || !chosen) return fracas_no_memory("the realizations of a point");
-    for (size_t r = 0; r < n; r++) candidate[r] = (fracas_candidate){(int64_t)r, (int64_t)r};
+    for (size_t r = 0; r < n; r++) candidate[r] = (fracas_candidate){(int64_t)r, (double)r};
     *count = fracas_fields_choose(&campaign->fields, candidate, n, chosen);
     return FRACAS_OK;
 }

@@ -49,4 +49,41 @@ static void none_wants_none(void **state)
     assert_true(fracas_fields_wanted(&first));
 }
 
-TESTS(realizations_are_chosen, none_wants_none)
+static void numbers_order_them(void **state)
+{
+    const fracas_fragment fragment[] = {{.mass = 2}, {.mass = 5}, {.mass = 3}};
+    const fracas_record record = {.fragments = 3,
+                                  .broken = 4,
+                                  .dissipated = 5.5,
+                                  .onset_time = 1e-6,
+                                  .end_time = 2e-6,
+                                  .nfragment = 3,
+                                  .fragment = (fracas_fragment *)fragment};
+    const fracas_kind *median = fracas_fields_section.kinds[2];
+    const double wanted[] = {3, 5, 4, 5.5, 1e-6, 2e-6};
+    fracas_wanted_fields fields = {.of = median};
+    assert_true(fracas_fields_number(&fields, &record) == 3); /* unless it says another */
+    assert_int_equal(median->params[0].nchoices, FRACAS_COUNT(wanted));
+    for (size_t k = 0; k < FRACAS_COUNT(wanted); k++) {
+        fields.by = median->params[0].choices[k];
+        assert_true(fracas_fields_number(&fields, &record) == wanted[k]);
+    }
+}
+
+static void those_without_a_number_are_left_out(void **state)
+{
+    const fracas_wanted_fields median = {.of = fracas_fields_section.kinds[2]},
+                               extreme = {.of = fracas_fields_section.kinds[3]};
+    fracas_candidate some[] = {{0, NAN}, {1, 8}, {2, 7}, {3, NAN}, {4, 9}}, none[] = {{3, NAN}};
+    int64_t chosen[FRACAS_COUNT(some)];
+    assert_int_equal(fracas_fields_choose(&median, some, FRACAS_COUNT(some), chosen), 1);
+    assert_int_equal(chosen[0], 1);
+    assert_int_equal(fracas_fields_choose(&extreme, some, FRACAS_COUNT(some), chosen), 2);
+    assert_int_equal(chosen[0], 2);
+    assert_int_equal(chosen[1], 4);
+    assert_int_equal(fracas_fields_choose(&median, none, 1, chosen), 1);
+    assert_int_equal(chosen[0], 3);
+}
+
+TESTS(numbers_order_them, those_without_a_number_are_left_out, realizations_are_chosen,
+      none_wants_none)
