@@ -82,7 +82,7 @@ typedef struct {
 enum { FRACAS_LOADINGS = 3 }; /* at most, at a point */
 /* Edges of each tag, and sets of nodes, one of a loading, that hold a surface. */
 enum { FRACAS_HOLDERS = FRACAS_EDGES + FRACAS_LOADINGS };
-enum { FRACAS_LOAD_OWN = 11 }; /* numbers of a load's own, at most */
+enum { FRACAS_LOAD_OWN = 14 }; /* numbers of a load's own, at most */
 /* How a surface starts, beside its load. NaN: not given; 0: none. */
 typedef struct {
     double velocity[3];      /* m/s */

@@ -26,7 +26,7 @@ typedef struct {
     int64_t *corner;       /* 0, 1, 2, ...: no two cells have a common point */
     double *due;           /* [count] s, rising: the next step takes them all */
     size_t count, next;    /* next: the first to come */
-    size_t most;           /* that can be taken: there is one a step at most */
+    size_t most;           /* as many can be taken: one a step */
     double *taken;         /* [ntaken] s */
     size_t ntaken;
     char *path[2];                   /* files of all instants, where there are such; NULL ... */

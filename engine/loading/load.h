@@ -21,7 +21,7 @@ typedef enum {
     FRACAS_LOAD_ON_MASS, /* d in m/s2 */
     FRACAS_LOAD_ON_EDGE, /* d in N/m of an edge; of a motion without a unit */
     FRACAS_LOAD_ON_LINE, /* d in N/m of edges inside the body */
-    FRACAS_LOAD_ON_NODES /* motions: d without a unit */
+    FRACAS_LOAD_ON_NODES /* d in N of all its nodes; of a motion without a unit */
 } fracas_load_on;
 
 /* Where a load acts. */
@@ -45,10 +45,13 @@ struct fracas_load {
     fracas_line (*line)(const fracas_loading *loading, const char *section, double size);
     /* Path of a motion, from s(0) = 0 [m]; NULL: a force. */
     double (*path)(const fracas_loading *loading, const fracas_profile *history, double t);
-    /* Motion of nodes: the components that it prescribes, bits 1, 2, 4 for x, y, z; how far x
-     * lies beside its nodes [m], 0: a node there is one; whether they rest. */
-    unsigned (*components)(const fracas_loading *loading, int dimension);
+    /* Load on nodes: how far x lies beside them [m], 0: a node there is one; whether the nearest is
+     * taken where there is none, NULL: never. */
     double (*beside)(const fracas_loading *loading, int dimension, const double x[3]);
+    bool (*point)(const fracas_loading *loading);
+    /* Motion of nodes: the components that it prescribes, bits 1, 2, 4 for x, y, z; whether they
+     * rest. */
+    unsigned (*components)(const fracas_loading *loading, int dimension);
     bool (*rests)(const fracas_loading *loading);
 };
 

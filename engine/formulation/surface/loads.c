@@ -110,14 +110,16 @@ static void fill_area(const forcing *of, size_t e, double *force)
     }
 }
 
+/* Nodes of a triangle. */
+static const double node_place[6][2] = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
+
 /* F_k = sum_l M_kl d(x_l)  (loads.3) */
 static void fill_mass_load(const forcing *of, size_t e, double *force)
 {
-    static const double corner[6][2] = {{0, 0}, {1, 0}, {0, 1}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}};
     const size_t nodes = of->model->surface->corners, dimension = of->dimension;
     for (size_t l = 0; l < nodes; l++) {
         double density[3];
-        const element_point p = point_at(of->model->surface, e, corner[l][0], corner[l][1]);
+        const element_point p = point_at(of->model->surface, e, node_place[l][0], node_place[l][1]);
         density_at(of, &p.at, density);
         for (size_t k = 0; k < nodes; k++)
             for (size_t i = 0; i < dimension; i++)
@@ -231,7 +233,7 @@ static fracas_err count_of(const fracas_model *model, int n, size_t *count)
     int32_t tag;
     *count = surface->nelements;
     TRY(fracas_surface_load_tag(model, n, 0, &tag));
-    if (tag == 0 || fracas_loading_load(&model->spec, n)->on == FRACAS_LOAD_ON_LINE)
+    if (tag == 0 || fracas_loading_load(&model->spec, n)->on != FRACAS_LOAD_ON_EDGE)
         return FRACAS_OK;
     *count = 0;
     for (size_t b = 0; b < surface->nborders; b++) *count += surface->border[b].tag == tag;
@@ -288,6 +290,35 @@ static fracas_err fill_line(const forcing *of, int n)
             const element_point middle = edge_point_at(surface, &edge, 0.5, &speed);
             fill_edge(of, &edge, 0.5 * share, row_of(of, edge.element, middle.at.x));
         }
+    return FRACAS_OK;
+}
+
+/* Adds a share of the density at node k to its force. */
+static void push_node(const forcing *of, size_t e, size_t k, double share)
+{
+    double density[3];
+    const element_point p = point_at(of->model->surface, e, node_place[k][0], node_place[k][1]),
+                        middle = point_at(of->model->surface, e, 1.0 / 3, 1.0 / 3);
+    double *force = row_of(of, e, middle.at.x);
+    density_at(of, &p.at, density);
+    for (size_t i = 0; i < of->dimension; i++) force[of->dimension * k + i] += share * density[i];
+}
+
+/* F_k = A_e F(x_k)/sum of A_e over all nodes of the set in all elements  (loads.12) */
+static fracas_err fill_nodes(const forcing *of, int n)
+{
+    const fracas_surface *surface = of->model->surface;
+    const size_t corners = surface->corners;
+    OWNED bool *on = calloc(surface->nnodes + 1, sizeof *on);
+    double sum = 0;
+    if (!on) return fracas_no_memory("a load of a body");
+    TRY(fracas_surface_nodes_mark(of->model, n, (int)of->dimension, on));
+    for (size_t e = 0; e < surface->nelements; e++)
+        for (size_t k = 0; k < corners; k++)
+            if (on[surface->element[e * corners + k]]) sum += surface->area[e];
+    for (size_t e = 0; e < surface->nelements; e++)
+        for (size_t k = 0; k < corners; k++)
+            if (on[surface->element[e * corners + k]]) push_node(of, e, k, surface->area[e] / sum);
     return FRACAS_OK;
 }
 
@@ -348,7 +379,8 @@ static fracas_err fill_force(const fracas_model *model, fracas_surface_tables *t
     t->force[t->forces++] = n;
     TRY(fracas_load_history(of.loading, &t->history[n]));
     TRY(fracas_surface_load_tag(model, n, 0, &tag));
-    if (of.load->on == FRACAS_LOAD_ON_LINE) TRY(fill_line(&of, n));
+    if (of.load->on == FRACAS_LOAD_ON_NODES) TRY(fill_nodes(&of, n));
+    else if (of.load->on == FRACAS_LOAD_ON_LINE) TRY(fill_line(&of, n));
     else if (tag != 0) fill_edges(&of, tag);
     else fill_elements(&of);
     return check_moves(&of, n);

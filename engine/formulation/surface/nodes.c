@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Nodes of a surface that a load holds, at rest or along its path (docs/theory/loads.md). */
+/* Sets of nodes of a surface: those that a load pushes, or holds, at rest or along its path
+ * (docs/theory/loads.md). */
 #include "engine/formulation/surface/loads.h"
 
 #include "base/own.h"
+#include "engine/mesh/make.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+/* A motion of nodes. */
 static const fracas_load *nodes_of(const fracas_model *model, int n)
 {
     const fracas_load *load = fracas_loading_load(&model->spec, n);
-    return load && load->on == FRACAS_LOAD_ON_NODES ? load : NULL;
+    return load && load->on == FRACAS_LOAD_ON_NODES && load->path ? load : NULL;
 }
 
 int fracas_surface_node_sets(const fracas_model *model, int number[FRACAS_LOADINGS])
@@ -54,6 +57,20 @@ static fracas_err mark_edges(node_set *set, int n)
     return FRACAS_OK;
 }
 
+/* A point without a node takes the nearest, an edge's mean length away at most. */
+static fracas_err mark_nearest(node_set *set)
+{
+    const fracas_surface *surface = set->model->surface;
+    const double *x = surface->node[set->node], most = fracas_mesh_mean_length(surface);
+    set->on[set->node] = true;
+    if (set->nearest <= most) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "%s %s has no node: the nearest to it, at (%.6g, %.6g, %.6g) m, lies %.3g m "
+                       "away, more than an edge, %.3g m: move at_x, at_y, at_z to the body",
+                       set->section, set->loading->type->name, x[0], x[1], x[2], set->nearest,
+                       most);
+}
+
 static fracas_err mark_limits(node_set *set, int dimension)
 {
     const fracas_surface *surface = set->model->surface;
@@ -66,11 +83,22 @@ static fracas_err mark_limits(node_set *set, int dimension)
         set->node = k;
     }
     if (set->nearest == 0) return FRACAS_OK;
+    if (set->load->point && set->load->point(set->loading)) return mark_nearest(set);
     const double *x = surface->node[set->node];
     return fracas_fail(FRACAS_USAGE,
                        "%s %s has no node: the nearest, at (%.6g, %.6g, %.6g) m, lies %.3g m "
                        "beside its limits: widen them, or move a row of nodes there",
                        set->section, set->loading->type->name, x[0], x[1], x[2], set->nearest);
+}
+
+fracas_err fracas_surface_nodes_mark(const fracas_model *model, int n, int dimension, bool *on)
+{
+    node_set set = {.model = model,
+                    .loading = fracas_loading_at(&model->spec, n),
+                    .load = fracas_loading_load(&model->spec, n),
+                    .section = fracas_loading_sections[n].name,
+                    .on = on};
+    return set.load->edge(set.loading, 0) ? mark_edges(&set, n) : mark_limits(&set, dimension);
 }
 
 static fracas_err taken_twice(const node_set *set, const double x[3])
@@ -133,8 +161,7 @@ static fracas_err fill_set(const fracas_model *model, fracas_surface_tables *t, 
                     .load = nodes_of(model, n),
                     .section = fracas_loading_sections[n].name,
                     .on = on};
-    TRY(set.load->edge(set.loading, 0) ? mark_edges(&set, n)
-                                       : mark_limits(&set, t->body->dimension));
+    TRY(fracas_surface_nodes_mark(model, n, t->body->dimension, on));
     return hold(&set, t, edges, own);
 }
 
