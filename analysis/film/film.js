@@ -361,8 +361,17 @@ time.addEventListener("input", () => {
   go(Number(time.value));
 });
 
-/* Motion times 1 to 1000: for bodies whose fragments hardly part. */
-const [motion] = range("Motion", {min: 0, max: 3, step: 0.05, value: 0}, power => {
+/* Motion times 1 to 1000: for bodies whose fragments hardly part. At first as far as nodes are moved apart by a tenth of the body. */
+function visible() {
+  const {moved} = instant(last), low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+  for (let n = 0; n < 3 * nodes; n++) {
+    low[n % 3] = Math.min(low[n % 3], moved[n]);
+    high[n % 3] = Math.max(high[n % 3], moved[n]);
+  }
+  const apart = Math.max(...high.map((h, k) => h - low[k]));
+  return apart > 0 ? Math.round(20 * Math.max(0, Math.min(3, Math.log10(0.2 * still.reach / apart)))) / 20 : 0;
+}
+const [motion] = range("Motion", {min: 0, max: 3, step: 0.05, value: visible()}, power => {
   look.motion = Number((10 ** power).toPrecision(2));
   measure();
   return `× ${look.motion}`;
