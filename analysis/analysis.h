@@ -89,14 +89,14 @@ typedef struct {
     int64_t replica;    /* -1: of each point the one that its report shows */
     size_t count;       /* times */
     const double *time; /* s, of each; NULL: as fracas_flight_moments */
-    const char *folder; /* made if it is not there */
+    const char *folder; /* made if it is not there; NULL: STUDY/vtk */
 } fracas_grids_request;
 
 /* Writes point-P-replica-R-body-K.hdf and -interfaces-K.hdf for K from 1, and their .hdf.series
  * (analysis/export/grids.h), and prints these names on `out`. FRACAS_USAGE, with the choices there
- * are, for an unknown point or replica and a study without interfaces; FRACAS_INTERRUPTED if it is
- * not complete. */
-FRACAS_MUST_USE fracas_err fracas_export_grids(const fracas_analysis *analysis,
+ * are, for an unknown point, a study without interfaces, files of these names in a folder of
+ * somebody's, and where nothing is written; FRACAS_INTERRUPTED if it is not complete. */
+FRACAS_MUST_USE fracas_err fracas_export_grids(const fracas_analysis *analysis, const char *study,
                                                const fracas_grids_request *request, FILE *out);
 
 /* The keys of a point's "statistics" in the JSON summary: the table of docs/formats/summary.md. */

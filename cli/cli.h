@@ -123,6 +123,10 @@ int fracas_cli_columns(const fracas_arguments *arguments);
 FRACAS_MUST_USE fracas_err fracas_cli_times(const fracas_arguments *arguments, size_t *count,
                                             double **time);
 
+/* Sorts such a list, each time once. FRACAS_USAGE for times below 0. */
+FRACAS_MUST_USE fracas_err fracas_cli_times_in_order(const fracas_arguments *arguments,
+                                                     size_t *count, double *time);
+
 /* An instant or interval of a realization [s]: "26us" or "26 us". A campaign file wants the space,
  * a command line is easier without. FRACAS_USAGE for anything else. */
 struct fracas_units;

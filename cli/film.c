@@ -12,8 +12,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static const double most_bytes = 200e6; /* browsers hold it all */
-
 fracas_err fracas_cli_film_open(const char *path, FILE *out, fracas_cli_film *film)
 {
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
@@ -70,7 +68,7 @@ static fracas_err begin(fracas_cli_film *film, const fracas_film_instant *first,
     char size[FRACAS_SIZE_TEXT];
     film->bytes = fracas_film_bytes(first, most);
     fracas_size_write(film->bytes, size);
-    if (!(film->bytes <= most_bytes))
+    if (!(film->bytes <= FRACAS_FILM_BYTES))
         return fracas_fail(FRACAS_USAGE,
                            "a film of %zu instants would have %s, more than browsers like to hold: "
                            "raise --every, or see --fields in ParaView",

@@ -91,6 +91,8 @@ static fracas_err picture(const fracas_arguments *arguments)
     TRY(read_view(arguments, &request, &view));
     request.count = request.film ? FRACAS_FRAMES : FRACAS_MOMENTS;
     TRY(fracas_cli_times(arguments, &request.count, &time));
+    if (time && request.film && !request.dots)
+        TRY(fracas_cli_times_in_order(arguments, &request.count, time));
     request.time = time;
     TRY(fracas_cli_campaign_seen(arguments->operand, &campaign));
     if (campaign) request.campaign = &campaign->hash;

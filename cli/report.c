@@ -190,20 +190,19 @@ static fracas_err export_grids(const fracas_arguments *arguments)
 {
     OWN(fracas_campaign) campaign = NULL;
     OWN(fracas_analysis) analysis = NULL;
-    OWNED char *folder = NULL;
     OWNED double *time = NULL;
     int point = -1, replica = -1;
     fracas_grids_request request = {.count = FRACAS_FRAMES};
     TRY(fracas_arguments_integer(arguments, "point", 0, INT_MAX, &point));
     TRY(fracas_arguments_integer(arguments, "replica", 0, INT_MAX, &replica));
     TRY(fracas_cli_times(arguments, &request.count, &time));
+    if (time) TRY(fracas_cli_times_in_order(arguments, &request.count, time));
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
-    TRY(fracas_output_folder_in(fracas_given(arguments, "to"), arguments->operand, "vtk", &folder));
     request.point = point < 0 ? SIZE_MAX : (size_t)point;
     request.replica = replica;
     request.time = time;
-    request.folder = folder;
-    return fracas_export_grids(analysis, &request, stdout);
+    request.folder = fracas_given(arguments, "to");
+    return fracas_export_grids(analysis, arguments->operand, &request, stdout);
 }
 
 /* Options of one way to export that say nothing in another. */

@@ -39,3 +39,22 @@ fracas_err fracas_cli_times(const fracas_arguments *arguments, size_t *count, do
     *count = (size_t)wanted;
     return FRACAS_OK;
 }
+
+static int by_value(const void *a, const void *b)
+{
+    const double *x = a, *y = b;
+    return (*x > *y) - (*x < *y);
+}
+
+fracas_err fracas_cli_times_in_order(const fracas_arguments *arguments, size_t *count, double *time)
+{
+    size_t kept = 0;
+    qsort(time, *count, sizeof *time, by_value);
+    if (*count && time[0] < 0)
+        return fracas_fail(FRACAS_USAGE, "%s: --times is `%s`; no time is below 0",
+                           arguments->command->name, fracas_given(arguments, "times"));
+    for (size_t k = 0; k < *count; k++)
+        if (k == 0 || time[k] > time[kept - 1]) time[kept++] = time[k];
+    *count = kept;
+    return FRACAS_OK;
+}

@@ -16,26 +16,29 @@ static const double *node_of(const fracas_flight *flight, size_t e, size_t corne
     return flight->mesh.node[flight->mesh.element[e].node[corner]].position;
 }
 
-/* A rule of degree 4 (Strang and Fix): area coordinates of a point, and its weight. */
+/* A rule of degree 5 (Radon): area coordinates of a point, and its weight. */
 typedef struct {
     double at[3], weight;
 } spot;
 
-enum { SPOTS = 6 };
+enum { SPOTS = 7 };
 static const spot rule[SPOTS] = {
-    {{0.108103018168070, 0.445948490915965, 0.445948490915965}, 0.223381589678011},
-    {{0.445948490915965, 0.108103018168070, 0.445948490915965}, 0.223381589678011},
-    {{0.445948490915965, 0.445948490915965, 0.108103018168070}, 0.223381589678011},
-    {{0.816847572980459, 0.091576213509771, 0.091576213509771}, 0.109951743655322},
-    {{0.091576213509771, 0.816847572980459, 0.091576213509771}, 0.109951743655322},
-    {{0.091576213509771, 0.091576213509771, 0.816847572980459}, 0.109951743655322},
+    {{1.0 / 3, 1.0 / 3, 1.0 / 3}, 0.225},
+    {{0.79742698535308731, 0.10128650732345633, 0.10128650732345633}, 0.12593918054482717},
+    {{0.10128650732345633, 0.79742698535308731, 0.10128650732345633}, 0.12593918054482717},
+    {{0.10128650732345633, 0.10128650732345633, 0.79742698535308731}, 0.12593918054482717},
+    {{0.059715871789769892, 0.47014206410511505, 0.47014206410511505}, 0.13239415278850616},
+    {{0.47014206410511505, 0.059715871789769892, 0.47014206410511505}, 0.13239415278850616},
+    {{0.47014206410511505, 0.47014206410511505, 0.059715871789769892}, 0.13239415278850616},
 };
 
-/* Place at a spot of a triangle, and its derivatives along the second and third coordinate. */
-static void place_at(const fracas_flight *flight, size_t e, const double l[3], double x[3],
-                     double along[2][3])
+/* Shape functions and place at a spot of a triangle, and its derivatives along the second and third
+ * coordinate. */
+static void place_at(const fracas_flight *flight, size_t e, const double l[3], double value[6],
+                     double x[3], double along[2][3])
 {
-    double value[6] = {l[0], l[1], l[2]}, slope[2][6] = {{-1, 1, 0}, {-1, 0, 1}};
+    double slope[2][6] = {{-1, 1, 0}, {-1, 0, 1}};
+    memcpy(value, l, 3 * sizeof *l);
     if (flight->corners == 6)
         for (int k = 0; k < 3; k++) { /* vertices, then the middles from k to k + 1 */
             const int next = (k + 1) % 3;
@@ -68,9 +71,32 @@ static double length_of(const double v[3])
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
+/* Masses of nodes of an element of a shell, as of one with the density 1: each in proportion to its
+ * own, int N_k^2 dA. Those of flat bodies are coupled: their sums are integrals. */
+static void add_lumped(const fracas_flight *flight, size_t e, double *whole, double sum[3])
+{
+    double own[6] = {0}, all = 0, area = 0;
+    for (int s = 0; s < SPOTS; s++) {
+        double x[3], along[2][3], normal[3], value[6];
+        place_at(flight, e, rule[s].at, value, x, along);
+        cross(along[0], along[1], normal);
+        const double part = rule[s].weight * length_of(normal) / 2;
+        area += part;
+        for (size_t k = 0; k < flight->corners; k++) own[k] += part * value[k] * value[k];
+    }
+    for (size_t k = 0; k < flight->corners; k++) all += own[k];
+    *whole += area;
+    for (size_t k = 0; k < flight->corners; k++)
+        for (int i = 0; i < 3; i++) sum[i] += area * own[k] / all * node_of(flight, e, k)[i];
+}
+
 /* Adds the integrals of 1 and of the place over an element. */
 static void integrate(const fracas_flight *flight, size_t e, double *whole, double sum[3])
 {
+    if (!flight->flat) {
+        add_lumped(flight, e, whole, sum);
+        return;
+    }
     if (flight->corners == 2) {
         const double *a = node_of(flight, e, 0), *b = node_of(flight, e, 1);
         const double length = length_of((double[3]){b[0] - a[0], b[1] - a[1], b[2] - a[2]});
@@ -79,8 +105,8 @@ static void integrate(const fracas_flight *flight, size_t e, double *whole, doub
         return;
     }
     for (int k = 0; k < SPOTS; k++) {
-        double x[3], along[2][3], normal[3];
-        place_at(flight, e, rule[k].at, x, along);
+        double x[3], along[2][3], normal[3], value[6];
+        place_at(flight, e, rule[k].at, value, x, along);
         cross(along[0], along[1], normal);
         const double area = rule[k].weight * length_of(normal) / 2;
         *whole += area;
@@ -121,6 +147,42 @@ static fracas_err find_centres(fracas_flight *flight)
     return FRACAS_OK;
 }
 
+/* Lengths of the elements of the fragment through the seam are not known one by one, so that all
+ * may be as far off along the bar: its peculiar motion has no momentum, sum m (X - C) = rate T sum
+ * m C. */
+static void shift_along(fracas_flight *flight)
+{
+    const double grown = flight->rate * flight->record.end_time;
+    double sum = 0, mass = 0;
+    if (flight->head == 0) return;
+    for (size_t f = 0; f < flight->record.nfragment; f++) {
+        const fracas_fragment *end = &flight->record.fragment[f];
+        mass += end->mass;
+        sum += end->mass * (end->position[0] - (1 + grown) * flight->piece[f].centre[0]);
+    }
+    const double shift = sum / (mass * (1 + grown));
+    if (fabs(shift) < 1e-9 * flight->period) return; /* rounding of equal elements */
+    for (size_t f = 0; f < flight->record.nfragment; f++) flight->piece[f].centre[0] += shift;
+    for (size_t k = 0; k < flight->mesh.nnodes; k++) flight->mesh.node[k].position[0] += shift;
+}
+
+/* Where the centroid of a fragment is at its last break is between its places at the start and at
+ * the end, unless it has been pushed since: then it moves evenly from the start. */
+static void find_paths(fracas_flight *flight)
+{
+    for (size_t f = 0; f < flight->record.nfragment; f++) {
+        fracas_flight_piece *piece = &flight->piece[f];
+        const fracas_fragment *end = &flight->record.fragment[f];
+        const double left = flight->record.end_time - piece->loose;
+        double then[3], moved[3];
+        for (int i = 0; i < 3; i++) {
+            moved[i] = end->position[i] - piece->centre[i];
+            then[i] = moved[i] - end->velocity[i] * left;
+        }
+        piece->even = !(piece->loose > 0) || length_of(then) > length_of(moved);
+    }
+}
+
 static void find_loose(fracas_flight *flight)
 {
     const fracas_record *record = &flight->record;
@@ -156,7 +218,9 @@ static fracas_err find_pieces(fracas_flight *flight)
     find_seam(flight);
     TRY(find_centres(flight));
     put_behind(flight);
+    shift_along(flight);
     find_loose(flight);
+    find_paths(flight);
     return FRACAS_OK;
 }
 
@@ -191,6 +255,10 @@ fracas_err fracas_flight_read(fracas_results *results, size_t point, size_t row,
         flight->corners = flight->mesh.element[0].node[3] >= 0 ? 6 : 3;
         flight->ends = flight->corners == 6 ? 3 : 2;
     } else TRY(place_chain(fracas_results_points(results), point, flight));
+    flight->flat = true;
+    for (size_t k = 0; k < flight->mesh.nnodes; k++)
+        if (flight->mesh.node[k].position[2] != flight->mesh.node[0].position[2])
+            flight->flat = false;
     return find_pieces(flight);
 }
 
@@ -218,25 +286,38 @@ static void rotate(const double turn[3], double v[3])
     for (int i = 0; i < 3; i++) v[i] = c * v[i] + s * across[i] + (1 - c) * along * axis[i];
 }
 
+/* How far the centroid of a fragment has moved, and its velocity. */
+static void follow(const fracas_flight *flight, size_t f, double time, double moved[3],
+                   double velocity[3])
+{
+    const fracas_flight_piece *piece = &flight->piece[f];
+    const fracas_fragment *end = &flight->record.fragment[f];
+    const double last = flight->record.end_time, turn = piece->even ? last : piece->loose,
+                 then = fmax(time, turn);
+    for (int i = 0; i < 3; i++) {
+        moved[i] = end->position[i] - end->velocity[i] * (last - then) - piece->centre[i];
+        velocity[i] = time < turn ? moved[i] / turn : end->velocity[i];
+        if (time < turn) moved[i] *= time / turn;
+    }
+}
+
 /* How a node of a fragment has moved, and its velocity  (fragments.10). */
 static void move(const fracas_flight *flight, size_t f, double time, const double from[3],
                  double displacement[3], double velocity[3])
 {
     const fracas_flight_piece *piece = &flight->piece[f];
-    const fracas_fragment *end = &flight->record.fragment[f];
-    const double then = fmax(time, piece->loose), left = flight->record.end_time - then;
-    const double share = time < piece->loose ? time / piece->loose : 1;
-    double arm[3], turned[3], turn[3];
+    const double *spin = flight->record.fragment[f].spin, since = fmax(time - piece->loose, 0);
+    double arm[3], turned[3], turn[3], moved[3], speed[3];
     for (int i = 0; i < 3; i++) {
         turned[i] = arm[i] = from[i] - piece->centre[i];
-        turn[i] = end->spin[i] * (then - piece->loose);
+        turn[i] = spin[i] * since;
     }
     rotate(turn, turned);
-    cross(end->spin, turned, velocity);
+    cross(spin, turned, velocity);
+    follow(flight, f, time, moved, speed);
     for (int i = 0; i < 3; i++) {
-        const double moved = end->position[i] - end->velocity[i] * left - piece->centre[i];
-        displacement[i] = share * moved + (turned[i] - arm[i]);
-        velocity[i] = time < piece->loose ? moved / piece->loose : velocity[i] + end->velocity[i];
+        displacement[i] = moved[i] + (turned[i] - arm[i]);
+        velocity[i] = speed[i] + (time < piece->loose ? 0 : velocity[i]);
     }
 }
 
@@ -295,7 +376,7 @@ static int by_value(const void *a, const void *b)
 
 fracas_err fracas_flight_moments(const fracas_flight *flight, double *time, size_t count)
 {
-    size_t shares = count / 2;
+    size_t shares = (count + 1) / 2;
     TRY(fracas_surface_moments(&flight->record, time, &shares));
     const size_t even = count - shares; /* the end is among the shares */
     for (size_t k = 0; k < even; k++)

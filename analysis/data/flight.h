@@ -8,6 +8,7 @@
 #include "base/err.h"
 #include "campaigns/store/results.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -15,6 +16,7 @@
 typedef struct {
     double centre[3]; /* m, its centroid before any motion */
     double loose;     /* s, last break between it and others; end_time where none is */
+    bool even; /* its centroid moves evenly from the start: the last velocity leads elsewhere */
 } fracas_flight_piece;
 
 typedef struct {
@@ -22,6 +24,7 @@ typedef struct {
     fracas_record record;    /* with its interfaces and fragments */
     size_t corners;          /* nodes of an element: 2, 3 or 6 */
     size_t ends;             /* nodes of an interface: 1, 2 or 3 */
+    bool flat;               /* all nodes have one z */
     double period, rate;     /* m, 1/s, of a bar with periodic ends; 0: none */
     size_t head; /* so many first elements belong to the fragment at its end: they stand a period,
                   * as long as it is by then, behind where they are */
@@ -50,7 +53,7 @@ FRACAS_MUST_USE fracas_err fracas_flight_at(const fracas_flight *flight, double 
                                             fracas_flight_instant *now);
 void fracas_flight_instant_clear(fracas_flight_instant *now);
 
-/* `count` >= 2 times [s], rising: half of them after equal shares of the breaks, as
+/* `count` > 0 times [s], rising: half of them after equal shares of the breaks, as
  * fracas_surface_moments, half evenly from 0 to the end. */
 FRACAS_MUST_USE fracas_err fracas_flight_moments(const fracas_flight *flight, double *time,
                                                  size_t count);

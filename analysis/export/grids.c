@@ -12,6 +12,8 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 /* ---- one time ---- */
 
@@ -120,15 +122,18 @@ static fracas_err write_interfaces(const fracas_flight *flight, const fracas_fli
 
 static const char *const parts[] = {"body", "interfaces"};
 
+/* bytes[2]: of both files, are added. */
 static fracas_err write_time(const fracas_flight *flight, double time, size_t number,
-                             const char *folder, const char *stem)
+                             const char *folder, const char *stem, double *bytes)
 {
     FRACAS_CLEARED(fracas_flight_instant) now = {.mass = NULL};
     TRY(fracas_flight_at(flight, time, &now));
     for (int p = 0; p < 2; p++) {
         OWNED char *path = NULL;
         TRY(fracas_path(&path, "%s/%s-%s-%zu.hdf", folder, stem, parts[p], number));
+        struct stat is;
         TRY(p ? write_interfaces(flight, &now, path) : write_body(flight, &now, path));
+        if (stat(path, &is) == 0) bytes[p] += (double)is.st_size;
     }
     return FRACAS_OK;
 }
@@ -136,12 +141,14 @@ static fracas_err write_time(const fracas_flight *flight, double time, size_t nu
 fracas_err fracas_grids_write(const fracas_flight *flight, const double *time, size_t count,
                               const char *folder, const char *stem, FILE *out)
 {
-    for (size_t k = 0; k < count; k++) TRY(write_time(flight, time[k], k + 1, folder, stem));
+    double bytes[2] = {0, 0};
+    for (size_t k = 0; k < count; k++) TRY(write_time(flight, time[k], k + 1, folder, stem, bytes));
     for (int p = 0; p < 2; p++) {
         char name[160];
         FRACAS_PRINT(name, "%s-%s", stem, parts[p]);
         TRY(fracas_vtk_write_series(folder, name, time, count));
-        fprintf(out, "%s/%s.hdf.series: %zu times\n", folder, name, count);
+        fprintf(out, "%s/%s.hdf.series: %zu time%s, %.3g MB\n", folder, name, count,
+                count == 1 ? "" : "s", bytes[p] / 1e6);
     }
     return FRACAS_OK;
 }
@@ -158,57 +165,88 @@ static fracas_err check(const fracas_analysis *analysis, const fracas_grids_requ
                            "`fracas replay --fields`");
     if (fracas_results_partial(analysis->results))
         return fracas_fail(FRACAS_INTERRUPTED,
-                           "grids need study.h5, and the study has none yet: finish its run first");
+                           "grids come with the complete study: finish its run first");
     if (request->point != SIZE_MAX && request->point >= npoints)
         return fracas_fail(FRACAS_USAGE, "there is no point %zu: the study has %zu of them, from 0",
                            request->point, npoints);
     return FRACAS_OK;
 }
 
-/* One of a point that has it, or the one of its report; -1: none of them broke. */
-static int64_t replica_of(const fracas_analysis *analysis, size_t p, int64_t wanted)
+/* FRACAS_USAGE where a file is there that would be replaced: nobody knows whose it is. Those of
+ * STUDY/vtk are a former export's, and go. */
+static fracas_err make_room(const fracas_grids_request *request, const char *folder,
+                            const char *stem)
 {
-    const fracas_point_statistics *of = &analysis->point[p];
-    if (wanted >= 0) return wanted;
-    return of->broken_replica >= 0 ? of->broken_replica : of->typical_replica;
-}
-
-static fracas_err write_realization(const fracas_analysis *analysis, size_t p, int64_t replica,
-                                    const fracas_grids_request *request, FILE *out)
-{
-    FRACAS_CLEARED(fracas_flight) flight = {.corners = 0};
-    OWNED double *time = malloc((request->count + 1) * sizeof *time);
-    char stem[64];
-    size_t row;
-    if (!time) return fracas_no_memory("the times of grids");
-    TRY(fracas_results_find(analysis->results, p, replica, &row));
-    if (row == fracas_results_realizations(analysis->results))
-        return fracas_fail(FRACAS_USAGE,
-                           "there is no replica %" PRId64 ": point %zu has %" PRId64
-                           " of them, from 0",
-                           replica, p, analysis->table->point[p].replicas);
-    TRY(fracas_flight_read(analysis->results, p, row, &flight));
-    if (flight.mesh.nelements == 0)
-        return fracas_fail(FRACAS_USAGE,
-                           "replica %" PRId64 " of point %zu ended %s and left no elements; choose "
-                           "another",
-                           replica, p, fracas_outcome_name(flight.record.outcome));
-    if (request->time) memcpy(time, request->time, request->count * sizeof *time);
-    else TRY(fracas_flight_moments(&flight, time, request->count));
-    FRACAS_PRINT(stem, "point-%zu-replica-%" PRId64, p, replica);
-    return fracas_grids_write(&flight, time, request->count, request->folder, stem, out);
-}
-
-fracas_err fracas_export_grids(const fracas_analysis *analysis, const fracas_grids_request *request,
-                               FILE *out)
-{
-    const bool all = request->point == SIZE_MAX;
-    TRY(check(analysis, request));
-    TRY(fracas_output_folder(request->folder));
-    for (size_t p = all ? 0 : request->point;
-         p < (all ? analysis->table->npoints : request->point + 1); p++) {
-        const int64_t replica = replica_of(analysis, p, request->replica);
-        if (replica >= 0) TRY(write_realization(analysis, p, replica, request, out));
+    bool there = true;
+    for (size_t k = 0; there || k <= request->count; k++) {
+        there = false;
+        for (int p = 0; p < 2; p++) {
+            OWNED char *path = NULL;
+            if (k == 0) TRY(fracas_path(&path, "%s/%s-%s.hdf.series", folder, stem, parts[p]));
+            else TRY(fracas_path(&path, "%s/%s-%s-%zu.hdf", folder, stem, parts[p], k));
+            if (access(path, F_OK) != 0) continue;
+            if (request->folder)
+                return fracas_fail(FRACAS_USAGE,
+                                   "%s is there already: name another folder, or remove it", path);
+            unlink(path);
+            there = true;
+        }
     }
     return FRACAS_OK;
+}
+
+static fracas_err write_flight(const fracas_flight *flight, const fracas_grids_request *request,
+                               const char *folder, const char *stem, FILE *out)
+{
+    OWNED double *time = malloc((request->count + 1) * sizeof *time);
+    if (!time) return fracas_no_memory("the times of grids");
+    if (request->time) memcpy(time, request->time, request->count * sizeof *time);
+    else TRY(fracas_flight_moments(flight, time, request->count));
+    TRY(make_room(request, folder, stem));
+    return fracas_grids_write(flight, time, request->count, folder, stem, out);
+}
+
+/* Writes a realization; *written counts it. One that is not there is said. */
+static fracas_err write_realization(const fracas_analysis *analysis, size_t p,
+                                    const fracas_grids_request *request, const char *folder,
+                                    size_t *written, FILE *out)
+{
+    FRACAS_CLEARED(fracas_flight) flight = {.corners = 0};
+    const fracas_point_statistics *of = &analysis->point[p];
+    const int64_t shown = of->broken_replica >= 0 ? of->broken_replica : of->typical_replica,
+                  replica = request->replica >= 0 ? request->replica : shown;
+    const size_t none = fracas_results_realizations(analysis->results);
+    char stem[64];
+    size_t row = none;
+    FRACAS_PRINT(stem, "point-%zu-replica-%" PRId64, p, replica);
+    if (replica >= 0) TRY(fracas_results_find(analysis->results, p, replica, &row));
+    else fprintf(out, "point %zu: all its realizations FAILED\n", p);
+    if (replica >= 0 && row == none)
+        fprintf(out, "there is no replica %" PRId64 ": point %zu has %" PRId64 " of them, from 0\n",
+                replica, p, analysis->table->point[p].replicas);
+    if (row == none) return FRACAS_OK;
+    TRY(fracas_flight_read(analysis->results, p, row, &flight));
+    if (flight.mesh.nelements == 0) {
+        fprintf(out, "replica %" PRId64 " of point %zu ended %s and left nothing\n", replica, p,
+                fracas_outcome_name(flight.record.outcome));
+        return FRACAS_OK;
+    }
+    ++*written;
+    return write_flight(&flight, request, folder, stem, out);
+}
+
+fracas_err fracas_export_grids(const fracas_analysis *analysis, const char *study,
+                               const fracas_grids_request *request, FILE *out)
+{
+    const bool all = request->point == SIZE_MAX;
+    const size_t first = all ? 0 : request->point,
+                 end = all ? analysis->table->npoints : request->point + 1;
+    OWNED char *folder = NULL;
+    size_t written = 0;
+    TRY(check(analysis, request));
+    TRY(fracas_output_folder_in(request->folder, study, "vtk", &folder));
+    for (size_t p = first; p < end; p++)
+        TRY(write_realization(analysis, p, request, folder, &written, out));
+    if (written > 0) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE, "nothing was exported: choose another point or replica");
 }

@@ -33,6 +33,8 @@ typedef struct {
     const double *damage;        /* [interface] 0 to 1 */
 } fracas_film_instant;
 
+#define FRACAS_FILM_BYTES 200e6 /* a page has at most: browsers hold it all */
+
 typedef struct fracas_film fracas_film;
 
 /* Bytes of a page with so many instants of a body like this one. */

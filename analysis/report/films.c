@@ -4,6 +4,7 @@
 #include "analysis/film/film.h"
 #include "base/own.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 static fracas_film_instant body_of(const fracas_flight *flight)
@@ -18,6 +19,13 @@ double fracas_flight_film_bytes(const fracas_flight *flight, size_t count)
 {
     const fracas_film_instant body = body_of(flight);
     return fracas_film_bytes(&body, count);
+}
+
+size_t fracas_flight_film_most(const fracas_flight *flight)
+{
+    const double one = fracas_flight_film_bytes(flight, 2) - fracas_flight_film_bytes(flight, 1),
+                 still = fracas_flight_film_bytes(flight, 0);
+    return (size_t)fmax(0, (FRACAS_FILM_BYTES - still) / one);
 }
 
 /* 0 closed, 1 broken, half of it while it is cracked. */

@@ -10,6 +10,9 @@
 /* Bytes of a film with so many instants. */
 double fracas_flight_film_bytes(const fracas_flight *flight, size_t count);
 
+/* Instants of a film that a browser likes to hold, at most. */
+size_t fracas_flight_film_most(const fracas_flight *flight);
+
 /* Writes the page FOLDER/NAME: at each time [s] the body where its fragments are. */
 FRACAS_MUST_USE fracas_err fracas_flight_film(const fracas_flight *flight, const double *time,
                                               size_t count, const char *folder, const char *name,

@@ -74,8 +74,9 @@ static fracas_err forget(void *context, const char *path, const char *name)
     snprintf(stem, sizeof stem, "%.*s", (int)(dot - name), name);
     if (!strncmp(stem, FRACAS_FILM_OF_POINT, strlen(FRACAS_FILM_OF_POINT)) &&
         !strcmp(dot, ".html")) { /* a row of pictures has it */
-        snprintf(stem, sizeof stem, "surface-point-%s", name + strlen(FRACAS_FILM_OF_POINT));
-        *strchr(stem, '.') = 0;
+        snprintf(stem, sizeof stem, "surface-point-%.*s",
+                 (int)(dot - name - (ptrdiff_t)strlen(FRACAS_FILM_OF_POINT)),
+                 name + strlen(FRACAS_FILM_OF_POINT));
         of_kind = true;
     }
     for (size_t k = 0; k < FRACAS_COUNT(kinds); k++) of_kind = of_kind || !strcmp(dot, kinds[k]);

@@ -73,7 +73,8 @@ static fracas_err check_record(const making *m, const fracas_record *record)
             m->request->replica, m->request->point, fracas_outcome_name(record->outcome));
     for (size_t k = 0; m->request->time && k < m->request->count; k++) {
         const double time = m->request->time[k];
-        if (time >= 0 && time <= record->end_time) continue;
+        if (time >= 0 && (time <= record->end_time || (m->request->film && !m->request->dots)))
+            continue;
         return fracas_fail(FRACAS_USAGE,
                            "time %s is outside of the realization, which goes from 0 to %s",
                            fracas_surface_time(time, false).text,
@@ -135,12 +136,18 @@ static fracas_err save_film(const making *m)
 {
     FRACAS_CLEARED(fracas_flight) flight = {.corners = 0};
     const fracas_picture_request *request = m->request;
-    const size_t count = request->count < 2 && !request->time ? 2 : request->count;
+    const size_t count = request->count;
     OWNED double *time = calloc(count + 1, sizeof *time);
     char stem[STEM], file[STEM + 5], title[512];
     if (!time) return fracas_no_memory("the times of a film");
     TRY(fracas_flight_read(m->results, request->point, m->first_row + (size_t)request->replica,
                            &flight));
+    const size_t most = fracas_flight_film_most(&flight);
+    if (count > most)
+        return fracas_fail(FRACAS_USAGE,
+                           "a film of %zu times would have more than browsers like to hold: say "
+                           "--times %zu, or see `fracas export --vtk` in ParaView",
+                           count, most);
     if (request->time) memcpy(time, request->time, count * sizeof *time);
     else TRY(fracas_flight_moments(&flight, time, count));
     name_realization(m, stem);

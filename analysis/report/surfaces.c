@@ -165,8 +165,10 @@ static void write_interfaces(const fracas_broken_surface *surface, FILE *out)
     }
 }
 
-/* "film-point-3.html", a page of its own; "" where the report's films are too large with it. */
-static fracas_err put_film(gallery *to, size_t p, size_t row, const char *title, char name[64])
+/* "film-point-3.html", a page of its own; "" where the report's films are too large with it, and
+ * `few` says how many times fit a page, where they are fewer than usual. */
+static fracas_err put_film(gallery *to, size_t p, size_t row, const char *title, char name[64],
+                           char few[32])
 {
     FRACAS_CLEARED(fracas_flight) flight = {.corners = 0};
     double time[FRACAS_FRAMES];
@@ -178,6 +180,8 @@ static fracas_err put_film(gallery *to, size_t p, size_t row, const char *title,
         OWNED char *older = NULL;
         TRY(fracas_path(&older, "%s/%s", to->page->folder, name));
         unlink(older);
+        if (fracas_flight_film_most(&flight) < FRACAS_FRAMES)
+            snprintf(few, 32, " --times %zu", fracas_flight_film_most(&flight));
         *name = 0;
         return FRACAS_OK;
     }
@@ -189,7 +193,7 @@ static fracas_err put_film(gallery *to, size_t p, size_t row, const char *title,
 static fracas_err put_row(gallery *to, const fracas_broken_surface *surface, size_t p, size_t row,
                           int64_t replica, bool broken)
 {
-    char name[64], title[256], caption[640], file[80], film[64];
+    char name[64], title[256], caption[640], file[80], film[64], few[32] = "";
     double time[FRACAS_MOMENTS];
     size_t count = FRACAS_MOMENTS;
     TRY(fracas_surface_moments(&surface->record, time, &count));
@@ -198,7 +202,7 @@ static fracas_err put_row(gallery *to, const fracas_broken_surface *surface, siz
     FRACAS_PRINT(file, "%s.csv", name);
     FRACAS_PRINT(title, "Broken %s%s%.159s", body_of(surface), *label.text ? ", " : "", label.text);
     TRY(write_caption(surface, replica, broken, caption, sizeof caption));
-    TRY(put_film(to, p, row, title, film));
+    TRY(put_film(to, p, row, title, film, few));
     fracas_page_figure(to->page, name, "row");
     fputs("<div class=\"small pictures\">\n", to->page->out);
     for (size_t k = 0; k < count; k++) TRY(put_moment(to, surface, p, k + 1, time[k]));
@@ -209,8 +213,8 @@ static fracas_err put_row(gallery *to, const fracas_broken_surface *surface, siz
     else
         fprintf(to->page->out,
                 "<p class=\"film\">Film: <code>fracas picture STUDY --film --point %zu --replica "
-                "%lld</code></p>\n",
-                p, (long long)replica);
+                "%lld%s</code></p>\n",
+                p, (long long)replica, few);
     fracas_page_figure_end(to->page, title, caption, name, false, true);
     to->drawn += count * weight_of(&surface->mesh);
     fracas_output_file output;

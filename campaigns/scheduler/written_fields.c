@@ -39,14 +39,15 @@ static fracas_err note(void *context, fracas_result *result)
 
 #define MARK "fields.txt" /* in the folder of a realization: whose fields, of which instants */
 
-enum { MARK_TEXT = 160 };
+enum { MARK_TEXT = 200 };
 
 static void write_mark(const fracas_campaign *campaign, size_t point, int64_t replica,
                        char text[MARK_TEXT])
 {
     snprintf(text, MARK_TEXT,
-             "point %s replica %" PRId64 " every %.17g s fracas " FRACAS_VERSION "\n",
-             fracas_hash_hex(&campaign->point[point].hash).text, replica, campaign->fields.every);
+             "point %s replica %" PRId64 " every %.17g s %s %s fracas " FRACAS_VERSION "\n",
+             fracas_hash_hex(&campaign->point[point].hash).text, replica, campaign->fields.every,
+             campaign->fields.of->name, campaign->fields.by ? campaign->fields.by->name : "all");
 }
 
 /* The mark of a folder; "" if it has none. */

@@ -45,10 +45,11 @@ struct fracas_load {
     fracas_line (*line)(const fracas_loading *loading, const char *section, double size);
     /* Path of a motion, from s(0) = 0 [m]; NULL: a force. */
     double (*path)(const fracas_loading *loading, const fracas_profile *history, double t);
-    /* Load on nodes: how far x lies beside them [m], 0: a node there is one; whether the nearest is
-     * taken where there is none, NULL: never. */
+    /* Load on nodes: how far x lies beside them [m], 0: a node there is one. A force at the foot of
+     * a point where there is none: its place [m], unless `at` is NULL; false of others; NULL:
+     * never. */
     double (*beside)(const fracas_loading *loading, int dimension, const double x[3]);
-    bool (*point)(const fracas_loading *loading);
+    bool (*middle)(const fracas_loading *loading, int dimension, double at[3]);
     /* Motion of nodes: the components that it prescribes, bits 1, 2, 4 for x, y, z; whether they
      * rest. */
     unsigned (*components)(const fracas_loading *loading, int dimension);

@@ -36,14 +36,11 @@ double fracas_nodes_beside(const fracas_loading *loading, int dimension, const d
     return loading->edge || fracas_region_has(&region, x) ? 0 : fracas_region_beside(&region, x);
 }
 
-/* Without z in the model, its keys are 0. */
-bool fracas_nodes_limited(const fracas_loading *loading)
+bool fracas_nodes_limited(const fracas_loading *loading, int dimension)
 {
-    const double *own = loading->own;
     bool limited = false;
-    for (int i = 0; i < 3; i++)
-        limited = limited || fabs(own[FROM + i]) >= (i == 2 ? 0x1p-1000 : 0) ||
-                  fabs(own[TO + i]) >= (i == 2 ? 0x1p-1000 : 0);
+    for (int i = 0; i < dimension; i++)
+        limited = limited || !isnan(loading->own[FROM + i]) || !isnan(loading->own[TO + i]);
     return limited;
 }
 
@@ -63,7 +60,9 @@ fracas_err fracas_nodes_check(const fracas_loading *loading)
             return fracas_fail(FRACAS_USAGE,
                                "to_%c is %g m, below from_%c, %g m: no node is between them",
                                axis[i], own[TO + i], axis[i], own[FROM + i]);
-    if (loading->edge && (fracas_nodes_limited(loading) || own[WITHIN] > 0))
+    /* without z in the model, its keys are 0 */
+    if (loading->edge && (fracas_nodes_limited(loading, 2) || own[WITHIN] > 0 ||
+                          fabs(own[FROM + 2]) > 0 || fabs(own[TO + 2]) > 0))
         return fracas_fail(FRACAS_USAGE, "%s has both limits and the edges %s: leave one out",
                            loading->type->name, loading->edge->name);
     return FRACAS_OK;

@@ -46,7 +46,7 @@ const char *fracas_nodes_edge(const fracas_loading *loading, int i);
 double fracas_nodes_beside(const fracas_loading *loading, int dimension, const double x[3]);
 
 /* Limits along an axis are given. */
-bool fracas_nodes_limited(const fracas_loading *loading);
+bool fracas_nodes_limited(const fracas_loading *loading, int dimension);
 /* at_x, at_y or at_z is not 0. */
 bool fracas_nodes_middle(const fracas_loading *loading);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Load `point-force`: at the node nearest to a point, or on the nodes of a part of a body. */
+/* Load `point-force`: at a point, on the nodes of a part of a body, or on edges. */
 #include "engine/loading/nodes.h"
 
 #include <math.h>
@@ -29,23 +29,19 @@ static void density(const fracas_spec *spec, const fracas_loading *loading, cons
         density[i] = loading->own[FORCE + i] + loading->own[ACROSS] * at->normal[i];
 }
 
-/* A ball, too, may be smaller than an element. */
-static bool is_point(const fracas_loading *loading)
+/* Without limits along an axis; a ball may be smaller than an element. */
+static bool middle_of(const fracas_loading *loading, int dimension, double at[3])
 {
-    return !loading->edge && !fracas_nodes_limited(loading);
+    const double *own = loading->own + FRACAS_NODES_AT;
+    for (int i = 0; at && i < 3; i++) at[i] = isnan(own[i]) ? 0 : own[i];
+    return !loading->edge && !fracas_nodes_limited(loading, dimension);
 }
 
-/* A point: its distance; else as of every set of nodes. */
 static double beside(const fracas_loading *loading, int dimension, const double x[3])
 {
-    double square = 0;
-    if (!is_point(loading) || loading->own[FRACAS_NODES_WITHIN] > 0)
-        return fracas_nodes_beside(loading, dimension, x);
-    for (int i = 0; i < 3; i++) {
-        const double at = loading->own[FRACAS_NODES_AT + i], apart = x[i] - (isnan(at) ? 0 : at);
-        square += apart * apart;
-    }
-    return sqrt(square);
+    const bool point = middle_of(loading, dimension, NULL) &&
+                       !(loading->own[FRACAS_NODES_WITHIN] > 0);
+    return point ? INFINITY : fracas_nodes_beside(loading, dimension, x);
 }
 
 static fracas_err check(const fracas_loading *loading)
@@ -54,6 +50,10 @@ static fracas_err check(const fracas_loading *loading)
     if (loading->edge && fracas_nodes_middle(loading))
         return fracas_fail(FRACAS_USAGE, "%s has both a point and the edges %s: leave one out",
                            loading->type->name, loading->edge->name);
+    if (fracas_nodes_middle(loading) && fracas_nodes_limited(loading, 2) &&
+        !(loading->own[FRACAS_NODES_WITHIN] > 0))
+        return fracas_fail(FRACAS_USAGE, "point-force has both limits and a point, without within: "
+                                         "leave one out");
     return fracas_load_check(loading);
 }
 
@@ -61,7 +61,7 @@ static const fracas_load load = {.on = FRACAS_LOAD_ON_NODES,
                                  .density = density,
                                  .edge = fracas_nodes_edge,
                                  .beside = beside,
-                                 .point = is_point};
+                                 .middle = middle_of};
 
 /* Waves reflect, and a point concentrates stress: no bound is known. */
 const fracas_kind fracas_loading_point_force = {

@@ -25,8 +25,8 @@ for point in 0 1 2 3 4; do
     expect 0 "$fracas" replay bodies $point/1 --fields fields-$point --every 150ns --at end --json
     times=$(sed 's/.*"time" *: *\([^}]*\)}.*/\1s,/;/^[0-9]/!d' fields-$point/body.hdf.series | tr -d '\n ')
     expect 0 "$fracas" export bodies --vtk --point $point --replica 1 --times "${times%,}" --to grids
-    said "^grids/point-$point-replica-1-body.hdf.series: [1-9][0-9]* times\$"
-    said "^grids/point-$point-replica-1-interfaces.hdf.series: [1-9][0-9]* times\$"
+    said "^grids/point-$point-replica-1-body.hdf.series: [1-9][0-9]* times, "
+    said "^grids/point-$point-replica-1-interfaces.hdf.series: [1-9][0-9]* times, "
 done
 
 /usr/bin/python3 - <<'END' || fail "the motion of a study is not that of its replay"
@@ -35,11 +35,12 @@ import h5py, numpy as np
 
 study = h5py.File("bodies/study.h5")
 calm = 0
-# [element][1][corner]: integrals of the shape functions over elements, by a rule of degree 5.
+# [element][1][corner]: integrals of the shape functions over elements, by a rule of degree 5; of a shell, lumped: those of their
+# squares, with the sum of the former.
 def areas(x):
     if x.shape[1] == 2:
         return np.linalg.norm(x[:, 1] - x[:, 0], axis=1)[:, None, None] * np.full((1, 1, 2), 0.5)
-    root, spots, total = np.sqrt(15), [((1 / 3,) * 3, 9 / 40)], 0
+    root, spots, total, own = np.sqrt(15), [((1 / 3,) * 3, 9 / 40)], 0, 0
     for a, w in ((6 - root) / 21, (155 - root) / 1200), ((6 + root) / 21, (155 + root) / 1200):
         spots += [(tuple(np.roll((1 - 2 * a, a, a), k)), w) for k in range(3)]
     for l, w in spots:
@@ -50,8 +51,9 @@ def areas(x):
             n = np.concatenate([l * (2 * l - 1), 4 * l * l[next]])
             slope = np.concatenate([(4 * l - 1) * d, 4 * (d * l[next] + l * d[:, next])], axis=1)
         t = slope @ x
-        total = total + (w * np.linalg.norm(np.cross(t[:, 0], t[:, 1]), axis=1) / 2)[:, None, None] * n
-    return total
+        area = (w * np.linalg.norm(np.cross(t[:, 0], t[:, 1]), axis=1) / 2)[:, None, None]
+        total, own = total + area * n, own + area * n * n
+    return total if np.ptp(x[:, :, 2]) == 0 else own * total.sum(axis=2, keepdims=True) / own.sum(axis=2, keepdims=True)
 
 for point, (corners, ends) in enumerate([(2, 1), (2, 1), (3, 2), (6, 3), (6, 3)]):
     row = 2 * point + 1
@@ -90,12 +92,12 @@ for point, (corners, ends) in enumerate([(2, 1), (2, 1), (3, 2), (6, 3), (6, 3)]
         speed, wanted = mean(point_of(now, "velocity")), mean(point_of(was, "velocity"))
         still = still and (abs(wanted - speed) <= 1e-9 * abs(speed).max()).all()
         if a["time"] == computed[-1]["time"]:
-            exact = 1e-10 if corners < 6 else 0.1  # masses of nodes are not those of a curved element's area
+            exact = 1e-2 if point == 3 else 1e-3 if point == 4 else 1e-10  # masses of an annulus are coupled; rules on a sphere differ
             wide = areas(start.reshape(len(last), corners, 3))
             for f in range(len(mass)):
                 if point or f:  # the first one of the bar goes through its seam
                     x = (wide @ now["Points"][()].reshape(len(last), corners, 3))[last == f, 0].sum(axis=0) / wide[last == f].sum()
-                    assert (abs(x - study["fragment/position"][at][f]) < (1e-12 if corners < 6 else 1e-8)).all(), (point, f, x)  # two rules on a sphere
+                    assert (abs(x - study["fragment/position"][at][f]) < (1e-12 if corners < 6 else 1e-8)).all(), (point, f, x - study["fragment/position"][at][f])  # two rules on a sphere
             assert miss < exact and (abs(wanted - speed) <= exact * abs(speed).max()).all(), (point, miss)
         elif point == 0 and still:
             assert miss < 1e-9, (a["time"], miss)
@@ -131,6 +133,34 @@ for k, time in enumerate((2e-6, 4e-6), 2):
     assert (abs(size(x) - size(old)) < 1e-12).all()  # rigid
 END
 
+# Elements of a bar with periodic ends that differ in length: only the fragment through the seam does not know its own.
+sed -e 's/^name:.*/name: uneven/; /^sweep/,$d; s/^model:.*/model: bar/; s/poisson: 0.25, //' bodies.yaml > uneven.yaml
+cat >> uneven.yaml <<'END'
+sweep:
+  - cases:
+      - {name: graded, model: bar, geometry: {shape: bar, length: 5 mm, area: 1 mm2}, mesh: {elements: 80, spacing: graded, ratio: 4}, material: {young: 370 GPa, density: 3900 kg/m3}, loading: {type: imposed-rate, rate: 5e3 1/s}}
+      - {name: perturbed, model: bar, geometry: {shape: bar, length: 5 mm, area: 1 mm2}, mesh: {elements: 80, spacing: perturbed, amplitude: 0.4}, material: {young: 370 GPa, density: 3900 kg/m3}, loading: {type: imposed-rate, rate: 5e3 1/s}}
+END
+expect 0 "$fracas" run --no-report uneven.yaml --study uneven
+for point in 0 1; do
+    expect 0 "$fracas" replay uneven $point/0 --fields uneven-$point --at end
+    expect 0 "$fracas" export uneven --vtk --point $point --replica 0 --times 1 --to even
+done
+/usr/bin/python3 - <<'END' || fail "fragments of uneven bars are elsewhere"
+import h5py, numpy as np
+
+for point in 0, 1:
+    was, now = (h5py.File(name)["VTKHDF"] for name in (f"uneven-{point}/body-1.hdf", f"even/point-{point}-replica-0-body-1.hdf"))
+    label = was["CellData/fragment"][()]
+    assert (label == now["CellData/fragment"][()]).all() and label[0] == label[-1] and label.max() > 3  # one goes through the seam
+    mass = was["PointData/mass"][()].reshape(-1, 2)
+    x = was["Points"][()].reshape(-1, 2, 3)[:, :, 0]
+    u = [one["PointData/displacement"][()].reshape(-1, 2, 3)[:, :, 0] for one in (was, now)]
+    for f in range(1, label.max() + 1):
+        mean = [np.average(one[label == f].mean(axis=1), weights=mass[label == f].sum(axis=1)) for one in u]
+        assert abs(mean[0] - mean[1]) < 1e-10, (point, f, mean)
+END
+
 # All points, the realizations of the report.
 expect 0 "$fracas" export bodies --vtk --times 2
 [ "$(ls bodies/vtk/*.series | wc -l)" = 10 ] || fail "two series a point were expected"
@@ -160,11 +190,31 @@ for f in range(len(wanted)):
     assert (abs((start + moved)[fragment == f].mean(axis=0) - wanted[f]) < (high - low) / 65535 + 1e-9).all(), f
 END
 
+# The report leaves somebody's own file, however long its name is.
+long=bodies/report/film-point-$(printf 'x%.0s' $(seq 90)).html
+expect 0 "$fracas" report bodies
+touch "$long"
+expect 0 "$fracas" report bodies
+[ -e "$long" ] && [ -e bodies/report/film-point-4.html ] || fail "a film is gone"
+
 # Refused.
 expect 2 "$fracas" export bodies --vtk --point 5
 said 'there is no point 5: the study has 5 of them'
 expect 2 "$fracas" export bodies --vtk --point 1 --replica 2
 said 'there is no replica 2: point 1 has 2 of them'
+said 'nothing was exported: choose another point or replica'
+expect 2 "$fracas" export bodies --vtk --times 1us,-1us
+said 'no time is below 0'
+# Somebody's files stay; of an older export in STUDY/vtk none does.
+expect 2 "$fracas" export bodies --vtk --point 2 --replica 1 --times 1 --to grids
+said 'grids/point-2-replica-1-body.hdf.series is there already: name another folder, or remove it'
+touch later/point-3-replica-1-interfaces-2.hdf
+expect 2 "$fracas" export bodies --vtk --point 3 --replica 1 --times 2 --to later
+said 'later/point-3-replica-1-interfaces-2.hdf is there already'
+expect 0 "$fracas" export bodies --vtk --times 5us,0us,5us --point 1
+[ "$(ls bodies/vtk/point-1-*-body-* | wc -l)" = 2 ] || fail "not two times"
+expect 0 "$fracas" gc bodies
+! grep -q vtk said || fail "gc does not know the folder"
 expect 2 "$fracas" export bodies --point 1
 said 'export: --point is for --vtk'
 expect 2 "$fracas" export bodies --vtk --cracks

@@ -52,56 +52,73 @@ static double force_of(const fracas_spec *spec, size_t i)
            (i == 2 ? load_value(&spec->loading, "total_across") : 0);
 }
 
-/* The node is one of the set, by hand; of a point all are that are nearest. */
-static bool has(const fracas_spec *spec, int set, const double x[3], double nearest)
+/* The node is one of the set, by hand. */
+static bool has(const fracas_spec *spec, int set, const double x[3])
 {
     const double w = spec->geometry.width, slack = 1e-9 * w;
-    switch (set) {
-    case POINT: return hypot(x[0] - 0.2 * w, x[1]) <= nearest + slack;
-    case BALL: return hypot(x[0], x[1]) <= 0.3 * w + slack;
-    case LIMITS: return x[0] >= 0.3 * w - slack;
-    default: return x[0] >= 0.5 * w - slack;
-    }
+    return set == BALL ? hypot(x[0], x[1]) <= 0.3 * w + slack : x[0] >= 0.3 * w - slack;
 }
 
-static double nearest_of(const fracas_model *model)
+/* Sum of the forces, and of x and y times that along x. */
+typedef struct {
+    double force[3], first[2];
+} sums;
+
+static sums sums_of(const fracas_model *model)
 {
-    double nearest = INFINITY;
-    for (uint32_t k = 0; k < model->surface->nnodes; k++)
-        nearest = fmin(nearest, hypot(model->surface->node[k][0] - 0.2 * model->spec.geometry.width,
-                                      model->surface->node[k][1]));
-    return nearest;
+    const fracas_surface_tables *t = model->plan;
+    const size_t size = fracas_surface_unknowns(t), dimension = (size_t)t->body->dimension;
+    sums of = {{0}, {0}};
+    for (size_t e = 0; e < t->nelements; e++)
+        for (size_t k = 0; t->load_row[e] && k < model->surface->corners; k++) {
+            const double *f = t->load + (t->load_row[e] - 1) * size + k * dimension;
+            for (size_t i = 0; i < dimension; i++) of.force[i] += f[i];
+            for (size_t i = 0; i < 2; i++) of.first[i] += f[0] * node_at(model, e, k)[i];
+        }
+    return of;
 }
 
-/* Nodes of the set have it, in each element by its area, and no others; they add up to the force:
+/* They add up to the force, and at a point or on an edge their moment is that of the force there:
  * rounding of some 1e2 terms. */
-static void the_set_has_the_force(void **unused)
+static void forces_have_their_sum_and_place(void **unused)
 {
     for (int which = 0; which < KINDS * SETS; which++) {
         const int set = which % SETS;
         const fracas_spec spec = pushed(which / SETS, set);
         fracas_model *model = distorted_model(spec, 0.2, 7);
+        const double w = spec.geometry.width, place[2] = {set == POINT ? 0.2 * w : 0.5 * w, 0};
+        const sums of = sums_of(model);
+        for (size_t i = 0; i < (which / SETS == 2 ? 3 : 2); i++)
+            assert_close(of.force[i], force_of(&spec, i), 1e-13);
+        for (size_t i = 0; i < 2 && (set == POINT || set == EDGE); i++)
+            assert_true(fabs(of.first[i] / of.force[0] - place[i]) < 1e-12 * w);
+        fracas_model_destroy(model);
+    }
+}
+
+/* Nodes of a ball or within limits have the force, and no others: in each element by its area, in
+ * the middle of an edge 16/3 times that of a vertex. */
+static void the_set_has_the_force(void **unused)
+{
+    for (int which = 0; which < KINDS * 2; which++) {
+        const int set = which % 2 ? LIMITS : BALL;
+        const fracas_spec spec = pushed(which / 2, set);
+        fracas_model *model = distorted_model(spec, 0.2, 7);
         const fracas_surface_tables *t = model->plan;
         const size_t size = fracas_surface_unknowns(t), dimension = (size_t)t->body->dimension;
-        const double nearest = nearest_of(model);
-        double sum[3] = {0}, share = 0;
-        size_t nodes = 0;
+        double share = 0;
         for (size_t e = 0; e < t->nelements; e++)
             for (size_t k = 0; k < model->surface->corners; k++) {
-                const bool wanted = has(&spec, set, node_at(model, e, k), nearest);
                 const double *f = t->load_row[e]
                                       ? t->load + (t->load_row[e] - 1) * size + k * dimension
                                       : (const double[3]){0};
+                const double per = f[0] / model->surface->area[e] / (k < 3 ? 3 : 16);
+                const bool wanted = has(&spec, set, node_at(model, e, k));
                 assert_int_equal(wanted, fabs(f[0]) > 0);
                 if (!wanted) continue;
-                nodes++;
-                if (share == 0) share = f[0] / model->surface->area[e];
-                assert_close(f[0] / model->surface->area[e], share, 1e-12);
-                for (size_t i = 0; i < dimension; i++) sum[i] += f[i];
+                if (share == 0) share = per;
+                assert_close(per, share, 1e-12);
             }
-        print_message("body %d, set %d: %zu nodes of elements\n", which / SETS, set, nodes);
-        assert_true(nodes >= 2); /* in the middle of an edge */
-        for (size_t i = 0; i < dimension; i++) assert_close(sum[i], force_of(&spec, i), 1e-13);
         fracas_model_destroy(model);
     }
 }
@@ -196,17 +213,6 @@ static void a_plate_bends_under_a_point(void **unused)
     assert_true(error[1] < 0.02 && error[1] < error[0] / 2.5);
 }
 
-static size_t loaded_nodes(const fracas_model *model)
-{
-    const fracas_surface_tables *t = model->plan;
-    const size_t size = fracas_surface_unknowns(t);
-    size_t nodes = 0;
-    for (size_t e = 0; e < t->nelements; e++)
-        for (size_t i = 0; t->load_row[e] && i < size; i += 3)
-            nodes += fabs(t->load[(t->load_row[e] - 1) * size + i]) > 0;
-    return nodes;
-}
-
 static void forces_without_sense_are_refused(void **unused)
 {
     fracas_model *model = NULL;
@@ -223,13 +229,25 @@ static void forces_without_sense_are_refused(void **unused)
     FAILS(traits->check(&load), FRACAS_USAGE, "to_x is 0 m, below from_x, 1 m");
     fracas_spec spec = pushed(2, POINT);
     *load_number(&spec.loading, "at_x") = 3 * spec.geometry.width;
-    FAILS(fracas_model_create(&spec, &model), FRACAS_USAGE, "loading point-force has no node",
-          "away, more than an edge", "move at_x, at_y, at_z to the body");
-    spec = pushed(2, POINT); /* a ball between nodes takes the nearest one */
+    FAILS(fracas_model_create(&spec, &model), FRACAS_USAGE, "point-force is beside the body",
+          "away, more than an edge", "move at_x, at_y, at_z");
+    spec = pushed(2, POINT); /* a ball between nodes is a point */
     *load_number(&spec.loading, "within") = 1e-6 * spec.geometry.width;
+    *load_number(&spec.loading, "at_y") = 0.01 * spec.geometry.width;
     OK(fracas_model_create(&spec, &model));
-    assert_int_equal(loaded_nodes(model), 2);
+    const sums of = sums_of(model);
+    assert_true(fabs(of.first[1] / of.force[0] - 0.01 * spec.geometry.width) <
+                1e-12 * spec.geometry.width);
     fracas_model_destroy(model);
+    spec = pushed(2, EDGE); /* most of it into a support */
+    spec.geometry.edge[2] = &fracas_edge_fixed;
+    FAILS(fracas_model_create(&spec, &model), FRACAS_USAGE, "% of the force of loading point-force",
+          "holds the body");
+    load = at_point(true);
+    *load_number(&load, "from_z") = 0; /* a limit */
+    *load_number(&load, "at_x") = 1;
+    *load_number(&load, "from_x") = 0;
+    FAILS(traits->check(&load), FRACAS_USAGE, "both limits and a point");
     spec = pushed(2, LIMITS);
     *load_number(&spec.loading, "from_x") = 3 * spec.geometry.width;
     FAILS(fracas_model_create(&spec, &model), FRACAS_USAGE, "loading point-force has no node",
@@ -239,5 +257,28 @@ static void forces_without_sense_are_refused(void **unused)
     FAILS(fracas_model_create(&spec, &model), FRACAS_USAGE, "point-force has no force", "give it");
 }
 
-TESTS(the_set_has_the_force, free_bodies_take_up_the_momentum, a_plate_bends_under_a_point,
+/* A limit at z = 0 is one. */
+static void limits_at_zero_count(void **unused)
+{
+    fracas_spec spec = shell_spec(&fracas_shape_sphere);
+    fracas_model *model;
+    spec.geometry.part = load_choice(&fracas_shape_sphere, "part", "octant");
+    spec.mesh.divisions = 4;
+    spec.loading = at_point(true);
+    memset(load_number(&spec.loading, "total_x"), 0, 3 * sizeof(double));
+    *load_number(&spec.loading, "to_z") = 0; /* the equator, whose z is held alone */
+    OK(fracas_model_create(&spec, &model));
+    const fracas_surface_tables *t = model->plan;
+    const size_t size = fracas_surface_unknowns(t);
+    for (size_t e = 0; e < t->nelements; e++)
+        for (size_t k = 0; t->load_row[e] && k < model->surface->corners; k++) {
+            const double *f = t->load + (t->load_row[e] - 1) * size + 3 * k;
+            assert_int_equal(fabs(f[0]) + fabs(f[1]) > 0,
+                             node_at(model, e, k)[2] < 1e-9 * spec.geometry.radius);
+        }
+    fracas_model_destroy(model);
+}
+
+TESTS(forces_have_their_sum_and_place, the_set_has_the_force, limits_at_zero_count,
+      free_bodies_take_up_the_momentum, a_plate_bends_under_a_point,
       forces_without_sense_are_refused)

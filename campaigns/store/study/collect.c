@@ -94,6 +94,7 @@ static fate judge_study(const collection *c, const char *name, const char **why)
                                        "fits.csv",
                                        "fits.csv.part",
                                        "export",
+                                       "vtk",
                                        "pictures"};
     (void)c;
     for (size_t i = 0; i < sizeof ours / sizeof *ours; i++)

@@ -275,39 +275,100 @@ static void fill_edges(const forcing *of, int32_t tag)
     }
 }
 
+/* A share of an interface's force goes to the element on one side. */
+static void fill_side(const forcing *of, size_t i, int side, double share)
+{
+    const fracas_surface_interface *interface = &of->model->surface->interface[i];
+    const fracas_surface_border edge = {.element = interface->element[side],
+                                        .edge = interface->edge[side]};
+    double speed;
+    const element_point middle = edge_point_at(of->model->surface, &edge, 0.5, &speed);
+    fill_edge(of, &edge, share, row_of(of, edge.element, middle.at.x));
+}
+
 /* Half of the force goes to the element on each side. */
 static fracas_err fill_line(const forcing *of, int n)
 {
     const fracas_surface *surface = of->model->surface;
     OWNED bool *on = calloc(surface->ninterfaces + 1, sizeof *on);
-    double share, speed;
+    double share;
     if (!on) return fracas_no_memory("a load of a body");
     TRY(find_line(of->model, n, on, &share));
     for (size_t i = 0; i < surface->ninterfaces; i++)
-        for (int side = 0; on[i] && side < 2; side++) {
-            const fracas_surface_border edge = {.element = surface->interface[i].element[side],
-                                                .edge = surface->interface[i].edge[side]};
-            const element_point middle = edge_point_at(surface, &edge, 0.5, &speed);
-            fill_edge(of, &edge, 0.5 * share, row_of(of, edge.element, middle.at.x));
-        }
+        for (int side = 0; on[i] && side < 2; side++) fill_side(of, i, side, 0.5 * share);
     return FRACAS_OK;
 }
 
-/* Adds a share of the density at node k to its force. */
+/* ---- forces on nodes ---- */
+
+/* Adds a share of F at node k to its force. */
 static void push_node(const forcing *of, size_t e, size_t k, double share)
 {
-    double density[3];
+    double whole[3];
     const element_point p = point_at(of->model->surface, e, node_place[k][0], node_place[k][1]),
                         middle = point_at(of->model->surface, e, 1.0 / 3, 1.0 / 3);
     double *force = row_of(of, e, middle.at.x);
-    density_at(of, &p.at, density);
-    for (size_t i = 0; i < of->dimension; i++) force[of->dimension * k + i] += share * density[i];
+    density_at(of, &p.at, whole);
+    for (size_t i = 0; i < of->dimension; i++) force[of->dimension * k + i] += share * whole[i];
 }
 
-/* F_k = A_e F(x_k)/sum of A_e over all nodes of the set in all elements  (loads.12) */
-static fracas_err fill_nodes(const forcing *of, int n)
+/* F_k = F int N_k ds/(length of the edges), on both sides of those inside the body  (loads.12) */
+static void fill_group(const forcing *of, int32_t tag)
 {
     const fracas_surface *surface = of->model->surface;
+    double length = 0, speed;
+    for (size_t b = 0; b < surface->nborders; b++)
+        if (surface->border[b].tag == tag)
+            length += fracas_surface_length(surface, surface->border[b].element,
+                                            surface->border[b].edge);
+    for (size_t i = 0; i < surface->ninterfaces; i++)
+        if (surface->interface[i].tag == tag)
+            length += fracas_surface_length(surface, surface->interface[i].element[0],
+                                            surface->interface[i].edge[0]);
+    for (size_t b = 0; b < surface->nborders; b++) {
+        const fracas_surface_border *border = &surface->border[b];
+        if (border->tag != tag) continue;
+        const element_point middle = edge_point_at(surface, border, 0.5, &speed);
+        fill_edge(of, border, 1 / length, row_of(of, border->element, middle.at.x));
+    }
+    for (size_t i = 0; i < surface->ninterfaces; i++)
+        for (int side = 0; surface->interface[i].tag == tag && side < 2; side++)
+            fill_side(of, i, side, 0.5 / length);
+}
+
+/* F_k = N_k(foot) A_e F/(sum of A_e), in the elements that have the point's foot  (loads.13) */
+static fracas_err fill_point(const forcing *of, int n)
+{
+    const fracas_surface *surface = of->model->surface;
+    fracas_spot foot, spot;
+    double at[3], sum = 0;
+    of->load->middle(of->loading, (int)of->dimension, at);
+    fracas_surface_locate(of->model, at, &foot);
+    const double most = fracas_mesh_mean_length(surface);
+    if (foot.distance > most)
+        return fracas_fail(FRACAS_USAGE,
+                           "%s %s is beside the body: the nearest point, (%.6g, %.6g, %.6g) m, is "
+                           "%.3g m away, more than an edge, %.3g m: move at_x, at_y, at_z",
+                           fracas_loading_sections[n].name, of->loading->type->name, foot.place[0],
+                           foot.place[1], foot.place[2], foot.distance, most);
+    for (size_t e = 0; e < surface->nelements; e++)
+        if (fracas_surface_has(surface, e, foot.place, &spot)) sum += surface->area[e];
+    for (size_t e = 0; e < surface->nelements; e++)
+        if (fracas_surface_has(surface, e, foot.place, &spot))
+            for (size_t k = 0; k < surface->corners; k++)
+                push_node(of, e, k, spot.weight[k] * surface->area[e] / sum);
+    return FRACAS_OK;
+}
+
+/* F_k = w_k F/(sum of w over all nodes of the set in all elements), w_k the lumped mass of an
+ * element with density 1  (loads.14) */
+static fracas_err fill_nodes(const forcing *of, int n)
+{
+    static const double lumped[2][6] = {
+        {1.0 / 3, 1.0 / 3, 1.0 / 3},
+        {1.0 / 19, 1.0 / 19, 1.0 / 19, 16.0 / 57, 16.0 / 57, 16.0 / 57}};
+    const fracas_surface *surface = of->model->surface;
+    const double *share = lumped[surface->order - 1];
     const size_t corners = surface->corners;
     OWNED bool *on = calloc(surface->nnodes + 1, sizeof *on);
     double sum = 0;
@@ -315,10 +376,12 @@ static fracas_err fill_nodes(const forcing *of, int n)
     TRY(fracas_surface_nodes_mark(of->model, n, (int)of->dimension, on));
     for (size_t e = 0; e < surface->nelements; e++)
         for (size_t k = 0; k < corners; k++)
-            if (on[surface->element[e * corners + k]]) sum += surface->area[e];
+            if (on[surface->element[e * corners + k]]) sum += share[k] * surface->area[e];
+    if (!(sum > 0)) return fill_point(of, n);
     for (size_t e = 0; e < surface->nelements; e++)
         for (size_t k = 0; k < corners; k++)
-            if (on[surface->element[e * corners + k]]) push_node(of, e, k, surface->area[e] / sum);
+            if (on[surface->element[e * corners + k]])
+                push_node(of, e, k, share[k] * surface->area[e] / sum);
     return FRACAS_OK;
 }
 
@@ -332,9 +395,9 @@ static void fill_elements(const forcing *of)
     }
 }
 
-/* Largest component of a load's forces: any, and on a node free to move [N]. */
+/* Largest component of a load's forces: any, and on a node free to move [N]; and their sums. */
 typedef struct {
-    double any, moving;
+    double any, moving, all, free;
 } largest;
 
 static largest largest_of(const forcing *of)
@@ -346,7 +409,10 @@ static largest largest_of(const forcing *of)
         for (size_t i = 0; of->row[e] > 0 && i < size; i++) {
             const double force = fabs(t->load[(of->row[e] - 1) * size + i]);
             found.any = fmax(found.any, force);
-            if (!(t->held[e] >> i & 1)) found.moving = fmax(found.moving, force);
+            found.all += force;
+            if (t->held[e] >> i & 1) continue;
+            found.moving = fmax(found.moving, force);
+            found.free += force;
         }
     return found;
 }
@@ -357,6 +423,12 @@ static fracas_err check_moves(const forcing *of, int n)
 {
     const largest found = largest_of(of);
     const bool beside = !fracas_loading_is_alone(&of->model->spec);
+    if (of->load->on == FRACAS_LOAD_ON_NODES && found.free < 0.5 * found.all)
+        return fracas_fail(FRACAS_USAGE,
+                           "%.0f %% of the force of %s %s acts where geometry or a load holds the "
+                           "body, and moves nothing: free these edges, or move the force",
+                           100 * (1 - found.free / found.all), fracas_loading_sections[n].name,
+                           of->loading->type->name);
     if (found.moving > 1e-9 * found.any || (beside && found.any == 0)) return FRACAS_OK;
     return fracas_fail(
         FRACAS_USAGE,
@@ -379,7 +451,8 @@ static fracas_err fill_force(const fracas_model *model, fracas_surface_tables *t
     t->force[t->forces++] = n;
     TRY(fracas_load_history(of.loading, &t->history[n]));
     TRY(fracas_surface_load_tag(model, n, 0, &tag));
-    if (of.load->on == FRACAS_LOAD_ON_NODES) TRY(fill_nodes(&of, n));
+    if (of.load->on == FRACAS_LOAD_ON_NODES && tag != 0) fill_group(&of, tag);
+    else if (of.load->on == FRACAS_LOAD_ON_NODES) TRY(fill_nodes(&of, n));
     else if (of.load->on == FRACAS_LOAD_ON_LINE) TRY(fill_line(&of, n));
     else if (tag != 0) fill_edges(&of, tag);
     else fill_elements(&of);

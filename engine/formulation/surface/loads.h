@@ -35,7 +35,7 @@ bool fracas_surface_has_rim(const fracas_model *model, const fracas_surface_bord
 FRACAS_MUST_USE fracas_err fracas_surface_edges_fill(const fracas_model *model,
                                                      fracas_surface_tables *tables);
 /* Sets on[node of the mesh], all false before, for the nodes of loading number n, a load on nodes.
- * FRACAS_USAGE where it has none. */
+ * FRACAS_USAGE where it has none; a point may have none. */
 FRACAS_MUST_USE fracas_err fracas_surface_nodes_mark(const fracas_model *model, int n,
                                                      int dimension, bool *on);
 /* Number of loads that hold sets of nodes, and their loadings. */

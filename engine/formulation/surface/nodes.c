@@ -4,7 +4,6 @@
 #include "engine/formulation/surface/loads.h"
 
 #include "base/own.h"
-#include "engine/mesh/make.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -57,20 +56,6 @@ static fracas_err mark_edges(node_set *set, int n)
     return FRACAS_OK;
 }
 
-/* A point without a node takes the nearest, an edge's mean length away at most. */
-static fracas_err mark_nearest(node_set *set)
-{
-    const fracas_surface *surface = set->model->surface;
-    const double *x = surface->node[set->node], most = fracas_mesh_mean_length(surface);
-    set->on[set->node] = true;
-    if (set->nearest <= most) return FRACAS_OK;
-    return fracas_fail(FRACAS_USAGE,
-                       "%s %s has no node: the nearest to it, at (%.6g, %.6g, %.6g) m, lies %.3g m "
-                       "away, more than an edge, %.3g m: move at_x, at_y, at_z to the body",
-                       set->section, set->loading->type->name, x[0], x[1], x[2], set->nearest,
-                       most);
-}
-
 static fracas_err mark_limits(node_set *set, int dimension)
 {
     const fracas_surface *surface = set->model->surface;
@@ -83,7 +68,7 @@ static fracas_err mark_limits(node_set *set, int dimension)
         set->node = k;
     }
     if (set->nearest == 0) return FRACAS_OK;
-    if (set->load->point && set->load->point(set->loading)) return mark_nearest(set);
+    if (set->load->middle && set->load->middle(set->loading, dimension, NULL)) return FRACAS_OK;
     const double *x = surface->node[set->node];
     return fracas_fail(FRACAS_USAGE,
                        "%s %s has no node: the nearest, at (%.6g, %.6g, %.6g) m, lies %.3g m "

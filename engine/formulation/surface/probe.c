@@ -120,23 +120,40 @@ static bool is_far(const search *s, size_t e, double *size)
     return s->found && sqrt(square) - 1.5 * *size > s->best.distance;
 }
 
+/* Takes the nearest point of an element, if it is nearer than the best so far. */
+static void look_into(search *s, size_t e, double size)
+{
+    fracas_spot there;
+    if (find_foot(s, e, &there)) {
+        take(s, &there, size);
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        there = find_on_edge(s, e, k);
+        take(s, &there, size);
+    }
+}
+
 void fracas_surface_locate(const fracas_model *model, const double place[3], fracas_spot *spot)
 {
     search s = {.surface = model->surface, .place = place};
     for (size_t e = 0; e < model->elements; e++) {
         double size;
-        fracas_spot there;
-        if (is_far(&s, e, &size)) continue;
-        if (find_foot(&s, e, &there)) {
-            take(&s, &there, size);
-            continue;
-        }
-        for (int k = 0; k < 3; k++) {
-            there = find_on_edge(&s, e, k);
-            take(&s, &there, size);
-        }
+        if (!is_far(&s, e, &size)) look_into(&s, e, size);
     }
     *spot = s.best;
+}
+
+bool fracas_surface_has(const fracas_surface *surface, size_t e, const double place[3],
+                        fracas_spot *spot)
+{
+    search s = {.surface = surface, .place = place, .found = true};
+    double size;
+    if (is_far(&s, e, &size)) return false;
+    s.found = false;
+    look_into(&s, e, size);
+    *spot = s.best;
+    return spot->distance <= 1e-9 * size;
 }
 
 /* (probes.2) */
