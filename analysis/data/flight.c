@@ -5,6 +5,7 @@
 #include "analysis/data/columns.h"
 #include "base/own.h"
 
+#include <gsl/gsl_eigen.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -166,6 +167,62 @@ static void shift_along(fracas_flight *flight)
     for (size_t k = 0; k < flight->mesh.nnodes; k++) flight->mesh.node[k].position[0] += shift;
 }
 
+/* Adds a fragment to the second moments C and the angular momentum L about `centre`. */
+static void add_turning(const fracas_fragment *f, const double centre[3], const double velocity[3],
+                        double C[9], double L[3])
+{
+    double r[3], v[3], own[3];
+    for (int i = 0; i < 3; i++) {
+        r[i] = f->position[i] - centre[i];
+        v[i] = f->velocity[i] - velocity[i];
+    }
+    cross(r, v, own);
+    for (int i = 0; i < 3; i++) {
+        L[i] += f->mass * own[i] + f->angular_momentum[i];
+        for (int j = 0; j < 3; j++) {
+            C[3 * i + j] += f->mass * r[i] * r[j];
+            for (int a = 0; a < 3 && isfinite(f->semi_axis[a]); a++) /* older studies have none */
+                C[3 * i + j] += f->mass * f->semi_axis[a] * f->semi_axis[a] / 5 * f->axis[a][i] *
+                                f->axis[a][j];
+        }
+    }
+}
+
+/* flight->turn: sum over the principal axes a of all fragments together of a (a . L)/I_a, as
+ * (fragments.4). */
+static fracas_err find_turn(fracas_flight *flight)
+{
+    const fracas_record *record = &flight->record;
+    double mass = 0, centre[3] = {0}, velocity[3] = {0}, C[9] = {0}, L[3] = {0}, values[3], axes[9];
+    for (size_t f = 0; f < record->nfragment; f++) {
+        mass += record->fragment[f].mass;
+        for (int i = 0; i < 3; i++) {
+            centre[i] += record->fragment[f].mass * record->fragment[f].position[i];
+            velocity[i] += record->fragment[f].mass * record->fragment[f].velocity[i];
+        }
+    }
+    for (int i = 0; i < 3; i++) {
+        centre[i] /= mass;
+        velocity[i] /= mass;
+    }
+    for (size_t f = 0; f < record->nfragment; f++)
+        add_turning(&record->fragment[f], centre, velocity, C, L);
+    const double trace = C[0] + C[4] + C[8];
+    gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(3);
+    if (!work) return fracas_no_memory("the fragments of a realization");
+    gsl_matrix_view m = gsl_matrix_view_array(C, 3, 3), vectors = gsl_matrix_view_array(axes, 3, 3);
+    gsl_vector_view roots = gsl_vector_view_array(values, 3);
+    gsl_eigen_symmv(&m.matrix, &roots.vector, &vectors.matrix, work);
+    gsl_eigen_symmv_free(work);
+    for (int a = 0; a < 3; a++) {
+        const double along = axes[a] * L[0] + axes[3 + a] * L[1] + axes[6 + a] * L[2];
+        if (!(trace - values[a] > 1e-9 * trace)) continue; /* a bar about itself */
+        for (int i = 0; i < 3; i++)
+            flight->turn[i] += axes[3 * i + a] * along / (trace - values[a]);
+    }
+    return FRACAS_OK;
+}
+
 /* Where the centroid of a fragment is at its last break is between its places at the start and at
  * the end, unless it has been pushed since: then it moves evenly from the start. */
 static void find_paths(fracas_flight *flight)
@@ -221,7 +278,7 @@ static fracas_err find_pieces(fracas_flight *flight)
     shift_along(flight);
     find_loose(flight);
     find_paths(flight);
-    return FRACAS_OK;
+    return find_turn(flight);
 }
 
 static fracas_err place_chain(const fracas_point_table *table, size_t point, fracas_flight *flight)
@@ -301,23 +358,27 @@ static void follow(const fracas_flight *flight, size_t f, double time, double mo
     }
 }
 
-/* How a node of a fragment has moved, and its velocity  (fragments.10). */
+/* How a node of a fragment has moved, and its velocity  (fragments.10): it turns as the whole body,
+ * then as the fragment. */
 static void move(const fracas_flight *flight, size_t f, double time, const double from[3],
                  double displacement[3], double velocity[3])
 {
     const fracas_flight_piece *piece = &flight->piece[f];
-    const double *spin = flight->record.fragment[f].spin, since = fmax(time - piece->loose, 0);
-    double arm[3], turned[3], turn[3], moved[3], speed[3];
+    const bool alone = time >= piece->loose;
+    const double *spin = alone ? flight->record.fragment[f].spin : flight->turn;
+    double arm[3], turned[3], before[3], since[3], moved[3], speed[3];
     for (int i = 0; i < 3; i++) {
         turned[i] = arm[i] = from[i] - piece->centre[i];
-        turn[i] = spin[i] * since;
+        before[i] = flight->turn[i] * fmin(time, piece->loose);
+        since[i] = alone ? spin[i] * (time - piece->loose) : 0;
     }
-    rotate(turn, turned);
+    rotate(before, turned);
+    rotate(since, turned);
     cross(spin, turned, velocity);
     follow(flight, f, time, moved, speed);
     for (int i = 0; i < 3; i++) {
         displacement[i] = moved[i] + (turned[i] - arm[i]);
-        velocity[i] = speed[i] + (time < piece->loose ? 0 : velocity[i]);
+        velocity[i] += speed[i];
     }
 }
 

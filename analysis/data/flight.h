@@ -28,6 +28,7 @@ typedef struct {
     double period, rate;     /* m, 1/s, of a bar with periodic ends; 0: none */
     size_t head; /* so many first elements belong to the fragment at its end: they stand a period,
                   * as long as it is by then, behind where they are */
+    double turn[3];             /* rad/s, of all fragments as one body, at the end */
     uint32_t *piece_of;         /* [element] its fragment at the end, of the record's */
     fracas_flight_piece *piece; /* [fragment] */
 } fracas_flight;

@@ -161,6 +161,32 @@ for point in 0, 1:
         assert abs(mean[0] - mean[1]) < 1e-10, (point, f, mean)
 END
 
+# A body that turned before it broke.
+sed -e 's/^name:.*/name: turning/; /^sweep/,$d; s/^model:.*/model: ring/; s/poisson: 0.25, //; s/^loading:.*/loading: {type: initial-velocity, radial: 20 m\/s, circumferential: 200 m\/s}/' \
+    -e 's/^time:.*/time: {stop: time, end: 4 us}/' bodies.yaml > turning.yaml
+echo 'geometry: {shape: ring, radius: 2 mm, area: 0.1 mm2}
+mesh: {elements: 160}' >> turning.yaml
+expect 0 "$fracas" run --no-report turning.yaml --study turning
+expect 0 "$fracas" replay turning 0/0 --fields turned --every 1us --at end
+expect 0 "$fracas" export turning --vtk --point 0 --replica 0 --times 0s,1us,2us,3us,4.1us --to turns
+/usr/bin/python3 - <<'END' || fail "fragments have turned by other angles"
+import json
+import h5py, numpy as np
+
+times = [f["time"] for f in json.load(open("turned/body.hdf.series"))["files"]]
+last = h5py.File(f"turned/body-{len(times)}.hdf")["VTKHDF/CellData/fragment"][()]
+def angles(name):
+    grid = h5py.File(name)["VTKHDF"]
+    x, u = (grid[key][()].reshape(-1, 2, 3)[:, :, :2] for key in ("Points", "PointData/displacement"))
+    old, now = (end[:, 1] - end[:, 0] for end in (x - u, x))
+    cross, dot = old[:, 0] * now[:, 1] - old[:, 1] * now[:, 0], (old * now).sum(axis=1)
+    return np.array([np.arctan2(cross[last == f].sum(), dot[last == f].sum()) for f in range(last.max() + 1)])
+for k in range(1, 4):
+    wanted, got = angles(f"turned/body-{k + 1}.hdf"), angles(f"turns/point-0-replica-0-body-{k + 1}.hdf")
+    rms = lambda x: np.sqrt((x * x).mean())
+    assert rms(wanted) > 0.09 * k and rms(got - wanted) < 0.1 * rms(wanted), (k, rms(wanted), rms(got - wanted))
+END
+
 # All points, the realizations of the report.
 expect 0 "$fracas" export bodies --vtk --times 2
 [ "$(ls bodies/vtk/*.series | wc -l)" = 10 ] || fail "two series a point were expected"
