@@ -255,10 +255,24 @@ static void find_loose(fracas_flight *flight)
         if (isnan(flight->piece[f].loose)) flight->piece[f].loose = record->end_time;
 }
 
+fracas_err fracas_flight_check(const fracas_record *record)
+{
+    double sum = 0;
+    for (size_t f = 0; f < record->nfragment; f++)
+        for (int i = 0; i < 3; i++)
+            sum += record->fragment[f].position[i] + record->fragment[f].velocity[i] +
+                   record->fragment[f].spin[i] + record->fragment[f].angular_momentum[i];
+    if (isfinite(sum)) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "places or velocities of fragments are no numbers, as where it "
+                       "ended NONFINITE: choose another realization");
+}
+
 static fracas_err find_pieces(fracas_flight *flight)
 {
     FRACAS_CLEARED(fracas_surface_state) end = {0};
     const fracas_record *record = &flight->record;
+    TRY(fracas_flight_check(record));
     TRY(fracas_surface_state_create(&flight->mesh, record, INFINITY, &end));
     bool same = end.nfragments == record->nfragment;
     for (size_t f = 0; same && f < end.nfragments; f++)

@@ -33,9 +33,12 @@ typedef struct {
     fracas_flight_piece *piece; /* [fragment] */
 } fracas_flight;
 
+/* FRACAS_USAGE if places or velocities of its fragments are no numbers. */
+FRACAS_MUST_USE fracas_err fracas_flight_check(const fracas_record *record);
+
 /* The realization in row `row` of the study, of point `point`. FRACAS_DAMAGED if its fragments are
- * not those between its broken interfaces. Without interfaces in the study it has no element.
- * Cleared by the caller, after an error too. */
+ * not those between its broken interfaces, FRACAS_USAGE as fracas_flight_check. Without
+ * interfaces in the study it has no element. Cleared by the caller, after an error too. */
 FRACAS_MUST_USE fracas_err fracas_flight_read(fracas_results *results, size_t point, size_t row,
                                               fracas_flight *flight);
 void fracas_flight_clear(fracas_flight *flight);

@@ -71,6 +71,7 @@ static fracas_err check_record(const making *m, const fracas_record *record)
             FRACAS_USAGE,
             "replica %" PRId64 " of point %zu ended %s and left nothing to draw; choose another",
             m->request->replica, m->request->point, fracas_outcome_name(record->outcome));
+    if (m->request->film) TRY(fracas_flight_check(record));
     for (size_t k = 0; m->request->time && k < m->request->count; k++) {
         const double time = m->request->time[k];
         if (time >= 0 && (time <= record->end_time || (m->request->film && !m->request->dots)))

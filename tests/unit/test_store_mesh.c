@@ -28,8 +28,9 @@ static size_t elements_of(size_t interfaces)
     return interfaces == 18 ? 16 : 2 * (size_t)(shape.nx * shape.ny);
 }
 
-/* Replica 2 FAILED, the others have `interfaces` of them: interface i of replica r cracks at r + i
- * [us] and breaks 0.5 us later. Elements of a surface become fragments. */
+/* Replica 2 FAILED, 3 has places that are no numbers, the others have `interfaces` of them:
+ * interface i of replica r cracks at r + i [us] and breaks 0.5 us later. Elements of a surface
+ * become fragments. */
 static void make_record(size_t point, int64_t replica, size_t interfaces, fracas_record *record)
 {
     fracas_record_init(record);
@@ -39,7 +40,8 @@ static void make_record(size_t point, int64_t replica, size_t interfaces, fracas
     record->fragments = (int64_t)record->nfragment;
     record->fragment = calloc(record->nfragment + 1, sizeof *record->fragment);
     for (size_t f = 0; f < record->nfragment; f++)
-        record->fragment[f] = (fracas_fragment){.mass = 1, .size = 1, .elements = 1, .dust = 1};
+        record->fragment[f] = (fracas_fragment){
+            .mass = 1, .size = 1, .elements = 1, .dust = 1, .position = {replica == 3 ? NAN : 0}};
     record->end_time = 1e-4;
     record->onset_time = 1e-6 * (double)replica;
     record->dissipated = record->residual = 0;
@@ -238,6 +240,8 @@ static void pictures_of_what_is_not_there(void **state)
             "there is no replica -1");
     refused(study, (fracas_picture_request){.point = 1, .replica = 2, .count = 6},
             "replica 2 of point 1 ended FAILED");
+    refused(study, (fracas_picture_request){.point = 1, .replica = 3, .count = 2, .film = true},
+            "places or velocities of fragments are no numbers");
     refused(study, (fracas_picture_request){.point = 1, .count = 1, .time = &late},
             "time 200.0 us is outside of the realization, which goes from 0 to 100.0 us");
     refused(study, (fracas_picture_request){.point = 1, .count = 1, .time = &early},
