@@ -86,16 +86,20 @@ FRACAS_MUST_USE fracas_err fracas_export_write(const fracas_analysis *analysis, 
 /* Realizations as they move, for ParaView. */
 typedef struct {
     size_t point;       /* SIZE_MAX: all */
-    int64_t replica;    /* -1: of each point the one that its report shows */
+    int64_t replica;    /* -1: the report's of each point */
     size_t count;       /* times */
     const double *time; /* s, of each; NULL: as fracas_flight_moments */
     const char *folder; /* made if it is not there; NULL: STUDY/vtk */
 } fracas_grids_request;
 
-/* Writes point-P-replica-R-body-K.hdf and -interfaces-K.hdf for K from 1, and their .hdf.series
- * (analysis/export/grids.h), and prints these names on `out`. FRACAS_USAGE, with the choices there
- * are, for an unknown point, a study without interfaces, files of these names in a folder of
- * somebody's, and where nothing is written; FRACAS_INTERRUPTED if it is not complete. */
+/* Writes for each realization and time, K from 1:
+ * - point-P-replica-R-body-K.hdf: elements where their fragments have moved, each with nodes of its
+ *   own (displacement [m], velocity [m/s]; fragment, its elements, fragment_mass [kg]);
+ * - point-P-replica-R-interfaces-K.hdf: interfaces half-way between their sides (state: 0 closed, 1
+ *   cracked, 2 broken; strength [Pa], damage_at_end, onset_time and break_time [s], NaN: never);
+ * and a .hdf.series of each, with the times. Prints their names on `out`. FRACAS_USAGE, with the
+ * choices there are, for an unknown point, a study without interfaces, files of these names in a
+ * folder of somebody's, and where nothing is written; FRACAS_INTERRUPTED if it is not complete. */
 FRACAS_MUST_USE fracas_err fracas_export_grids(const fracas_analysis *analysis, const char *study,
                                                const fracas_grids_request *request, FILE *out);
 

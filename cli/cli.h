@@ -118,8 +118,8 @@ FRACAS_MUST_USE fracas_err fracas_arguments_time(const fracas_arguments *argumen
 /* Columns for tables on standard output: the terminal's; 0, no limit: there is none, or --wide. */
 int fracas_cli_columns(const fracas_arguments *arguments);
 
-/* The option --times: a list [s], freed by the caller, or how many; *count is what there are
- * without it, and *time NULL where there is no list. */
+/* The option --times: a list [s], freed by the caller; or a number of times, and *time is NULL.
+ * *count keeps its value without the option. */
 FRACAS_MUST_USE fracas_err fracas_cli_times(const fracas_arguments *arguments, size_t *count,
                                             double **time);
 

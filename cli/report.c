@@ -205,7 +205,7 @@ static fracas_err export_grids(const fracas_arguments *arguments)
     return fracas_export_grids(analysis, arguments->operand, &request, stdout);
 }
 
-/* Options of one way to export that say nothing in another. */
+/* Each way to export has options of its own. */
 static fracas_err check_export(const fracas_arguments *arguments)
 {
     static const char *const of_grids[] = {"point", "replica", "times"}, *const of_tables[] = {

@@ -123,7 +123,7 @@ static void find_seam(fracas_flight *flight)
     while (of[flight->mesh.nelements - 1] == 0 && of[flight->head] == 0) flight->head++;
 }
 
-/* The place of that fragment is behind the end of the bar, or in front of its start: behind it. */
+/* Its place is behind the end of the bar, or in front of the start: puts it behind. */
 static void put_behind(fracas_flight *flight)
 {
     fracas_fragment *f = &flight->record.fragment[0];
@@ -148,9 +148,8 @@ static fracas_err find_centres(fracas_flight *flight)
     return FRACAS_OK;
 }
 
-/* Lengths of the elements of the fragment through the seam are not known one by one, so that all
- * may be as far off along the bar: its peculiar motion has no momentum, sum m (X - C) = rate T sum
- * m C. */
+/* A fragment through the seam has unknown parts at both ends of the bar, by which all nodes may be
+ * off. The peculiar motion has no momentum: sum m (X - C) = rate T sum m C. */
 static void shift_along(fracas_flight *flight)
 {
     const double grown = flight->rate * flight->record.end_time;

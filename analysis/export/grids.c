@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "analysis/export/grids.h"
-
+/* fracas_export_grids: stored realizations as they move, for ParaView. */
 #include "analysis/analysis.h"
-
+#include "analysis/data/flight.h"
 #include "analysis/data/output.h"
 #include "analysis/data/text.h"
 #include "analysis/summary/study.h"
@@ -16,12 +15,6 @@
 #include <unistd.h>
 
 /* ---- one time ---- */
-
-static const uint8_t
-    element_shape[] =
-        {[2] = FRACAS_VTK_LINE, [3] = FRACAS_VTK_TRIANGLE, [6] = FRACAS_VTK_QUADRATIC_TRIANGLE},
-    interface_shape[] = {
-        [1] = FRACAS_VTK_VERTEX, [2] = FRACAS_VTK_LINE, [3] = FRACAS_VTK_QUADRATIC_LINE};
 
 /* 0, 1, 2, ...: cells have nodes of their own. */
 static void count_up(int64_t *number, size_t count)
@@ -53,7 +46,7 @@ static fracas_err write_body(const fracas_flight *flight, const fracas_flight_in
                                   .ncells = n,
                                   .corners = flight->corners,
                                   .corner = whole,
-                                  .shape = element_shape[flight->corners],
+                                  .shape = fracas_vtk_shapes[0][flight->corners],
                                   .narrays = FRACAS_COUNT(of_cells),
                                   .array = of_cells,
                                   .npoint_arrays = FRACAS_COUNT(of_points),
@@ -112,7 +105,7 @@ static fracas_err write_interfaces(const fracas_flight *flight, const fracas_fli
                                   .ncells = n,
                                   .corners = flight->ends,
                                   .corner = whole,
-                                  .shape = interface_shape[flight->ends],
+                                  .shape = fracas_vtk_shapes[1][flight->ends],
                                   .narrays = FRACAS_COUNT(array),
                                   .array = array};
     return fracas_vtk_write(path, &grid);
@@ -138,7 +131,7 @@ static fracas_err write_time(const fracas_flight *flight, double time, size_t nu
     return FRACAS_OK;
 }
 
-fracas_err fracas_grids_write(const fracas_flight *flight, const double *time, size_t count,
+static fracas_err write_times(const fracas_flight *flight, const double *time, size_t count,
                               const char *folder, const char *stem, FILE *out)
 {
     double bytes[2] = {0, 0};
@@ -172,8 +165,8 @@ static fracas_err check(const fracas_analysis *analysis, const fracas_grids_requ
     return FRACAS_OK;
 }
 
-/* FRACAS_USAGE where a file is there that would be replaced: nobody knows whose it is. Those of
- * STUDY/vtk are a former export's, and go. */
+/* Removes the files of a former export from STUDY/vtk. FRACAS_USAGE where another folder has one of
+ * these names: it may be anybody's. */
 static fracas_err make_room(const fracas_grids_request *request, const char *folder,
                             const char *stem)
 {
@@ -203,10 +196,10 @@ static fracas_err write_flight(const fracas_flight *flight, const fracas_grids_r
     if (request->time) memcpy(time, request->time, request->count * sizeof *time);
     else TRY(fracas_flight_moments(flight, time, request->count));
     TRY(make_room(request, folder, stem));
-    return fracas_grids_write(flight, time, request->count, folder, stem, out);
+    return write_times(flight, time, request->count, folder, stem, out);
 }
 
-/* Writes a realization; *written counts it. One that is not there is said. */
+/* Writes a realization and counts it, or says why there is none. */
 static fracas_err write_realization(const fracas_analysis *analysis, size_t p,
                                     const fracas_grids_request *request, const char *folder,
                                     size_t *written, FILE *out)

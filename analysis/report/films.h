@@ -10,7 +10,7 @@
 /* Bytes of a film with so many instants. */
 double fracas_flight_film_bytes(const fracas_flight *flight, size_t count);
 
-/* Instants of a film that a browser likes to hold, at most. */
+/* Most instants of a film of FRACAS_FILM_BYTES. */
 size_t fracas_flight_film_most(const fracas_flight *flight);
 
 /* Writes the page FOLDER/NAME: at each time [s] the body where its fragments are. */

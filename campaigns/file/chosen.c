@@ -37,7 +37,7 @@ static size_t choose_listed(const fracas_wanted_fields *wanted, fracas_candidate
     return count;
 }
 
-/* Those without a number, as an onset that never came, are the last. */
+/* Realizations without a number, as an onset, come last. */
 static int by_value(const void *a, const void *b)
 {
     const fracas_candidate *x = a, *y = b;

@@ -366,9 +366,7 @@ WARNING(
 WARNING(warn_inner, forecast->inner.number, 1,
         "lines of the mesh file's physical group %s lie inside the body: their edges are "
         "interfaces as all others, and the group has no effect: a line-force or point-force can "
-        "load it "
-        "by its key edge_1 to edge_8; for a notch, double its nodes: "
-        "Gmsh's Plugin(Crack)",
+        "load it by its key edge_1 to edge_8; for a notch, double its nodes: Gmsh's Plugin(Crack)",
         name_of(&forecast->inner).text)
 
 typedef struct {

@@ -85,11 +85,6 @@ static fracas_err list_instants(const fracas_fields_request *request, const frac
 
 static const char *const parts[] = {"body", "interfaces"};
 
-/* VTK's cells by the number of their nodes: of elements, of interfaces. */
-static const uint8_t shapes[2][7] = {
-    {[2] = FRACAS_VTK_LINE, [3] = FRACAS_VTK_TRIANGLE, [6] = FRACAS_VTK_QUADRATIC_TRIANGLE},
-    {[1] = FRACAS_VTK_VERTEX, [2] = FRACAS_VTK_LINE, [3] = FRACAS_VTK_QUADRATIC_LINE}};
-
 enum { MOST_ARRAYS = FRACAS_STRESSES + 5 };
 
 /* A grid, and the arrays that it points to. */
@@ -142,7 +137,7 @@ static const fracas_vtk_grid *make_part(const fracas_field_files *files, int par
     if (part == 0) make_body(files, p);
     else make_interfaces(files, p);
     p->grid.corner = files->corner;
-    p->grid.shape = shapes[part][p->grid.corners];
+    p->grid.shape = fracas_vtk_shapes[part][p->grid.corners];
     p->grid.array = p->cell;
     return &p->grid;
 }

@@ -21,6 +21,9 @@ enum {
     FRACAS_VTK_QUADRATIC_TRIANGLE = 22
 };
 
+/* VTK's shapes by the number of nodes: of elements (2, 3, 6), of interfaces (1, 2, 3). */
+extern const uint8_t fracas_vtk_shapes[2][7];
+
 /* Values of each cell, or of each point: one of the two. */
 typedef struct {
     const char *name;

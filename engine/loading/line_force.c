@@ -39,8 +39,7 @@ static void density(const fracas_spec *spec, const fracas_loading *loading, cons
                     double density[3])
 {
     (void)spec;
-    for (int i = 0; i < 3; i++)
-        density[i] = loading->own[FORCE + i] + loading->own[ACROSS] * at->normal[i];
+    fracas_load_vector(loading, FORCE, at, density);
 }
 
 static const char *edge_of(const fracas_loading *loading, int i)

@@ -90,6 +90,15 @@ bool fracas_load_has_front(const fracas_loading *loading);
 /* Largest |a| until t; INFINITY where it is unknown. */
 double fracas_load_largest(const fracas_loading *loading, double t);
 
+/* density = (own[first], own[first + 1], own[first + 2]) + own[first + 3] normal: along the axes,
+ * and across. */
+static inline void fracas_load_vector(const fracas_loading *loading, size_t first,
+                                      const fracas_place *at, double density[3])
+{
+    const double *own = loading->own + first;
+    for (int i = 0; i < 3; i++) density[i] = own[i] + own[3] * at->normal[i];
+}
+
 /* Trait `surface` of a load without a known bound of the strain. */
 fracas_stretch fracas_load_unbounded(const fracas_spec *spec, const fracas_loading *loading,
                                      double t);

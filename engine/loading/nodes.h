@@ -19,8 +19,7 @@ enum {
                   .fallback = FRACAS_REQUIRED, .minimum = -INFINITY, .maximum = INFINITY, \
                   .offset = offsetof(fracas_loading, own[place]), .only = models,         \
                   .optional = true)
-/* The keys; nodes beside the set `beyond`, as "are free"; `middle` is what is at at_x, at_y, at_z.
- */
+/* The keys. Nodes beside the set `beyond`: "are free". The place at_x, at_y, at_z is `middle`. */
 #define FRACAS_NODES_KEYS(beyond, middle)                                                          \
     FRACAS_NODES_PLACE("from_x", FRACAS_NODES_FROM, 0, "nodes with a smaller x " beyond),          \
         FRACAS_NODES_PLACE("to_x", FRACAS_NODES_TO, 0, "nodes with a larger x " beyond),           \

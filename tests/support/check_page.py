@@ -295,6 +295,8 @@ def check_widths():
                 if (e.closest('.multiples')) return false; /* scrolled within */
                 const b = e.getBoundingClientRect(); return b.left < 0 || b.right > innerWidth + 0.5 }).map(e => e.outerHTML.slice(0, 80))""")
             assert not outside, (width, outside)
+            many = browser.execute_script("return [...document.querySelectorAll('.multiples svg')].map(e => e.getBoundingClientRect().width).filter(w => w)")
+            assert min(many, default=600) >= 600, (width, many)  # small multiples are scrolled, not shrunk
     media()
     resize(1600)
 
@@ -361,6 +363,7 @@ def check_film(path, values):
     last = int(slider.get_attribute("max"))
     wait = lambda wanted: WebDriverWait(browser, 30).until(lambda _: shown() == wanted)
     wait(last)
+    assert float(all_of("input[type=range]")[1].get_attribute("value")) > 0  # fragments of these bodies hardly part: enlarged
     seen = {pixels()}
 
     def differs():

@@ -72,6 +72,22 @@ grep -q mine "extreme/fields/$1/note" || fail "$1 was removed"
 diff -r -x fields.txt -x note "again-$2" "extreme/fields/$2" || fail "$2: other fields after an interruption"
 [ "$(ls extreme/fields | wc -l)" = 4 ] || fail "a part is left"
 
+# Ordered by another number: the folders of the former choice go.
+wanted extreme.yaml '{realizations: extreme, by: dissipated}'
+expect 0 "$fracas" run --no-report extreme.yaml --study extreme
+/usr/bin/python3 - <<'END' || fail "other realizations than those of the least and the greatest dissipated energy"
+import os
+import h5py
+
+study = h5py.File("extreme/study.h5")["realization"]
+point, replica, energy = (study[name][()] for name in ("point", "replica", "dissipated"))
+names = set()
+for p in 0, 1:
+    of = sorted((e, r) for q, r, e in zip(point, replica, energy) if q == p)
+    names |= {f"{p}-{of[0][1]}", f"{p}-{of[-1][1]}"}
+assert names == set(os.listdir("extreme/fields")), (names, os.listdir("extreme/fields"))
+END
+
 # Other instants, and a point with another number: no folder stays under the name of another.
 wanted extreme.yaml '{realizations: extreme}'
 expect 0 "$fracas" run --no-report extreme.yaml --study extreme

@@ -114,6 +114,11 @@ said '"same": true'
 [ "$(grep -o 'id="instant[0-9]*"' alone.html | sort -u | wc -l)" = 49 ] || fail "not 49 instants"
 [ "$(ls -d alone*)" = alone.html ] || fail "more than a film"
 
+# No more instants than steps, however many are asked for.
+steps=$(h5dump -d /realization/steps ring/study.h5 | sed -n 's/^ *(0): \([0-9]*\),.*/\1/p')
+expect 0 "$fracas" replay ring 0/0 --film often.html --every 0.01ns
+said "^film: up to $((steps + 1)) instants, "
+
 # Refused before anything is computed.
 expect 2 "$fracas" replay ring 0/0 --film alone.html
 said 'alone.html is there already: name another, or remove it'

@@ -102,7 +102,7 @@ for point, (corners, ends) in enumerate([(2, 1), (2, 1), (3, 2), (6, 3), (6, 3)]
         elif point == 0 and still:
             assert miss < 1e-9, (a["time"], miss)
             calm += 1
-        assert miss < 0.3 or a["time"] < 7e-7, (point, a["time"], miss)
+        assert miss < 0.1 or a["time"] < 7e-7, (point, a["time"], miss)
         assert not now["PointData/displacement"][()].any() or a["time"]
 assert calm > 0
 END
@@ -222,6 +222,25 @@ expect 0 "$fracas" report bodies
 touch "$long"
 expect 0 "$fracas" report bodies
 [ -e "$long" ] && [ -e bodies/report/film-point-4.html ] || fail "a film is gone"
+
+# Times that no browser likes to hold; one step of a larger body is enough.
+cat > large.yaml <<'END'
+name: large
+seed: 5
+model: shell
+geometry: {shape: sphere, part: octant, radius: 2 mm, thickness: 0.1 mm}
+mesh: {divisions: 60}
+material: {young: 370 GPa, poisson: 0.25, density: 3900 kg/m3}
+cohesive: {law: nitsche, fracture_energy: 50 J/m2}
+strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}
+loading: {rate: 1e4 1/s}
+time: {stop: time, end: 0.1 ns}
+replicas: 1
+output: {interfaces: true}
+END
+expect 0 "$fracas" run --no-report large.yaml --study large
+expect 2 "$fracas" picture large --film --times 1000 -o none
+said 'a film of 1000 times would have more than browsers like to hold: say --times [1-9][0-9]*, or see `fracas export --vtk`'
 
 # Refused.
 expect 2 "$fracas" export bodies --vtk --point 5

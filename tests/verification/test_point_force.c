@@ -59,7 +59,7 @@ static bool has(const fracas_spec *spec, int set, const double x[3])
     return set == BALL ? hypot(x[0], x[1]) <= 0.3 * w + slack : x[0] >= 0.3 * w - slack;
 }
 
-/* Sum of the forces, and of x and y times that along x. */
+/* Sums of F_k, and of (x, y) F_k along x. */
 typedef struct {
     double force[3], first[2];
 } sums;
@@ -78,8 +78,8 @@ static sums sums_of(const fracas_model *model)
     return of;
 }
 
-/* They add up to the force, and at a point or on an edge their moment is that of the force there:
- * rounding of some 1e2 terms. */
+/* Forces add up to F; at a point or on an edge their moment is that of F there: rounding of some
+ * 1e2 terms. */
 static void forces_have_their_sum_and_place(void **unused)
 {
     for (int which = 0; which < KINDS * SETS; which++) {
@@ -173,10 +173,10 @@ static double pushed_through(const one_run *run)
 }
 
 /* A square plate on simple supports under F in its middle: w = 0.0116008 F a^2/D (Timoshenko and
- * Woinowsky-Krieger, Theory of plates and shells, table 23), and the energy F w/2. The force rises
- * in two periods of the first mode, after which that stands still; the next ones that move the
- * middle, of 5 times its frequency, have 1/25 of w in all and are left with 2/(5 omega rise), 6e-4
- * of w. The mesh errs by the square of its size. */
+ * Woinowsky-Krieger, Theory of plates and shells, table 23), and the energy F w/2. F rises in two
+ * periods of the first mode, which then stands still. The next modes have 5 times its frequency and
+ * 1/25 of w: 2/(5 omega rise) of it, 6e-4 of w, is left. The mesh errs by the square of its size.
+ */
 static void a_plate_bends_under_a_point(void **unused)
 {
     double error[2];

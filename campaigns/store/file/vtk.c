@@ -10,6 +10,10 @@
 #include <string.h>
 #include <unistd.h>
 
+const uint8_t fracas_vtk_shapes[2][7] = {
+    {[2] = FRACAS_VTK_LINE, [3] = FRACAS_VTK_TRIANGLE, [6] = FRACAS_VTK_QUADRATIC_TRIANGLE},
+    {[1] = FRACAS_VTK_VERTEX, [2] = FRACAS_VTK_LINE, [3] = FRACAS_VTK_QUADRATIC_LINE}};
+
 #define GROUP "/VTKHDF"
 
 /* Writes a whole dataset, of one column or more, without a time: equal grids have equal files. */

@@ -312,7 +312,7 @@ static void push_node(const forcing *of, size_t e, size_t k, double share)
     for (size_t i = 0; i < of->dimension; i++) force[of->dimension * k + i] += share * whole[i];
 }
 
-/* F_k = F int N_k ds/(length of the edges), on both sides of those inside the body  (loads.12) */
+/* F_k = F int N_k ds/(length of the edges), inside the body half on each side  (loads.12) */
 static void fill_group(const forcing *of, int32_t tag)
 {
     const fracas_surface *surface = of->model->surface;
@@ -336,7 +336,7 @@ static void fill_group(const forcing *of, int32_t tag)
             fill_side(of, i, side, 0.5 / length);
 }
 
-/* F_k = N_k(foot) A_e F/(sum of A_e), in the elements that have the point's foot  (loads.13) */
+/* F_k = N_k(foot) A_e F/(sum of A_e), in the elements at the foot  (loads.13) */
 static fracas_err fill_point(const forcing *of, int n)
 {
     const fracas_surface *surface = of->model->surface;

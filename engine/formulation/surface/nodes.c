@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Sets of nodes of a surface: those that a load pushes, or holds, at rest or along its path
+/* Sets of nodes of a surface, which a load pushes, or holds at rest or along its path
  * (docs/theory/loads.md). */
 #include "engine/formulation/surface/loads.h"
 

@@ -420,7 +420,7 @@ FRACAS_MUST_USE fracas_err fracas_surface_holds_fill(const fracas_model *model,
 size_t fracas_surface_held_edges(const fracas_model *model, int64_t tag[FRACAS_HOLDERS]);
 void fracas_surface_reactions(const fracas_model *model, const fracas_step *step, int lane,
                               double (*force)[3]);
-/* The point of element e at `place`; false where that is beside it. */
+/* The point of element e at `place`; false if the element is elsewhere. */
 bool fracas_surface_has(const fracas_surface *surface, size_t e, const double place[3],
                         fracas_spot *spot);
 void fracas_surface_locate(const fracas_model *model, const double place[3], fracas_spot *spot);
