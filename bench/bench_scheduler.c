@@ -261,10 +261,10 @@ static fracas_err run_in(bench *b, int argc, char **argv, const char *folder, bo
     words[n++] = "--study";
     words[n++] = (char *)(uintptr_t)folder;
     words[n] = NULL;
-    bool ran;
+    FRACAS_CLEARED(fracas_run_facts) facts = {0};
     TRY(write_campaign(b));
     const double began = fracas_now();
-    fracas_err err = fracas_run(&b->run, n, words, &ran);
+    fracas_err err = fracas_run(&b->run, n, words, &facts);
     const double wall = fracas_now() - began;
     if (err && err != FRACAS_INTERRUPTED) return err;
     fracas_err printed = print_study(b, wall, as_json);
@@ -275,7 +275,7 @@ static fracas_err measure(const fracas_arguments *arguments, int argc, char **ar
 {
     bench b;
     char folder[PATH_MAX - 16];
-    bool ran;
+    FRACAS_CLEARED(fracas_run_facts) facts = {0};
     const char *study = fracas_given(arguments, "study");
     TRY(read_options(arguments, &b));
     if (fracas_run_is_rank()) snprintf(folder, sizeof folder, "%s", study ? study : ".");
@@ -283,7 +283,7 @@ static fracas_err measure(const fracas_arguments *arguments, int argc, char **ar
     b.run.study = folder;
     snprintf(b.file, sizeof b.file, "%s/bench.yaml", folder);
     b.run.file = b.file;
-    if (fracas_run_is_rank()) return fracas_run(&b.run, argc, argv, &ran);
+    if (fracas_run_is_rank()) return fracas_run(&b.run, argc, argv, &facts);
     fracas_err err = run_in(&b, argc, argv, folder, fracas_given(arguments, "json"));
     if (!study) nftw(folder, remove_one, 16, FTW_DEPTH | FTW_PHYS);
     return err;

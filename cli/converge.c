@@ -194,9 +194,10 @@ static fracas_err print_costs(const converging *c)
 
 static fracas_err run_one(const fracas_run_options *run, int argc, char **argv)
 {
-    bool ran;
-    fracas_err end = fracas_run(run, argc, argv, &ran);
-    if (!end && !ran) fprintf(stderr, "fracas: %s is complete, nothing to compute\n", run->study);
+    FRACAS_CLEARED(fracas_run_facts) facts;
+    fracas_err end = fracas_run(run, argc, argv, &facts);
+    if (!end && !facts.ran)
+        fprintf(stderr, "fracas: %s is complete, nothing to compute\n", run->study);
     return end;
 }
 

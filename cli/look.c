@@ -87,7 +87,7 @@ fracas_err fracas_look_take(const char *study, const fracas_campaign *campaign, 
     fracas_look_pace(look, cost);
     if (fracas_index_missing(&look->running.all)) return FRACAS_OK; /* no file need be read */
     int64_t failed;
-    return fracas_study_settled(study, look->index, campaign, &look->complete, &failed);
+    return fracas_study_is_complete(study, look->index, campaign, &look->complete, &failed);
 }
 
 void fracas_look_clear(fracas_look *look)

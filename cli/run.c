@@ -79,22 +79,20 @@ static void say_old_report(const char *study)
 
 fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv)
 {
-    bool ran;
-    fracas_err end = fracas_run(run, argc, argv, &ran);
+    FRACAS_CLEARED(fracas_run_facts) facts;
+    fracas_err end = fracas_run(run, argc, argv, &facts);
     if (!fracas_run_owns_terminal()) return FRACAS_OK;
     if (end != FRACAS_OK && end != FRACAS_SOME_FAILED) return end;
 
-    char study[PATH_MAX], message[1024]; /* the error, for after the report */
+    const char *study = facts.study;
+    char message[1024]; /* the error, for after the report */
     snprintf(message, sizeof message, "%s", fracas_message());
-    OWN(fracas_campaign) campaign = NULL;
-    TRY(fracas_run_campaign(run, &campaign));
-    TRY(fracas_study_folder(run, campaign, study, sizeof study));
-    if (!ran) fprintf(stderr, "fracas: %s is complete, nothing to compute\n", study);
+    if (!facts.ran) fprintf(stderr, "fracas: %s is complete, nothing to compute\n", study);
     const fracas_report_view view = {
         .quiet = run->quiet, .columns = run->wide ? 0 : fracas_terminal_of(STDOUT_FILENO).columns};
     if (!run->no_report) TRY(fracas_cli_report(study, &view));
-    else if (ran) say_old_report(study);
-    const fracas_err fields = fracas_written_fields(study, campaign, stderr);
+    else if (facts.ran) say_old_report(study);
+    const fracas_err fields = fracas_written_fields(study, facts.campaign, stderr);
     if (!end) return fields;
     if (fields) fprintf(stderr, "fracas: %s\n", fracas_message());
     return fracas_fail(end, "%s", message);
@@ -168,7 +166,9 @@ const fracas_command fracas_command_run = {
             "interrupted, does nothing\n"
             "where one is complete, and adds what a longer campaign file asks for. Ctrl-C stops it "
             "when what is being\n"
-            "computed is stored. It can also be started by mpirun or srun, one process a core.\n",
+            "computed is stored. FILE may be edited meanwhile: the run goes on with what it has "
+            "read. It can also be started by mpirun\n"
+            "or srun, one process a core.\n",
     .options = fracas_cli_run_options,
     .run = run,
 };

@@ -154,7 +154,7 @@ static void put_point(canvas *on, const fracas_look *look, const fracas_columns 
     end_line(on);
 }
 
-static bool settled(const fracas_unfinished_point *point)
+static bool is_over(const fracas_unfinished_point *point)
 {
     return fracas_index_missing(&point->counts) == 0;
 }
@@ -167,12 +167,12 @@ static fracas_err put_map(canvas *on, const fracas_look *look, int room)
     TRY(fracas_columns_create(&look->campaign->table, &columns));
     const layout l = lay_out(look, &columns, on->terminal.columns);
     size_t open = 0, place = (size_t)(room > 3 ? room - 2 : 1);
-    for (size_t p = 0; p < points; p++) open += !settled(&look->running.point[p]);
+    for (size_t p = 0; p < points; p++) open += !is_over(&look->running.point[p]);
     if (place > points) place = points;
     size_t closed = place > open ? place - open : 0, left = place;
     put_head(on, &l);
     for (size_t p = 0; p < points && left > 0; p++) {
-        const bool over = settled(&look->running.point[p]);
+        const bool over = is_over(&look->running.point[p]);
         if (over && closed == 0) continue;
         closed -= over;
         left--;

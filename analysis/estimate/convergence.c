@@ -10,14 +10,14 @@
 #define KEY(name, key, unit) key,
 const char *const fracas_headline_key[FRACAS_NHEADLINES] = {FRACAS_HEADLINES(KEY)};
 
-static const fracas_field settling_fields[] = {
-    FRACAS_FIELD(fracas_settling, NUMBER, "value", NULL, "%s", value),
-    FRACAS_FIELD(fracas_settling, NUMBER, "low", NULL, "lower end of its band or interval: %s",
+static const fracas_field running_value_field[] = {
+    FRACAS_FIELD(fracas_running_value, NUMBER, "value", NULL, "%s", value),
+    FRACAS_FIELD(fracas_running_value, NUMBER, "low", NULL, "lower end of its band or interval: %s",
                  low),
-    FRACAS_FIELD(fracas_settling, NUMBER, "high", NULL, "upper end of its band or interval: %s",
-                 high),
+    FRACAS_FIELD(fracas_running_value, NUMBER, "high", NULL,
+                 "upper end of its band or interval: %s", high),
 };
-static const fracas_fields settling = FRACAS_FIELDS(settling_fields);
+static const fracas_fields running_value = FRACAS_FIELDS(running_value_field);
 
 #define HEADLINE(name, key, unit)                              \
     {key,                                                      \
@@ -25,7 +25,7 @@ static const fracas_fields settling = FRACAS_FIELDS(settling_fields);
      unit,                                                     \
      "as in points.csv, of these replicas",                    \
      offsetof(fracas_running, number[FRACAS_HEADLINE_##name]), \
-     &settling},
+     &running_value},
 static const fracas_field running_fields[] = {
     FRACAS_FIELD(fracas_running, INTEGER, "replicas", "1", "the first so many usable ones",
                  replicas),
@@ -47,18 +47,19 @@ static const double *values_of(const fracas_replica_values *first, int headline)
 
 /* From the first n realizations, n > 0. */
 static fracas_err run(const fracas_ensemble *ensemble, size_t n, uint64_t seed,
-                      fracas_settling number[FRACAS_NHEADLINES])
+                      fracas_running_value number[FRACAS_NHEADLINES])
 {
     fracas_interval pooled[FRACAS_NPOOLED];
     for (int h = 0; h < FRACAS_HEADLINE_MEAN; h++) {
         const fracas_estimate of = fracas_estimate_of(values_of(ensemble->value, h),
                                                       FRACAS_REPLICA_STRIDE, n);
-        number[h] = (fracas_settling){of.mean, of.mean - of.half_width, of.mean + of.half_width};
+        number[h] = (fracas_running_value){of.mean, of.mean - of.half_width,
+                                           of.mean + of.half_width};
     }
     TRY(fracas_pooled_first(ensemble, n, seed, pooled));
     for (int v = 0; v < FRACAS_NPOOLED; v++)
-        number[FRACAS_HEADLINE_MEAN + v] = (fracas_settling){pooled[v].value, pooled[v].low,
-                                                             pooled[v].high};
+        number[FRACAS_HEADLINE_MEAN + v] = (fracas_running_value){pooled[v].value, pooled[v].low,
+                                                                  pooled[v].high};
     return FRACAS_OK;
 }
 
@@ -90,15 +91,15 @@ bool fracas_replica_convergence_drifts(const fracas_replica_convergence *converg
     return convergence->alike[headline] < FRACAS_CONVERGED_ALARM;
 }
 
-bool fracas_settling_alike(const fracas_settling *number)
+bool fracas_running_alike(const fracas_running_value *number)
 {
     return number->high - number->low <= 2e-12 * fabs(number->value);
 }
 
 /* (estimators.22) */
-static bool settled(const fracas_settling *number, size_t n)
+static bool is_narrow(const fracas_running_value *number, size_t n)
 {
-    return (n >= FRACAS_BOOTSTRAP_LEAST || !fracas_settling_alike(number)) &&
+    return (n >= FRACAS_BOOTSTRAP_LEAST || !fracas_running_alike(number)) &&
            0.5 * (number->high - number->low) <= FRACAS_CONVERGED_WIDTH * fabs(number->value);
 }
 
@@ -120,9 +121,9 @@ fracas_err fracas_replica_convergence_of(const fracas_ensemble *ensemble, uint64
     }
     if (n >= 2) TRY(compare_halves(ensemble, convergence));
     for (int h = 0; h < FRACAS_NHEADLINES; h++) {
-        const fracas_settling *number = &convergence->row[rows - 1].number[h];
+        const fracas_running_value *number = &convergence->row[rows - 1].number[h];
         const bool has = isfinite(number->value);
-        convergence->converged[h] = has && settled(number, n) &&
+        convergence->converged[h] = has && is_narrow(number, n) &&
                                     !fracas_replica_convergence_drifts(convergence,
                                                                        (fracas_headline)h);
         convergence->unconverged += has && !convergence->converged[h];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How the headline numbers of a point settle as its replicas grow, in their order. */
+/* The headline numbers of a point as its replicas grow, in their order. */
 #ifndef FRACAS_ANALYSIS_ESTIMATE_CONVERGENCE_H
 #define FRACAS_ANALYSIS_ESTIMATE_CONVERGENCE_H
 
@@ -31,14 +31,14 @@ extern const char *const fracas_headline_key[FRACAS_NHEADLINES];
 
 typedef struct {
     double value, low, high; /* NaN where there is none */
-} fracas_settling;
+} fracas_running_value;
 
 /* All replicas gave the same: no scatter, but for rounding, to know the value by. */
-bool fracas_settling_alike(const fracas_settling *number);
+bool fracas_running_alike(const fracas_running_value *number);
 
 typedef struct {
     int64_t replicas; /* the first so many usable ones */
-    fracas_settling number[FRACAS_NHEADLINES];
+    fracas_running_value number[FRACAS_NHEADLINES];
 } fracas_running;
 
 /* replicas, then value, low, high of each headline. */

@@ -186,22 +186,22 @@ fracas_progress fracas_analysis_progress_of(const fracas_analysis *analysis, siz
         .failed = statistics->outcome[FRACAS_FAILED],
         .missing = fracas_results_missing(analysis->results, point),
     };
-    progress.settled = progress.done + progress.failed == progress.planned &&
-                       fracas_results_decided(analysis->results, point);
-    progress.complete = progress.settled && progress.failed == 0;
+    progress.ended = progress.done + progress.failed == progress.planned &&
+                     fracas_results_decided(analysis->results, point);
+    progress.complete = progress.ended && progress.failed == 0;
     return progress;
 }
 
 fracas_progress fracas_analysis_progress(const fracas_analysis *analysis)
 {
-    fracas_progress all = {.settled = true, .complete = true};
+    fracas_progress all = {.ended = true, .complete = true};
     for (size_t p = 0; p < analysis->table->npoints; p++) {
         const fracas_progress point = fracas_analysis_progress_of(analysis, p);
         all.planned += point.planned;
         all.done += point.done;
         all.failed += point.failed;
         all.missing += point.missing;
-        all.settled = all.settled && point.settled;
+        all.ended = all.ended && point.ended;
         all.complete = all.complete && point.complete;
     }
     return all;

@@ -54,8 +54,8 @@ typedef struct {
     int64_t done;    /* present, whatever their outcome */
     int64_t failed;  /* FAILED ones; they are present, too, as rows of NaN */
     int64_t missing; /* done, but their segment is missing or damaged */
-    bool settled;    /* all are done or FAILED, and the rule, if there is one, asks for no more */
-    bool complete;   /* settled, and none FAILED */
+    bool ended;      /* all are done or FAILED, and the rule, if there is one, asks for no more */
+    bool complete;   /* ended, and none FAILED */
 } fracas_progress;
 
 extern const fracas_fields fracas_progress_fields; /* planned, done, failed, missing, complete */

@@ -191,14 +191,14 @@ static void warn_of_convergence(const fracas_point_statistics *statistics, size_
     char text[320] = "";
     double widest = 0;
     for (int h = 0; h < FRACAS_NHEADLINES; h++) {
-        const fracas_settling *number = &all->number[h];
+        const fracas_running_value *number = &all->number[h];
         if (of->converged[h] || !isfinite(number->value)) continue;
         const double relative = 0.5 * (number->high - number->low) / fabs(number->value);
         widest = fmax(widest, relative);
         fracas_append(text, sizeof text, ", ", "%s to %s %%%s", fracas_headline_key[h],
                       fracas_digits(number->high > number->low ? 100 * relative : 0, 2).text,
                       fracas_replica_convergence_drifts(of, (fracas_headline)h) ? " (drifts)"
-                      : fracas_settling_alike(number)                           ? " (all alike)"
+                      : fracas_running_alike(number)                            ? " (all alike)"
                                                                                 : "");
     }
     warn(list, p, "unconverged", widest, "unconverged with %lld replicas, known %s: raise replicas",
@@ -395,7 +395,7 @@ static void warn_of_study(const fracas_analysis *analysis, warning_list *list)
     char text[128];
     const fracas_progress all = fracas_analysis_progress(analysis);
     const bool partial = fracas_analysis_partial(analysis, text, sizeof text);
-    if (partial && all.settled)
+    if (partial && all.ended)
         warn(list, SIZE_MAX, "study", 0,
              "%s, but study.h5 is not there or not of all of them: `fracas merge` writes it", text);
     else if (partial)

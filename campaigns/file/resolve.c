@@ -373,9 +373,9 @@ static fracas_err evaluate(const evaluation *of, const fracas_param *param, doub
 }
 
 /* Gives *setting, which has an expression, its value, in `known`. */
-static fracas_err settle(const fracas_file *file, const fracas_draft *draft,
-                         const fracas_param *param, const fracas_setting **setting,
-                         fracas_setting *known)
+static fracas_err take_value(const fracas_file *file, const fracas_draft *draft,
+                             const fracas_param *param, const fracas_setting **setting,
+                             fracas_setting *known)
 {
     *known = **setting;
     fracas_err err = evaluate(&(evaluation){file, draft, *setting, NULL}, param, &known->value);
@@ -438,7 +438,7 @@ static fracas_err resolve_value(resolving *r, const fracas_leaf *leaf, const fra
     if (!setting) return resolve_unset(r, leaf, param);
     r->last = setting->node;
     if (!is_known(r->file, r->draft, setting)) return FRACAS_OK;
-    if (setting->expression) TRY(settle(r->file, r->draft, param, &setting, &known));
+    if (setting->expression) TRY(take_value(r->file, r->draft, param, &setting, &known));
     TRY(fracas_setting_check(r->file, setting, param));
     if (fracas_param_is_object(param)) fracas_param_place(param, r->values, setting->object);
     else fracas_param_set(param, r->values, fracas_setting_number(setting, param));

@@ -25,8 +25,7 @@ enum { SLEEP = 100 };
 
 typedef struct {
     const fracas_run_options *options;
-    fracas_campaign *campaign;
-    char study[4096];
+    fracas_run_facts *facts;
     double began;       /* fracas_now at the start of this process */
     fracas_mailbox box; /* to the other ranks */
     fracas_link link;   /* to its compute server */
@@ -155,11 +154,12 @@ static double deadline_of(const rank_state *rank)
     return rank->options->walltime > 0 ? rank->began + rank->options->walltime : 0;
 }
 
-static fracas_err lead(rank_state *rank, fracas_channel *channel, bool *ran)
+static fracas_err lead(rank_state *rank, fracas_channel *channel)
 {
-    fracas_director_setup setup = {.campaign = rank->campaign,
+    fracas_director_setup setup = {.campaign = rank->facts->campaign,
                                    .options = rank->options,
-                                   .study = rank->study,
+                                   .study = rank->facts->study,
+                                   .cost = rank->facts->cost,
                                    .workers = (size_t)rank->box.size,
                                    .send = send_worker,
                                    .context = rank,
@@ -169,7 +169,7 @@ static fracas_err lead(rank_state *rank, fracas_channel *channel, bool *ran)
     fracas_director *director;
     fracas_err result;
     TRY(fracas_director_create(&setup, &director, &result));
-    *ran = director != NULL;
+    rank->facts->ran = director != NULL;
     if (!director) return result;
     const char *restarted = getenv(FRACAS_RESTARTED);
     if (channel->launcher && restarted) fracas_director_note(director, "restarted", restarted);
@@ -198,14 +198,14 @@ static void receive_rest(rank_state *rank)
 
 /* Rank 0 with an open mailbox: the run, its result on the status channel, and QUIT to the others.
  */
-static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
+static fracas_err lead_to_end(rank_state *rank, fracas_err set_up)
 {
     fracas_channel channel;
     fracas_channel_init(&channel);
     channel.progress.quiet = rank->options->quiet;
     fracas_err err = set_up;
-    if (!err) err = lead(rank, &channel, ran);
-    fracas_channel_end(&channel, err, *ran);
+    if (!err) err = lead(rank, &channel);
+    fracas_channel_end(&channel, err, rank->facts->ran);
     fracas_trouble result;
     fracas_trouble_take(err, &result);
     const fracas_packet quit = {.kind = FRACAS_PACKET_QUIT};
@@ -214,20 +214,32 @@ static fracas_err lead_to_end(rank_state *rank, fracas_err set_up, bool *ran)
             fracas_mailbox_abort(&rank->box); /* or it waits */
     receive_rest(rank);
     if (!channel.launcher) return fracas_trouble_fail(&result);
-    *ran = false;
+    rank->facts->ran = false;
     return FRACAS_OK;
 }
 
 /* ---- every rank ---- */
 
+/* For a rank that no process of ours has forked. */
+static fracas_err find_facts(const fracas_run_options *options, fracas_run_facts *facts)
+{
+    const char *frequencies = getenv(FRACAS_FREQUENCIES), *of = getenv(FRACAS_OF);
+    TRY(fracas_run_campaign(options, &facts->campaign));
+    if (frequencies) TRY(fracas_frequencies_read(facts->campaign->frequencies, frequencies));
+    TRY(fracas_study_folder(options, facts->campaign, facts->study, sizeof facts->study));
+    if (!of || !strcmp(of, fracas_run_name_of(facts).text)) return FRACAS_OK;
+    return fracas_fail(FRACAS_USAGE,
+                       "%s was edited while the run computed it, and its ranks had to start again; "
+                       "put it back and run again, or run the new one beside it",
+                       options->file);
+}
+
 /* Before the mailbox is open: the supervisor is forked from a process without MPI. */
 static fracas_err set_up(rank_state *rank)
 {
-    TRY(fracas_run_campaign(rank->options, &rank->campaign));
-    const char *frequencies = getenv(FRACAS_FREQUENCIES);
-    if (frequencies) TRY(fracas_frequencies_read(rank->campaign->frequencies, frequencies));
-    TRY(fracas_study_folder(rank->options, rank->campaign, rank->study, sizeof rank->study));
-    return fracas_supervisor_start(rank->campaign, rank->options, rank->study,
+    fracas_run_facts *facts = rank->facts;
+    if (!facts->campaign) TRY(find_facts(rank->options, facts));
+    return fracas_supervisor_start(facts->campaign, rank->options, facts->study,
                                    &rank->link.supervisor);
 }
 
@@ -287,7 +299,7 @@ static fracas_err whereabouts(const char *study, fracas_whereabouts *place)
 static fracas_err meet(rank_state *rank, fracas_err err)
 {
     fracas_whereabouts mine;
-    if (!err) err = whereabouts(rank->study, &mine);
+    if (!err) err = whereabouts(rank->facts->study, &mine);
     const int other = fracas_mailbox_stranger(&rank->box, err ? NULL : &mine);
     if (err || other < 0) return err;
     return fracas_fail(FRACAS_USAGE,
@@ -298,15 +310,17 @@ static fracas_err meet(rank_state *rank, fracas_err err)
                        other);
 }
 
-fracas_err fracas_rank_run(const fracas_run_options *options, const fracas_mailbox *box, bool *ran)
+fracas_err fracas_rank_run(const fracas_run_options *options, const fracas_mailbox *box,
+                           fracas_run_facts *facts)
 {
-    *ran = false;
+    facts->ran = false;
     /* No rank outlives the launcher's starter. (Not with other launchers: the signal follows the
      * starting thread, and theirs may end early.) */
     if (getenv(FRACAS_LAUNCHER_MARK)) prctl(PR_SET_PDEATHSIG, SIGKILL);
     fracas_scratch_import();
     fracas_signals_catch_rank();
     rank_state rank = {.options = options,
+                       .facts = facts,
                        .began = fracas_now(),
                        .box = *box,
                        .link.supervisor = {.control = -1, .server = -1}};
@@ -318,14 +332,13 @@ fracas_err fracas_rank_run(const fracas_run_options *options, const fracas_mailb
     fracas_guard_pass();
     err = meet(&rank, fracas_trouble_fail(&trouble));
     if (rank.box.rank == 0) {
-        err = lead_to_end(&rank, err, ran);
+        err = lead_to_end(&rank, err);
     } else if (follow(&rank, err)) {
         fracas_mailbox_abort(&rank.box); /* or rank 0 would wait for this rank */
     } else {
         err = FRACAS_OK;
     }
     fracas_supervisor_end(&rank.link.supervisor);
-    fracas_campaign_destroy(rank.campaign);
     fracas_mailbox_close(&rank.box);
     return err;
 }

@@ -46,48 +46,49 @@ static bool is_of_a_job(void)
 }
 
 /* Finds all faults of the campaign and the study before anything is written or started. Leaves the
- * frequencies of its models to the processes of the run. */
+ * frequencies of its models, and its name, to the processes of the run. */
 static fracas_err examine(const fracas_run_options *options, const fracas_starter_kind *kind,
-                          int *jobs, bool *settled, fracas_err *result)
+                          int *jobs, fracas_run_facts *facts, bool *complete, fracas_err *result)
 {
-    OWN(fracas_campaign) campaign = NULL;
-    OWNED double *cost = NULL;
     OWNED double *bytes = NULL;
-    char study[4096];
     int64_t failed = 0;
-    TRY(fracas_run_campaign(options, &campaign));
+    TRY(fracas_run_campaign(options, &facts->campaign));
+    const fracas_campaign *campaign = facts->campaign;
     if (options->check) TRY(options->check(options->file, campaign));
-    TRY(fracas_study_folder(options, campaign, study, sizeof study));
-    TRY(fracas_study_examine(study, campaign, options->force, settled, &failed));
-    *result = failed ? fracas_failure_report(study, NULL, &campaign->table) : FRACAS_OK;
-    if (*settled) return FRACAS_OK;
+    TRY(fracas_study_folder(options, campaign, facts->study, sizeof facts->study));
+    TRY(fracas_study_examine(facts->study, campaign, options->force, complete, &failed));
+    *result = failed ? fracas_failure_report(facts->study, NULL, &campaign->table) : FRACAS_OK;
+    if (*complete) return FRACAS_OK;
     TRY(fracas_allocation_jobs(options->jobs, campaign->parallel.parts, jobs));
     TRY(kind->check(*jobs));
-    TRY(fracas_costs_create(campaign, options, stderr, &cost, &bytes));
-    TRY(fracas_space_check(study, campaign, options, bytes));
+    TRY(fracas_costs_create(campaign, options, stderr, &facts->cost, &bytes));
+    TRY(fracas_space_check(facts->study, campaign, options, bytes));
     OWNED char *frequencies = fracas_frequencies_write(campaign->frequencies);
     if (!frequencies) return fracas_no_memory("the run");
     setenv(FRACAS_FREQUENCIES, frequencies, 1);
+    setenv(FRACAS_OF, fracas_run_name_of(facts).text, 1);
     return FRACAS_OK;
 }
 
-fracas_err fracas_run(const fracas_run_options *options, int argc, char **argv, bool *ran)
+fracas_err fracas_run(const fracas_run_options *options, int argc, char **argv,
+                      fracas_run_facts *facts)
 {
-    *ran = false;
+    *facts = (fracas_run_facts){0};
     const fracas_mailbox mpi = {.transport = &fracas_transport_mpi};
     if (fracas_run_is_rank()) {
         if (is_of_a_job() && !getenv(FRACAS_LAUNCHER_MARK)) TRY(fracas_guard_begin());
-        return fracas_rank_run(options, &mpi, ran);
+        return fracas_rank_run(options, &mpi, facts);
     }
     const double began = fracas_now();
     fracas_signals_catch();
-    bool settled = false;
+    bool complete = false;
     fracas_err result;
     TRY(fracas_allocation_check());
     const fracas_starter_kind *kind = fracas_starter_choose();
-    fracas_ranks ranks = {.options = options, .life = fracas_rank_run, .argc = argc, .argv = argv};
-    TRY(examine(options, kind, &ranks.jobs, &settled, &result));
-    if (!settled) result = fracas_launcher_run(kind, &ranks, began, ran);
+    fracas_ranks ranks = {
+        .options = options, .facts = facts, .life = fracas_rank_run, .argc = argc, .argv = argv};
+    TRY(examine(options, kind, &ranks.jobs, facts, &complete, &result));
+    if (!complete) result = fracas_launcher_run(kind, &ranks, began, &facts->ran);
     fracas_signals_end();
     return result;
 }

@@ -188,7 +188,7 @@ def alike(first, second):
     return apart / (student_quantile(1 - 1 / 3200, freedom) * scatter * math.sqrt(1 / n1 + 1 / n2))
 
 
-def settled(x, w, drift, n):
+def is_narrow(x, w, drift, n):
     """(22): converged or not, and how far from the limits: 1 is at one of them."""
     if not all(map(math.isfinite, (x, w))):
         return 0, math.inf
@@ -214,7 +214,7 @@ def convergence(row, replicas, part, n):
         else:
             x, w = row[key + ".value"], (row[key + ".high"] - row[key + ".low"]) / 2
             parts = [(whole[key][0], count * standard_error(whole[key][0], without[key])**2, count) for count, whole, without in sums]
-        row["converged." + key], away = settled(x, w, alike(*parts) if parts else 0.0, n)
+        row["converged." + key], away = is_narrow(x, w, alike(*parts) if parts else 0.0, n)
         if key not in replicas and away < 0.3:
             unsure.add("converged." + key)
         row["unconverged"] = row.get("unconverged", 0) + (math.isfinite(x) and not row["converged." + key])

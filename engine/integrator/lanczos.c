@@ -5,11 +5,11 @@
 
 #include <math.h>
 
-enum { LIMIT = 200, LIMIT_SETTLED = 2000, CALM = 12 };
+enum { LIMIT = 200, LIMIT_OWN = 2000, CALM = 12 };
 
 /* The tridiagonal matrix of the iteration. */
 typedef struct {
-    double diagonal[LIMIT_SETTLED], off[LIMIT_SETTLED]; /* off[j] couples j and j + 1 */
+    double diagonal[LIMIT_OWN], off[LIMIT_OWN]; /* off[j] couples j and j + 1 */
     int size;
 } tridiagonal;
 
@@ -90,15 +90,15 @@ fracas_err fracas_lanczos(const fracas_lanczos_problem *problem, double *start, 
     const double norm = sqrt(dot(start, scratch, n));
     for (size_t i = 0; i < n; i++) start[i] /= norm;
     double *v = start, *w = other, before = 0;
-    const double settled = problem->settled > 0 ? problem->settled : 1e-4;
-    const int limit = problem->settled > 0 ? LIMIT_SETTLED : LIMIT;
+    const double tolerance = problem->tolerance > 0 ? problem->tolerance : 1e-4;
+    const int limit = problem->tolerance > 0 ? LIMIT_OWN : LIMIT;
     for (int calm = 0;
-         t->size < limit && (calm < CALM || (bound > 2e-3 * theta && !(problem->settled > 0)));) {
+         t->size < limit && (calm < CALM || (bound > 2e-3 * theta && !(problem->tolerance > 0)));) {
         const double next = advance(problem, v, w, scratch, before, &t->diagonal[t->size]);
         t->off[t->size++] = next;
         const double now = largest_of(t);
         bound = next * last_component(t, now);
-        calm = fabs(now - theta) <= settled * now ? calm + 1 : 0;
+        calm = fabs(now - theta) <= tolerance * now ? calm + 1 : 0;
         theta = now;
         if (!(next > 1e-12 * theta)) { /* an invariant subspace */
             bound = 0;
@@ -110,6 +110,6 @@ fracas_err fracas_lanczos(const fracas_lanczos_problem *problem, double *start, 
         w = swap;
         before = next;
     }
-    *largest = theta + (isfinite(bound) && !(problem->settled > 0) ? bound : 0);
+    *largest = theta + (isfinite(bound) && !(problem->tolerance > 0) ? bound : 0);
     return FRACAS_OK;
 }

@@ -14,7 +14,7 @@ typedef struct {
     void (*mass)(void *context, const double *w, double *result);
     void *context;
     size_t n;
-    double settled; /* 1: relative; 0, or the movement of theta that ends the iteration */
+    double tolerance; /* 1: relative; movement of theta that ends the iteration; 0: 1e-4 */
 } fracas_lanczos_problem;
 
 /* *largest: the largest eigenvalue of M^-1 K, from `start` (overwritten, not 0): the largest Ritz
@@ -24,8 +24,8 @@ typedef struct {
  * the last mode may rest at the one before: of 12 000 random pencils of up to 60 degrees of freedom
  * 7 did, 7e-4 below at worst (4 steps: 99, and 6e-2).
  *
- * With `settled`, *largest is theta alone, from below, once theta has moved by less in each of the
- * last 12 steps; 2000 steps at most. Its error is of second order in the mode's. */
+ * With `tolerance`, *largest is theta alone, from below, once theta has moved by less in each of
+ * the last 12 steps; 2000 steps at most. Its error is of second order in the mode's. */
 FRACAS_MUST_USE fracas_err fracas_lanczos(const fracas_lanczos_problem *problem, double *start,
                                           double *largest);
 

@@ -24,7 +24,7 @@ static struct {
     process *user; /* the present `fracas run` */
     int starts, most_starts;
     bool finished;
-    int64_t settled; /* when the user looked last */
+    int64_t ended; /* when the user looked last */
 } watch;
 
 static const double LOOK = 4000; /* s between two looks of the user */
@@ -38,12 +38,13 @@ int farm_host(const process *p)
 
 static void user_main(void *argument)
 {
-    bool ran;
+    fracas_run_facts facts;
     (void)argument;
-    const fracas_err err = fracas_run(&farm.options, 0, NULL, &ran);
+    const fracas_err err = fracas_run(&farm.options, 0, NULL, &facts);
     trace("the run ends with %d: %s", (int)err, err ? fracas_message() : "");
     if (err == FRACAS_USAGE || err == FRACAS_DAMAGED || err == FRACAS_BUG)
         broken("the run ends with status %d: %s", (int)err, fracas_message());
+    fracas_run_facts_clear(&facts);
     process_end(world.current, (int)err << 8);
 }
 
@@ -125,8 +126,8 @@ static bool any_frozen(void)
 static void look(void *what, uint64_t number)
 {
     (void)what, (void)number;
-    const bool moved = oracle_settled() > watch.settled;
-    watch.settled = oracle_settled();
+    const bool moved = oracle_ended() > watch.ended;
+    watch.ended = oracle_ended();
     world_at(world.now + LOOK, look, NULL, 0);
     if (moved) return;
     if (!any_frozen()) broken("nothing has been done for %g s", LOOK);
@@ -318,7 +319,7 @@ static void end_late_ones(void)
     for (size_t i = 0; i < world.nprocesses; i++)
         if (world.process[i]->alive) process_end(world.process[i], SIGKILL);
     watch.finished = false;
-    watch.settled = -1;
+    watch.ended = -1;
     start(NULL, 0);
     while (!watch.finished)
         if (!world_step()) broken("nothing is left to happen");

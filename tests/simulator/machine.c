@@ -202,9 +202,11 @@ bool __wrap_fracas_signals_insist(void)
 
 static void rank_main(void *argument)
 {
-    bool ran;
+    fracas_run_facts facts;
     (void)argument;
-    process_end(world.current, fracas_run(&farm.options, 0, NULL, &ran) << 8);
+    const int status = fracas_run(&farm.options, 0, NULL, &facts) << 8;
+    fracas_run_facts_clear(&facts);
+    process_end(world.current, status);
 }
 
 static void start_rank(run *r, int number)

@@ -27,7 +27,7 @@ typedef struct {
 } hold;
 
 typedef struct {
-    bool settled; /* done, or failed for good */
+    bool ended;   /* done, or failed for good */
     bool written; /* its record is durable */
     int hurt;     /* attempts lost to faults */
     hold hold[MOST_HOLDS];
@@ -38,7 +38,7 @@ static struct {
     const fracas_campaign *campaign;
     realization **of; /* by point and replica */
     int64_t *room;    /* replicas of each point */
-    int64_t settled;
+    int64_t ended;
     char **segment; /* names in the index */
     size_t nsegments, segments_room;
     const run *run; /* the holder of the study */
@@ -78,16 +78,16 @@ void oracle_power_failed(void)
     oracle.run = NULL;
 }
 
-int64_t oracle_settled(void)
+int64_t oracle_ended(void)
 {
-    return oracle.settled;
+    return oracle.ended;
 }
 
-static void settle(uint64_t point, int64_t replica)
+static void note_end(uint64_t point, int64_t replica)
 {
     realization *r = of(point, replica);
-    oracle.settled += !r->settled;
-    r->settled = true;
+    oracle.ended += !r->ended;
+    r->ended = true;
 }
 
 bool oracle_may_hurt(const process *child)
@@ -130,7 +130,7 @@ static void lease_one(const process *server, const fracas_lease *lease, size_t i
     const int64_t replica = lease->replica[i];
     realization *r = of(lease->point, replica);
     const double now = oracle.asked;
-    if (r->settled && !may_be_in_part(r, lease->id))
+    if (r->ended && !may_be_in_part(r, lease->id))
         broken("replica %lld of point %llu is leased, and is done", (long long)replica,
                (unsigned long long)lease->point);
     for (size_t h = 0; h < MOST_HOLDS; h++)
@@ -273,7 +273,7 @@ fracas_err __wrap_fracas_index_commit(fracas_index *index, const char *segment,
     trace("commits %s: %zu realizations", segment, count);
     check_segment(segment, seal);
     know(segment);
-    for (size_t i = 0; i < count; i++) settle(point_of(&row[i].point), row[i].replica);
+    for (size_t i = 0; i < count; i++) note_end(point_of(&row[i].point), row[i].replica);
     return FRACAS_OK;
 }
 
@@ -289,7 +289,7 @@ fracas_err __wrap_fracas_index_fail(fracas_index *index, const fracas_hash *poin
     if (final && farm_curse(p, replica) == SOUND)
         broken("replica %lld of point %llu failed for good: %s", (long long)replica,
                (unsigned long long)p, reason);
-    if (final) settle(p, replica);
+    if (final) note_end(p, replica);
     return FRACAS_OK;
 }
 
@@ -379,11 +379,11 @@ void __wrap_fracas_checkpoints_remove(const char *study, const fracas_segment_ro
     __real_fracas_checkpoints_remove(study, row, count);
 }
 
-static bool all_settled(void)
+static bool all_ended(void)
 {
     for (size_t p = 0; p < oracle.campaign->npoints; p++)
         for (int64_t i = 0; i < oracle.campaign->table.point[p].replicas; i++)
-            if (!of(p, i)->settled) return false;
+            if (!of(p, i)->ended) return false;
     return true;
 }
 
@@ -393,7 +393,7 @@ static void check_removal(const char *path, const char *name)
     if (!strstr(path, "/" FRACAS_CHECKPOINTS "/") || *name == '.' || !read_checkpoint(path, &head))
         return;
     const realization *r = of(point_of(&head.point), head.replica);
-    if (!r->settled && !r->written && !all_settled())
+    if (!r->ended && !r->written && !all_ended())
         broken("checkpoint %s is removed, and its record is nowhere", name);
 }
 
@@ -455,11 +455,11 @@ static void check_rows(fracas_index *index)
     size_t count;
     if (fracas_index_rows(index, &table, &row, &count)) broken("the index: %s", fracas_message());
     for (size_t i = 0; i < count; i++) {
-        const bool settled = row[i].status == FRACAS_DONE || row[i].status == FRACAS_FAILED_ROW;
-        if (of(row[i].point, row[i].replica)->settled && !settled)
+        const bool ended = row[i].status == FRACAS_DONE || row[i].status == FRACAS_FAILED_ROW;
+        if (of(row[i].point, row[i].replica)->ended && !ended)
             broken("replica %lld of point %zu was done, and is not", (long long)row[i].replica,
                    row[i].point);
-        if (settled) settle(row[i].point, row[i].replica);
+        if (ended) note_end(row[i].point, row[i].replica);
     }
     free(row);
 }

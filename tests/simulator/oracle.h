@@ -28,7 +28,7 @@ uint64_t oracle_checkpoint(uint64_t point, int64_t replica);
 void oracle_begins(uint64_t point, int64_t replica, uint64_t before, uint64_t steps);
 
 /* Realizations done or failed for good. */
-int64_t oracle_settled(void);
+int64_t oracle_ended(void);
 /* A process with this lease may be killed, or held up until its time is over: no realization would
  * come to its third attempt by that. Notes the attempt. */
 bool oracle_may_hurt(const process *child);

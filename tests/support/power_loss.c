@@ -73,7 +73,7 @@ void __wrap_fracas_units_destroy(fracas_units *units)
 enum { FAULTS_MAX = 20 };
 
 typedef struct {
-    uint64_t states, faults, adopted, settled, promised, torn_locks;
+    uint64_t states, faults, adopted, complete, promised, torn_locks;
     uint64_t of_style[DISK_NSTYLES];
 } tally;
 
@@ -308,14 +308,14 @@ static bool is_good_report(const worker *w, const char *report)
 static bool open_study(const worker *w, bool force)
 {
     const storm *s = w->s;
-    bool settled;
+    bool complete;
     int64_t failed;
     int lock = -1;
     OWN(fracas_index) index = NULL;
     OWNED char *report = NULL;
-    fracas_err err = fracas_study_examine(s->study, s->campaign, force, &settled, &failed);
-    if (!err && settled) {
-        s->sum->settled++;
+    fracas_err err = fracas_study_examine(s->study, s->campaign, force, &complete, &failed);
+    if (!err && complete) {
+        s->sum->complete++;
         err = fracas_index_open(s->study, false, &index);
     } else if (!err) {
         err = fracas_study_prepare(s->study, s->campaign, force, &lock, &index, &report);
@@ -422,7 +422,7 @@ static int run_workers(storm *s)
     printf("%" PRIu64 " states of %zu changes: %" PRIu64 " with promises, %" PRIu64
            " with segments adopted, %" PRIu64 " complete, %" PRIu64 " locks to force; %" PRIu64
            " faults\n",
-           t->states, s->log.count, t->promised, t->adopted, t->settled, t->torn_locks, t->faults);
+           t->states, s->log.count, t->promised, t->adopted, t->complete, t->torn_locks, t->faults);
     for (int i = 0; i < DISK_NSTYLES; i++)
         printf("    %8" PRIu64 " %s\n", t->of_style[i], disk_style_text[i]);
     if (bad) printf("%d workers died\n", bad);

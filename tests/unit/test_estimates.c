@@ -154,7 +154,7 @@ static void numbers_that_settle_and_others(void **state)
     const int64_t rows[] = {4, 8, 16, 32, 40};
     assert_int_equal(of.count, FRACAS_COUNT(rows));
     for (size_t r = 0; r < of.count; r++) assert_int_equal(of.row[r].replicas, rows[r]);
-    const fracas_settling *count = &of.row[0].number[FRACAS_HEADLINE_COUNT];
+    const fracas_running_value *count = &of.row[0].number[FRACAS_HEADLINE_COUNT];
     assert_true(count->value == 100 &&
                 fabs(0.5 * (count->high - count->low) - 3.182446 * sqrt(4.0 / 3) / 2) < 1e-6);
     assert_true(of.alike[FRACAS_HEADLINE_COUNT] == 1);

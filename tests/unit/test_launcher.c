@@ -126,18 +126,21 @@ static int end_of(const fracas_starter *starter, char said[256])
     return status;
 }
 
-static fracas_err end_badly(const fracas_run_options *options, const fracas_mailbox *box, bool *ran)
+static fracas_err end_badly(const fracas_run_options *options, const fracas_mailbox *box,
+                            fracas_run_facts *facts)
 {
     return box->rank == 1 ? FRACAS_DAMAGED : FRACAS_OK;
 }
 
-static fracas_err die(const fracas_run_options *options, const fracas_mailbox *box, bool *ran)
+static fracas_err die(const fracas_run_options *options, const fracas_mailbox *box,
+                      fracas_run_facts *facts)
 {
     if (box->rank == 1) raise(SIGKILL);
     return FRACAS_OK;
 }
 
-static fracas_err end_well(const fracas_run_options *options, const fracas_mailbox *box, bool *ran)
+static fracas_err end_well(const fracas_run_options *options, const fracas_mailbox *box,
+                           fracas_run_facts *facts)
 {
     return FRACAS_OK;
 }
@@ -157,7 +160,7 @@ static void a_starter_ends_as_its_ranks(void **state)
 }
 
 static fracas_err wait_for_go(const fracas_run_options *options, const fracas_mailbox *box,
-                              bool *ran)
+                              fracas_run_facts *facts)
 {
     tell_and_wait();
     return FRACAS_OK;
@@ -184,7 +187,7 @@ static void ranks_that_end_together(void **state)
 
 /* Ends well after the signal to drain alone. */
 static fracas_err wait_for_signal(const fracas_run_options *options, const fracas_mailbox *box,
-                                  bool *ran)
+                                  fracas_run_facts *facts)
 {
     sigset_t before;
     hold_signals(&before);
@@ -224,7 +227,7 @@ static int before_the_start;
 
 /* stdin has nothing. Beside the three streams there are the sockets of all inboxes, two of each. */
 static fracas_err have_own_descriptors(const fracas_run_options *options, const fracas_mailbox *box,
-                                       bool *ran)
+                                       fracas_run_facts *facts)
 {
     char none;
     if (read(STDIN_FILENO, &none, 1) != 0) return FRACAS_BUG;

@@ -19,7 +19,7 @@ static fracas_err make_scheduler(fracas_director *director)
     size_t count;
     TRY(fracas_rounds_init(&director->rounds, campaign, director->index));
     TRY(fracas_index_rows(director->index, &director->rounds.table, &row, &count));
-    fracas_scheduler_options options = {.cost = director->cost,
+    fracas_scheduler_options options = {.cost = director->setup.cost,
                                         .first = director->ruled,
                                         .npoints = campaign->npoints,
                                         .workers = director->setup.workers,
@@ -57,20 +57,33 @@ static fracas_err announce(fracas_director *director, const char *report)
     return fracas_index_event(director->index, count.done ? "resumed" : "started", text);
 }
 
-static fracas_err open_study(fracas_director *director, bool *settled, int64_t *failed)
+static fracas_err open_study(fracas_director *director, bool *complete, int64_t *failed)
 {
     const fracas_director_setup *setup = &director->setup;
     OWNED char *report = NULL;
     TRY(fracas_study_prepare(setup->study, setup->campaign, setup->options->force, &director->lock,
                              &director->index, &report));
-    TRY(fracas_study_settled(setup->study, director->index, setup->campaign, settled, failed));
+    TRY(fracas_study_is_complete(setup->study, director->index, setup->campaign, complete, failed));
     TRY(fracas_index_set_part(director->index, setup->options->part, setup->options->parts));
-    if (*settled) return FRACAS_OK;
+    if (*complete) return FRACAS_OK;
     TRY(make_scheduler(director));
     return announce(director, report);
 }
 
-static fracas_err set_up(fracas_director *director, bool *settled, int64_t *failed)
+/* A launcher, if there is one, has warned and looked at the disk. */
+static fracas_err find_costs(fracas_director *director)
+{
+    fracas_director_setup *setup = &director->setup;
+    const bool launched = setup->channel->launcher;
+    OWNED double *bytes = NULL;
+    TRY(fracas_costs_create(setup->campaign, setup->options, launched ? NULL : stderr,
+                            &director->cost, &bytes));
+    setup->cost = director->cost;
+    if (launched) return FRACAS_OK;
+    return fracas_space_check(setup->study, setup->campaign, setup->options, bytes);
+}
+
+static fracas_err set_up(fracas_director *director, bool *complete, int64_t *failed)
 {
     director->phase = calloc(director->setup.workers, sizeof *director->phase);
     director->flushing = calloc(director->setup.workers, sizeof *director->flushing);
@@ -80,15 +93,8 @@ static fracas_err set_up(fracas_director *director, bool *settled, int64_t *fail
         return fracas_no_memory("the workers");
     for (size_t p = 0; p < director->setup.campaign->npoints; p++)
         director->ruled[p] = director->setup.campaign->point[p].rule.maximum > 0;
-    /* First: an impossible campaign leaves no files behind. */
-    OWNED double *bytes = NULL;
-    const bool launched = director->setup.channel->launcher; /* which has looked at all this */
-    TRY(fracas_costs_create(director->setup.campaign, director->setup.options,
-                            launched ? NULL : stderr, &director->cost, &bytes));
-    if (!launched)
-        TRY(fracas_space_check(director->setup.study, director->setup.campaign,
-                               director->setup.options, bytes));
-    return open_study(director, settled, failed);
+    if (!director->setup.cost) TRY(find_costs(director)); /* an impossible one leaves no files */
+    return open_study(director, complete, failed);
 }
 
 /* Not before: should a worker be lost, the others are there to compute its leases again. */
@@ -107,11 +113,11 @@ fracas_err fracas_director_create(const fracas_director_setup *setup, fracas_dir
     d->setup = *setup;
     d->lock = -1;
     fracas_timings_begin(&d->timings);
-    bool settled = false;
+    bool complete = false;
     int64_t failed = 0;
-    fracas_err err = set_up(d, &settled, &failed);
+    fracas_err err = set_up(d, &complete, &failed);
     d->timings.planned = fracas_timings_time(&d->timings);
-    if (err || settled) {
+    if (err || complete) {
         *result = err || !failed
                       ? err
                       : fracas_failure_report(setup->study, d->index, &setup->campaign->table);

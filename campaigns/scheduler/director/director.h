@@ -18,6 +18,7 @@ typedef struct {
     const fracas_campaign *campaign;
     const fracas_run_options *options;
     const char *study;
+    const double *cost; /* a realization takes at each point; NULL: not known yet */
     size_t workers;
     fracas_director_send *send;
     void *context;
@@ -29,7 +30,7 @@ typedef struct {
 typedef struct fracas_director fracas_director;
 
 /* Prepares the study (fracas_study_prepare) and the leases. *director is NULL if the study is
- * settled and nothing is to be done; then *result is its state. */
+ * complete and nothing is to be done; then *result is its state. */
 FRACAS_MUST_USE fracas_err fracas_director_create(const fracas_director_setup *setup,
                                                   fracas_director **director, fracas_err *result);
 /* Releases the study. NULL is allowed. */

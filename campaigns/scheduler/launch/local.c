@@ -25,12 +25,11 @@ static fracas_err check(int jobs)
 static _Noreturn void live(const fracas_ranks *ranks, fracas_sockets *sockets, int rank,
                            const sigset_t *awaited)
 {
-    bool ran;
     fracas_mailbox box;
     fracas_signals_catch_rank();
     sigprocmask(SIG_UNBLOCK, awaited, NULL);
     fracas_sockets_take(sockets, rank, &box);
-    exit(ranks->life(ranks->options, &box, &ran));
+    exit(ranks->life(ranks->options, &box, ranks->facts));
 }
 
 static fracas_err fork_ranks(const fracas_ranks *ranks, const sigset_t *awaited, pid_t *pid)

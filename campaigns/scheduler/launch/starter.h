@@ -6,6 +6,7 @@
 
 #include "base/err.h"
 #include "campaigns/scheduler/launch/scratch.h"
+#include "campaigns/scheduler/types/facts.h"
 #include "campaigns/scheduler/types/mailbox.h"
 #include "campaigns/scheduler/types/options.h"
 
@@ -20,11 +21,12 @@ typedef struct {
 
 /* The life of one rank: fracas_rank_run. */
 typedef fracas_err fracas_rank_life(const fracas_run_options *options, const fracas_mailbox *box,
-                                    bool *ran);
+                                    fracas_run_facts *facts);
 
 /* The ranks of a run. */
 typedef struct {
     const fracas_run_options *options;
+    fracas_run_facts *facts; /* for ranks that are forked */
     fracas_rank_life *life;
     int jobs;
     int argc; /* to start this program again */

@@ -121,10 +121,11 @@ fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign)
     return FRACAS_OK;
 }
 
-fracas_err fracas_study_settled(const char *study, fracas_index *index,
-                                const fracas_campaign *campaign, bool *settled, int64_t *failed)
+fracas_err fracas_study_is_complete(const char *study, fracas_index *index,
+                                    const fracas_campaign *campaign, bool *complete,
+                                    int64_t *failed)
 {
-    *settled = false;
+    *complete = false;
     *failed = 0;
     OWNED char *path = NULL;
     TRY(fracas_path(&path, "%s/study.h5", study));
@@ -137,20 +138,20 @@ fracas_err fracas_study_settled(const char *study, fracas_index *index,
         return FRACAS_OK;
     fracas_index_counts counts;
     TRY(fracas_index_count(index, &counts));
-    *settled = fracas_index_missing(&counts) == 0 &&
-               counts.realizations == (int64_t)fracas_reader_realizations(reader);
+    *complete = fracas_index_missing(&counts) == 0 &&
+                counts.realizations == (int64_t)fracas_reader_realizations(reader);
     *failed = counts.failed;
     return FRACAS_OK;
 }
 
 /* The index is closed on return. */
-static fracas_err look_at(const char *study, const fracas_campaign *campaign, bool *settled,
+static fracas_err look_at(const char *study, const fracas_campaign *campaign, bool *complete,
                           int64_t *failed)
 {
     OWN(fracas_index) index = NULL;
     TRY(fracas_index_open(study, false, &index));
-    TRY(fracas_study_settled(study, index, campaign, settled, failed));
-    return *settled ? fracas_study_sound(study, index, settled) : FRACAS_OK;
+    TRY(fracas_study_is_complete(study, index, campaign, complete, failed));
+    return *complete ? fracas_study_sound(study, index, complete) : FRACAS_OK;
 }
 
 static bool same_key(const char *a, const char *b)
@@ -175,9 +176,9 @@ static fracas_err keep_report_keys(const char *study, const char *file,
 }
 
 fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign, bool force,
-                                bool *settled, int64_t *failed)
+                                bool *complete, int64_t *failed)
 {
-    *settled = false;
+    *complete = false;
     *failed = 0;
     OWNED char *file = NULL;
     TRY(fracas_path(&file, "%s/campaign.yaml", study));
@@ -186,10 +187,10 @@ fracas_err fracas_study_examine(const char *study, const fracas_campaign *campai
     if (!fracas_index_exists(study)) return fracas_campaign_keeps(campaign, study, "campaign.yaml");
     int lock;
     TRY(fracas_study_lock_to_look(study, force, &lock));
-    fracas_err err = look_at(study, campaign, settled, failed);
-    if (access(file, F_OK)) *settled = false;            /* to be written again */
-    if (!err && *settled) fracas_checkpoints_end(study); /* left by a power cut, or written late */
-    if (!err && *settled) err = keep_report_keys(study, file, campaign);
+    fracas_err err = look_at(study, campaign, complete, failed);
+    if (access(file, F_OK)) *complete = false;            /* to be written again */
+    if (!err && *complete) fracas_checkpoints_end(study); /* left by a power cut, or written late */
+    if (!err && *complete) err = keep_report_keys(study, file, campaign);
     close(lock);
     return err;
 }

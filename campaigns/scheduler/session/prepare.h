@@ -28,21 +28,21 @@ FRACAS_MUST_USE fracas_err fracas_study_folder(const fracas_run_options *options
  * FRACAS_DAMAGED naming the first difference. Writes nothing. */
 FRACAS_MUST_USE fracas_err fracas_study_fits(const char *study, const fracas_campaign *campaign);
 
-/* *settled: study.h5 is of this campaign, it and the segments have the sizes noted in the index,
+/* *complete: study.h5 is of this campaign, it and the segments have the sizes noted in the index,
  * and every realization is done or failed for good (*failed of them). */
-FRACAS_MUST_USE fracas_err fracas_study_settled(const char *study, fracas_index *index,
-                                                const fracas_campaign *campaign, bool *settled,
-                                                int64_t *failed);
+FRACAS_MUST_USE fracas_err fracas_study_is_complete(const char *study, fracas_index *index,
+                                                    const fracas_campaign *campaign, bool *complete,
+                                                    int64_t *failed);
 
 /* Examines a study under its lock (`force` as in fracas_study_lock), without changing it; only from
- * a settled one it removes the checkpoints that are left, and gives it the campaign's keys of the
+ * a complete one it removes the checkpoints that are left, and gives it the campaign's keys of the
  * report, which are in no hash.
  * FRACAS_USAGE for a folder with files that no run wrote (campaigns/scheduler/session/keep.h),
- * FRACAS_IN_USE when another run has it, FRACAS_DAMAGED when it does not fit, else *settled and
- * *failed as above (false and 0 for a new study). Here a settled study also has all bytes as sealed
- * in the index; a run repairs any other. */
+ * FRACAS_IN_USE when another run has it, FRACAS_DAMAGED when it does not fit, else *complete and
+ * *failed as above (false and 0 for a new study). Here a complete study also has all bytes as
+ * sealed in the index; a run repairs any other. */
 FRACAS_MUST_USE fracas_err fracas_study_examine(const char *study, const fracas_campaign *campaign,
-                                                bool force, bool *settled, int64_t *failed);
+                                                bool force, bool *complete, int64_t *failed);
 
 /* Creates the folders, takes the lock (`force` as in fracas_study_lock; the caller unlocks it),
  * checks the campaign (fracas_study_fits), copies its attachments, writes campaign.yaml, opens the

@@ -72,7 +72,7 @@ fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaig
 {
     FRACAS_CLEARED(holding) h = {.study = study, .lock = -1};
     FRACAS_CLEARED(fracas_campaign_copy) copy = {0};
-    bool settled;
+    bool complete;
     int64_t failed;
     const fracas_file_header header = fracas_campaign_header(campaign);
     const fracas_mesh_source meshes = fracas_campaign_meshes(campaign);
@@ -90,8 +90,8 @@ fracas_err fracas_upkeep_merge(const char *study, const fracas_campaign *campaig
                            fracas_shell_path(study, "campaign.yaml").text,
                            fracas_shell_path(study, NULL).text);
     TRY(fracas_rounds_check(campaign, h.index));
-    TRY(fracas_study_settled(study, h.index, campaign, &settled, &failed));
-    if (settled) return fracas_failure_report(study, h.index, &campaign->table);
+    TRY(fracas_study_is_complete(study, h.index, campaign, &complete, &failed));
+    if (complete) return fracas_failure_report(study, h.index, &campaign->table);
     TRY(fracas_campaign_copy_make(campaign, &copy));
     TRY(fracas_study_merge(study, h.index, &header, &h.rounds.table, &meshes, &copy));
     *written = true;

@@ -7,6 +7,7 @@
 #define FRACAS_DEADLINE "FRACAS_DEADLINE" /* end of --walltime, s since 1970 */
 #define FRACAS_FREQUENCIES \
     "FRACAS_FREQUENCIES"                    /* fracas_frequencies_write; not on other machines */
+#define FRACAS_OF "FRACAS_OF"               /* hash of the campaign, and folder of the study */
 #define FRACAS_RESTARTED "FRACAS_RESTARTED" /* the reason for this restart */
 
 /* The remedy where a process of somebody's MPI job starts fracas, which becomes a rank by mistake.

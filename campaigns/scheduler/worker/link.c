@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <sys/socket.h>
 
-enum { DEATHS_MAX = 5 /* servers lost in a row with nothing settled in between */ };
+enum { DEATHS_MAX = 5 /* servers lost in a row with no segment and no failure in between */ };
 
 /* The message to rank 0 after the death of the server: REPLACED or LOST. */
 static fracas_err report_death(fracas_link *link, int rank, fracas_packet **message)
@@ -43,7 +43,7 @@ static void note(fracas_link *link, const fracas_packet *message)
     case FRACAS_PACKET_ENDED:
     case FRACAS_PACKET_TROUBLE: link->ended = true; break;
     case FRACAS_PACKET_FAILED:
-    case FRACAS_PACKET_SEGMENT: link->deaths = 0; break; /* settled: safe if the server dies */
+    case FRACAS_PACKET_SEGMENT: link->deaths = 0; break; /* safe if the server dies */
     default: break;
     }
 }

@@ -17,8 +17,8 @@ typedef struct {
 
 /* *message, freed by the caller, is NULL if none of the server has come. After an unexpected end of
  * the server of rank `rank` it is REPLACED, and a new server starts, or LOST: there is none, or
- * five died in a row with nothing settled in between. FRACAS_ENVIRONMENT if it cannot be read or
- * without memory. */
+ * five died in a row with no segment and no failure in between. FRACAS_ENVIRONMENT if it cannot be
+ * read or without memory. */
 FRACAS_MUST_USE fracas_err fracas_link_receive(fracas_link *link, int rank,
                                                fracas_packet **message);
 
