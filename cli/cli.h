@@ -4,6 +4,7 @@
 #define FRACAS_CLI_CLI_H
 
 #include "base/err.h"
+#include "campaigns/store/datafile.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -12,7 +12,7 @@
 #include "campaigns/scheduler/launch/quota.h"
 #include "campaigns/scheduler/launch/scratch.h"
 #include "campaigns/scheduler/launch/starter.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 
 #include <limits.h>
 #include <math.h>

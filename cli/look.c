@@ -8,6 +8,7 @@
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/types/clock.h"
 #include "cli/cli.h"
+#include "campaigns/store/lock.h"
 
 #include <inttypes.h>
 #include <limits.h>

@@ -8,6 +8,7 @@
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/types/lease.h"
 #include "campaigns/store/checkpoint.h"
+#include "campaigns/store/lock.h"
 
 /* A realization that computes for long, by its checkpoint. */
 typedef struct {

@@ -6,7 +6,7 @@
 #include "base/param.h"
 #include "base/units.h"
 #include "campaigns/campaign.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 #include "sampler/strength.h"
 
 #include <stdio.h>

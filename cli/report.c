@@ -9,7 +9,6 @@
 #include "base/text.h"
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/status/describe.h"
-#include "campaigns/store/store.h"
 #include "cli/look.h"
 
 #include <errno.h>

@@ -9,7 +9,7 @@
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/session/upkeep.h"
 #include "campaigns/scheduler/written_fields.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/index.h"
 
 #include <inttypes.h>
 #include <limits.h>

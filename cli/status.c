@@ -10,6 +10,7 @@
 #include "base/terminal.h"
 #include "campaigns/scheduler/status/describe.h"
 #include "cli/cli.h"
+#include "campaigns/store/lock.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -7,7 +7,7 @@
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/session/meshes.h"
 #include "campaigns/scheduler/types/header.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 #include "cli/cli.h"
 
 #include <errno.h>

@@ -10,7 +10,10 @@
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/session/meshes.h"
 #include "campaigns/scheduler/session/rounds.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
+#include "campaigns/store/index.h"
+#include "campaigns/store/lock.h"
+#include "campaigns/store/study.h"
 
 #include <limits.h>
 #include <stdlib.h>

@@ -8,6 +8,7 @@
 #include "base/terminal.h"
 #include "base/text.h"
 #include "campaigns/scheduler/status/describe.h"
+#include "campaigns/store/lock.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -7,7 +7,7 @@
 #include "analysis/data/ensemble.h"
 #include "analysis/data/field.h"
 #include "base/err.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 
 #include <stdbool.h>
 #include <stddef.h>

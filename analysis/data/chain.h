@@ -4,7 +4,8 @@
 #define FRACAS_ANALYSIS_DATA_CHAIN_H
 
 #include "base/err.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
+#include "campaigns/store/mesh.h"
 
 #include <stdbool.h>
 #include <stddef.h>

@@ -6,7 +6,8 @@
 
 #include "analysis/data/field.h"
 #include "base/err.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
+#include "campaigns/store/mesh.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -6,7 +6,7 @@
 
 #include "analysis/data/numbers.h"
 #include "base/err.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 
 #include <stdbool.h>
 #include <stddef.h>

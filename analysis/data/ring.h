@@ -5,7 +5,7 @@
 #define FRACAS_ANALYSIS_DATA_RING_H
 
 #include "base/err.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -5,7 +5,8 @@
 #define FRACAS_ANALYSIS_DATA_STRIP_H
 
 #include "base/err.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
+#include "campaigns/store/mesh.h"
 
 /* Triangles 2 e and 2 e + 1 are element e; interface i of the chain stays interface i, and those
  * within elements follow, which never crack. A bar lies along x; a ring, or a bar with periodic

@@ -5,7 +5,8 @@
 #define FRACAS_ANALYSIS_DATA_SURFACE_H
 
 #include "base/err.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
+#include "campaigns/store/mesh.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -8,6 +8,7 @@
 
 #include "analysis/draw/surface_picture.h"
 #include "analysis/draw/trail.h"
+#include "campaigns/store/mesh.h"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -6,6 +6,7 @@
 #include "analysis/analysis.h"
 #include "analysis/data/format.h"
 #include "analysis/data/surface.h"
+#include "campaigns/store/mesh.h"
 
 #include <stdbool.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
 #define FRACAS_ANALYSIS_ESTIMATE_FINAL_H
 
 #include "analysis/estimate/bootstrap.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 
 #include <stdbool.h>
 

@@ -3,6 +3,7 @@
 #include "analysis/summary/numbers.h"
 
 #include "analysis/data/ring.h"
+#include "campaigns/store/summary.h"
 
 #include <math.h>
 

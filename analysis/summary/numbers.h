@@ -4,6 +4,7 @@
 #define FRACAS_ANALYSIS_SUMMARY_NUMBERS_H
 
 #include "analysis/summary/statistics.h"
+#include "campaigns/store/datafile.h"
 
 /* All numbers of a usable realization of the point; `record` with its fragments. */
 fracas_replica_values fracas_numbers_of(const fracas_point_statistics *point,

@@ -12,7 +12,7 @@
 #include "analysis/estimate/scales.h"
 #include "base/err.h"
 #include "campaigns/points.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 
 #include <stdbool.h>
 

@@ -41,7 +41,7 @@ static void begin_point(reading *r, size_t p)
     fracas_point_statistics_init(r->table, p, &r->of);
 }
 
-static fracas_err take(void *context, size_t p, int64_t replica, const fracas_place *place)
+static fracas_err take(void *context, size_t p, int64_t replica, const fracas_row_place *place)
 {
     reading *r = context;
     const bool known = place->status != FRACAS_PLANNED && place->status != FRACAS_LEASED;

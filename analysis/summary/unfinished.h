@@ -6,7 +6,7 @@
 
 #include "analysis/data/estimate.h"
 #include "campaigns/points.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/index.h"
 
 typedef struct {
     fracas_index_counts counts;  /* segments and bytes 0 */

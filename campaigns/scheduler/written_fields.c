@@ -9,6 +9,7 @@
 #include "campaigns/scheduler/replay.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/results.h"
+#include "campaigns/store/lock.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -4,7 +4,8 @@
 #ifndef FRACAS_CAMPAIGNS_STORE_CHECKPOINT_H
 #define FRACAS_CAMPAIGNS_STORE_CHECKPOINT_H
 
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
+#include "campaigns/store/index.h"
 
 #define FRACAS_CHECKPOINTS "checkpoints"
 

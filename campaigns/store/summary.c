@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "campaigns/store/store.h"
+#include "campaigns/store/decision.h"
 
 #include <math.h>
 

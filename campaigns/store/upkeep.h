@@ -6,7 +6,8 @@
 #ifndef FRACAS_CAMPAIGNS_STORE_UPKEEP_H
 #define FRACAS_CAMPAIGNS_STORE_UPKEEP_H
 
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
+#include "campaigns/store/index.h"
 
 /* Calls `line` with each line for people, without its end. */
 typedef struct {

@@ -3,6 +3,8 @@
 #define STUDY_REPLICAS 4 /* few, as they are read a thousand times */
 #define STUDY_ROWS 12
 #include "tests/support/upkeep.h"
+#include "campaigns/store/study.h"
+#include "campaigns/store/lock.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -4,7 +4,8 @@
 #ifndef FRACAS_TESTS_SUPPORT_LARGE_STUDY_H
 #define FRACAS_TESTS_SUPPORT_LARGE_STUDY_H
 
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
+#include "campaigns/store/index.h"
 #include "tests/support/test.h"
 
 enum { LARGE_COLUMNS = 12, LARGE_MOST_POINTS = 1000, LARGE_HISTORY = 100, LARGE_RATES = 10 };

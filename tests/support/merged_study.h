@@ -10,6 +10,7 @@
 
 #include "campaigns/store/results.h"
 #include "tests/support/stored_mesh.h"
+#include "campaigns/store/study.h"
 
 enum { SURFACE = 1, RULED = 2 /* points */, MOST_REPLICAS = 8 };
 

@@ -5,7 +5,8 @@
 #define FRACAS_TESTS_SUPPORT_REPORT_H
 
 #include "analysis/analysis.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
+#include "campaigns/store/index.h"
 #include "tests/support/test.h"
 
 #include <sys/stat.h>

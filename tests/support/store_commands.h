@@ -12,6 +12,8 @@
 #include "campaigns/store/results.h"
 #include "tests/support/each_place.h"
 #include "tests/support/stored_mesh.h"
+#include "campaigns/store/study.h"
+#include "campaigns/store/lock.h"
 
 #include <sys/prctl.h>
 
@@ -236,7 +238,7 @@ static fracas_err use_index(void)
     const fracas_file_header header = sample_header();
     const fracas_hash *first = &point_row[0].hash;
     fracas_index_counts counts, point[SAMPLE_POINTS];
-    fracas_place place[REPLICAS];
+    fracas_row_place place[REPLICAS];
     size_t count;
     int64_t rows;
     int part, parts;

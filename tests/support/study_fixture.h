@@ -7,6 +7,7 @@
 
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/index.h"
+#include "campaigns/store/study.h"
 
 #include <sys/wait.h>
 

@@ -2,7 +2,7 @@
 /* The campaign in study.h5: its text and files. */
 #include "tests/support/store_sample.h"
 
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 
 static char *folder;
 

@@ -4,6 +4,8 @@
 #include "tests/support/merged_study.h"
 
 #include "base/version.h"
+#include "campaigns/store/study.h"
+#include "campaigns/store/lock.h"
 
 #include <sys/prctl.h>
 

@@ -3,6 +3,7 @@
 #include "tests/support/study_fixture.h"
 
 #include "campaigns/store/results.h"
+#include "campaigns/store/study.h"
 
 /* What the next run does with a study: recovers, computes what is planned, merges. *rows: what it
  * computed. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The index: plan, lease, commit, its modes and its file. */
 #include "tests/support/study_fixture.h"
+#include "campaigns/store/study.h"
 
 /* ---- planning and rows ---- */
 
@@ -77,7 +78,7 @@ static void first_commit_stays(void **state)
     sample_realization what[] = {{0, 3}, {1, 1}, {0, 4}};
     fracas_segment_row row[3];
     fracas_file_seal seal;
-    fracas_place place;
+    fracas_row_place place;
     sample_segment(study, "a.h5", &table, what, 3, MOST, &seal, row);
     row[0].summary.outcome = row[1].summary.outcome = FRACAS_INTACT;
     row[2].summary.outcome = FRACAS_FAILED;

@@ -6,6 +6,7 @@
 
 #include "analysis/analysis.h"
 #include "analysis/draw/surface_picture.h"
+#include "campaigns/store/study.h"
 
 enum {
     SURFACE = 1,

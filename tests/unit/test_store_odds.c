@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Results, writers, index and upkeep of a study with facts that nobody wrote. */
 #include "tests/support/merged_study.h"
+#include "campaigns/store/study.h"
 
 /* ---- results ---- */
 
@@ -221,7 +222,7 @@ static void names_of_files_of_any_kind_are_taken(void **state)
 static void numbers_of_the_index_that_nobody_wrote(void **state)
 {
     OWNED fracas_index_row *row = NULL;
-    fracas_place place[REPLICAS];
+    fracas_row_place place[REPLICAS];
     fracas_index_counts counts;
     size_t count;
     int part, parts;

@@ -173,7 +173,7 @@ static void lost_segments_are_named_once_and_left_out(void **state)
     assert_int_equal(unlink(sample_path(study, "segments/s1.h5")), 0);
     flip_byte(sample_path(study, "segments/s3.h5"), 3000);
     int64_t lost = 0;
-    fracas_place place;
+    fracas_row_place place;
     for (size_t i = 0; i < ALL; i++) { /* what failed needs no segment */
         OK(fracas_index_place(index_, &table.point[i / REPLICAS].hash, (int64_t)(i % REPLICAS),
                               &place));

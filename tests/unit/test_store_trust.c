@@ -3,6 +3,7 @@
 #include "base/version.h"
 #include "campaigns/store/file/h5.h"
 #include "tests/support/study_fixture.h"
+#include "campaigns/store/study.h"
 
 /* ---- the index ---- */
 

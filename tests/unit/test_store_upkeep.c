@@ -2,6 +2,7 @@
 /* Looking after a study: the index anew, garbage, failures again, older formats. Two studies made
  * one: test_store_join.c. */
 #include "tests/support/upkeep.h"
+#include "campaigns/store/study.h"
 
 /* ---- reindex ---- */
 

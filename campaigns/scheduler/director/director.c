@@ -5,6 +5,7 @@
 #include "campaigns/scheduler/session/failures.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/session/space.h"
+#include "campaigns/store/lock.h"
 
 #include <stdio.h>
 #include <stdlib.h>

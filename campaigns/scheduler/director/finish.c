@@ -4,6 +4,7 @@
 #include "campaigns/scheduler/session/meshes.h"
 #include "campaigns/scheduler/types/header.h"
 #include "campaigns/store/checkpoint.h"
+#include "campaigns/store/study.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -4,7 +4,7 @@
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_DIRECTOR_TIMINGS_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_DIRECTOR_TIMINGS_H
 
-#include "campaigns/store/store.h"
+#include "campaigns/store/index.h"
 
 typedef struct {
     double workers;

@@ -15,7 +15,7 @@
 #include "base/own.h"
 #include "base/err.h"
 #include "campaigns/scheduler/types/lease.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/index.h"
 
 #include <stdbool.h>
 

@@ -3,7 +3,7 @@
 #ifndef FRACAS_CAMPAIGNS_SCHEDULER_SESSION_FAILURES_H
 #define FRACAS_CAMPAIGNS_SCHEDULER_SESSION_FAILURES_H
 
-#include "campaigns/store/store.h"
+#include "campaigns/store/index.h"
 
 /* FRACAS_OK when no realization has failed for good. Else FRACAS_SOME_FAILED with a message such as
  * "12 realizations of STUDY FAILED: 2 of point 3, 10 of point 7 (...)", which names the first

@@ -6,7 +6,8 @@
 #include "base/text.h"
 #include "campaigns/store/checkpoint.h"
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
+#include "campaigns/store/index.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
 
 #include "campaigns/campaign.h"
 #include "campaigns/scheduler/types/options.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/index.h"
 
 #include <stdbool.h>
 

@@ -10,7 +10,7 @@
 /* ---- decisions ---- */
 
 /* Counts the same outcomes as the report (analysis); NaN leaves a realization out. */
-static double value_of(const fracas_place *row, fracas_quantity quantity)
+static double value_of(const fracas_row_place *row, fracas_quantity quantity)
 {
     const fracas_summary *found = &row->summary;
     const bool counts = row->status == FRACAS_DONE &&
@@ -30,7 +30,7 @@ static fracas_err decide(fracas_index *index, const fracas_point *point, int64_t
                          int64_t replicas, fracas_decision *decision, bool *complete)
 {
     OWNED double *value = malloc((size_t)replicas * sizeof *value);
-    OWNED fracas_place *row = malloc((size_t)replicas * sizeof *row);
+    OWNED fracas_row_place *row = malloc((size_t)replicas * sizeof *row);
     if (!value || !row) return fracas_no_memory("the realizations of a round");
     TRY(fracas_index_summaries(index, &point->hash, (size_t)replicas, row));
     *complete = true;

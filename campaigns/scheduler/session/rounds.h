@@ -6,7 +6,7 @@
 #define FRACAS_CAMPAIGNS_SCHEDULER_SESSION_ROUNDS_H
 
 #include "campaigns/campaign.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/index.h"
 
 #include <stdbool.h>
 

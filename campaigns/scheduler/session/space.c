@@ -5,7 +5,7 @@
 #include "campaigns/plan/point_model.h"
 #include "campaigns/plan/size.h"
 #include "campaigns/scheduler/status/channel.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/index.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -5,7 +5,7 @@
 
 #include "base/version.h"
 #include "campaigns/campaign.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 
 /* Header of a campaign's files, with the version of this program. */
 static inline fracas_file_header fracas_campaign_header(const fracas_campaign *campaign)

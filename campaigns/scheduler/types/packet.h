@@ -6,7 +6,7 @@
 
 #include "base/err.h"
 #include "campaigns/scheduler/types/lease.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 
 /* Each with its body. */
 typedef enum {

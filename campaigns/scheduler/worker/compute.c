@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/worker/compute.h"
+#include "campaigns/store/pack.h"
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,6 +4,7 @@
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/types/header.h"
 #include "campaigns/store/checkpoint.h"
+#include "campaigns/store/pack.h"
 
 #include <math.h>
 

@@ -10,6 +10,7 @@
 #include "campaigns/scheduler/types/clock.h"
 #include "campaigns/scheduler/types/header.h"
 #include "campaigns/scheduler/types/mailbox.h"
+#include "campaigns/store/pack.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* /point of a file against the campaign, whose values the hashes of points are of. */
 #include "base/version.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 
 #include <inttypes.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "campaigns/store/file/difference.h"
 
 #include "campaigns/store/file/schema.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 
 #include <assert.h>
 #include <inttypes.h>

@@ -3,7 +3,7 @@
 #ifndef FRACAS_CAMPAIGNS_STORE_FILE_DISK_H
 #define FRACAS_CAMPAIGNS_STORE_FILE_DISK_H
 
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 
 /* FOLDER/NAME; *path freed by the caller. */
 FRACAS_MUST_USE fracas_err fracas_disk_join(const char *folder, const char *name, char **path);

@@ -3,7 +3,7 @@
 #include "base/file.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/file/h5.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -2,7 +2,7 @@
 /* A record as bytes: the struct with its pointers taken out, then its arrays. For one program
  * on one machine. */
 #include "campaigns/store/file/schema.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/pack.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,8 @@
 #include "base/version.h"
 #include "campaigns/store/file/copy.h"
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/decision.h"
+#include "campaigns/store/datafile.h"
 #include "campaigns/store/file/table.h"
 
 #include <stdlib.h>

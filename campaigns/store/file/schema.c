@@ -2,7 +2,8 @@
 #include "campaigns/store/file/schema.h"
 
 #include "base/param.h"
-#include "campaigns/store/store.h"
+#include "campaigns/store/decision.h"
+#include "campaigns/store/datafile.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -121,7 +121,7 @@ fracas_err fracas_index_each(fracas_index *index, const fracas_point_table *tabl
     while (fracas_sql_next(index, s, &err)) {
         const int64_t id = sqlite3_column_int64(s, 0);
         if (id <= 0 || id > most || number[id] == table->npoints) continue;
-        const fracas_place place = fracas_place_read(s, 2);
+        const fracas_row_place place = fracas_place_read(s, 2);
         TRY(fracas_sql_whole(index));
         TRY(visit(context, number[id], sqlite3_column_int64(s, 1), &place));
     }

@@ -4,7 +4,8 @@
 #ifndef FRACAS_CAMPAIGNS_STORE_INDEX_INDEX_H
 #define FRACAS_CAMPAIGNS_STORE_INDEX_INDEX_H
 
-#include "campaigns/store/store.h"
+#include "campaigns/store/datafile.h"
+#include "campaigns/store/index.h"
 
 #include <sqlite3.h>
 
@@ -137,7 +138,7 @@ FRACAS_MUST_USE fracas_err fracas_index_plan_point(fracas_index *index,
                                                    const fracas_point_row *point);
 
 /* The place in a row with FRACAS_PLACE_COLUMNS from column `first` on. */
-fracas_place fracas_place_read(sqlite3_stmt *row, int first);
+fracas_row_place fracas_place_read(sqlite3_stmt *row, int first);
 
 /* One column: a status, planned for a text with a flipped bit (the tables' CHECK allows none); a
  * number, NaN for NULL. */
@@ -146,12 +147,12 @@ double fracas_real_read(sqlite3_stmt *row, int column);
 
 /* True if place and record agree: a flipped bit in the index, which SQLite does not see, gets no
  * further. `sized`: the record has its fragments, and the mean size counts, too. */
-bool fracas_place_fits(const fracas_place *place, const fracas_record *record, bool sized);
+bool fracas_place_fits(const fracas_row_place *place, const fracas_record *record, bool sized);
 
 /* Visits the realizations of every segment by its id, in the order of their rows; *point is NULL
  * where the index has no valid hash. */
 typedef fracas_err fracas_place_visit(void *context, const fracas_hash *point, int64_t replica,
-                                      const fracas_place *place);
+                                      const fracas_row_place *place);
 FRACAS_MUST_USE fracas_err fracas_index_each_by_segment(fracas_index *index,
                                                         fracas_place_visit *visit, void *context);
 
@@ -162,7 +163,7 @@ FRACAS_MUST_USE fracas_err fracas_index_fold(fracas_index *index, const char *se
                                              const fracas_segment_row *row, size_t count);
 /* FRACAS_DAMAGED if the index has no such realization. */
 FRACAS_MUST_USE fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point,
-                                              int64_t replica, fracas_place *place);
+                                              int64_t replica, fracas_row_place *place);
 
 /* A segment in the index. */
 typedef struct {
@@ -203,7 +204,7 @@ FRACAS_MUST_USE fracas_err fracas_index_forget(fracas_index *index, const int64_
 #define FRACAS_SQL_SET(key, type, value, meaning) ", " #key " = ?"
 #define FRACAS_SQL_UNSET(key, type, value, meaning) ", " #key " = NULL"
 
-/* The columns of a fracas_place, and assignments to forget it. */
+/* The columns of a fracas_row_place, and assignments to forget it. */
 #define FRACAS_PLACE_COLUMNS "status, segment, row" FRACAS_EACH_SUMMARY(FRACAS_SQL_NAME)
 #define FRACAS_UNSET_PLACE \
     "status = 'planned', segment = NULL, row = NULL" FRACAS_EACH_SUMMARY(FRACAS_SQL_UNSET)

@@ -29,11 +29,11 @@ double fracas_real_read(sqlite3_stmt *row, int column)
                                                            : sqlite3_column_double(row, column);
 }
 
-fracas_place fracas_place_read(sqlite3_stmt *row, int first)
+fracas_row_place fracas_place_read(sqlite3_stmt *row, int first)
 {
-    fracas_place place = {.status = fracas_status_read(row, first),
-                          .segment = sqlite3_column_int64(row, first + 1),
-                          .row = sqlite3_column_int64(row, first + 2)};
+    fracas_row_place place = {.status = fracas_status_read(row, first),
+                              .segment = sqlite3_column_int64(row, first + 1),
+                              .row = sqlite3_column_int64(row, first + 2)};
     first += 3;
 #define READ_INTEGER sqlite3_column_int64
 #define READ_REAL fracas_real_read
@@ -42,7 +42,7 @@ fracas_place fracas_place_read(sqlite3_stmt *row, int first)
     return place;
 }
 
-bool fracas_place_fits(const fracas_place *place, const fracas_record *record, bool sized)
+bool fracas_place_fits(const fracas_row_place *place, const fracas_record *record, bool sized)
 {
     fracas_summary found = fracas_summary_of(record);
     if (!sized) found.size = place->summary.size;
@@ -166,7 +166,7 @@ fracas_err fracas_index_failures(fracas_index *index, const fracas_point_table *
 }
 
 fracas_err fracas_index_place(fracas_index *index, const fracas_hash *point, int64_t replica,
-                              fracas_place *place)
+                              fracas_row_place *place)
 {
     int64_t id;
     fracas_err err;
@@ -200,7 +200,7 @@ fracas_err fracas_index_each_by_segment(fracas_index *index, fracas_place_visit 
         fracas_hash point;
         const char *hex = (const char *)sqlite3_column_text(s, 0);
         const bool valid = hex && fracas_hash_parse(hex, &point);
-        const fracas_place place = fracas_place_read(s, 2);
+        const fracas_row_place place = fracas_place_read(s, 2);
         TRY(fracas_sql_whole(index));
         TRY(visit(context, valid ? &point : NULL, sqlite3_column_int64(s, 1), &place));
     }
@@ -211,7 +211,7 @@ fracas_err fracas_index_each_by_segment(fracas_index *index, fracas_place_visit 
  * was never planned. */
 static fracas_err changed_or_done(fracas_index *index, const fracas_hash *point, int64_t replica)
 {
-    fracas_place place;
+    fracas_row_place place;
     return sqlite3_changes(index->db) == 1 ? FRACAS_OK
                                            : fracas_index_place(index, point, replica, &place);
 }
@@ -447,7 +447,7 @@ fracas_err fracas_index_forget(fracas_index *index, const int64_t *segment, size
 /* ---- decisions on the number of replicas, and the summaries they rest on ---- */
 
 fracas_err fracas_index_summaries(fracas_index *index, const fracas_hash *point, size_t count,
-                                  fracas_place *row)
+                                  fracas_row_place *row)
 {
     int64_t id;
     size_t found = 0;

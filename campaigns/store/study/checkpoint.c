@@ -213,7 +213,7 @@ typedef struct {
 static fracas_err judge(const sweeping *s, const char *path, const char *name, char why[1024])
 {
     fracas_hash point;
-    fracas_place place;
+    fracas_row_place place;
     int64_t replica;
     OWN(fracas_checkpoint) file = NULL;
     fracas_checkpoint_head head;

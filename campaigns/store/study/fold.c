@@ -3,6 +3,7 @@
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
 #include "campaigns/store/upkeep.h"
+#include "campaigns/store/study.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -24,7 +25,7 @@ static fracas_err fold_row(void *context, fracas_result *result)
 {
     folding *f = context;
     fracas_segment_row *row = &f->row[result->row];
-    fracas_place place;
+    fracas_row_place place;
     *row = (fracas_segment_row){.point = f->points->point[result->point].hash,
                                 .replica = result->replica,
                                 .row = (int64_t)result->row,

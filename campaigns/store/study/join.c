@@ -4,6 +4,7 @@
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
 #include "campaigns/store/upkeep.h"
+#include "campaigns/store/pack.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -26,10 +27,10 @@ typedef struct {
 
 /* Where `index` has a realization; status FRACAS_PLANNED if it has not. */
 static fracas_err place_of(fracas_index *index, const fracas_hash *point, int64_t replica,
-                           fracas_place *place)
+                           fracas_row_place *place)
 {
     int64_t id;
-    *place = (fracas_place){.status = FRACAS_PLANNED};
+    *place = (fracas_row_place){.status = FRACAS_PLANNED};
     TRY(fracas_index_find_point(index, point, &id));
     if (!id) return FRACAS_OK;
     fracas_err err = fracas_index_place(index, point, replica, place);
@@ -41,7 +42,7 @@ static fracas_err compare(void *context, fracas_visit *visit)
     comparison *c = context;
     const fracas_result *result = &visit->result;
     const fracas_hash *point = &c->table->point[result->point].hash;
-    fracas_place place;
+    fracas_row_place place;
     if (visit->place.status != FRACAS_DONE) return FRACAS_OK;
     TRY(place_of(c->index, point, result->replica, &place));
     if (place.status != FRACAS_DONE) return FRACAS_OK;
@@ -164,7 +165,7 @@ static fracas_err count_fresh(joining *j, int64_t *fresh)
 {
     *fresh = 0;
     for (size_t r = 0; r < j->nrows; r++) {
-        fracas_place place;
+        fracas_row_place place;
         TRY(place_of(j->index, &j->row[r].point, j->row[r].replica, &place));
         if (place.status == FRACAS_DONE ||
             (place.status == FRACAS_FAILED_ROW && j->row[r].summary.outcome == FRACAS_FAILED))
@@ -203,7 +204,7 @@ static fracas_err take_rows(joining *j)
 
 /* Gathers the rows of a segment, and takes those of the one before. */
 static fracas_err add_row(void *context, const fracas_hash *point, int64_t replica,
-                          const fracas_place *place)
+                          const fracas_row_place *place)
 {
     joining *j = context;
     if (!point)

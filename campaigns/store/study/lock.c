@@ -7,6 +7,7 @@
  * a holder that died, or that runs on another such host (docs/decisions/lock.md). */
 #include "base/file.h"
 #include "campaigns/store/file/disk.h"
+#include "campaigns/store/lock.h"
 
 #include <errno.h>
 #include <fcntl.h>

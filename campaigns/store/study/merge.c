@@ -2,6 +2,7 @@
 /* STUDY/study.h5 from the segments, in plan order. */
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
+#include "campaigns/store/study.h"
 
 #include <inttypes.h>
 #include <stdio.h>

@@ -5,6 +5,7 @@
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/study/segments.h"
 #include "campaigns/store/upkeep.h"
+#include "campaigns/store/study.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -204,7 +205,7 @@ bool fracas_study_is_kept(const char *study, fracas_index *index)
 static fracas_err place_or_plan(fracas_index *index, const fracas_point_table *table,
                                 const fracas_hash *point, int64_t replica)
 {
-    fracas_place place;
+    fracas_row_place place;
     fracas_err err = fracas_index_place(index, point, replica, &place);
     for (size_t p = 0; err == FRACAS_DAMAGED && p < table->npoints; p++) {
         fracas_point_row row = table->point[p];

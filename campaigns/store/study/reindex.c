@@ -4,6 +4,7 @@
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/index.h"
 #include "campaigns/store/upkeep.h"
+#include "campaigns/store/study.h"
 
 #include <errno.h>
 #include <inttypes.h>

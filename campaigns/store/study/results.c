@@ -4,6 +4,7 @@
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/file/schema.h"
 #include "campaigns/store/study/segments.h"
+#include "campaigns/store/lock.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -17,7 +18,7 @@
 typedef struct {
     size_t point;
     int64_t replica;
-    fracas_place place;
+    fracas_row_place place;
     bool lost; /* it could not be read */
 } entry;
 
@@ -119,7 +120,7 @@ static fracas_err take_file_alone(const char *study, const fracas_hash *campaign
 /* ---- the index ---- */
 
 static fracas_err add_row(fracas_results *results, size_t p, int64_t replica,
-                          const fracas_place *place)
+                          const fracas_row_place *place)
 {
     TRY(fracas_grow(&results->row, sizeof *results->row, results->nrows, &results->room,
                     "the realizations of a study"));
@@ -144,7 +145,7 @@ static fracas_err read_rows(fracas_results *results, fracas_index *index, size_t
         const int64_t replica = sqlite3_column_int64(s, 0);
         if (replica < 0 || replica >= most) continue;
         given++;
-        const fracas_place place = fracas_place_read(s, 1);
+        const fracas_row_place place = fracas_place_read(s, 1);
         if (place.status != FRACAS_PLANNED && place.status != FRACAS_LEASED)
             TRY(add_row(results, p, replica, &place));
     }

@@ -79,7 +79,7 @@ const char *fracas_segments_name(const fracas_segments *segments, int64_t id)
     return segment ? segment->name : "";
 }
 
-uint64_t fracas_segments_size(const fracas_segments *segments, const fracas_place *place,
+uint64_t fracas_segments_size(const fracas_segments *segments, const fracas_row_place *place,
                               unsigned parts)
 {
     const fracas_known_segment *segment = fracas_segment_of_id(&segments->known, place->segment);
@@ -159,7 +159,7 @@ fracas_err fracas_segments_open(fracas_segments *segments, int64_t id, fracas_re
     return FRACAS_OK;
 }
 
-fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place *place,
+fracas_err fracas_segments_record(fracas_segments *segments, const fracas_row_place *place,
                                   const fracas_hash *point, int64_t replica, unsigned parts,
                                   fracas_record *record)
 {
@@ -191,8 +191,8 @@ fracas_err fracas_segments_record(fracas_segments *segments, const fracas_place 
                        segments->index_path, replica, fracas_hash_hex(point).text, name, reindex);
 }
 
-fracas_err fracas_segments_check_failed(const fracas_segments *segments, const fracas_place *place,
-                                        int64_t replica)
+fracas_err fracas_segments_check_failed(const fracas_segments *segments,
+                                        const fracas_row_place *place, int64_t replica)
 {
     const bool failed = place->status == FRACAS_FAILED_ROW || place->status == FRACAS_QUARANTINED;
     if (!failed || place->summary.outcome == FRACAS_FAILED) return FRACAS_OK;
@@ -254,8 +254,8 @@ static fracas_err window_fill(window *w, const fracas_segments *segments, const 
 
 static int by_place(const void *a, const void *b)
 {
-    const fracas_place *x = &(*(fracas_visit *const *)a)->place,
-                       *y = &(*(fracas_visit *const *)b)->place;
+    const fracas_row_place *x = &(*(fracas_visit *const *)a)->place,
+                           *y = &(*(fracas_visit *const *)b)->place;
     if (x->segment != y->segment) return x->segment < y->segment ? -1 : 1;
     return (x->row > y->row) - (x->row < y->row);
 }

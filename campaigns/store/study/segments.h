@@ -43,17 +43,18 @@ bool fracas_segment_is_study(const char *name);
 /* The record in a place, checked to be of this realization; parts as fracas_reader_record. Cheapest
  * by segment and row. */
 FRACAS_MUST_USE fracas_err fracas_segments_record(fracas_segments *segments,
-                                                  const fracas_place *place,
+                                                  const fracas_row_place *place,
                                                   const fracas_hash *point, int64_t replica,
                                                   unsigned parts, fracas_record *record);
 /* File name of a segment, "" for an unknown id. */
 const char *fracas_segments_name(const fracas_segments *segments, int64_t id);
 /* Bytes of these parts of a record in memory; an estimate for interfaces. */
-uint64_t fracas_segments_size(const fracas_segments *segments, const fracas_place *place,
+uint64_t fracas_segments_size(const fracas_segments *segments, const fracas_row_place *place,
                               unsigned parts);
 /* FRACAS_DAMAGED for a failed realization with another outcome than FAILED. */
 FRACAS_MUST_USE fracas_err fracas_segments_check_failed(const fracas_segments *segments,
-                                                        const fracas_place *place, int64_t replica);
+                                                        const fracas_row_place *place,
+                                                        int64_t replica);
 
 /* True if study.h5 has the size in its seal. */
 FRACAS_MUST_USE fracas_err fracas_study_file_sealed(const char *study, fracas_index *index,
@@ -64,7 +65,7 @@ FRACAS_MUST_USE fracas_err fracas_study_file_sealed(const char *study, fracas_in
 /* One realization on the walk. */
 typedef struct {
     fracas_result result; /* its record is empty unless the realization is done and can be read */
-    fracas_place place;
+    fracas_row_place place;
     bool damaged; /* done, but its record cannot be read */
 } fracas_visit;
 

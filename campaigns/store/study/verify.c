@@ -6,6 +6,9 @@
 
 #include "base/file.h"
 #include "base/param.h"
+#include "campaigns/store/study.h"
+#include "campaigns/store/pack.h"
+#include "campaigns/store/lock.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -236,7 +239,7 @@ static fracas_err check_segments(verification *v)
 
 /* One row of the index against its record. */
 static fracas_err check_row(void *context, const fracas_hash *point, int64_t replica,
-                            const fracas_place *place)
+                            const fracas_row_place *place)
 {
     verification *v = context;
     if (!point) return found(v, "%s: a point has no valid hash", v->index->path);
