@@ -296,12 +296,12 @@ static fracas_err find_pieces(fracas_flight *flight)
 
 static fracas_err place_chain(const fracas_point_table *table, size_t point, fracas_flight *flight)
 {
-    const bool ring = fracas_columns_real(table, point, "geometry.radius") > 0;
+    const bool ring = fracas_columns_real(table, point, "derived.radius") > 0;
     TRY(fracas_chain_mesh(&flight->record, ring, &flight->mesh));
     const fracas_stored_mesh *mesh = &flight->mesh;
     if (ring || mesh->ninterfaces < mesh->nelements) return FRACAS_OK;
     flight->period = mesh->node[mesh->nelements].position[0];
-    flight->rate = fracas_columns_real(table, point, "loading.rate");
+    flight->rate = fracas_columns_real(table, point, "derived.strain_rate");
     return FRACAS_OK;
 }
 

@@ -179,3 +179,26 @@ double fracas_opening_bound(const fracas_spec *spec, double stress, double exten
     const bool grows = drive.outward == 0 && drive.along == 0 && !load->released;
     return grows ? strain * fmin(wave, fracas_spec_length(spec)) : 2 * strain * wave;
 }
+
+/* ---- fragments ---- */
+
+double fracas_grady_size(const fracas_spec *spec, double strength)
+{
+    const double rate = fracas_spec_strain_rate(spec);
+    return cbrt(24 * fracas_spec_fracture_energy(spec, strength) /
+                (spec->material.density * rate * rate));
+}
+
+double fracas_expected_transits(const fracas_spec *spec, double strength)
+{
+    const fracas_material *material = &spec->material;
+    const double onset = strength / (material->young * fabs(fracas_spec_strain_rate(spec)));
+    return (spec->time.end - onset) * wave_speed(spec) / fracas_grady_size(spec, strength);
+}
+
+double fracas_normalised_rate(const fracas_spec *spec, double strength)
+{
+    const double young = spec->material.young, strain = strength / young;
+    return fabs(fracas_spec_strain_rate(spec)) * fracas_spec_fracture_energy(spec, strength) /
+           (sqrt(young / spec->material.density) * strain * strain * strength);
+}

@@ -5,6 +5,7 @@
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
 #include "campaigns/plan/size.h"
+#include "campaigns/plan/speed.h"
 #include "campaigns/plan/start.h"
 #include "engine/cohesive/law.h"
 #include "engine/formulation/surface/loads.h"
@@ -16,28 +17,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-
-/* Extents of a mesh's strengths. */
-typedef struct {
-    fracas_extent mean, least; /* with a size effect, strengths are largest at the least */
-} extents;
-
-static extents extents_of(const fracas_model *model)
-{
-    const size_t count = fracas_model_interfaces(model);
-    extents of = {.least = {INFINITY, INFINITY}};
-    for (size_t i = 0; i < count; i++) {
-        const fracas_extent one = fracas_model_extent(model, i);
-        of.mean.volume += one.volume;
-        of.mean.area += one.area;
-        of.least = (fracas_extent){fmin(of.least.volume, one.volume),
-                                   fmin(of.least.area, one.area)};
-    }
-    of.mean.volume /= (double)count;
-    of.mean.area /= (double)count;
-    return of;
-}
 
 /* Quantile `u` of the strengths of interfaces of this extent [Pa]. */
 static double strength_at(const fracas_point *point, fracas_extent extent, double u)
@@ -139,24 +118,6 @@ static fracas_err measure_body(const fracas_model *model, double *diagonal, doub
     return FRACAS_OK;
 }
 
-/* Size of fragments at a strength [m], (24 G_c/(rho rate^2))^(1/3): D. E. Grady, J. Appl. Phys. 53,
- * 322 (1982). */
-static double grady_size(const fracas_spec *spec, double strength)
-{
-    const double rate = fracas_spec_strain_rate(spec);
-    return cbrt(24 * fracas_spec_fracture_energy(spec, strength) /
-                (spec->material.density * rate * rate));
-}
-
-/* k = (t - t_onset) c/L at time.end  (settled.1), t_onset = strength/(E rate). */
-static double transits_of(const fracas_spec *spec, double strength)
-{
-    const fracas_material *material = &spec->material;
-    const double onset = strength / (material->young * fabs(fracas_spec_strain_rate(spec)));
-    return (spec->time.end - onset) * sqrt(material->young / material->density) /
-           grady_size(spec, strength);
-}
-
 /* Bounds on stress and opening until time.end, and whether a longer run raises them. */
 static void bound_stress(const fracas_spec *spec, const fracas_body_size *size,
                          fracas_forecast *forecast)
@@ -184,15 +145,7 @@ static void describe_breaks(const fracas_spec *spec, double mean, double strong,
                                     forecast->available;
     forecast->whole = any && fracas_spec_critical_opening(spec, factor->most * strong) >
                                  forecast->available;
-    forecast->pieces = grady_size(spec, weak);
-}
-
-/* rate/edot0  (scaling-laws.3) */
-static double normalised_rate(const fracas_spec *spec, double strength)
-{
-    const double young = spec->material.young, strain = strength / young;
-    return fabs(fracas_spec_strain_rate(spec)) * fracas_spec_fracture_energy(spec, strength) /
-           (sqrt(young / spec->material.density) * strain * strain * strength);
+    forecast->pieces = fracas_grady_size(spec, weak);
 }
 
 /* True if the strengths have a least value above 0: ever rarer ones are no weaker. */
@@ -214,8 +167,8 @@ static void describe_mesh_effect(const fracas_point *point, const fracas_model *
     if (bounded && forecast->scatter > FRACAS_SCATTER_NOTABLE)
         forecast->mesh_effect_bounded = FRACAS_MESH_EFFECT_BOUNDED;
     if (!bounded)
-        forecast->mesh_effect = fracas_mesh_effect(forecast->scatter,
-                                                   normalised_rate(&point->spec, forecast->mean));
+        forecast->mesh_effect = fracas_mesh_effect(
+            forecast->scatter, fracas_normalised_rate(&point->spec, forecast->mean));
 }
 
 /* Keeps the lesser of two groups, of which 0 is none, and its name. */
@@ -250,7 +203,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
         .time_step = fracas_model_time_step(model),
     };
     const fracas_spec *spec = &point->spec;
-    const extents extent = extents_of(model);
+    const fracas_extents extent = fracas_extents_of(model);
     fracas_factor_range factor;
     TRY(fracas_model_factors(model, &point->strength, &factor));
     const double mean = factor.mean * fracas_strength_mean(&point->strength, extent.mean);
@@ -279,7 +232,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     forecast->scatter = fracas_strength_deviation(&point->strength, extent.mean) /
                         fracas_strength_mean(&point->strength, extent.mean);
     if (!isfinite(forecast->scatter)) forecast->scatter = 0;
-    forecast->transits = transits_of(spec, mean);
+    forecast->transits = fracas_expected_transits(spec, mean);
     forecast->parts_most = fracas_model_parts_most(model);
     forecast->long_safety = fracas_model_long_safety(model);
     if (fracas_shape_of(spec)->round) describe_ring(spec, forecast);
@@ -383,15 +336,7 @@ fracas_err fracas_plan_cost_with(const fracas_campaign *campaign, size_t point,
     return FRACAS_OK;
 }
 
-/* ---- speed ---- */
-
-/* Processor time of this process [s], as on a free core. */
-static double processor_time(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
+/* ---- all points ---- */
 
 size_t fracas_forecast_lanes(const fracas_point *point)
 {
@@ -409,102 +354,6 @@ static double memory_of(const fracas_campaign *campaign, const fracas_point *poi
            2 * sizeof(size_t) * (double)fracas_model_elements(model);
 }
 
-/* Element-steps and seconds of timed steps. */
-typedef struct {
-    double element_steps, seconds;
-} effort;
-
-/* Times steps of a batch of realizations with equal strengths, for 0.05 s or to its end, by blocks
- * long enough for the clock. The first two, with cold caches and onsets, count only if they are the
- * last. */
-static fracas_err time_batch(const fracas_model *model, double strength, size_t lanes, effort *sum)
-{
-    enum { FIRST = 2 };
-    const fracas_batch_options options = {.isa = FRACAS_ISA_BEST};
-    const effort before = *sum;
-    OWN(fracas_batch) batch = NULL;
-    fracas_record record[FRACAS_LANES_MAX];
-    size_t running = lanes;
-    TRY(fracas_batch_create(model, lanes, &options, &batch));
-    for (size_t l = 0; l < lanes; l++) {
-        size_t stride, strengths = fracas_model_interfaces(model) *
-                                   fracas_model_strengths_per_interface(model);
-        double *sigma_c = fracas_batch_strength(batch, l, &stride);
-        for (size_t k = 0; k < strengths; k++) sigma_c[k * stride] = strength;
-        fracas_record_init(&record[l]);
-    }
-    fracas_err err = fracas_batch_begin(batch);
-    int64_t block = 1;
-    for (int i = 0; !err && running > 0 && (i <= FIRST || sum->seconds < 0.05); i++) {
-        const double start = processor_time();
-        if (i == FIRST) *sum = before;
-        for (int64_t step = 0; step < block && !err && running > 0; step++) {
-            err = fracas_batch_step(batch, record, &running);
-            sum->element_steps += (double)fracas_model_elements(model) * (double)lanes;
-        }
-        const double spent = processor_time() - start;
-        sum->seconds += spent;
-        if (spent < 1e-4) block *= 2;
-    }
-    for (size_t l = 0; l < lanes; l++) fracas_record_clear(&record[l]);
-    return err;
-}
-
-/* Times batches of the point until the clock has seen enough, at most 50. A surface is weak, and
- * all its interfaces crack at once: broken ones take twice the time of whole ones. */
-static fracas_err time_point(const fracas_campaign *campaign, size_t index,
-                             const fracas_model *model, fracas_forecast *forecast)
-{
-    enum { TIMED = 100000 }; /* elements; above, memory limits the speed */
-    const fracas_point *point = &campaign->point[index];
-    const bool surface = fracas_model_surface(model) != NULL;
-    fracas_spec spec = point->spec;
-    OWN(fracas_model) shorter = NULL;
-    if (!surface && spec.mesh.elements > TIMED) { /* a bar or ring of equal elements */
-        spec.geometry.length *= TIMED / (double)spec.mesh.elements;
-        spec.geometry.radius *= TIMED / (double)spec.mesh.elements;
-        spec.mesh.elements = TIMED;
-        TRY(fracas_point_model_like(campaign, index, &spec, &shorter));
-        model = shorter;
-    }
-    const double strength = surface
-                                ? 1e-12 * forecast->mean
-                                : fracas_strength_mean(&point->strength, extents_of(model).mean);
-    effort sum = {0};
-    for (int i = 0; i < 50 && sum.seconds < 0.01; i++)
-        TRY(time_batch(model, strength, fracas_forecast_lanes(point), &sum));
-    forecast->speed = sum.element_steps / fmax(sum.seconds, 1e-9);
-    return FRACAS_OK;
-}
-
-/* True if an element-step costs the same at both points. */
-static bool is_similar(const fracas_spec *a, const fracas_spec *b)
-{
-    if (a->formulation != b->formulation) return false;
-    if (!fracas_spec_is_surface(a)) return true;
-    return a->mesh.order == b->mesh.order && a->geometry.file == b->geometry.file &&
-           a->cohesive.law == b->cohesive.law &&
-           (a->cohesive.friction > 0) == (b->cohesive.friction > 0) &&
-           a->time.integrator == b->time.integrator && a->time.mass == b->time.mass &&
-           (a->time.rotary_inertia > 0) == (b->time.rotary_inertia > 0);
-}
-
-/* Speed of an earlier similar point with the same lanes and half to twice the elements; 0: none. */
-static double speed_of_similar(const fracas_campaign *campaign, const fracas_forecast *forecast,
-                               size_t point)
-{
-    for (size_t p = point; p-- > 0;)
-        if (is_similar(&campaign->point[p].spec, &campaign->point[point].spec) &&
-            fracas_forecast_lanes(&campaign->point[p]) ==
-                fracas_forecast_lanes(&campaign->point[point]) &&
-            forecast[p].elements <= 2 * forecast[point].elements &&
-            forecast[point].elements <= 2 * forecast[p].elements)
-            return forecast[p].speed;
-    return 0.0;
-}
-
-/* ---- all points ---- */
-
 /* Forecast p with its speed, given the forecasts before it. */
 static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p, bool quick,
                                  double *budget, fracas_forecast *forecast)
@@ -514,8 +363,8 @@ static fracas_err forecast_timed(const fracas_campaign *campaign, size_t p, bool
     forecast[p].memory = memory_of(campaign, &campaign->point[p], model);
     if (forecast[p].estimated)
         forecast[p].memory *= (double)forecast[p].elements / (double)fracas_model_elements(model);
-    forecast[p].speed = speed_of_similar(campaign, forecast, p);
-    if (!(forecast[p].speed > 0)) TRY(time_point(campaign, p, model, &forecast[p]));
+    forecast[p].speed = fracas_speed_of_similar(campaign, forecast, p);
+    if (!(forecast[p].speed > 0)) TRY(fracas_speed_measure(campaign, p, model, &forecast[p]));
     fracas_rows_expect(campaign, &campaign->point[p].spec, &forecast[p]);
     return fracas_rows_try(campaign, p, model, budget, forecast);
 }
@@ -526,17 +375,17 @@ static void say_next(const fracas_campaign *campaign, size_t p, bool quick, doub
     enum { LARGE = 150 /* divisions: a second or two */ };
     static const double patience = 2; /* s of this process */
     const bool large = !quick && campaign->point[p].spec.mesh.divisions > LARGE;
-    if (!large && processor_time() - *said < patience) return;
+    if (!large && fracas_processor_time() - *said < patience) return;
     fprintf(stderr, "fracas: point %zu of %zu is looked at%s\n", p, campaign->npoints,
             large ? "; the critical step of its mesh takes long (`fracas plan --quick` estimates)"
                   : "");
-    *said = processor_time();
+    *said = fracas_processor_time();
 }
 
 fracas_err fracas_forecast_all(const fracas_campaign *campaign, int jobs, bool quick,
                                fracas_forecast *forecast)
 {
-    double said = processor_time(), budget = FRACAS_ROWS_BUDGET;
+    double said = fracas_processor_time(), budget = FRACAS_ROWS_BUDGET;
     for (size_t p = 0; p < campaign->npoints; p++) {
         const fracas_point *point = &campaign->point[p];
         say_next(campaign, p, quick, &said);

@@ -98,3 +98,19 @@ fracas_err fracas_model_factors(const fracas_model *model, const fracas_strength
     range->mean /= (double)n;
     return FRACAS_OK;
 }
+
+fracas_extents fracas_extents_of(const fracas_model *model)
+{
+    const size_t count = fracas_model_interfaces(model);
+    fracas_extents of = {.least = {INFINITY, INFINITY}};
+    for (size_t i = 0; i < count; i++) {
+        const fracas_extent one = fracas_model_extent(model, i);
+        of.mean.volume += one.volume;
+        of.mean.area += one.area;
+        of.least = (fracas_extent){fmin(of.least.volume, one.volume),
+                                   fmin(of.least.area, one.area)};
+    }
+    of.mean.volume /= (double)count;
+    of.mean.area /= (double)count;
+    return of;
+}

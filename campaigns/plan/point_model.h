@@ -47,4 +47,11 @@ fracas_stream fracas_point_stream(const fracas_campaign *campaign, size_t point,
 void fracas_point_mesh_noise(const fracas_campaign *campaign, size_t point, size_t count,
                              double *noise);
 
+/* Extents of a mesh's interfaces: the means of volume and area, and the least of each, at which
+ * strengths with a size effect are largest. */
+typedef struct {
+    fracas_extent mean, least;
+} fracas_extents;
+fracas_extents fracas_extents_of(const fracas_model *model);
+
 #endif

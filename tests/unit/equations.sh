@@ -13,9 +13,10 @@ fresh() {
     mkdir -p "$tree/docs/theory" "$tree/engine" "$tree/tests/unit"
     cat >"$tree/docs/theory/bar.md" <<'PAGE'
 # The bar
-$$ s = 1 $$ **(bar.1)** code: `fracas_one`, `two`
 $$ s = 2 $$ **(bar.2)**
 code: `long_name_of_three`, `FOUR`
+$$ s = 1 $$ **(bar.1)** code: `fracas_one`, `two`
+In words.
 As (bar.1) says.
 PAGE
     cat >"$tree/docs/theory/scaling-laws.md" <<'PAGE'
@@ -66,14 +67,15 @@ plant() {
 fresh
 tools/check-equations "$tree"
 
-plant 's/code: `fracas_one`, `two`//' docs/theory/bar.md 'docs/theory/bar.md:2: (bar.1) names no function'
-plant 's/`fracas_one`/`fracas_oen`/' docs/theory/bar.md 'docs/theory/bar.md:2: (bar.1) names fracas_oen, which no source defines'
-plant 's/^fracas_err fracas_one(int argument)$/&;/' engine/one.c 'docs/theory/bar.md:2: (bar.1) names fracas_one, which no source'
+plant 's/code: `fracas_one`, `two`//' docs/theory/bar.md 'docs/theory/bar.md:4: (bar.1) names no function'
+plant 's/`fracas_one`/`fracas_oen`/' docs/theory/bar.md 'docs/theory/bar.md:4: (bar.1) names fracas_oen, which no source defines'
+plant 's/^fracas_err fracas_one(int argument)$/&;/' engine/one.c 'docs/theory/bar.md:4: (bar.1) names fracas_one, which no source'
 plant 's/(bar.1)/(bar.2)/' engine/one.c 'engine/one.c:3: defines fracas_one but its file does not cite (bar.1)'
 plant 's/(scaling-laws.1)/scaling-laws.1/' engine/one.h 'engine/one.h:7: defines two but its file does not cite (scaling-laws.1)'
 plant 's/(bar.2)/(bar.2) (bar.3)/' engine/one.c 'engine/one.c:7: cites (bar.3), which no page defines'
 plant 's/(bar.2)/(baz.1)/' tests/unit/test_one.c 'tests/unit/test_one.c:1: cites (baz.1), which no page defines'
-plant 's/scaling-laws.1/scaling-laws.2/' docs/theory/scaling-laws.md 'docs/theory/scaling-laws.md:1: (scaling-laws.2) should be (scaling-laws.1)'
-plant 's/^As.*/**(bar.1)** code: `two`/' docs/theory/bar.md 'docs/theory/bar.md:5: (bar.1) is at docs/theory/bar.md:2 already'
-plant 's/^As.*/code: `two`/' docs/theory/bar.md 'docs/theory/bar.md:5: names code, but neither'
+plant 's/scaling-laws.1/scaling-laws.2/' docs/theory/scaling-laws.md 'docs/theory/scaling-laws.md:1: (scaling-laws.2) is above the 1 labels of its page'
+plant 's/scaling-laws.1/bar.3/' docs/theory/scaling-laws.md 'docs/theory/scaling-laws.md:1: (bar.3) should begin with scaling-laws'
+plant 's/^As.*/**(bar.1)** code: `two`/' docs/theory/bar.md 'docs/theory/bar.md:6: (bar.1) is at docs/theory/bar.md:4 already'
+plant 's/^As.*/code: `two`/' docs/theory/bar.md 'docs/theory/bar.md:6: names code, but neither'
 plant 's/^\*\*.*//' docs/theory/scaling-laws.md 'engine/one.h:1: cites (scaling-laws.1), which no page defines'

@@ -101,24 +101,24 @@ LANES_FUNCTION plane_result shell_layer(const surface_context *c, const plane_in
     return r;
 }
 
-/* All of them. `opened`, `were_broken`, `are_broken` as in plane_input. */
+/* All of them; `state`: masks as in plane_input. */
 LANES_FUNCTION shell_layers shell_evaluate(const surface_context *c,
                                            const plane_interface *interface, int law,
-                                           const double *place, const shell_point *p, vmask opened,
-                                           vmask were_broken, vmask are_broken, double *fields,
-                                           vd *damage, vmask *cracks, vmask *breaks)
+                                           const double *place, const shell_point *p,
+                                           const plane_input *state, double *fields,
+                                           const surface_marks *marks)
 {
     shell_layers of = shell_no_layers();
     UNROLL_FOR (int k = 0; k < SHELL_LAYERS; k++) {
         plane_input in = shell_input(c->constants, place, p, k);
-        in.opened = opened;
-        in.were_broken = were_broken;
-        in.are_broken = are_broken;
+        in.opened = state->opened;
+        in.were_broken = state->were_broken;
+        in.are_broken = state->are_broken;
         const plane_result r = shell_layer(c, interface, law, k, &in,
                                            surface_at(fields, k * c->constants->point_fields), &of);
-        damage[k] = r.damage;
-        cracks[k] = r.cracks;
-        breaks[k] = r.breaks;
+        marks->damage[k] = r.damage;
+        marks->cracks[k] = r.cracks;
+        marks->breaks[k] = r.breaks;
     }
     return of;
 }
@@ -127,8 +127,7 @@ LANES_FUNCTION shell_layers shell_evaluate(const surface_context *c,
 LANES_FUNCTION shell_layers shell_at_layers(const surface_context *c,
                                             const plane_interface *interface, int law,
                                             const double *place, const shell_point *p,
-                                            double *fields, vd *damage, vmask *cracks,
-                                            vmask *breaks)
+                                            double *fields, const surface_marks *marks)
 {
     const int size = SHELL_LAYERS * c->constants->point_fields;
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
@@ -144,12 +143,12 @@ LANES_FUNCTION shell_layers shell_at_layers(const surface_context *c,
     vd before[SHELL_LAYERS * SURFACE_POINT_FIELDS_MOST];
     if (!interface->calm)
         for (int i = 0; i < size; i++) before[i] = lanes_load(surface_at(fields, i));
-    shell_layers of = shell_evaluate(c, interface, law, place, p, opened, broken, broken, fields,
-                                     damage, cracks, breaks);
+    plane_input state = {.opened = opened, .were_broken = broken, .are_broken = broken};
+    shell_layers of = shell_evaluate(c, interface, law, place, p, &state, fields, marks);
     if (!interface->calm && lanes_any(lanes_and(of.all.broken, of.breaks))) {
         for (int i = 0; i < size; i++) lanes_store(surface_at(fields, i), before[i]);
-        of = shell_evaluate(c, interface, law, place, p, opened, broken, of.all.broken, fields,
-                            damage, cracks, breaks);
+        state.are_broken = of.all.broken;
+        of = shell_evaluate(c, interface, law, place, p, &state, fields, marks);
     }
     return of;
 }
@@ -172,8 +171,8 @@ LANES_FUNCTION resultant_input shell_resultant_input(const fracas_surface_consta
 /* A law on resultants, in place of its layers. */
 LANES_FUNCTION shell_layers shell_at_resultants(const surface_context *c,
                                                 const plane_interface *interface, int law,
-                                                const shell_point *p, double *fields, vd *damage,
-                                                vmask *cracks, vmask *breaks)
+                                                const shell_point *p, double *fields,
+                                                const surface_marks *marks)
 {
     shell_layers of = shell_no_layers();
     const vmask whole = lanes_le(lanes_load(surface_at(fields, SURFACE_PEAK)), lanes_set(0.0));
@@ -194,9 +193,9 @@ LANES_FUNCTION shell_layers shell_at_resultants(const surface_context *c,
         of.used_m[j] = r.midway_m[j];
     }
     UNROLL_FOR (int k = 0; k < SHELL_LAYERS; k++) {
-        damage[k] = r.damage;
-        cracks[k] = r.cracks[k];
-        breaks[k] = r.breaks;
+        marks->damage[k] = r.damage;
+        marks->cracks[k] = r.cracks[k];
+        marks->breaks[k] = r.breaks;
     }
     return of;
 }
@@ -215,13 +214,12 @@ LANES_FUNCTION vd shell_opening(const fracas_surface_constants *s, const plane_i
 LANES_FUNCTION surface_opening shell_crack(const surface_context *c,
                                            const plane_interface *interface, int law,
                                            const double *place, shell_point *p, double *fields,
-                                           vd *damage, vmask *cracks, vmask *breaks)
+                                           const surface_marks *marks)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
-    const shell_layers of =
-        law_takes_resultants(law)
-            ? shell_at_resultants(c, interface, law, p, fields, damage, cracks, breaks)
-            : shell_at_layers(c, interface, law, place, p, fields, damage, cracks, breaks);
+    const shell_layers of = law_takes_resultants(law)
+                                ? shell_at_resultants(c, interface, law, p, fields, marks)
+                                : shell_at_layers(c, interface, law, place, p, fields, marks);
     surface_opening all = of.all;
     /* by the work of N and of M on the jumps  (shell.15) */
     const vd stretched = plane_max(zero, of.used_n[0] * p->jump[0] + of.used_n[1] * p->jump[1]);

@@ -10,14 +10,14 @@ enum { NONE = UINT32_MAX, LINE = 8 /* doubles of a line of memory */ };
 /* Room for the making of one part after another. Turns are numbered within the part. */
 typedef struct {
     const fracas_surface_constants *constants;
-    size_t begin, end;          /* the part's elements */
-    size_t place;               /* next free field of a group's memory */
-    uint32_t *join_from, *join; /* interfaces by their second element, in order */
-    uint32_t *turn_of;          /* [element]: its turn; NONE */
-    uint32_t *last;             /* [turn]: turn of the last interface of its element */
-    uint32_t *first, *next;     /* [turn]: chains of turns with the same last one */
-    uint32_t *spare;            /* free slots */
-    size_t slots, spares;       /* slots so far; free ones */
+    size_t begin, end;            /* the part's elements */
+    size_t place;                 /* next free field of a group's memory */
+    uint32_t *facet_from, *facet; /* interfaces by their second element, in order */
+    uint32_t *turn_of;            /* [element]: its turn; NONE */
+    uint32_t *last;               /* [turn]: turn of the last interface of its element */
+    uint32_t *first, *next;       /* [turn]: chains of turns with the same last one */
+    uint32_t *spare;              /* free slots */
+    size_t slots, spares;         /* slots so far; free ones */
 } maker;
 
 static bool owns(const maker *m, size_t e)
@@ -29,8 +29,8 @@ static bool owns(const maker *m, size_t e)
 
 static void maker_clear(maker *m)
 {
-    uint32_t *const owned[] = {m->join_from, m->join, m->turn_of, m->last,
-                               m->first,     m->next, m->spare};
+    uint32_t *const owned[] = {m->facet_from, m->facet, m->turn_of, m->last,
+                               m->first,      m->next,  m->spare};
     for (size_t i = 0; i < FRACAS_COUNT(owned); i++) free(owned[i]);
 }
 
@@ -40,19 +40,20 @@ static fracas_err maker_init(maker *m, const fracas_surface_constants *c)
     const size_t n = t->nelements, number = sizeof(uint32_t);
     *m = (maker){.constants = c,
                  .place = fracas_surface_state_fields(c),
-                 .join_from = calloc(n + 2, number),
-                 .join = malloc((t->ninterfaces + 1) * number),
+                 .facet_from = calloc(n + 2, number),
+                 .facet = malloc((t->ninterfaces + 1) * number),
                  .turn_of = malloc(n * number),
                  .last = malloc(n * number),
                  .first = malloc(n * number),
                  .next = malloc(n * number),
                  .spare = malloc(n * number)};
-    if (!m->join_from || !m->join || !m->turn_of || !m->last || !m->first || !m->next || !m->spare)
+    if (!m->facet_from || !m->facet || !m->turn_of || !m->last || !m->first || !m->next ||
+        !m->spare)
         return fracas_no_memory("the parts of a body");
-    for (size_t i = 0; i < t->ninterfaces; i++) m->join_from[t->element[i][1] + 2]++;
-    for (size_t e = 0; e < n; e++) m->join_from[e + 1] += m->join_from[e];
+    for (size_t i = 0; i < t->ninterfaces; i++) m->facet_from[t->element[i][1] + 2]++;
+    for (size_t e = 0; e < n; e++) m->facet_from[e + 1] += m->facet_from[e];
     for (size_t i = 0; i < t->ninterfaces; i++)
-        m->join[m->join_from[t->element[i][1] + 1]++] = (uint32_t)i;
+        m->facet[m->facet_from[t->element[i][1] + 1]++] = (uint32_t)i;
     return FRACAS_OK;
 }
 
@@ -66,17 +67,17 @@ static fracas_err give_turns(maker *m, fracas_surface_part *part)
     for (size_t i = 0; i < t->ninterfaces; i++)
         for (int side = 0; side < 2; side++)
             if (owns(m, t->element[i][side])) m->turn_of[t->element[i][1 - side]] = 0;
-    size_t joins = 0;
+    size_t facets = 0;
     for (size_t e = 0; e < t->nelements; e++)
         if (m->turn_of[e] != NONE) {
             m->turn_of[e] = (uint32_t)part->turns++;
-            joins += m->join_from[e + 1] - m->join_from[e];
+            facets += m->facet_from[e + 1] - m->facet_from[e];
         }
     part->turn = malloc(part->turns * sizeof *part->turn);
-    part->join = malloc((joins + 1) * sizeof *part->join);
+    part->facet = malloc((facets + 1) * sizeof *part->facet);
     part->finish = malloc((m->end - m->begin) * sizeof *part->finish);
-    part->copy = malloc((part->turns + joins) * sizeof *part->copy);
-    return part->turn && part->join && part->finish && part->copy
+    part->copy = malloc((part->turns + facets) * sizeof *part->copy);
+    return part->turn && part->facet && part->finish && part->copy
                ? FRACAS_OK
                : fracas_no_memory("the parts of a body");
 }
@@ -92,34 +93,34 @@ static uint32_t place_copy(maker *m, fracas_surface_part *part, size_t from, siz
 }
 
 /* Interfaces by the turns of their second elements, where an element is the part's own. */
-static void give_joins(maker *m, fracas_surface_part *part)
+static void order_facets(maker *m, fracas_surface_part *part)
 {
     const fracas_surface_constants *c = m->constants;
     const fracas_surface_tables *t = c->tables;
     const size_t fields = fracas_surface_element_fields(c),
                  interface_fields = fracas_surface_interface_fields(c);
-    size_t joins = 0, k = 0;
+    size_t facets = 0, k = 0;
     for (size_t e = 0; e < t->nelements; e++) {
         if (m->turn_of[e] == NONE) continue;
         fracas_surface_turn *turn = &part->turn[k];
         *turn = (fracas_surface_turn){.element = (uint32_t)e, .ghost = !owns(m, e)};
         turn->at = turn->ghost ? place_copy(m, part, e * fields, fields) : (uint32_t)(e * fields);
         m->last[k] = (uint32_t)k;
-        for (size_t j = m->join_from[e]; j < m->join_from[e + 1]; j++) {
-            const uint32_t i = m->join[j], *pair = t->element[i];
+        for (size_t j = m->facet_from[e]; j < m->facet_from[e + 1]; j++) {
+            const uint32_t i = m->facet[j], *pair = t->element[i];
             if (!owns(m, pair[0]) && !owns(m, pair[1])) continue;
             const size_t at = fracas_surface_interfaces_at(c) + i * interface_fields;
-            fracas_surface_facet *join = &part->join[joins++];
-            *join = (fracas_surface_facet){.interface = i, .edge = {t->edge[i][0], t->edge[i][1]}};
-            join->at = turn->ghost ? place_copy(m, part, at, interface_fields) : (uint32_t)at;
+            fracas_surface_facet *facet = &part->facet[facets++];
+            *facet = (fracas_surface_facet){.interface = i, .edge = {t->edge[i][0], t->edge[i][1]}};
+            facet->at = turn->ghost ? place_copy(m, part, at, interface_fields) : (uint32_t)at;
             for (int side = 0; side < 2; side++) {
                 const uint32_t of = m->turn_of[pair[side]];
-                join->element[side] = part->turn[of].at;
-                join->slot[side] = of; /* until slots are given */
+                facet->element[side] = part->turn[of].at;
+                facet->slot[side] = of; /* until slots are given */
                 m->last[of] = (uint32_t)k;
             }
         }
-        turn->join_end = (uint32_t)joins;
+        turn->facet_end = (uint32_t)facets;
         k++;
     }
 }
@@ -127,7 +128,7 @@ static void give_joins(maker *m, fracas_surface_part *part)
 /* Slots, and finished elements of each turn, whose slots are free from then on. */
 static void give_slots(maker *m, fracas_surface_part *part)
 {
-    size_t joins = 0, finished = 0;
+    size_t facets = 0, finished = 0;
     m->slots = m->spares = 0;
     for (size_t k = 0; k < part->turns; k++) m->first[k] = NONE;
     for (size_t k = part->turns; k-- > 0;) {
@@ -137,9 +138,9 @@ static void give_slots(maker *m, fracas_surface_part *part)
     for (size_t k = 0; k < part->turns; k++) {
         fracas_surface_turn *turn = &part->turn[k];
         turn->slot = m->spares ? m->spare[--m->spares] : (uint32_t)m->slots++;
-        for (; joins < turn->join_end; joins++)
+        for (; facets < turn->facet_end; facets++)
             for (int side = 0; side < 2; side++) {
-                uint32_t *slot = &part->join[joins].slot[side];
+                uint32_t *slot = &part->facet[facets].slot[side];
                 *slot = part->turn[*slot].slot;
             }
         for (uint32_t f = m->first[k]; f != NONE; f = m->next[f]) {
@@ -160,9 +161,9 @@ static void place_slots(maker *m, fracas_surface_part *part)
     m->place = (m->place + LINE - 1) / LINE * LINE;
     const uint32_t at = (uint32_t)m->place;
     for (size_t k = 0; k < part->turns; k++) part->turn[k].slot = at + part->turn[k].slot * size;
-    for (size_t j = 0; j < part->turn[part->turns - 1].join_end; j++)
+    for (size_t j = 0; j < part->turn[part->turns - 1].facet_end; j++)
         for (int side = 0; side < 2; side++)
-            part->join[j].slot[side] = at + part->join[j].slot[side] * size;
+            part->facet[j].slot[side] = at + part->facet[j].slot[side] * size;
     for (size_t f = 0; f < m->end - m->begin; f++)
         part->finish[f].slot = at + part->finish[f].slot * size;
     m->place += (m->slots * size + LINE - 1) / LINE * LINE;
@@ -171,7 +172,7 @@ static void place_slots(maker *m, fracas_surface_part *part)
 static fracas_err make_part(maker *m, fracas_surface_part *part)
 {
     TRY(give_turns(m, part));
-    give_joins(m, part);
+    order_facets(m, part);
     give_slots(m, part);
     place_slots(m, part);
     return FRACAS_OK;
@@ -184,7 +185,7 @@ void fracas_surface_division_destroy(void *p)
     fracas_surface_division *division = p;
     if (!division) return;
     for (size_t i = 0; division->part && i < division->parts; i++) {
-        void *const owned[] = {division->part[i].turn, division->part[i].join,
+        void *const owned[] = {division->part[i].turn, division->part[i].facet,
                                division->part[i].finish, division->part[i].copy};
         for (size_t k = 0; k < FRACAS_COUNT(owned); k++) free(owned[k]);
     }

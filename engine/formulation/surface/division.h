@@ -20,11 +20,11 @@
 
 struct fracas_surface_constants;
 
-/* Places in a group's memory are counted in fields from its start (surface.h). */
+/* Places in a group's memory are counted in fields from its start (layout.h). */
 typedef struct {
-    uint32_t element;              /* its number */
-    uint32_t at, slot;             /* places of its fields, and of its stresses and forces */
-    uint32_t join_end, finish_end; /* its interfaces and finished elements begin with the ends of
+    uint32_t element;               /* its number */
+    uint32_t at, slot;              /* places of its fields, and of its stresses and forces */
+    uint32_t facet_end, finish_end; /* its interfaces and finished elements begin with the ends of
                                       the turn before */
     bool ghost;
 } fracas_surface_turn;
@@ -48,7 +48,7 @@ typedef struct {
 typedef struct {
     size_t turns, copies;
     fracas_surface_turn *turn;
-    fracas_surface_facet *join;
+    fracas_surface_facet *facet;
     fracas_surface_finish *finish;
     fracas_surface_copy *copy;
 } fracas_surface_part;

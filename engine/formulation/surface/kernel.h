@@ -30,7 +30,7 @@
 #define FRACAS_ENGINE_FORMULATION_SURFACE_KERNEL_H
 
 #include "engine/cohesive/kernels.h"
-#include "engine/formulation/surface/surface.h"
+#include "engine/formulation/surface/traits.h"
 #include "engine/integrator/central_difference.h"
 
 #include <math.h>
@@ -84,6 +84,11 @@ typedef struct {
     vd bending;          /* in this step: dissipated by bending */
     vmask whole, broken; /* no point was past onset before this step; all points are broken */
 } surface_opening;
+/* The layers of one Gauss point: D after this step; which have their onset, their break in it. */
+typedef struct {
+    vd *damage;
+    vmask *cracks, *breaks;
+} surface_marks;
 
 LANES_FUNCTION double *surface_at(double *record, int field)
 {
@@ -170,12 +175,12 @@ LANES_FUNCTION surface_sides surface_edges(int order, const uint8_t edge[2])
 }
 
 LANES_FUNCTION surface_sides surface_sides_of(const surface_context *c, int order,
-                                              const fracas_surface_facet *join)
+                                              const fracas_surface_facet *facet)
 {
-    surface_sides sides = surface_edges(order, join->edge);
+    surface_sides sides = surface_edges(order, facet->edge);
     UNROLL_FOR (int side = 0; side < 2; side++) {
-        sides.element[side] = surface_place(c, join->element[side]);
-        sides.slot[side] = surface_place(c, join->slot[side]);
+        sides.element[side] = surface_place(c, facet->element[side]);
+        sides.slot[side] = surface_place(c, facet->slot[side]);
     }
     return sides;
 }

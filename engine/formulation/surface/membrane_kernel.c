@@ -179,7 +179,7 @@ LANES_FUNCTION vd membrane_opening(const fracas_surface_constants *m,
 LANES_FUNCTION surface_opening membrane_crack(const surface_context *c,
                                               const plane_interface *interface, int law,
                                               const double *place, membrane_point *p, double *point,
-                                              vd *damage, vmask *cracks, vmask *breaks)
+                                              const surface_marks *marks)
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0), two = lanes_set(2.0);
     const vd nx = lanes_set(place[MEMBRANE_NX]), ny = lanes_set(place[MEMBRANE_NY]);
@@ -199,9 +199,9 @@ LANES_FUNCTION surface_opening membrane_crack(const surface_context *c,
     p->traction[1] = lanes_select(r.cracked, r.t_n * ny + r.t_t * nx, p->traction[1]);
     p->carried[0] = lanes_select(r.cracked, r.s_n * nx - r.s_t * ny, p->jump[0]);
     p->carried[1] = lanes_select(r.cracked, r.s_n * ny + r.s_t * nx, p->jump[1]);
-    *damage = r.damage;
-    *cracks = r.cracks;
-    *breaks = r.breaks;
+    *marks->damage = r.damage;
+    *marks->cracks = r.cracks;
+    *marks->breaks = r.breaks;
     return all;
 }
 

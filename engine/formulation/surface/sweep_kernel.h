@@ -14,15 +14,15 @@
 
 /* Records the events at an interface, lane by lane; a ghost has none: another part records them. */
 __attribute__((noinline, cold, unused)) static void
-surface_record_events(const surface_context *c, int points, const fracas_surface_facet *join,
+surface_record_events(const surface_context *c, int points, const fracas_surface_facet *facet,
                       const vmask *cracks, const vmask *breaks, vmask opens, vmask parts)
 {
     for (int l = 0; l < LANES; l++) {
-        fracas_surface_event event = {.interface = join->interface,
+        fracas_surface_event event = {.interface = facet->interface,
                                       .lane = c->first + l,
-                                      .element = {surface_place(c, join->element[0]) + l,
-                                                  surface_place(c, join->element[1]) + l},
-                                      .fields = surface_place(c, join->at) + l,
+                                      .element = {surface_place(c, facet->element[0]) + l,
+                                                  surface_place(c, facet->element[1]) + l},
+                                      .fields = surface_place(c, facet->at) + l,
                                       .opens = lanes_get(opens, l),
                                       .parts = lanes_get(parts, l)};
         for (int p = 0; p < points; p++) {
@@ -57,13 +57,13 @@ LANES_FUNCTION plane_interface surface_interface(const fracas_surface_constants 
  * other lanes. False where it was called for a calm step and some lane has an onset or a break in
  * it: then nothing but `at` has changed. `calm` is a constant of each call. */
 LANES_FUNCTION int surface_crack(surface_context *c, int order, int law, int calm,
-                                 const fracas_surface_facet *join, double *fields,
+                                 const fracas_surface_facet *facet, double *fields,
                                  const double *strength, BODY(point) at[3])
 {
     const vd zero = lanes_set(0.0), one = lanes_set(1.0);
     const fracas_surface_constants *s = c->constants;
     const int points = SURFACE_EDGE(order);
-    const double *table = surface_table(c, order, join->interface);
+    const double *table = surface_table(c, order, facet->interface);
     plane_interface interface = surface_interface(s, table, calm);
     vmask cracks[3 * BODY_LAYERS], breaks[3 * BODY_LAYERS];
     vmask whole = lanes_le(zero, zero), broken = whole, opens = lanes_lt(one, zero), parts = opens;
@@ -74,10 +74,11 @@ LANES_FUNCTION int surface_crack(surface_context *c, int order, int law, int cal
         const double *place = table + BODY_HEAD + g * BODY_POINT_TABLE;
         const vd weight = lanes_set(place[BODY_MEASURE]);
         interface.sigma_c = lanes_load(strength + (size_t)g * c->strength_step);
+        const surface_marks marks = {damage + g * BODY_LAYERS, cracks + g * BODY_LAYERS,
+                                     breaks + g * BODY_LAYERS};
         const surface_opening all = BODY(crack)(
             c, &interface, law, place, &at[g],
-            surface_at(fields, g * BODY_LAYERS * s->point_fields), damage + g * BODY_LAYERS,
-            cracks + g * BODY_LAYERS, breaks + g * BODY_LAYERS);
+            surface_at(fields, g * BODY_LAYERS * s->point_fields), &marks);
         flux += weight * all.flux;
         stored += weight * all.stored;
         dissipated += weight * all.dissipated;
@@ -106,20 +107,20 @@ LANES_FUNCTION int surface_crack(surface_context *c, int order, int law, int cal
     opens = lanes_and(opens, whole);  /* the first of its points */
     parts = lanes_and(parts, broken); /* the last */
     if (!c->ghost && __builtin_expect(lanes_any(lanes_or(opens, parts)), 0))
-        surface_record_events(c, points * BODY_LAYERS, join, cracks, breaks, opens, parts);
+        surface_record_events(c, points * BODY_LAYERS, facet, cracks, breaks, opens, parts);
     return 1;
 }
 
 /* An interface: tractions at its Gauss points, and their forces on its elements. False where it was
  * called for a calm step and that fails: then nothing has changed. */
 LANES_FUNCTION int surface_interface_forces(surface_context *c, int order, int law, int calm,
-                                            const fracas_surface_facet *join)
+                                            const fracas_surface_facet *facet)
 {
-    const size_t i = join->interface;
+    const size_t i = facet->interface;
     const fracas_surface_constants *s = c->constants;
     const int points = SURFACE_EDGE(order);
-    const surface_sides sides = surface_sides_of(c, order, join);
-    double *fields = surface_place(c, join->at);
+    const surface_sides sides = surface_sides_of(c, order, facet);
+    double *fields = surface_place(c, facet->at);
     const double *strength = c->strengths + i * c->strengths_size;
     BODY(point) at[3];
     BODY(flux)(c, order, i, &sides, at);
@@ -142,7 +143,7 @@ LANES_FUNCTION int surface_interface_forces(surface_context *c, int order, int l
     }
     const vd floor = lanes_set(0.999 * (s->beta_c < 1.0 ? s->beta_c : 1.0)) * weakest;
     if (lanes_any(lanes_or(lanes_lt(lanes_set(0.0), touched), lanes_lt(floor * floor, largest)))) {
-        if (!surface_crack(c, order, law, calm, join, fields, strength, at)) return 0;
+        if (!surface_crack(c, order, law, calm, facet, fields, strength, at)) return 0;
     } else {
         const double *place = surface_table(c, order, i) + BODY_HEAD;
         vd flux = lanes_set(0.0);
@@ -385,7 +386,7 @@ LANES_FUNCTION void surface_fetch(const void *from, size_t size)
  * away, and each visit is long. */
 LANES_FUNCTION void surface_fetch_turn(const surface_context *c, int order,
                                        const fracas_surface_turn *turn,
-                                       const fracas_surface_facet *join)
+                                       const fracas_surface_facet *facet)
 {
     const fracas_surface_tables *t = c->tables;
     const size_t nodes = (size_t)SURFACE_NODES(order), e = turn->element;
@@ -395,22 +396,22 @@ LANES_FUNCTION void surface_fetch_turn(const surface_context *c, int order,
     surface_fetch(t->lumped + 2 * nodes * e, 2 * nodes * sizeof(double));
     if (BODY_DIMENSION == 3 && t->rotary)
         surface_fetch(t->rotary + e * SURFACE_ROTARY_TABLE, SURFACE_ROTARY_TABLE * sizeof(double));
-    for (size_t j = turn[-1].join_end; j < turn->join_end; j++) {
-        const size_t i = join[j].interface;
+    for (size_t j = turn[-1].facet_end; j < turn->facet_end; j++) {
+        const size_t i = facet[j].interface;
         surface_fetch(surface_table(c, order, i),
                       (BODY_HEAD + SURFACE_EDGE(order) * BODY_POINT_TABLE) * sizeof(double));
-        surface_fetch(surface_place(c, join[j].at), c->interface_size * sizeof(double));
+        surface_fetch(surface_place(c, facet[j].at), c->interface_size * sizeof(double));
         surface_fetch(c->strengths + i * c->strengths_size, c->strengths_size * sizeof(double));
     }
 }
 
 /* An interface with friction, or with an onset or a break in this step. */
 typedef void surface_interface_with_events(surface_context *context,
-                                           const fracas_surface_facet *join);
+                                           const fracas_surface_facet *facet);
 
 LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *step, int first,
                                 size_t number, int order, int law,
-                                surface_interface_with_events *stirred)
+                                surface_interface_with_events *with_events)
 {
     const fracas_surface_division *division = step->division.plan;
     const fracas_surface_part *part = &division->part[number];
@@ -432,19 +433,21 @@ LANES_FUNCTION void surface_run(const fracas_surface_constants *s, fracas_step *
                                .begins = lanes_le(lanes_load(step->drift + first), lanes_set(0.0)),
                                .spin = lanes_load(step->spin + first)};
     surface_context *c = &context;
-    const fracas_surface_facet *join = part->join;
+    const fracas_surface_facet *facet = part->facet;
     const fracas_surface_finish *finish = part->finish;
     for (const fracas_surface_turn *turn = part->turn; turn < part->turn + part->turns; turn++) {
         const size_t e = turn->element;
         double *at = surface_place(c, turn->at);
         c->ghost = turn->ghost;
-        if (turn + 1 < part->turn + part->turns) surface_fetch_turn(c, order, turn + 1, part->join);
+        if (turn + 1 < part->turn + part->turns)
+            surface_fetch_turn(c, order, turn + 1, part->facet);
         if (!c->ghost && e % SURFACE_BLOCK == 0) surface_begin_block(c, e);
         if (law != SURFACE_OPERATOR) surface_drift(&s->motion, c->drift, BODY_SIZE(order), at);
         if (law != SURFACE_OPERATOR && surface_is_moved(c, e)) surface_place_moved(c, order, e, at);
         surface_enter(c, order, e, at, surface_place(c, turn->slot));
-        for (; join < part->join + turn->join_end; join++)
-            if (s->friction || !surface_interface_forces(c, order, law, 1, join)) stirred(c, join);
+        for (; facet < part->facet + turn->facet_end; facet++)
+            if (s->friction || !surface_interface_forces(c, order, law, 1, facet))
+                with_events(c, facet);
         for (; finish < part->finish + turn->finish_end; finish++)
             surface_finish(c, order, law, finish);
         if (!c->ghost && ((e + 1) % SURFACE_BLOCK == 0 || e + 1 == s->tables->nelements))
@@ -492,16 +495,16 @@ LANES_FUNCTION double surface_strain(const fracas_surface_constants *s, int orde
 }
 #endif
 
-#define SURFACE_SWEEP(name, order, law)                                                       \
-    __attribute__((noinline)) static void name##_stirred(surface_context *c,                  \
-                                                         const fracas_surface_facet *join)    \
-    {                                                                                         \
-        surface_interface_forces(c, order, law, 0, join);                                     \
-    }                                                                                         \
-    static void name(const fracas_surface_constants *constants, fracas_step *step, int first, \
-                     size_t part)                                                             \
-    {                                                                                         \
-        surface_run(constants, step, first, part, order, law, name##_stirred);                \
+#define SURFACE_SWEEP(name, order, law)                                                         \
+    __attribute__((noinline)) static void name##_with_events(surface_context *c,                \
+                                                             const fracas_surface_facet *facet) \
+    {                                                                                           \
+        surface_interface_forces(c, order, law, 0, facet);                                      \
+    }                                                                                           \
+    static void name(const fracas_surface_constants *constants, fracas_step *step, int first,   \
+                     size_t part)                                                               \
+    {                                                                                           \
+        surface_run(constants, step, first, part, order, law, name##_with_events);              \
     }
 #define SURFACE_LOOK(name, order, law)                                    \
     static void name(const fracas_surface_constants *constants, size_t i, \
