@@ -137,9 +137,9 @@ typedef struct {
 typedef struct {
     const fracas_kind *stop;
     double end;            /* s: set time, or cap */
-    double transits;       /* 1, settled: least k */
+    double transits;       /* 1, settled and transits: least k */
     double growth;         /* 1, settled: largest Delta */
-    double rest;           /* 1, settled, bar and ring: largest R by the count */
+    double rest;           /* 1, settled, bar and ring: largest R over the count */
     double quiet;          /* s */
     double quiet_fraction; /* 1 */
     double multiple;       /* 1, peak-multiple */

@@ -222,8 +222,8 @@ static void warn_of_end(const fracas_bands *bands, double end, size_t p, warning
          fracas_digits(100 * rise / dissipated, 2).text);
 }
 
-/* (settled.8) */
-static void warn_of_final(const fracas_final *final, double dust_share, size_t p,
+/* (settled.8); `end`: time.end [s], before which a stop rule may have ended the realizations. */
+static void warn_of_final(const fracas_final *final, double dust_share, double end, size_t p,
                           warning_list *list)
 {
     const double least = 100 * (final->count.low / final->seen - 1),
@@ -248,8 +248,8 @@ static void warn_of_final(const fracas_final *final, double dust_share, size_t p
              "for hundreds of transits: %s: give the count with its transits",
              fracas_digits(final->vibrating, 2).text, text);
     if (final->verdict == FRACAS_FINAL_NO)
-        warn(list, p, "final", final->count.value / final->seen,
-             "count not final: %s: let time.end be about %s", text,
+        warn(list, p, "final", final->count.value / final->seen, "count not final: %s: let %s %s",
+             text, final->reach > end ? "time.end be about" : "the rule time.stop end it at about",
              fracas_with_unit(final->reach, 2, "s", false).text);
 }
 
@@ -438,14 +438,14 @@ fracas_err fracas_analysis_warnings(const fracas_analysis *analysis, fracas_warn
     for (size_t p = 0; p < npoints; p++) {
         warn_of_progress(analysis, p, &list);
         warn_of_point(analysis->table, &analysis->point[p], p, &list);
-        warn_of_final(&analysis->point[p].final, analysis->point[p].dust_share, p, &list);
+        const double end = fracas_columns_real(analysis->table, p, "time.end");
+        warn_of_final(&analysis->point[p].final, analysis->point[p].dust_share, end, p, &list);
         if (!replicas_are_equal(analysis->table, p))
             warn_of_convergence(&analysis->point[p], p, &list);
         warn_of_decision(fracas_analysis_decision(analysis, p), p, &list);
         if (analysis->point[p].outcome[FRACAS_TIME_LIMIT] == 0 && /* warned of already */
             !all_elements_apart(&analysis->point[p]))
-            warn_of_end(&analysis->point[p].bands,
-                        fracas_columns_real(analysis->table, p, "time.end"), p, &list);
+            warn_of_end(&analysis->point[p].bands, end, p, &list);
         warn_of_mesh(analysis, p, &list);
         const double zones = fracas_columns_real(analysis->table, p, "cohesive.zone") /
                              analysis->point[p].size.mean;

@@ -202,7 +202,7 @@ static fracas_err look_at_count(fracas_batch *batch, size_t l, fracas_progress *
     fracas_settling_look(&lane->settling, model, since, &lane->census);
     progress->transits = lane->settling.transits;
     progress->growth = lane->settling.growth;
-    if (!model->formulation->rest || !fracas_stop_looks(&model->spec.time)) return FRACAS_OK;
+    if (!model->formulation->rest || !fracas_stop_needs_rest(&model->spec.time)) return FRACAS_OK;
     double vibrating;
     fracas_rest rest;
     TRY(fracas_settling_energies(model, step, (int)l, &lane->ledger, &vibrating, &rest));

@@ -7,7 +7,7 @@
 typedef struct {
     bool (*is_over)(fracas_stop *, const fracas_time *, const fracas_progress *);
     bool waits; /* time.quiet goes by until then */
-    bool looks; /* at how final the count is */
+    bool rests; /* by breaks that are still to come */
 } stop_rule;
 
 const fracas_kind fracas_stop_time = {"time", "at the set time `end`"};
@@ -37,7 +37,25 @@ static bool is_settled(fracas_stop *stop, const fracas_time *rule, const fracas_
 const fracas_kind fracas_stop_settled = {
     "settled",
     "once the count of fragments is final (armed by the first break), at `end` at the latest",
-    FRACAS_PARAMS(settled), .traits = &(const stop_rule){.is_over = is_settled, .looks = true}};
+    FRACAS_PARAMS(settled), .traits = &(const stop_rule){.is_over = is_settled, .rests = true}};
+
+static const fracas_param transits[] = {
+    {"transits", FRACAS_REAL, "1",
+     "transits of a mean fragment by a longitudinal wave since the first onset; up to 9 % more", 40,
+     0, INFINITY, false, offsetof(fracas_time, transits)},
+};
+/* (settled.9) */
+static bool is_crossed(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)
+{
+    (void)stop;
+    return now->look && now->broken > 0 && now->transits >= rule->transits;
+}
+
+const fracas_kind fracas_stop_transits = {
+    "transits",
+    "once waves have crossed a mean fragment so many times (armed by the first break), at `end` at "
+    "the latest",
+    FRACAS_PARAMS(transits), .traits = &(const stop_rule){.is_over = is_crossed}};
 
 static const fracas_param quiet[] = {
     {"quiet", FRACAS_REAL, "s", "how long nothing may crack or break, and little dissipate",
@@ -87,7 +105,8 @@ const fracas_kind fracas_stop_peak_multiple = {
     FRACAS_PARAMS(peak_multiple), .traits = &(const stop_rule){.is_over = is_past_peak}};
 
 static const fracas_kind *const stops[] = {&fracas_stop_time, &fracas_stop_settled,
-                                           &fracas_stop_quiet, &fracas_stop_peak_multiple};
+                                           &fracas_stop_transits, &fracas_stop_quiet,
+                                           &fracas_stop_peak_multiple};
 
 static const fracas_kind *const integrators[] = {&fracas_integrator_central_difference,
                                                  &fracas_integrator_hulbert_chung};
@@ -138,10 +157,10 @@ const fracas_section fracas_time_section = {
     .check = check_time,
 };
 
-bool fracas_stop_looks(const fracas_time *rule)
+bool fracas_stop_needs_rest(const fracas_time *rule)
 {
     const stop_rule *of = rule->stop->traits;
-    return of && of->looks;
+    return of && of->rests;
 }
 
 bool fracas_stop_check(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now,

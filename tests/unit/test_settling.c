@@ -306,7 +306,34 @@ static void runs_end_by_the_rule(void **unused)
     assert_true(steps[1] < steps[0]);
 }
 
+/* Looks are a factor 2^(1/8) of time apart; the count only grows, and k with it. A break between
+ * the last two looks moves k by its share of the count, at most 2 % here. */
+static void transits_end_runs_at_a_stated_k(void **unused)
+{
+    const double wanted[] = {10, 40};
+    fracas_record record[2][8];
+    for (int w = 0; w < 2; w++) {
+        fracas_spec spec = bar_reference(800, 1e5, 4e-6);
+        spec.geometry.length = 4e-3;
+        spec.time.stop = &fracas_stop_transits;
+        spec.time.transits = wanted[w];
+        OWN(fracas_model) model = make_model(&spec);
+        for (int l = 0; l < 8; l++) fracas_record_init(&record[w][l]);
+        run_replicas(model, 0, 8, 0.1, (fracas_batch_options){.isa = FRACAS_ISA_BEST}, record[w]);
+        for (int l = 0; l < 8; l++) {
+            const double k = record[w][l].transits;
+            assert_int_equal(record[w][l].outcome, FRACAS_FRAGMENTED);
+            assert_true(k >= wanted[w] && k < wanted[w] * pow(2, 0.125) * 1.02);
+        }
+    }
+    for (int l = 0; l < 8; l++) {
+        assert_true(record[1][l].end_time > 3 * record[0][l].end_time);
+        for (int w = 0; w < 2; w++) fracas_record_clear(&record[w][l]);
+    }
+}
+
 TESTS(growth_is_that_of_the_last_half, energies_pay_for_breaks, parts_that_fly_apart_will_break,
       parts_that_approach_may_break, parts_that_vibrate_may_break, rigid_motion_is_no_energy,
       barred_interfaces_never_break, nothing_is_known_before_a_break,
-      settled_asks_for_all_three_at_a_look, pieces_of_a_moving_edge_are_held, runs_end_by_the_rule)
+      settled_asks_for_all_three_at_a_look, pieces_of_a_moving_edge_are_held, runs_end_by_the_rule,
+      transits_end_runs_at_a_stated_k)
