@@ -35,6 +35,7 @@ bool fracas_lines_next(fracas_lines *lines)
         lines->start = start;
         lines->stop = stop;
         lines->first = !begun;
+        lines->row += begun;
         return true;
     }
     return false;
@@ -162,8 +163,44 @@ fracas_err fracas_lines_number(fracas_lines *lines, const char *name, const char
                        *field ? "`" : "", name, form);
 }
 
+/* The next text in brackets of the headings from *at on. */
+static bool next_unit(const fracas_lines *lines, const char **at, char unit[FRACAS_FIELD])
+{
+    for (const char *c = *at; c < lines->named_end; c++) {
+        if (*c != '(' && *c != '[') continue;
+        const char *end = memchr(c, *c == '(' ? ')' : ']', (size_t)(lines->named_end - c));
+        if (!end) continue;
+        take(c + 1, end, unit);
+        *at = end + 1;
+        return true;
+    }
+    return false;
+}
+
+fracas_err fracas_lines_check_units(const fracas_lines *lines, const char *const *units)
+{
+    char unit[FRACAS_FIELD], known[FRACAS_FIELD] = "";
+    for (const char *const *one = units; *one; one++) {
+        const size_t length = strlen(known);
+        snprintf(known + length, sizeof known - length, "%s%s", length > 0 ? " and " : "", *one);
+    }
+    for (const char *at = lines->named; at && next_unit(lines, &at, unit);) {
+        bool found = !strcmp(unit, "1") || !strcmp(unit, "-");
+        for (const char *const *one = units; *one; one++) found = found || !strcmp(unit, *one);
+        if (!found)
+            return fracas_fail(FRACAS_USAGE,
+                               "%s:1: the heading has the unit `%s`, but the numbers of such a "
+                               "file are in %s: convert them, and leave the unit out",
+                               lines->file->path, unit, known);
+    }
+    return FRACAS_OK;
+}
+
 void fracas_lines_name(fracas_lines *lines)
 {
+    lines->row = -1;
+    lines->named = lines->start;
+    lines->named_end = lines->stop;
     for (const char *c = lines->start; c < lines->stop; c++) lines->headings += *c == ',';
     if (lines->headings > 0) lines->headings++;
 }

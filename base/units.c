@@ -374,7 +374,13 @@ fracas_err fracas_units_read(const fracas_units *units, const char *text, const 
     size_t length = fracas_number_length(text);
     const char *unit = text + length + strspn(text + length, " ");
     bool apart = unit > text + length || strcmp(unit, "%") == 0;
-    if (length > 0 && *unit == ',' && strchr("0123456789", unit[1]) && unit[1])
+    const size_t digits = *unit == ',' ? strspn(unit + 1, "0123456789") : 0;
+    if (length > 0 && digits == 3)
+        return fracas_fail(FRACAS_USAGE,
+                           "`%s` is not a number: it has a comma; if that parts thousands leave it "
+                           "out: %.*s%s; if decimals write a point: %.*s.%s",
+                           text, (int)length, text, unit + 1, (int)length, text, unit + 1);
+    if (length > 0 && digits > 0)
         return fracas_fail(FRACAS_USAGE,
                            "`%s` is not a number: it has a decimal comma; write a point: %.*s.%s",
                            text, (int)length, text, unit + 1);

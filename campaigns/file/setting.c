@@ -311,8 +311,8 @@ static fracas_err unknown_key(const fracas_file *file, const fracas_file_section
     if (entry->type == FRACAS_UNREADABLE) return fracas_file_untold(file);
     if (*key->text && strchr("0123456789", *key->text) && !*fracas_node_text(entry))
         return fracas_file_error(file, key,
-                                 "unknown key `%s` in %s: the end of a number with a decimal "
-                                 "comma? Write a decimal point",
+                                 "unknown key `%s` in %s: the end of a number with a comma? Write "
+                                 "a decimal point, and nothing between thousands",
                                  key->text, section->table->name);
     return fracas_file_error(file, key, "unknown key `%s` in %s%s%s%s%s", key->text,
                              section->table->name, ask.text,

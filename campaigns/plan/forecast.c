@@ -180,12 +180,29 @@ static void keep_lesser(const fracas_surface *surface, int32_t number, fracas_su
         if (surface->group[g].number == number) *least = surface->group[g];
 }
 
-static fracas_err describe_file(const fracas_model *model, fracas_forecast *forecast)
+/* A group of edges without a key. */
+static bool is_loose(const fracas_model *model, int32_t number)
 {
     const fracas_surface *surface = fracas_model_surface(model);
     for (size_t b = 0; b < surface->nborders; b++)
-        if (fracas_surface_edge_key(model, surface->border[b].tag) == 0)
-            keep_lesser(surface, surface->border[b].tag, &forecast->loose);
+        if (surface->border[b].tag == number && number > 0)
+            return fracas_surface_edge_key(model, number) == 0;
+    return false;
+}
+
+static fracas_err describe_file(const fracas_model *model, fracas_forecast *forecast)
+{
+    const fracas_surface *surface = fracas_model_surface(model);
+    const fracas_kind *const *edge = model->spec.geometry.edge;
+    for (size_t b = 0; b < surface->nborders; b++) {
+        const int32_t tag = surface->border[b].tag;
+        const int key = fracas_surface_edge_key(model, tag);
+        if (key == 0) keep_lesser(surface, tag, &forecast->loose);
+        else if (edge[key] == &fracas_edge_free && edge[0] != &fracas_edge_free)
+            keep_lesser(surface, tag, &forecast->freed);
+    }
+    for (size_t g = 0; g < surface->ngroups; g++)
+        forecast->nloose += is_loose(model, surface->group[g].number);
     for (size_t i = 0; i < surface->ninterfaces; i++)
         if (!fracas_surface_is_loaded(model, surface->interface[i].tag, true))
             keep_lesser(surface, surface->interface[i].tag, &forecast->inner);

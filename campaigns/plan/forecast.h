@@ -32,6 +32,8 @@ typedef struct {
     double element;        /* mean element size [m] */
     fracas_surface_survey mesh; /* a mesh file's; no parts: another body */
     fracas_surface_group loose; /* the least physical group of edges without a key; 0: none */
+    size_t nloose;              /* such groups */
+    fracas_surface_group freed; /* the least group that is free though `edges` is not; 0: none */
     fracas_surface_group inner; /* the least physical group of edges between elements; 0: none */
     double extent;              /* diagonal of the box around all interfaces [m] */
     bool flat;                  /* a factor of the strengths is the same at all interfaces */
@@ -46,7 +48,8 @@ typedef struct {
     double pieces;  /* size of fragments there, by Grady's law [m]; NaN without a strain rate */
     double scatter; /* standard deviation of the strengths by their mean */
     double fragments, history; /* rows of a realization */
-    bool tried;                /* by realizations that were computed */
+    int tried;                 /* realizations that were computed for that; 0: none */
+    int intact, lost;          /* among them: INTACT; ENERGY_DRIFT or NONFINITE */
     double ratio;       /* fragments by those of the scaling law, where some were tried; 0: none */
     bool estimated;     /* from a coarser mesh, without a check of strengths */
     double bound;       /* on the stress in the uncracked body until time.end [Pa] */
@@ -88,9 +91,9 @@ typedef double fracas_plan_warning(const fracas_point *point, const fracas_forec
 double fracas_bending_steps(const fracas_spec *spec, double element);
 
 /* A run says the first of them itself before it begins: of meshes that make another body. */
-enum { FRACAS_PLAN_WARNINGS = 39, FRACAS_RUN_WARNINGS = 2, FRACAS_WARNING_TEXT = 400 /* bytes */ };
+enum { FRACAS_PLAN_WARNINGS = 42, FRACAS_RUN_WARNINGS = 2, FRACAS_WARNING_TEXT = 400 /* bytes */ };
 extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];
-/* One of them: no realization breaks. */
+/* Two of them: no realization breaks. */
 fracas_plan_warning fracas_plan_warn_unbroken;
 
 #endif

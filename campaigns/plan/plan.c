@@ -335,7 +335,7 @@ static void print_sizes(const campaign_plan *plan, int columns, FILE *out)
     char study[FRACAS_SIZE_TEXT], segments[FRACAS_SIZE_TEXT], peak[FRACAS_SIZE_TEXT],
         counted[80] = "";
     size_t tried = 0;
-    for (size_t p = 0; p < plan->table->npoints; p++) tried += plan->forecast[p].tried;
+    for (size_t p = 0; p < plan->table->npoints; p++) tried += plan->forecast[p].tried > 0;
     const bool all = tried == plan->table->npoints;
     if (tried > 0)
         snprintf(counted, sizeof counted, "realizations of %zu point%s, computed just now%s", tried,

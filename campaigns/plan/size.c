@@ -67,13 +67,16 @@ static fracas_err compute(const fracas_campaign *campaign, size_t p, const fraca
         fragments += (double)record[l].nfragment / (double)count;
         history += (double)record[l].nhistory / (double)count;
         *steps += record[l].steps;
+        forecast->intact += record[l].outcome == FRACAS_INTACT;
+        forecast->lost += record[l].outcome == FRACAS_ENERGY_DRIFT ||
+                          record[l].outcome == FRACAS_NONFINITE;
         fracas_record_clear(&record[l]);
     }
     if (err) return err;
     forecast->ratio = fragments / forecast->fragments;
     forecast->fragments = between(fragments, forecast);
     forecast->history = history;
-    forecast->tried = true;
+    forecast->tried = (int)count;
     return FRACAS_OK;
 }
 

@@ -10,6 +10,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Largest resolved element size over E G_c/sigma_c^2, the softening length of a crack. */
 #define COARSE 0.5
@@ -253,8 +254,27 @@ WARNING(
 double fracas_plan_warn_unbroken(const fracas_point *point, const fracas_forecast *forecast,
                                  char *text, size_t size)
 {
-    return warn_whole(point, forecast, text, size);
+    const double whole = warn_whole(point, forecast, text, size);
+    return whole > 0 ? whole : warn_weak_load(point, forecast, text, size);
 }
+
+/* A warning has said why already. */
+static bool is_explained(const fracas_forecast *forecast)
+{
+    return forecast->bound < forecast->mean || forecast->unbroken;
+}
+
+WARNING(warn_intact,
+        forecast->tried > 0 && forecast->intact == forecast->tried && !is_explained(forecast), 1,
+        "nothing breaks in %d realization%s computed just now: load it harder or longer, unless "
+        "that is meant: is %s in its unit? A bare number is SI",
+        forecast->tried, forecast->tried == 1 ? "" : "s", load_key(&point->spec).text)
+
+WARNING(warn_lost, forecast->tried > 0 && forecast->lost == forecast->tried, 1,
+        "%d realization%s computed just now end%s without a result, by the energy guard: is %s in "
+        "its unit? A bare number is SI; or lower time.safety",
+        forecast->tried, forecast->tried == 1 ? "" : "s", forecast->tried == 1 ? "s" : "",
+        load_key(&point->spec).text)
 
 /* Largest size of fragments over an element's at which a weak part breaks everywhere: 45 % of its
  * interfaces at 0.36 (13 % of the others), 10 % at 0.8, on a plate with a strip across. */
@@ -344,7 +364,7 @@ WARNING(warn_undivided, !forecast->estimated && forecast->parts > (int64_t)forec
 /* ---- mesh files ---- */
 
 typedef struct {
-    char text[96];
+    char text[140];
 } group_name;
 
 static group_name name_of(const fracas_surface_group *group)
@@ -356,18 +376,36 @@ static group_name name_of(const fracas_surface_group *group)
     return made;
 }
 
+/* "5 "top" and 2 more" */
+static group_name loose_names(const fracas_forecast *forecast)
+{
+    group_name made = name_of(&forecast->loose);
+    const size_t length = strlen(made.text);
+    if (forecast->nloose > 1)
+        snprintf(made.text + length, sizeof made.text - length, " and %zu more",
+                 forecast->nloose - 1);
+    return made;
+}
+
 WARNING(
     warn_loose, forecast->loose.number, 1,
     "edges of the mesh file's physical group %s are held as geometry.edges says: the keys "
     "edge_1 to edge_8, and names, are those of the groups 1 to 8: hold the group by its own, or "
     "give it one of these numbers",
-    name_of(&forecast->loose).text)
+    loose_names(forecast).text)
 
-WARNING(warn_inner, forecast->inner.number, 1,
-        "lines of the mesh file's physical group %s lie inside the body: their edges are "
-        "interfaces as all others, and the group has no effect: a line-force or point-force can "
-        "load it by its key edge_1 to edge_8; for a notch, double its nodes: Gmsh's Plugin(Crack)",
-        name_of(&forecast->inner).text)
+WARNING(warn_freed, forecast->freed.number, 1,
+        "edges of the mesh file's physical group %s are free: geometry.edges, here `%s`, is for "
+        "edges of no group from 1 to 8: if the group is to be held say so by its name or edge_%d",
+        name_of(&forecast->freed).text, point->spec.geometry.edge[0]->name,
+        (int)forecast->freed.number)
+
+WARNING(
+    warn_inner, forecast->inner.number, 1,
+    "lines of the mesh file's physical group %s lie inside the body: their edges are "
+    "interfaces as all others, on which the group has no effect: a line-force or point-force can "
+    "load it by its key edge_1 to edge_8; for a notch, double its nodes: Gmsh's Plugin(Crack)",
+    name_of(&forecast->inner).text)
 
 typedef struct {
     char text[200];
@@ -490,4 +528,5 @@ fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
     warn_steered,     warn_stretch,    warn_fast,
     warn_whole,       warn_many_steps, warn_mesh_effect_bounded,
     warn_tough,       warn_notch,      warn_released,
-    warn_begun,       warn_strained,   warn_started};
+    warn_begun,       warn_strained,   warn_started,
+    warn_freed,       warn_intact,     warn_lost};

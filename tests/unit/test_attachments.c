@@ -30,6 +30,7 @@ static void test_values(void **state)
         "# about\n3\n  # more\n1\n8\n",
         "strength\n3\n1\n8\n",
         "# about\nindex, strength (Pa)\n0, 3\n1, 1\n2, 8\n",
+        "interface,x [m],strength [Pa]\n1,0,3\n2,0,1\n3,0,8\n",
         "n,Pa\n0,3\n1,1\n2,8\n",
         "0, 3\n1 ,1\n2,8.0\n", /* no decimal comma has a blank or a point beside it */
         "0,0,3\n1,0,1\n2,0,8\n",
@@ -74,6 +75,10 @@ static void test_bad_values(void **state)
         {"4e8\n3,5e8\n",
          "s.csv:2: found `3,5e8`; expected a decimal point, not a comma, in a strength; or, if "
          "the comma ends a column, the names of all columns in a first line (`number,strength`)"},
+        {"interface,strength\n0,3\n2,8\n1,1\n",
+         "s.csv:3: found `2`; expected interface 1: strengths are taken in the order of the lines"},
+        {"x (mm),strength\n0,3\n",
+         "s.csv:1: the heading has the unit `mm`, but the numbers of such a file are in Pa and m"},
         {"0,1 3,5e8\n", "s.csv:1: found `0,1 3,5e8`; expected a decimal point"},
         {"0,02; 3,5e8\n", "s.csv:1: found `0,02; 3,5e8`; expected a decimal point"},
         {"strength\n3,5\n", "s.csv:2: found `3,5`"},

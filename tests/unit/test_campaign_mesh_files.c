@@ -393,7 +393,8 @@ static void test_unit(void **state)
           "the mesh file makes a body of 2 by 1 by 0 m: if it is in mm, give geometry.unit: mm");
     OWNED char *plan = plan_text(in_um, 1, false);
     assert_non_null(strstr(plan, "msh22-text.msh: 2e-06 by 1e-06 by 0 m.\n"));
-    assert_non_null(strstr(plan, "edges of the mesh file's physical group 11 \"left\" are held as "
+    assert_non_null(strstr(plan, "edges of the mesh file's physical group 11 \"left\" and 1 more "
+                                 "are held as "
                                  "geometry.edges says"));
 }
 

@@ -61,6 +61,17 @@ static void test_round_trip(void **state)
         }
 }
 
+/* Fortran programs write exponents by D. */
+static void test_exponents_by_d(void **state)
+{
+    static const char text[] = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n"
+                               "2 2.5D-01 0 0\n3 0 1d0 0\n$EndNodes\n$Elements\n1\n"
+                               "1 2 0 1 2 3\n$EndElements\n";
+    OWN(a_surface) s = NULL;
+    OK(fracas_surface_read_gmsh(text, strlen(text), 1, false, &s));
+    assert_true(s->area[0] == 0.125);
+}
+
 /* What Gmsh 4.8.4 made of tests/data/gmsh/plate.geo, a plate of 2 x 1 with a quarter of a hole of
  * radius 1/2. */
 static const char *const plates[] = {
@@ -141,7 +152,7 @@ static const struct {
 } refused[] = {
     {"", "line 1: an empty file"},
     {" \n\n", "line 3: an empty file"},
-    {"solid cube\n", "line 1: expected $MeshFormat, not `solid`"},
+    {"solid cube\n", "line 1: expected $MeshFormat, not `solid`: no Gmsh mesh"},
     {"$MeshFormat\n4 0 8\n$EndMeshFormat\n", "line 2: a mesh of format 4: save it as 4.1 or 2.2"},
     {"$MeshFormat\n2.2 0 4\n$EndMeshFormat\n", "expected 0 or 1, and 8"},
     {"$MeshFormat\n2.2 1 8\n\1\1\1\1\n$EndMeshFormat\n",
@@ -154,7 +165,8 @@ static const struct {
     {HEAD NODES "$Elements\n0\n$EndElements\n$Elements\n0\n$EndElements\n",
      "a second section $Elements"},
     {HEAD NODES "$Elements\n1\n1 3 2 0 1 1 2 4 3\n$EndElements\n",
-     "line 13: 4-node quadrangles (Gmsh's type 3)"},
+     "line 13: 4-node quadrangles (Gmsh's type 3): a surface has 3- or 6-node triangles: mesh it "
+     "without Recombine"},
     {HEAD NODES "$Elements\n1\n1 4 2 0 1 1 2 4 3\n$EndElements\n", "4-node tetrahedra"},
     {HEAD NODES "$Elements\n1\n1 77 2 0 1 1 2 4 3\n$EndElements\n", "elements of Gmsh's type 77"},
     {HEAD NODES "$Elements\n1\n1 2 2 0 1 1 2 9\n$EndElements\n",
@@ -185,7 +197,8 @@ static const struct {
      "expected $EndElements, not `4`"},
     {HEAD "$Nodes\n2\n1 0 0 0\n1 1 0 0\n$EndNodes\n", "node 1 comes twice"},
     {HEAD "$Nodes\n1\n1 0 nan 0\n$EndNodes\n", "line 6: `nan` is not a number"},
-    {HEAD "$Nodes\n1\n1 0 1,5 0\n$EndNodes\n", "line 6: `1,5` is not a number"},
+    {HEAD "$Nodes\n1\n1 0 1,5 0\n$EndNodes\n",
+     "line 6: `1,5` is not a number: decimals follow a point"},
     {HEAD "$Nodes 1\n1 0 \xff 0\n$EndNodes\n", "a byte that is no text, 255"},
     {HEAD "$Nodes\n1 1 0 0 0\n$EndNodes\n", "expected the end of the line"},
     {HEAD
@@ -510,6 +523,6 @@ static void test_mutations(void **state)
     fracas_surface_destroy(s[1]);
 }
 
-TESTS(test_round_trip, test_plates, test_plates_agree, test_turned, test_turned_at_random,
-      test_round_off, test_partitions, test_read_alike, test_groups, test_groups_of_a_curve,
-      test_refused, test_refused_binary, test_cut, test_mutations)
+TESTS(test_exponents_by_d, test_round_trip, test_plates, test_plates_agree, test_turned,
+      test_turned_at_random, test_round_off, test_partitions, test_read_alike, test_groups,
+      test_groups_of_a_curve, test_refused, test_refused_binary, test_cut, test_mutations)

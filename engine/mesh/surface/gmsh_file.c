@@ -284,10 +284,15 @@ static fracas_err nodes_of_type(const fracas_gmsh_mesh *m, int32_t type, size_t 
     if (type == GMSH_LINE || type == GMSH_TRIANGLE || type == GMSH_LINE_3 ||
         type == GMSH_TRIANGLE_6 || type == GMSH_POINT)
         return FRACAS_OK;
+    const int shape = known ? types[type].shape : LINE;
     if (known)
         return fracas_gmsh_fail(
-            &m->scan, "%zu-node %s (Gmsh's type %" PRId32 "): a surface has 3- or 6-node triangles",
-            *nodes, shapes[types[type].shape], type);
+            &m->scan,
+            "%zu-node %s (Gmsh's type %" PRId32 "): a surface has 3- or 6-node triangles: %s",
+            *nodes, shapes[shape], type,
+            shape == QUAD                        ? "mesh it without Recombine"
+            : shape == LINE || shape == TRIANGLE ? "set Mesh.ElementOrder to 1 or 2"
+                                                 : "mesh the surface alone, with `gmsh -2`");
     return fracas_gmsh_fail(
         &m->scan, "elements of Gmsh's type %" PRId32 ": a surface has 3- or 6-node triangles",
         type);
@@ -398,6 +403,14 @@ static fracas_err read_format(fracas_gmsh_mesh *m)
     while (scan->size - scan->at > 9 && !memcmp(scan->text + scan->at, "$Comments", 9)) {
         TRY(fracas_gmsh_skip(scan, "Comments"));
         if (fracas_gmsh_at_end(scan)) break;
+    }
+    if (scan->size - scan->at < 11 || memcmp(scan->text + scan->at, "$MeshFormat", 11)) {
+        char word[FRACAS_GMSH_WORD];
+        TRY(fracas_gmsh_word(scan, word));
+        return fracas_gmsh_fail(scan,
+                                "expected $MeshFormat, not `%s`: no Gmsh mesh; a .geo or .step "
+                                "becomes one by `gmsh -2 FILE -o NEW.msh`",
+                                word);
     }
     TRY(fracas_gmsh_expect(scan, "$MeshFormat"));
     TRY(fracas_gmsh_word(scan, version));

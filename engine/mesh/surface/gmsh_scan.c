@@ -136,6 +136,16 @@ fracas_err fracas_gmsh_ints(fracas_gmsh_scan *scan, size_t count, int32_t *value
     return FRACAS_OK;
 }
 
+/* Fortran writes 1.0D-03. */
+static bool parse_real(const char *word, double *value)
+{
+    char plain[FRACAS_GMSH_WORD];
+    size_t i = 0;
+    for (; word[i]; i++) plain[i] = word[i] == 'D' || word[i] == 'd' ? 'e' : word[i];
+    plain[i] = '\0';
+    return !fracas_number_read(plain, value);
+}
+
 fracas_err fracas_gmsh_reals(fracas_gmsh_scan *scan, size_t count, double *value)
 {
     char word[FRACAS_GMSH_WORD];
@@ -145,8 +155,9 @@ fracas_err fracas_gmsh_reals(fracas_gmsh_scan *scan, size_t count, double *value
             continue;
         }
         TRY(fracas_gmsh_word(scan, word));
-        if (fracas_number_read(word, &value[i]))
-            return fracas_gmsh_fail(scan, "`%s` is not a number", word);
+        if (!parse_real(word, &value[i]))
+            return fracas_gmsh_fail(scan, "`%s` is not a number%s", word,
+                                    strchr(word, ',') ? ": decimals follow a point" : "");
     }
     return FRACAS_OK;
 }
