@@ -426,6 +426,12 @@ WARNING(warn_parts, forecast->mesh.parts > 1, (double)forecast->mesh.parts,
         "before anything breaks; %s",
         forecast->mesh.parts, doubled_of(&forecast->mesh).text)
 
+WARNING(warn_hanging, forecast->mesh.hanging, (double)forecast->mesh.hanging,
+        "%zu node%s of the mesh file hang%s on edges of elements that do not have %s: the body is "
+        "slit there: refine both sides of an edge, or mesh the body anew",
+        forecast->mesh.hanging, forecast->mesh.hanging == 1 ? "" : "s",
+        forecast->mesh.hanging == 1 ? "s" : "", forecast->mesh.hanging == 1 ? "it" : "them")
+
 /* Largest side of a body that may be meant in mm [m]. */
 #define LARGE 0.5
 
@@ -516,17 +522,25 @@ WARNING(
     1e-6 * fracas_initial_effective(&point->spec), 1e-6 * forecast->mean)
 
 fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
-    warn_parts,       warn_unit,       warn_coarse,
-    warn_uniform,     warn_lines,      warn_weak_load,
-    warn_repeated,    warn_folds,      warn_zone,
-    warn_step,        warn_turned,     warn_passed,
-    warn_short,       warn_long,       warn_flat,
-    warn_weakest,     warn_wave,       warn_bending,
-    warn_few_steps,   warn_never,      warn_shatters,
-    warn_mesh_effect, warn_open,       warn_heats,
-    warn_undivided,   warn_loose,      warn_inner,
-    warn_steered,     warn_stretch,    warn_fast,
-    warn_whole,       warn_many_steps, warn_mesh_effect_bounded,
-    warn_tough,       warn_notch,      warn_released,
-    warn_begun,       warn_strained,   warn_started,
-    warn_freed,       warn_intact,     warn_lost};
+    warn_parts,       warn_unit,
+    warn_hanging,     warn_coarse,
+    warn_uniform,     warn_lines,
+    warn_weak_load,   warn_repeated,
+    warn_folds,       warn_zone,
+    warn_step,        warn_turned,
+    warn_passed,      warn_short,
+    warn_long,        warn_flat,
+    warn_weakest,     warn_wave,
+    warn_bending,     warn_few_steps,
+    warn_never,       warn_shatters,
+    warn_mesh_effect, warn_open,
+    warn_heats,       warn_undivided,
+    warn_loose,       warn_inner,
+    warn_steered,     warn_stretch,
+    warn_fast,        warn_whole,
+    warn_many_steps,  warn_mesh_effect_bounded,
+    warn_tough,       warn_notch,
+    warn_released,    warn_begun,
+    warn_strained,    warn_started,
+    warn_freed,       warn_intact,
+    warn_lost};

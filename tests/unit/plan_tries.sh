@@ -43,3 +43,27 @@ said "edges of the mesh file's physical group 1.* are free: geometry.edges, here
 sed 's/edges: held/edges: held, edge_1: held/' groups.yaml > all.yaml
 expect 0 "$fracas" plan all.yaml
 ! grep -q 'are free: geometry.edges' said || { cat said >&2; fail "held groups are called free"; }
+
+# A triangle split without its neighbour: its new node hangs on the neighbour's edge.
+cat > hanging.msh <<'MSH'
+$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+5
+1 0 0 0
+2 1 0 0
+3 1 1 0
+4 0 1 0
+5 0.5 0.5 0
+$EndNodes
+$Elements
+3
+1 2 0 1 2 3
+2 2 0 1 5 4
+3 2 0 5 3 4
+$EndElements
+MSH
+sed 's/plate.msh/hanging.msh/; s/edges: held/edges: free/' groups.yaml > slit.yaml
+expect 0 "$fracas" plan slit.yaml
+said '1 node of the mesh file hangs on edges of elements that do not have it: the body is slit there'

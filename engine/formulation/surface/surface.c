@@ -196,7 +196,8 @@ fracas_err fracas_surface_check_strength(const fracas_model *model, double stren
                  side[0], side[1], side[2]);
     }
     const double times = ceil(100 * model->longest / most) / 100;
-    char remedy[100] = "check the units of strength and fracture energy";
+    char remedy[120] =
+        "are material.young, the strengths, the fracture energy and lengths in their units?";
     if (times < 100)
         snprintf(remedy, sizeof remedy, "refine the mesh %.3g times (or raise cohesive.beta)",
                  times);

@@ -14,6 +14,7 @@ typedef struct {
     double box[3];  /* sides of the box around all nodes [m] */
     size_t parts;   /* elements joined over common edges */
     size_t doubled; /* positions, within 1e-9 of the body, that nodes of several parts have */
+    size_t hanging; /* corners of the border on edges of it that end elsewhere: the body is slit */
     size_t turned;  /* elements that went round against the others in the file */
     double steered; /* flat: part of the length of the edges between elements that lies in the three
                        directions, 15 degrees wide, that have most of it; else 0 */
