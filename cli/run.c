@@ -87,7 +87,8 @@ fracas_err fracas_cli_run(const fracas_run_options *run, int argc, char **argv)
     const char *study = facts.study;
     char message[1024]; /* the error, for after the report */
     snprintf(message, sizeof message, "%s", fracas_message());
-    if (!facts.ran) fprintf(stderr, "fracas: %s is complete, nothing to compute\n", study);
+    if (!facts.ran && !run->quiet)
+        fprintf(stderr, "fracas: %s is complete, nothing to compute\n", study);
     const fracas_report_view view = {
         .quiet = run->quiet, .columns = run->wide ? 0 : fracas_terminal_of(STDOUT_FILENO).columns};
     if (!run->no_report) TRY(fracas_cli_report(study, &view));

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/plan/forecast.h"
 
+#include "base/text.h"
 #include "campaigns/plan/bounds.h"
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
@@ -324,14 +325,23 @@ static bool is_mesh_of_last(const fracas_campaign *campaign, size_t point)
            !strcmp(is->file->digest, was->file->digest);
 }
 
+void fracas_plan_words_say(const fracas_plan_words *words, const char *text)
+{
+    static const char word[] = "fracas: warning: ";
+    fputs(word, words->out);
+    fracas_text_wrap(text, (int)strlen(word), words->columns, words->out);
+}
+
 static void warn_of(const fracas_campaign *campaign, size_t point, const fracas_forecast *forecast,
                     fracas_plan_words *words)
 {
-    char text[FRACAS_WARNING_TEXT];
+    char text[FRACAS_WARNING_TEXT], line[FRACAS_WARNING_TEXT + 32];
     const fracas_point *of = &campaign->point[point];
-    for (int w = 0; w < FRACAS_RUN_WARNINGS && !is_mesh_of_last(campaign, point); w++)
-        if (fracas_plan_warnings[w](of, forecast, text, sizeof text) > 0)
-            fprintf(words->out, "fracas: warning: point %zu: %s\n", point, text);
+    for (int w = 0; w < FRACAS_RUN_WARNINGS && !is_mesh_of_last(campaign, point); w++) {
+        if (!(fracas_plan_warnings[w](of, forecast, text, sizeof text) > 0)) continue;
+        snprintf(line, sizeof line, "point %zu: %s", point, text);
+        fracas_plan_words_say(words, line);
+    }
     if (fracas_plan_warn_unbroken(of, forecast, text, sizeof text) > 0 && words->unbroken++ == 0)
         snprintf(words->first, sizeof words->first, "point %zu: %s", point, text);
 }

@@ -15,10 +15,13 @@ FRACAS_MUST_USE fracas_err fracas_plan_cost(const fracas_campaign *campaign, siz
                                             double *cost, double *bytes);
 /* Words of a run on its points, before it begins. */
 typedef struct {
-    FILE *out;       /* gets the first FRACAS_RUN_WARNINGS of the plan's warnings, a line each */
+    FILE *out;       /* gets the first FRACAS_RUN_WARNINGS of the plan's warnings, ... */
+    int columns;     /* ... in lines of so many; 0: a line each */
     size_t unbroken; /* points whose interfaces crack and never break, counted */
     char first[440]; /* "point P: ..." of the first of these */
 } fracas_plan_words;
+/* Writes "fracas: warning: ..." to `out`. */
+void fracas_plan_words_say(const fracas_plan_words *words, const char *text);
 /* fracas_plan_cost with the point's model. words: adds to them; NULL: says nothing. */
 FRACAS_MUST_USE fracas_err fracas_plan_cost_with(const fracas_campaign *campaign, size_t point,
                                                  const fracas_model *model,

@@ -3,6 +3,7 @@
 check_watch.py terminal COMMAND...          redraws in place, Ctrl-C ends it and gives the cursor back
 check_watch.py colours COMMAND...           colours, none with NO_COLOR, no sequences at all with TERM=dumb
 check_watch.py narrow COMMAND...            a table in parts of 80 columns, wide with --wide, and wide into a pipe
+check_watch.py warned COMMAND...            the warning of a run in lines of the terminal's width, one line into a file
 check_watch.py prometheus FILE COMMAND...   FILE is whole whenever it is read; the command's output goes on
 check_watch.py numbers LOOKS REPORT FILE    every look is a JSON object, the last has the numbers of the report, and so has FILE
 """
@@ -95,6 +96,19 @@ def check_narrow(command):
     assert (b"\x1b[33m" in coloured) == (b"warning:" in coloured), "warnings have a colour"
 
 
+def check_warned(command):
+    begin = "fracas: warning: "
+    out, status = on_terminal(command + ["--study", "warned"], {"TERM": "xterm"}, columns=60)
+    assert os.WEXITSTATUS(status) == 0, out
+    lines = plain(out).decode().splitlines()
+    wrapped = lines[[line.startswith(begin) for line in lines].index(True):]
+    while not wrapped[-1].startswith(" " * len(begin)):
+        wrapped.pop()
+    assert len(wrapped) > 4 and max(map(len, wrapped)) <= 60, wrapped
+    piped = subprocess.run(command + ["--study", "in-a-file"], stderr=subprocess.PIPE, check=True).stderr.decode().splitlines()
+    assert " ".join(" ".join(wrapped).split()) in piped, (wrapped, piped)
+
+
 SAMPLE = re.compile(r'(fracas_[a-z_]+)\{((?:[a-z_]+="(?:[^"\\\n]|\\["\\n])*",?)+)\} (-?[0-9.]+(?:e[-+][0-9]+)?)')
 
 
@@ -159,6 +173,8 @@ elif what == "colours":
     check_colours(rest)
 elif what == "narrow":
     check_narrow(rest)
+elif what == "warned":
+    check_warned(rest)
 elif what == "prometheus":
     check_prometheus(rest[0], rest[1:])
 else:

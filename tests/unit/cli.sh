@@ -87,6 +87,24 @@ for bad in 0 -1 2x 1e3 '' 99999999999999999999; do
     says 2 err "--jobs is \`$bad\`; it must be a whole number from 1" run a.yaml "--jobs=$bad"
     says 2 err "--jobs is \`$bad\`; it must be a whole number from 1" plan a.yaml "--jobs=$bad"
 done
+cat >"$folder/small.yaml" <<'END'
+name: small
+seed: 7
+model: bar
+geometry: {ends: periodic, length: 1 mm, area: 1 mm2}
+mesh: {elements: 50}
+material: {young: 275 GPa, density: 2750 kg/m3}
+cohesive: {law: nitsche, fracture_energy: 100 J/m2}
+strength: {distribution: uniform, minimum: 299 MPa, maximum: 301 MPa}
+loading: {type: imposed-rate, rate: 1e5 1/s}
+time: {stop: time, end: 300 ns}
+replicas: 1
+END
+says 2 err '--jobs 1000000: this machine gives the run' run "$folder/small.yaml" --jobs 1000000 --study "$folder/none"
+cp "$folder/err" "$folder/of-run"
+says 2 err '--jobs 1000000: this machine gives the run' plan "$folder/small.yaml" --jobs 1000000
+cmp "$folder/of-run" "$folder/err"
+says 0 out 'small' plan "$folder/small.yaml" --jobs 2
 for bad in -1 5s nan inf '' 1e999; do
     says 2 err "--segment-age is \`$bad\`; it must be a number" run a.yaml "--segment-age=$bad"
     says 2 err "--segment-size is \`$bad\`; it must be a number" run a.yaml "--segment-size=$bad"

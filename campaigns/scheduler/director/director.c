@@ -53,7 +53,8 @@ static fracas_err announce(fracas_director *director, const char *report)
              director->rounds.open ? ", and more as rules ask for them" : "",
              director->setup.workers, director->setup.workers == 1 ? "" : "s");
     if (*report) TRY(fracas_director_announce(director, "recovered", report));
-    fracas_channel_message(director->setup.channel, "%s: %s", director->setup.study, text);
+    if (!options->quiet)
+        fracas_channel_message(director->setup.channel, "%s: %s", director->setup.study, text);
     fracas_channel_progress(director->setup.channel, &count);
     return fracas_index_event(director->index, count.done ? "resumed" : "started", text);
 }

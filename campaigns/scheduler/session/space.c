@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/scheduler/session/space.h"
 
+#include "base/terminal.h"
 #include "campaigns/plan/plan.h"
 #include "campaigns/plan/point_model.h"
 #include "campaigns/plan/size.h"
@@ -33,6 +34,16 @@ static fracas_err find_cost(const fracas_campaign *campaign, size_t point,
     return fracas_plan_cost_with(campaign, point, model, words, cost, bytes);
 }
 
+static void say_unbroken(const fracas_plan_words *words)
+{
+    char text[sizeof words->first + 64];
+    if (words->unbroken == 1) snprintf(text, sizeof text, "%s", words->first);
+    else
+        snprintf(text, sizeof text, "%zu points break nothing, the first, %s", words->unbroken,
+                 words->first);
+    fracas_plan_words_say(words, text);
+}
+
 fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run_options *options,
                                FILE *warn, double **cost, double **bytes)
 {
@@ -40,13 +51,11 @@ fracas_err fracas_costs_create(const fracas_campaign *campaign, const fracas_run
     OWNED double *b = malloc(campaign->npoints * sizeof *b);
     FILE *out = options->quiet ? NULL : warn;
     fracas_plan_words words = {.out = out};
+    if (out && !options->wide) words.columns = fracas_terminal_of(fileno(out)).columns;
     if (!c || !b) return fracas_no_memory("the plan");
     for (size_t i = 0; i < campaign->npoints; i++)
         TRY(find_cost(campaign, i, options, out ? &words : NULL, &c[i], &b[i]));
-    if (words.unbroken == 1) fprintf(out, "fracas: warning: %s\n", words.first);
-    if (words.unbroken > 1)
-        fprintf(out, "fracas: warning: %zu points break nothing, the first, %s\n", words.unbroken,
-                words.first);
+    if (words.unbroken > 0) say_unbroken(&words);
     *cost = c;
     c = NULL;
     if (!bytes) return FRACAS_OK;
