@@ -84,18 +84,13 @@ static fracas_err fit_study(const fracas_arguments *arguments, const fracas_anal
     return code;
 }
 
-/* Beside a study.h5 alone a fits.csv may be the user's own. */
 static fracas_err check_free(const char *study)
 {
-    OWN(fracas_fits) fits = NULL;
-    OWNED char *path = NULL;
-    TRY(fracas_path(&path, "%s/" FRACAS_FITS_FILE, study));
-    if (!fracas_cli_alone(study) || access(path, F_OK) || !fracas_fits_read(study, &fits))
-        return FRACAS_OK;
+    if (!fracas_fits_foreign(study)) return FRACAS_OK;
     return fracas_fail(FRACAS_USAGE,
-                       "%s is there, and no `fracas fit` wrote it: move it away, or fit a copy of "
-                       "study.h5 in another folder",
-                       path);
+                       "%s/" FRACAS_FITS_FILE " is there, and no `fracas fit` wrote it: move it "
+                       "away, or fit a copy of study.h5 in another folder",
+                       study);
 }
 
 static fracas_err fit(const fracas_arguments *arguments)

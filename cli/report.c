@@ -241,8 +241,7 @@ static fracas_err export(const fracas_arguments *arguments)
     TRY(fracas_cli_analyse(arguments->operand, &campaign, &analysis));
     TRY(fracas_output_folder_in(fracas_given(arguments, "to"), arguments->operand, "export",
                                 &folder));
-    if (fracas_given(arguments, "to") || fracas_cli_alone(arguments->operand))
-        TRY(fracas_export_free(analysis, folder, more));
+    TRY(fracas_export_free(analysis, folder, more));
     TRY(fracas_export_write(analysis, folder, more));
     printf("export: %s/datapackage.json\n", folder);
     return FRACAS_OK;

@@ -32,16 +32,20 @@ fracas_err fracas_output_folder_in(const char *wanted, const char *study, const 
     return fracas_output_folder(*folder);
 }
 
-/* The first kilobytes of FOLDER/NAME have `text`. */
-static bool has_text(const char *folder, const char *name, const char *text)
+/* The first kilobytes of the file have `text`. */
+static bool file_has(const char *path, const char *text)
 {
-    OWNED char *path = NULL;
     char start[4096];
-    if (fracas_path(&path, "%s/%s", folder, name)) return false;
     OWN(FILE) in = fracas_file_stream(fracas_file_open(path), "r");
     if (!in) return false;
     start[fread(start, 1, sizeof start - 1, in)] = '\0';
     return strstr(start, text) != NULL;
+}
+
+static bool has_text(const char *folder, const char *name, const char *text)
+{
+    OWNED char *path = NULL;
+    return !fracas_path(&path, "%s/%s", folder, name) && file_has(path, text);
 }
 
 bool fracas_output_begun(const char *folder, const char *name)
@@ -58,9 +62,16 @@ bool fracas_output_begun(const char *folder, const char *name)
     return begun;
 }
 
+static const char TITLE_END[] = " \u00b7 fracas</title>";
+
+bool fracas_output_is_page(const char *path)
+{
+    return file_has(path, TITLE_END);
+}
+
 bool fracas_output_has_page(const char *folder)
 {
-    return has_text(folder, FRACAS_OUTPUT_PAGE, " \u00b7 fracas</title>");
+    return has_text(folder, FRACAS_OUTPUT_PAGE, TITLE_END);
 }
 
 bool fracas_output_is_ours(const char *folder)
@@ -85,6 +96,14 @@ fracas_err fracas_output_empty(const char *folder)
     return err;
 }
 
+fracas_err fracas_output_refuse(const char *path)
+{
+    return fracas_fail(FRACAS_USAGE,
+                       "%s is there already, and is of no report or export of fracas: name "
+                       "another folder, or move it away",
+                       path);
+}
+
 fracas_err fracas_output_free(const char *folder, const char *const *name, size_t count)
 {
     if (fracas_output_is_ours(folder)) return FRACAS_OK;
@@ -92,10 +111,7 @@ fracas_err fracas_output_free(const char *folder, const char *const *name, size_
         OWNED char *path = NULL;
         TRY(fracas_path(&path, "%s/%s", folder, name[i]));
         if (access(path, F_OK) && fracas_file_is_own(path)) continue;
-        return fracas_fail(FRACAS_USAGE,
-                           "%s is there already, and is of no report or export of fracas: name "
-                           "another folder, or move it away",
-                           path);
+        return fracas_output_refuse(path);
     }
     return FRACAS_OK;
 }

@@ -16,7 +16,8 @@ typedef struct {
 
 #define FRACAS_OUTPUT_PAGE "index.html"
 
-/* True if the folder has a page of fracas. */
+/* True of a page of fracas; of a folder that has one. */
+bool fracas_output_is_page(const char *path);
 bool fracas_output_has_page(const char *folder);
 /* The same, a package, or the remains of a report or an export cut off before these. */
 bool fracas_output_is_ours(const char *folder);
@@ -34,6 +35,9 @@ FRACAS_MUST_USE fracas_err fracas_output_folder_in(const char *wanted, const cha
  * or a datapackage.json of fracas beside it tells, or the remains of one cut off. */
 FRACAS_MUST_USE fracas_err fracas_output_free(const char *folder, const char *const *name,
                                               size_t count);
+
+/* FRACAS_USAGE for such a file. */
+FRACAS_MUST_USE fracas_err fracas_output_refuse(const char *path);
 
 /* FRACAS_USAGE if the folder has a file and neither index.html nor datapackage.json of fracas. */
 FRACAS_MUST_USE fracas_err fracas_output_empty(const char *folder);

@@ -5,6 +5,7 @@
 #include "analysis/data/output.h"
 #include "analysis/data/text.h"
 #include "analysis/summary/study.h"
+#include "base/file.h"
 #include "base/own.h"
 #include "campaigns/store/vtk.h"
 
@@ -165,10 +166,19 @@ static fracas_err check(const fracas_analysis *analysis, const fracas_grids_requ
     return FRACAS_OK;
 }
 
-/* Removes the files of a former export from STUDY/vtk. FRACAS_USAGE where another folder has one of
- * these names: it may be anybody's. */
+/* True of a file of an export; the fields of a replay have neither array. */
+static bool is_ours(const char *path, bool series, int part)
+{
+    static const char *const array[] = {"elements", "damage_at_end"};
+    return fracas_file_is_own(path) &&
+           (series ? fracas_vtk_is_series(path) : fracas_vtk_has(path, array[part]));
+}
+
+/* Finds the files of a former export in STUDY/vtk, and removes them unless it is only to `look`.
+ * FRACAS_USAGE for anything else of these names, and for all of them in another folder: they may be
+ * anybody's. */
 static fracas_err make_room(const fracas_grids_request *request, const char *folder,
-                            const char *stem)
+                            const char *stem, bool look)
 {
     bool there = true;
     for (size_t k = 0; there || k <= request->count; k++) {
@@ -181,7 +191,8 @@ static fracas_err make_room(const fracas_grids_request *request, const char *fol
             if (request->folder)
                 return fracas_fail(FRACAS_USAGE,
                                    "%s is there already: name another folder, or remove it", path);
-            unlink(path);
+            if (!is_ours(path, k == 0, p)) return fracas_output_refuse(path);
+            if (!look) unlink(path);
             there = true;
         }
     }
@@ -195,7 +206,8 @@ static fracas_err write_flight(const fracas_flight *flight, const fracas_grids_r
     if (!time) return fracas_no_memory("the times of grids");
     if (request->time) memcpy(time, request->time, request->count * sizeof *time);
     else TRY(fracas_flight_moments(flight, time, request->count));
-    TRY(make_room(request, folder, stem));
+    TRY(make_room(request, folder, stem, true));
+    TRY(make_room(request, folder, stem, false));
     return write_times(flight, time, request->count, folder, stem, out);
 }
 

@@ -4,6 +4,7 @@
 #include "analysis/data/output.h"
 #include "analysis/export/sha256.h"
 
+#include "base/file.h"
 #include "base/json.h"
 #include "base/own.h"
 #include "campaigns/store/file/disk.h"
@@ -12,6 +13,8 @@
 #include <inttypes.h>
 #include <limits.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 static const char package_file[] = "datapackage.json";
@@ -142,29 +145,43 @@ static const fracas_csv_table *const sometimes[SOMETIMES] = {
     &fracas_csv_table_probes, &fracas_csv_table_reactions, &fracas_csv_table_histories,
     &fracas_csv_table_cracks, &fracas_csv_table_breaks};
 
-/* *there: false if no such file was. */
-static fracas_err remove_file(const char *folder, const char *name, bool *there)
+static fracas_err remove_file(const char *folder, const char *name)
 {
     OWNED char *path = NULL;
     TRY(fracas_disk_join(folder, name, &path));
-    const int reason = unlink(path) ? errno : 0;
-    *there = !reason;
-    return reason && reason != ENOENT ? fracas_fail_system(reason, "cannot replace %s", path)
-                                      : FRACAS_OK;
+    if (!unlink(path) || errno == ENOENT) return FRACAS_OK;
+    return fracas_fail_system(errno, "cannot replace %s", path);
+}
+
+/* Whether the package of the folder names each of these tables; a file without its name there is
+ * somebody else's, unless a package was begun and cut off. */
+static fracas_err find_named(const char *folder, bool named[SOMETIMES])
+{
+    OWNED char *path = NULL;
+    OWNED char *line = NULL;
+    size_t room = 0;
+    const bool begun = fracas_output_begun(folder, package_file);
+    for (size_t i = 0; i < SOMETIMES; i++) named[i] = begun;
+    TRY(fracas_disk_join(folder, package_file, &path));
+    OWN(FILE) in = fracas_file_stream(fracas_file_open(path), "r");
+    while (in && getline(&line, &room, in) >= 0)
+        for (size_t i = 0; i < SOMETIMES; i++) {
+            char name[64];
+            FRACAS_PRINT(name, "\"path\": \"%s.csv\"", sometimes[i]->name);
+            named[i] = named[i] || strstr(line, name);
+        }
+    return FRACAS_OK;
 }
 
 /* Removes the files of an earlier package: the new one must not name them, and its histories and
- * probes are others. Where no package was, nor one `begun` and cut off, the others are somebody
- * else's. */
-static fracas_err remove_package(const char *folder, bool begun)
+ * probes are others. */
+static fracas_err remove_package(const char *folder, const bool named[SOMETIMES])
 {
-    bool there;
-    TRY(remove_file(folder, package_file, &there));
-    for (size_t i = 0; (there || begun) && i < SOMETIMES; i++) {
+    TRY(remove_file(folder, package_file));
+    for (size_t i = 0; i < SOMETIMES; i++) {
         char name[64];
-        bool had;
         FRACAS_PRINT(name, "%s.csv", sometimes[i]->name);
-        TRY(remove_file(folder, name, &had));
+        if (named[i]) TRY(remove_file(folder, name));
     }
     return FRACAS_OK;
 }
@@ -188,12 +205,29 @@ static void choose_tables(const fracas_analysis *analysis, fracas_export_more mo
     table[count] = NULL;
 }
 
+/* FRACAS_USAGE for a file of such a table that is of no package. */
+static fracas_err check_named(const fracas_csv_table *const *table, const char *folder)
+{
+    bool named[SOMETIMES];
+    TRY(find_named(folder, named));
+    for (; *table; table++)
+        for (size_t i = 0; i < SOMETIMES; i++) {
+            OWNED char *path = NULL;
+            if (*table != sometimes[i] || named[i]) continue;
+            TRY(fracas_path(&path, "%s/%s.csv", folder, sometimes[i]->name));
+            if (access(path, F_OK) == 0 || !fracas_file_is_own(path))
+                return fracas_output_refuse(path);
+        }
+    return FRACAS_OK;
+}
+
 fracas_err fracas_export_free(const fracas_analysis *analysis, const char *folder,
                               fracas_export_more more)
 {
     const fracas_csv_table *table[TABLES + 1];
     choose_tables(analysis, more, table);
     TRY(fracas_output_free(folder, &(const char *){package_file}, 1));
+    TRY(check_named(table, folder));
     return fracas_csv_free(table, folder);
 }
 
@@ -240,9 +274,10 @@ fracas_err fracas_export_write(const fracas_analysis *analysis, const char *fold
     if (more.cracks) TRY(check_cracks(analysis));
     choose_tables(analysis, more, table);
     TRY(fracas_output_folder(folder));
-    const bool begun = fracas_output_begun(folder, package_file);
+    bool named[SOMETIMES];
+    TRY(find_named(folder, named));
     TRY(fracas_output_open(folder, package_file, &output)); /* first: it tells whose tables are */
-    fracas_err err = remove_package(folder, begun);
+    fracas_err err = remove_package(folder, named);
     if (!err) err = write_tables(table, analysis, folder);
     if (!err) err = put_package(analysis, table, folder, output.file);
     return fracas_output_close(&output, err);

@@ -224,3 +224,15 @@ bool fracas_fits_older(const char *study)
     return !fracas_disk_join(study, FRACAS_FITS_FILE, &path) && !load(path, &text, &size) && text &&
            is_older(text, size);
 }
+
+bool fracas_fits_foreign(const char *study)
+{
+    OWNED char *path = NULL, *text = NULL;
+    struct stat info;
+    size_t size;
+    if (fracas_disk_join(study, FRACAS_FITS_FILE, &path) || lstat(path, &info) ||
+        S_ISLNK(info.st_mode))
+        return false;
+    if (load(path, &text, &size)) return true; /* a folder, or larger than any of ours */
+    return text && size > 0 && strncmp(text, HEAD, sizeof HEAD - 1) != 0 && !seal_of(text, size);
+}

@@ -84,6 +84,9 @@ FRACAS_MUST_USE fracas_err fracas_fits_write(const fracas_fits *fits, const char
 /* *fits: NULL if there is no file. FRACAS_DAMAGED for a file unlike its seal, and for
  * one of an older version, which nothing can check. */
 FRACAS_MUST_USE fracas_err fracas_fits_read(const char *study, fracas_fits **fits);
+/* True of a file that no fit wrote: not empty, with neither our first line nor a seal. A link is
+ * none, and replaced. */
+bool fracas_fits_foreign(const char *study);
 /* True if there is a file of an older version, without a seal. */
 bool fracas_fits_older(const char *study);
 /* Keeps the rows of points of the analysis, by hash and under their numbers in it, if their usable

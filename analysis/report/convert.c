@@ -1,10 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/report/page.h"
 
+#include "base/file.h"
+#include "base/own.h"
+
+#include <string.h>
+
+/* The chunk tEXt `Software: fracas` with its checksum, behind the signature and the chunk IHDR. */
+static const char png_mark[] = "\0\0\0\x0ftEXtSoftware\0fracas\xf0\x42\x9f\x0c";
+enum { PNG_MARK = sizeof png_mark - 1, PNG_MARK_AT = 33 };
+
+bool fracas_convert_made_png(const char *path)
+{
+    char start[PNG_MARK_AT + PNG_MARK];
+    OWN(FILE) in = fracas_file_stream(fracas_file_open(path), "rb");
+    return in && fread(start, 1, sizeof start, in) == sizeof start &&
+           memcmp(start + PNG_MARK_AT, png_mark, PNG_MARK) == 0;
+}
+
 #ifdef FRACAS_PDF
 
 #include "analysis/data/output.h"
-#include "base/own.h"
 #include "base/param.h"
 
 #include <cairo-pdf.h>
@@ -14,7 +30,6 @@
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -77,6 +92,14 @@ static cairo_status_t put(void *out, const unsigned char *bytes, unsigned size)
     return fwrite(bytes, 1, size, out) == size ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
 }
 
+/* cairo hands over pieces of chunks, none across the end of one. */
+static cairo_status_t put_png(void *out, const unsigned char *bytes, unsigned size)
+{
+    if (ftell(out) == PNG_MARK_AT && fwrite(png_mark, 1, PNG_MARK, out) != PNG_MARK)
+        return CAIRO_STATUS_WRITE_ERROR;
+    return put(out, bytes, size);
+}
+
 static cairo_surface_t *begin_pdf(const library *lib, double width, double height, FILE *out)
 {
     cairo_surface_t *surface = lib->cairo_pdf_surface_create_for_stream(put, out, width, height);
@@ -100,7 +123,7 @@ static cairo_status_t end_pdf(const library *lib, cairo_surface_t *surface, FILE
 
 static cairo_status_t end_png(const library *lib, cairo_surface_t *surface, FILE *out)
 {
-    return lib->cairo_surface_write_to_png_stream(surface, put, out);
+    return lib->cairo_surface_write_to_png_stream(surface, put_png, out);
 }
 
 typedef struct {

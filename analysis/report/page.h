@@ -96,6 +96,8 @@ typedef enum { FRACAS_DRAWING_PDF, FRACAS_DRAWING_PNG } fracas_drawing_format;
 /* False in a program built without librsvg: then there are no PDFs, and the page says nothing of
  * them. */
 extern const bool fracas_convert_possible;
+/* True of a PNG that fracas_convert wrote, which names the program. */
+bool fracas_convert_made_png(const char *path);
 /* FRACAS_ENVIRONMENT if the library cannot be loaded. */
 FRACAS_MUST_USE fracas_err fracas_convert_check(void);
 

@@ -5,6 +5,7 @@
 #include "analysis/data/output.h"
 #include "analysis/report/films.h"
 #include "analysis/report/page.h"
+#include "base/file.h"
 #include "base/own.h"
 #include "base/text.h"
 
@@ -12,6 +13,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 typedef struct {
     const char *study;
@@ -86,7 +88,7 @@ static fracas_err check_record(const making *m, const fracas_record *record)
 
 /* ---- the files ---- */
 
-enum { STEM = 48 };
+enum { STEM = 48, TABLE = 40 };
 
 /* "surface-point-0-replica-3" */
 static void name_realization(const making *m, char stem[STEM])
@@ -94,6 +96,60 @@ static void name_realization(const making *m, char stem[STEM])
     snprintf(stem, STEM, "surface-point-%zu-replica-%" PRId64, m->request->point,
              m->request->replica);
 }
+
+static void name_table(const making *m, char name[TABLE])
+{
+    snprintf(name, TABLE, "times-point-%zu", m->request->point);
+}
+
+/* "surface-point-0-replica-3-07" of 12: in order by their names, too. */
+static void name_picture(const making *m, size_t k, size_t count, char name[FRACAS_DRAWING])
+{
+    char stem[STEM];
+    name_realization(m, stem);
+    snprintf(name, FRACAS_DRAWING, "%s-%0*zu", stem, snprintf(NULL, 0, "%zu", count), k + 1);
+}
+
+/* ---- somebody's own files ---- */
+
+static bool is_picture(const char *path)
+{
+    return fracas_file_begins(path, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg "
+                                    "xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\"");
+}
+
+static bool is_table(const char *path)
+{
+    return fracas_file_begins(path, "replica,outcome,first_onset,first_break,");
+}
+
+/* FRACAS_USAGE for a file that is there and not ours. */
+static fracas_err check_file(const making *m, const char *stem, const char *ending,
+                             bool (*is_ours)(const char *path))
+{
+    OWNED char *path = NULL;
+    TRY(fracas_path(&path, "%s/%s.%s", m->folder, stem, ending));
+    const bool own = fracas_file_is_own(path);
+    return own && (access(path, F_OK) || is_ours(path)) ? FRACAS_OK : fracas_output_refuse(path);
+}
+
+/* Before anything is written; count: pictures. */
+static fracas_err check_free(const making *m, size_t count)
+{
+    char name[FRACAS_DRAWING], stem[STEM], table[TABLE];
+    name_realization(m, stem);
+    name_table(m, table);
+    for (size_t k = 0; k < count; k++) {
+        name_picture(m, k, count, name);
+        TRY(check_file(m, name, "svg", is_picture));
+        if (m->request->dots && fracas_convert_possible)
+            TRY(check_file(m, name, "png", fracas_convert_made_png));
+    }
+    if (m->request->film) TRY(check_file(m, stem, "html", fracas_output_is_page));
+    return m->request->table ? check_file(m, table, "csv", is_table) : FRACAS_OK;
+}
+
+/* ---- the drawings ---- */
 
 /* Fills the title, which the picture points to. */
 static fracas_surface_picture picture_at(const making *m, const fracas_broken_surface *surface,
@@ -114,13 +170,11 @@ static fracas_err save_pictures(const making *m, const fracas_broken_surface *su
                                 const double *time, size_t count)
 {
     OWNED char(*name)[FRACAS_DRAWING] = calloc(count + 1, sizeof *name);
-    char stem[STEM], title[128], file[FRACAS_DRAWING + 4];
+    char title[128], file[FRACAS_DRAWING + 4];
     if (!name) return fracas_no_memory("the names of pictures");
-    name_realization(m, stem);
-    const int digits = snprintf(NULL, 0, "%zu", count); /* in order by their names, too */
     for (size_t k = 0; k < count; k++) {
         const fracas_surface_picture picture = picture_at(m, surface, time[k], title);
-        FRACAS_PRINT(name[k], "%s-%0*zu", stem, digits, k + 1);
+        name_picture(m, k, count, name[k]);
         FRACAS_PRINT(file, "%s.svg", name[k]);
         TRY(fracas_broken_surface_save(surface, time[k], &picture, m->folder, file));
         fprintf(m->out, "%s/%s: %s\n", m->folder, file, fracas_surface_time(time[k], false).text);
@@ -168,8 +222,10 @@ static fracas_err save(const making *m, const fracas_broken_surface *surface)
     size_t count = request->count;
     if (request->time) memcpy(time, request->time, count * sizeof *time);
     else TRY(fracas_surface_moments(&surface->record, time, &count));
+    const bool draws = !request->film || request->dots;
+    TRY(check_free(m, draws ? count : 0));
     if (request->film) TRY(save_film(m));
-    return request->film && !request->dots ? FRACAS_OK : save_pictures(m, surface, time, count);
+    return draws ? save_pictures(m, surface, time, count) : FRACAS_OK;
 }
 
 static fracas_err say_times(const making *m, const fracas_broken_surface *surface)
@@ -208,12 +264,13 @@ static fracas_err put_line(const making *m, const fracas_stored_mesh *mesh, int6
 
 static fracas_err save_table(const making *m, const fracas_stored_mesh *mesh)
 {
-    char name[64];
+    char stem[TABLE], name[TABLE + 4];
     fracas_output_file output;
     FRACAS_CLEARED(fracas_record) record;
     fracas_record_init(&record);
     fracas_err err = FRACAS_OK;
-    FRACAS_PRINT(name, "times-point-%zu.csv", m->request->point);
+    name_table(m, stem);
+    FRACAS_PRINT(name, "%s.csv", stem);
     TRY(fracas_output_open(m->folder, name, &output));
     fputs("replica,outcome,first_onset,first_break,first_through,through_1_2,through_3_4,end_time,"
           "fragments,fragments_dust\n",

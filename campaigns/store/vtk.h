@@ -52,6 +52,11 @@ double fracas_vtk_still_bytes(const fracas_vtk_grid *grid);
 /* Writes a file, whole under another name and renamed. FRACAS_ENVIRONMENT if it cannot. */
 FRACAS_MUST_USE fracas_err fracas_vtk_write(const char *path, const fracas_vtk_grid *grid);
 
+/* True of a file of a grid whose cells have this array. */
+bool fracas_vtk_has(const char *path, const char *array);
+
+/* Begins as a series of ours does. */
+bool fracas_vtk_is_series(const char *path);
 /* Writes FOLDER/NAME.hdf.series, which lists NAME-1.hdf, NAME-2.hdf, ... with their times [s],
  * likewise: by this ending ParaView 5.11 knows them. */
 FRACAS_MUST_USE fracas_err fracas_vtk_write_series(const char *folder, const char *name,

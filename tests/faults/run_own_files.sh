@@ -172,3 +172,77 @@ for name in converge.csv report/index.html report/converge-size.csv; do
     [ "$(cat many/$name)" = mine ] || fail "it is replaced: many/$name"
     rm -r many
 done
+
+# Folders of a study, and its fits: what fracas wrote there goes, what somebody has put there stays.
+rm -rf case
+mkdir case
+echo mine > case/fits.csv
+refused "$fracas" run small.yaml --study case --jobs 1
+said 'case/fits.csv is there already, and no run of fracas wrote it'
+# mine FILE COMMAND...: refuses to replace FILE of the study `case`, writes nothing beside it, and replaces its own.
+mine()
+{
+    name=$1
+    shift
+    rm -rf case
+    cp -r one case
+    mkdir -p "case/$(dirname "$name")"
+    echo mine > case/$name
+    refused "$@"
+    said "case/$name is there"
+    mv case/$name kept
+    expect 0 "$@"
+    [ -s case/$name ] || fail "it is not written: $name"
+    expect 0 "$@"
+    ! cmp -s kept case/$name || fail "it is not written again: $name"
+}
+mine fits.csv "$fracas" fit case --resamples 99 --jobs 1
+mine export/points.csv "$fracas" export case
+mine export/datapackage.json "$fracas" export case
+for replica in 0 1; do # the report's realization is one of them
+    mine vtk/point-0-replica-$replica-body-1.hdf "$fracas" export case --vtk --times 2 --replica $replica
+    mine vtk/point-0-replica-$replica-interfaces-2.hdf "$fracas" export case --vtk --times 2 --replica $replica
+    mine vtk/point-0-replica-$replica-body.hdf.series "$fracas" export case --vtk --times 2 --replica $replica
+done
+for folder in pictures p; do
+    to="$fracas picture case"
+    [ $folder = pictures ] || to="$to -o case/$folder"
+    # shellcheck disable=SC2086 # words
+    {
+        mine $folder/surface-point-0-replica-0-1.svg $to --times 2
+        mine $folder/surface-point-0-replica-0-2.svg $to --times 2 --table
+        mine $folder/times-point-0.csv $to --times 2 --table
+        mine $folder/surface-point-0-replica-0.html $to --film
+        mine $folder/surface-point-0-replica-0-2.png $to --times 2 --png
+    }
+done
+/usr/bin/python3 - case/p/surface-point-0-replica-0-2.png <<'PNG' || fail "the PNG is damaged"
+import struct, sys, zlib
+data, at, kinds = open(sys.argv[1], "rb").read(), 8, []
+while at < len(data):
+    (size,) = struct.unpack(">I", data[at:at + 4])
+    assert zlib.crc32(data[at + 4:at + 8 + size]) == struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0]
+    kinds.append(data[at + 4:at + 8])
+    at += 12 + size
+assert at == len(data) and kinds[0] == b"IHDR" and kinds[1] == b"tEXt" and kinds[-1] == b"IEND", kinds
+PNG
+# The grids of a replay have other arrays, and are somebody's.
+rm -rf case
+cp -r one case
+mkdir case/vtk
+expect 0 "$fracas" replay one 0/0 --fields fields --at end
+cp fields/body-1.hdf case/vtk/point-0-replica-0-body-1.hdf
+refused "$fracas" export case --vtk --times 2 --replica 0
+said 'case/vtk/point-0-replica-0-body-1.hdf is there already, and is of no report or export of fracas: name another folder, or move it away'
+
+# gc knows the names that a reindex gives.
+rm -rf case
+cp -r one case
+for name in mine 20260101T000000.5-mine 20260101T000000 2026-01-01.1; do echo mine > case/index.sqlite.before-$name; done
+printf 'no index' > case/index.sqlite
+expect 0 "$fracas" reindex case
+expect 0 "$fracas" gc case
+said 'freed case/index.sqlite.before-2.*: an index that was replaced'
+said 'left case/index.sqlite.before-mine '
+[ "$(cat case/index.sqlite.before-* | grep -c '^mine$')" -eq 4 ] || fail "gc has removed somebody's"
+[ "$(ls case/index.sqlite.before-* | wc -l)" -eq 4 ] || fail "gc has left an index"

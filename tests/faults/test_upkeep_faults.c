@@ -159,7 +159,7 @@ static void make_garbage(void)
         "fragments = NULL, fragments_dust = NULL, steps = NULL, dissipated = NULL, "
         "residual = NULL, size = NULL WHERE segment = 2");
     write_bytes(sample_path(study, "segments/.x.h5.tmp-12"), "abc", 3);
-    write_bytes(sample_path(study, "index.sqlite.before-1"), "abc", 3);
+    write_bytes(sample_path(study, "index.sqlite.before-20260101T000000.1"), "abc", 3);
     assert_int_equal(mkdir(sample_path(study, ".reindex"), 0777) |
                          mkdir(sample_path(study, "attachments"), 0777),
                      0);

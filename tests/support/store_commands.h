@@ -358,9 +358,10 @@ static void make_merged(void)
 /* Beside it things that a run and its death leave. */
 static void make_littered(void)
 {
-    static const char *const name[] = {"segments/.x.h5.tmp-12", ".study.h5.tmp-12",
-                                       "segments/d.damaged",    "index.sqlite.before-1",
-                                       "campaign.yaml.tmp",     "mine"};
+    static const char *const name[] = {
+        "segments/.x.h5.tmp-12", ".study.h5.tmp-12",
+        "segments/d.damaged",    "index.sqlite.before-20260101T000000.1",
+        "campaign.yaml.tmp",     "mine"};
     make_merged();
     for (size_t n = 0; n < FRACAS_COUNT(name); n++)
         write_bytes(sample_path(study, name[n]), "abc", 3);

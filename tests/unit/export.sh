@@ -85,6 +85,12 @@ mkdir own
 touch own/histories.csv # somebody else's: there was no package
 expect 0 "$fracas" export one --to own
 [ -e own/histories.csv ] || fail "a file that was not of a package was removed"
+cp -r other/export beside # a package without histories
+echo mine > beside/histories.csv
+expect 2 "$fracas" export other --to beside --histories
+said 'beside/histories.csv is there already'
+expect 0 "$fracas" export other --to beside
+[ "$(cat beside/histories.csv)" = mine ] || fail "a file that the package does not name was removed"
 expect 5 "$fracas" export file
 said 'is no study'
 

@@ -299,9 +299,9 @@ static void the_folder_of_segments_is_made_again(void **state)
 static void remove_next(void *context, const fracas_collected *item)
 {
     int *calls = context;
-    if (strstr(item->path, "index.sqlite.before-1"))
-        unlink(sample_path(study, "index.sqlite.before-2"));
-    assert_null(strstr(item->path, "index.sqlite.before-2")); /* it is gone */
+    if (strstr(item->path, "index.sqlite.before-20260101T000000.1"))
+        unlink(sample_path(study, "index.sqlite.before-20260101T000000.2"));
+    assert_null(strstr(item->path, "index.sqlite.before-20260101T000000.2")); /* it is gone */
     ++*calls;
 }
 
@@ -309,7 +309,8 @@ static void files_may_vanish_and_strange_ones_stay(void **state)
 {
     static const char *const stays[] = {
         ".reindex/mine", "attachments/00000000000000000000000000000002.old", "attachments/note"};
-    static const char *const goes[] = {"index.sqlite.before-1", "index.sqlite.before-2",
+    static const char *const goes[] = {"index.sqlite.before-20260101T000000.1",
+                                       "index.sqlite.before-20260101T000000.2",
                                        "attachments/00000000000000000000000000000002.tmp",
                                        "attachments/00000000000000000000000000000002"};
     uint64_t freed;

@@ -279,7 +279,7 @@ static void what_nobody_needs_goes(void **state)
                                         ".study.h5.tmp-9",
                                         "campaign.yaml.tmp",
                                         "index.sqlite.before-20260101T000000Z-7",
-                                        "index.sqlite.before-20260101T000000Z-7-wal",
+                                        "index.sqlite.before-20260101T000000.000000007-wal",
                                         ".reindex/index.sqlite",
                                         ".reindex/index.sqlite-wal",
                                         "attachments/00000000000000000000000000000002",

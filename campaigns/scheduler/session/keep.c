@@ -296,10 +296,11 @@ fracas_err fracas_study_place(const char *study)
 {
     static const struct {
         const char *name, *begin;
-    } ours[] = {
-        {"campaign.yaml", NULL},    {"study.h5", NULL}, {"index.sqlite", NULL},
-        {"segments", NULL},         {"report", NULL},   {"fields", NULL},
-        {FRACAS_CHECKPOINTS, NULL}, {"lock", SIGNED},   {"campaign.yaml.tmp", FRACAS_RESOLVED}};
+    } ours[] = {{"campaign.yaml", NULL},    {"study.h5", NULL},
+                {"index.sqlite", NULL},     {"segments", NULL},
+                {"report", NULL},           {"fields", NULL},
+                {FRACAS_CHECKPOINTS, NULL}, {"fits.csv", NULL},
+                {"lock", SIGNED},           {"campaign.yaml.tmp", FRACAS_RESOLVED}};
     if (is_study(study)) return keep_file(study);
     for (size_t i = 0; i < FRACAS_COUNT(ours); i++) {
         OWNED char *path = NULL;

@@ -133,6 +133,18 @@ fracas_err fracas_vtk_write(const char *path, const fracas_vtk_grid *grid)
     return write_as(temporary, path, grid);
 }
 
+bool fracas_vtk_has(const char *path, const char *array)
+{
+    char name[120];
+    fracas_h5 h5 = FRACAS_H5_CLOSED;
+    snprintf(name, sizeof name, GROUP "/CellData/%s", array);
+    const bool has = !fracas_h5_open(&h5, path) && H5Lexists(h5.id, GROUP, H5P_DEFAULT) > 0 &&
+                     H5Lexists(h5.id, GROUP "/CellData", H5P_DEFAULT) > 0 &&
+                     H5Lexists(h5.id, name, H5P_DEFAULT) > 0;
+    fracas_h5_close(&h5);
+    return has;
+}
+
 static double bytes_of(const fracas_vtk_array *array, size_t count, size_t rows, bool all)
 {
     double bytes = 0;
@@ -161,12 +173,19 @@ double fracas_vtk_still_bytes(const fracas_vtk_grid *grid)
 
 /* ---- series ---- */
 
+static const char SERIES[] = "{\"file-series-version\": \"1.0\", \"files\": [";
+
+bool fracas_vtk_is_series(const char *path)
+{
+    return fracas_file_begins(path, SERIES);
+}
+
 static fracas_err print_series(const char *path, const char *temporary, const char *name,
                                const double *time, size_t count)
 {
     FILE *out = fracas_file_stream(fracas_file_create(temporary), "w");
     if (!out) return fracas_disk_fail("create", path);
-    fputs("{\"file-series-version\": \"1.0\", \"files\": [", out);
+    fputs(SERIES, out);
     for (size_t k = 0; k < count; k++)
         fprintf(out, "%s\n  {\"name\": \"%s-%zu.hdf\", \"time\": %.17g}", k ? "," : "", name, k + 1,
                 time[k]);

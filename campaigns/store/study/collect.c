@@ -77,6 +77,28 @@ static fate judge_nursery(const collection *c, const char *name, const char **wh
     return starts_with(name, "index.sqlite") ? REMOVE : LEAVE;
 }
 
+/* "20260101T000000" and so many digits behind `mark`, then "", "-wal" and the like. */
+static bool is_stamp(const char *text, const char *mark)
+{
+    static const char form[] = "########T######", *const tail[] = {"", "-wal", "-shm", "-journal"};
+    for (const char *f = form; *f; f++, text++)
+        if (*f == '#' ? *text < '0' || *text > '9' : *text != *f) return false;
+    const size_t size = strlen(mark);
+    if (strncmp(text, mark, size) != 0) return false;
+    const size_t digits = strspn(text + size, "0123456789");
+    for (size_t t = 0; digits > 0 && t < sizeof tail / sizeof *tail; t++)
+        if (strcmp(text + size + digits, tail[t]) == 0) return true;
+    return false;
+}
+
+/* As a reindex names it, and, of an older version, fracas_file_set_aside. */
+static bool is_replaced_index(const char *name)
+{
+    static const char start[] = "index.sqlite.before-";
+    const char *stamp = name + sizeof start - 1;
+    return starts_with(name, start) && (is_stamp(stamp, ".") || is_stamp(stamp, "Z-"));
+}
+
 static fate judge_study(const collection *c, const char *name, const char **why)
 {
     static const char *const ours[] = {"campaign.yaml",
@@ -101,7 +123,7 @@ static fate judge_study(const collection *c, const char *name, const char **why)
         if (strcmp(name, ours[i]) == 0) return KEEP;
     if (fracas_disk_is_temporary(name) || strcmp(name, "campaign.yaml.tmp") == 0)
         *why = "half written";
-    else if (starts_with(name, "index.sqlite.before-")) *why = "an index that was replaced";
+    else if (is_replaced_index(name)) *why = "an index that was replaced";
     else if (strcmp(name, FRACAS_REINDEX_FOLDER) == 0) *why = "of an interrupted reindex";
     else return LEAVE;
     return REMOVE;
