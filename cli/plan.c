@@ -25,9 +25,9 @@ static fracas_err plan(const fracas_arguments *arguments)
     OWN(fracas_campaign) campaign = NULL;
     TRY(fracas_cli_read_file(arguments->operand, &campaign));
     TRY(fracas_cli_check_report(arguments->operand, campaign));
-    /* as `fracas run` here, which may refuse threads that another machine is to have */
-    if (options.jobs) TRY(fracas_allocation_jobs(options.jobs, 0, &options.jobs));
-    else if (fracas_allocation_jobs(0, campaign->parallel.parts, &options.jobs)) options.jobs = 1;
+    /* as `fracas run` here, which may refuse what another machine is to compute */
+    if (!options.jobs && fracas_allocation_jobs(0, campaign->parallel.parts, &options.jobs))
+        options.jobs = 1;
     if (!options.quick) TRY(fracas_written_fields_size(campaign, &options.fields));
     return fracas_plan_print(campaign, &options, stdout);
 }

@@ -62,16 +62,16 @@ bool fracas_output_begun(const char *folder, const char *name)
     return begun;
 }
 
-static const char TITLE_END[] = " \u00b7 fracas</title>";
+static const char title_end[] = " \u00b7 fracas</title>";
 
 bool fracas_output_is_page(const char *path)
 {
-    return file_has(path, TITLE_END);
+    return file_has(path, title_end);
 }
 
 bool fracas_output_has_page(const char *folder)
 {
-    return has_text(folder, FRACAS_OUTPUT_PAGE, TITLE_END);
+    return has_text(folder, FRACAS_OUTPUT_PAGE, title_end);
 }
 
 bool fracas_output_is_ours(const char *folder)

@@ -55,7 +55,7 @@ FRACAS_MUST_USE fracas_err fracas_vtk_write(const char *path, const fracas_vtk_g
 /* True of a file of a grid whose cells have this array. */
 bool fracas_vtk_has(const char *path, const char *array);
 
-/* Begins as a series of ours does. */
+/* True of a file that begins as a series of ours. */
 bool fracas_vtk_is_series(const char *path);
 /* Writes FOLDER/NAME.hdf.series, which lists NAME-1.hdf, NAME-2.hdf, ... with their times [s],
  * likewise: by this ending ParaView 5.11 knows them. */

@@ -173,11 +173,11 @@ double fracas_vtk_still_bytes(const fracas_vtk_grid *grid)
 
 /* ---- series ---- */
 
-static const char SERIES[] = "{\"file-series-version\": \"1.0\", \"files\": [";
+static const char series_begin[] = "{\"file-series-version\": \"1.0\", \"files\": [";
 
 bool fracas_vtk_is_series(const char *path)
 {
-    return fracas_file_begins(path, SERIES);
+    return fracas_file_begins(path, series_begin);
 }
 
 static fracas_err print_series(const char *path, const char *temporary, const char *name,
@@ -185,7 +185,7 @@ static fracas_err print_series(const char *path, const char *temporary, const ch
 {
     FILE *out = fracas_file_stream(fracas_file_create(temporary), "w");
     if (!out) return fracas_disk_fail("create", path);
-    fputs(SERIES, out);
+    fputs(series_begin, out);
     for (size_t k = 0; k < count; k++)
         fprintf(out, "%s\n  {\"name\": \"%s-%zu.hdf\", \"time\": %.17g}", k ? "," : "", name, k + 1,
                 time[k]);

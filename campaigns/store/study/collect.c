@@ -86,7 +86,7 @@ static bool is_stamp(const char *text, const char *mark)
     const size_t size = strlen(mark);
     if (strncmp(text, mark, size) != 0) return false;
     const size_t digits = strspn(text + size, "0123456789");
-    for (size_t t = 0; digits > 0 && t < sizeof tail / sizeof *tail; t++)
+    for (size_t t = 0; digits > 0 && t < FRACAS_COUNT(tail); t++)
         if (strcmp(text + size + digits, tail[t]) == 0) return true;
     return false;
 }
