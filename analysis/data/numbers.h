@@ -36,7 +36,7 @@
 
 #define FRACAS_LARGEST_NUMBERS(X)                                                                 \
     X(largest_size, "m", "size of the fragment of most mass")                                     \
-    X(largest_share, "1", "mass of that / mass of all fragments",                                 \
+    X(largest_share, "1", "largest mass of a fragment over that of all fragments",                                 \
       .words = "share of the mass in the largest fragment")                                       \
     X(aspect, "1", "aspect ratio, largest by middle semi-axis, of the fragments without dust",    \
       .words = "aspect ratio of the fragments without dust")

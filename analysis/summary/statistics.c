@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/summary/statistics.h"
 
+#include "analysis/data/strengths.h"
 #include "analysis/data/columns.h"
 #include "analysis/summary/numbers.h"
 
@@ -132,7 +133,7 @@ const char *fracas_outcome_name(int64_t outcome)
  * exponent and specimens of NaN: others. */
 static fracas_piece_strength pieces_of(const fracas_point_table *table, size_t p)
 {
-    const double least = fracas_columns_real(table, p, "strength.minimum"),
+    const double least = fracas_strengths_least(table, p),
                  modulus = fracas_columns_real(table, p, "derived.strength_modulus"),
                  volume = fracas_columns_real(table, p, "strength.reference_volume"),
                  flaws = fracas_columns_real(table, p, "strength.flaw_density");
@@ -150,7 +151,7 @@ static fracas_piece_strength pieces_of(const fracas_point_table *table, size_t p
                       tgamma(1 + 1 / of.exponent) *
                       pow(flaws * fracas_columns_real(table, p, "geometry.area") * of.size,
                           -1 / of.exponent);
-    if (isnan(modulus) && isfinite(fracas_columns_real(table, p, "strength.maximum")))
+    if (fracas_strengths_uniform(table, p))
         of.specimens = of.size * fracas_columns_real(table, p, "geometry.area") / volume;
     return of;
 }

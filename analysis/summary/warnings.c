@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/summary/study.h"
 
+#include "analysis/data/strengths.h"
 #include "analysis/data/format.h"
 #include "base/own.h"
 #include "base/param.h"
@@ -274,23 +275,13 @@ static bool has_size_effect(const fracas_point_table *table, size_t p)
     return false;
 }
 
-/* deviation/mean of the strengths by their columns; NaN: equal, given, measured (`empirical`), with
- * a size effect or correlated. */
+/* deviation/mean of the strengths; NaN: equal, of a file, with a size effect or correlated. */
 static double scatter_of(const fracas_point_table *table, size_t p)
 {
     if (has_size_effect(table, p) ||
         isfinite(fracas_columns_real(table, p, "strength.correlation_length")))
         return NAN;
-    const double mean = fracas_columns_real(table, p, "derived.strength_mean"),
-                 deviation = fracas_columns_real(table, p, "strength.deviation"),
-                 sigma = fracas_columns_real(table, p, "strength.sigma"),
-                 modulus = fracas_columns_real(table, p, "derived.strength_modulus"),
-                 range = fracas_columns_real(table, p, "strength.maximum") -
-                         fracas_columns_real(table, p, "strength.minimum");
-    if (isfinite(deviation)) return deviation / mean;
-    if (isfinite(sigma)) return sigma;           /* lognormal */
-    if (isfinite(modulus)) return 1.2 / modulus; /* weibull, to 10 % from shape 3 on */
-    return range / sqrt(12) / mean;              /* uniform */
+    return fracas_strengths_scatter(table, p);
 }
 
 /* Whether the strengths go down to 0. Known of those with a modulus (weibull) or a sigma
@@ -299,7 +290,7 @@ typedef enum { LEAST_UNKNOWN, LEAST_ZERO, LEAST_ABOVE_ZERO } least_strength;
 
 static least_strength least_of(const fracas_point_table *table, size_t p)
 {
-    if (fracas_columns_real(table, p, "strength.minimum") > 0) return LEAST_ABOVE_ZERO;
+    if (fracas_strengths_least(table, p) > 0) return LEAST_ABOVE_ZERO;
     const bool known = isfinite(fracas_columns_real(table, p, "derived.strength_modulus")) ||
                        isfinite(fracas_columns_real(table, p, "strength.sigma"));
     return known ? LEAST_ZERO : LEAST_UNKNOWN;
@@ -322,8 +313,8 @@ static void warn_of_mesh(const fracas_analysis *analysis, size_t p, warning_list
     char moves[96];
     if (least == LEAST_ZERO) FRACAS_PRINT(moves, "lowers the count by about %.1f %%", 100 * effect);
     else
-        FRACAS_PRINT(moves, "moves the count by up to %.0f %%, of `uniform` mostly up",
-                     100 * FRACAS_MESH_EFFECT_BOUNDED);
+        FRACAS_PRINT(moves, "moves the count by up to %.0f %%%s", 100 * FRACAS_MESH_EFFECT_BOUNDED,
+                     fracas_strengths_uniform(table, p) ? ", mostly up" : "");
     warn(list, p, "mesh", least == LEAST_ZERO ? effect : scatter,
          "strengths scatter without a reference size: halving the elements %s: give "
          "strength.reference_volume, here %.6g mm3, for a count that stays",

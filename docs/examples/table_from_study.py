@@ -63,6 +63,9 @@ def piece_strength(point, p, modulus, fracture_energy):
     def real(name):
         return point[name][p] if name in point else math.nan
     mean, least, volume = real("derived.strength_mean"), real("strength.minimum"), real("strength.reference_volume")
+    uniform = "strength.distribution" in point and point["strength.distribution"][p] == b"uniform"
+    if uniform and math.isnan(least):
+        least = real("strength.mean") - math.sqrt(3) * real("strength.deviation")
     if math.isnan(mean) or math.isnan(volume) and math.isnan(real("strength.flaw_density")):
         return None
     power = 1 if real("cohesive.critical_opening") > 0 else 2
@@ -79,7 +82,7 @@ def piece_strength(point, p, modulus, fracture_energy):
         strength_of = lambda s: least + above * (h / s) ** (1 / m)
     else:
         m, n = math.nan, h * real("geometry.area") / volume
-        if not (mean - least) * (n + 1) < 8 * least or math.isnan(real("strength.maximum")):
+        if not (mean - least) * (n + 1) < 8 * least or not uniform:
             return None
         strength_of = lambda s: least + (mean - least) * (n + 1) / (n * s / h + 1)
     low, high = h * 1e-60, h * 1e60
@@ -130,9 +133,8 @@ def length_of(point, p):
 
 
 def fracture_energy_of(point, p):
-    """As given, or of the mean strength where the critical opening is given (law stershic)."""
-    opening = point["cohesive.critical_opening"][p] if "cohesive.critical_opening" in point else 0
-    return opening * point["derived.strength_mean"][p] / 2 if opening > 0 else point["cohesive.fracture_energy"][p]
+    """As given, or of the mean strength where the critical opening is given: then by the law's shape."""
+    return point["derived.fracture_energy"][p]
 
 
 def drift(row, of):

@@ -22,7 +22,8 @@ typedef struct {
     fracas_err (*init)(fracas_strength *strength); /* finds, checks its parameters; may be NULL */
     void (*clear)(fracas_strength *strength);      /* frees the memory of `init`; may be NULL */
     bool size_effect;                              /* both depend on the extent */
-    /* Exponent m of the lower tail, F ~ (s - minimum)^m; NaN without one; may be NULL. */
+    /* Modulus m of strengths that are Weibull's, F = 1 - exp(-((s - minimum)/scale)^m), or tend to
+     * it, for Mott's law; NaN, or no function: others, whatever their tail. */
     double (*tail)(const fracas_strength *strength, fracas_extent extent);
     /* True if it can have the weakest-link size effect of a reference; then also: */
     bool takes_reference;

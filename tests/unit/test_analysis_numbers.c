@@ -459,12 +459,14 @@ static void a_line_a_kind_of_warning(void **state)
  * know a volume. At e = 3 they fall by 0.0724 of it. */
 static void strengths_that_the_mesh_changes(void **state)
 {
-    enum { NCOLUMNS = 10, VARIED = 6 };
+    enum { NCOLUMNS = 12, VARIED = 6 };
     static const fracas_column column[NCOLUMNS] = {
         {"derived.length", "m", "", false},
         {"derived.strength_mean", "Pa", "", false},
         {"geometry.area", "m2", "", false},
         {"mesh.elements", "1", "", false},
+        {"strength.distribution", "", "", true},
+        {"strength.mean", "Pa", "", false},
         {"derived.strength_modulus", "1", "", false},
         {"strength.deviation", "Pa", "", false},
         {"strength.maximum", "Pa", "", false},
@@ -475,22 +477,27 @@ static void strengths_that_the_mesh_changes(void **state)
     static const struct {
         double varied[VARIED]; /* from derived.strength_modulus on */
         const char *lowers;    /* NULL: no warning */
+        const char *distribution;
     } table[] = {
         {{10, NAN, NAN, NAN, NAN, NAN},
          "lowers the count by about 3.0 %: give strength.reference_volume, here 0.02 mm3"},
         {{40, NAN, NAN, NAN, NAN, NAN}, NULL},
         {{10, NAN, NAN, NAN, NAN, 2e-11}, NULL},
-        {{NAN, 30e6, NAN, NAN, NAN, NAN}, "moves the count by up to 5 %"}, /* uniform? */
-        {{10, NAN, NAN, 100e6, NAN, NAN}, "moves the count by up to 5 %, of `uniform` mostly up"},
+        {{NAN, 30e6, NAN, NAN, NAN, NAN}, "moves the count by up to 5 %: give"},
+        {{NAN, 30e6, NAN, NAN, NAN, NAN}, "by up to 5 %, mostly up: give", "uniform"},
+        {{NAN, 10e6, NAN, NAN, NAN, NAN}, NULL, "uniform"},
+        {{10, NAN, NAN, 100e6, NAN, NAN}, "moves the count by up to 5 %: give"},
         {{NAN, 10e6, NAN, NAN, NAN, NAN}, NULL},
         {{NAN, NAN, 301e6, 299e6, NAN, NAN}, NULL},
-        {{NAN, NAN, 350e6, 250e6, NAN, NAN}, "moves the count by up to 5 %, of `uniform` mostly"},
+        {{NAN, NAN, 350e6, 250e6, NAN, NAN}, "by up to 5 %, mostly up: give", "uniform"},
         {{NAN, NAN, 311e6, 289e6, NAN, NAN}, NULL}, /* 22/300/sqrt(12) = 2.1 % */
         {{NAN, NAN, NAN, NAN, 0.1, NAN}, "lowers the count by about 2.5 %:"},
         {{NAN, NAN, NAN, NAN, NAN, NAN}, NULL},
     };
     for (size_t i = 0; i < FRACAS_COUNT(table); i++) {
-        fracas_value value[NCOLUMNS] = {{0.05, ""}, {300e6, ""}, {1e-6, ""}, {2500, ""}};
+        const char *distribution = table[i].distribution ? table[i].distribution : "";
+        fracas_value value[NCOLUMNS] = {{0.05, ""}, {300e6, ""},         {1e-6, ""},
+                                        {2500, ""}, {NAN, distribution}, {300e6, ""}};
         for (size_t c = 0; c < VARIED; c++)
             value[NCOLUMNS - VARIED + c] = (fracas_value){table[i].varied[c], ""};
         fracas_point_row row = {.value = value};
@@ -511,6 +518,53 @@ static void strengths_that_the_mesh_changes(void **state)
         OK(fracas_analysis_warnings(&analysis, &fast, &count));
         assert_int_equal(count, 0); /* 0.87 % */
     }
+}
+
+/* Uniform strengths between 200 and 400 MPa are those of mean 300 and deviation 200/sqrt(12) MPa:
+ * the scaling laws take the same strength of a piece, and it is not an interface's. */
+static void scales_of_uniform_strengths(void **state)
+{
+    enum { NCOLUMNS = 13 };
+    static const fracas_column column[NCOLUMNS] = {
+        {"derived.fracture_energy", "J/m2", "", false},
+        {"derived.length", "m", "", false},
+        {"derived.strength_mean", "Pa", "", false},
+        {"geometry.area", "m2", "", false},
+        {"material.density", "kg/m3", "", false},
+        {"material.young", "Pa", "", false},
+        {"mesh.elements", "1", "", false},
+        {"strength.deviation", "Pa", "", false},
+        {"strength.distribution", "", "", true},
+        {"strength.maximum", "Pa", "", false},
+        {"strength.mean", "Pa", "", false},
+        {"strength.minimum", "Pa", "", false},
+        {"strength.reference_volume", "m3", "", false},
+    };
+    fracas_point_statistics of[2];
+    for (int moments = 0; moments < 2; moments++) {
+        const fracas_value value[NCOLUMNS] = {
+            {100, ""},
+            {0.01, ""},
+            {350e6, ""},
+            {1e-6, ""},
+            {2750, ""},
+            {275e9, ""},
+            {1000, ""},
+            {moments ? 200e6 / sqrt(12) : NAN, ""},
+            {NAN, "uniform"},
+            {moments ? NAN : 400e6, ""},
+            {moments ? 300e6 : NAN, ""},
+            {moments ? NAN : 200e6, ""},
+            {1e-10, ""},
+        };
+        const fracas_point_row row = {.value = value};
+        const fracas_point_table table = {
+            .ncolumns = NCOLUMNS, .column = column, .npoints = 1, .point = &row};
+        fracas_point_statistics_init(&table, 0, &of[moments]);
+        assert_int_equal(of[moments].strength_by, FRACAS_STRENGTH_OF_PIECE);
+    }
+    assert_true(fabs(of[1].scales.size / of[0].scales.size - 1) < 1e-12);
+    assert_true(of[0].scales.size > 1.01 * 275e9 * 100 / (350e6 * 350e6));
 }
 
 /* Sizes 1, 1, 2, 4 mm, of which the ones differ by rounding: all are >= 1 mm, half >= 2 mm, a
@@ -580,4 +634,4 @@ TESTS(estimate_of_eight, estimate_of_few, estimates_as_text, digits_as_the_inter
       numbers_as_text, prefixes, columns_that_tell_points_apart, names_come_before_their_numbers,
       labels_leave_out_what_a_point_lacks, laws_of_a_point, statistics_of_records,
       warnings_at_their_limits, a_warning_of_an_open_ledger, a_line_a_kind_of_warning,
-      strengths_that_the_mesh_changes, figure_of_sizes, ticks)
+      strengths_that_the_mesh_changes, scales_of_uniform_strengths, figure_of_sizes, ticks)
