@@ -5,6 +5,7 @@
 
 #include <ctype.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -35,7 +36,6 @@ bool fracas_lines_next(fracas_lines *lines)
         lines->start = start;
         lines->stop = stop;
         lines->first = !begun;
-        lines->row += begun;
         return true;
     }
     return false;
@@ -163,44 +163,8 @@ fracas_err fracas_lines_number(fracas_lines *lines, const char *name, const char
                        *field ? "`" : "", name, form);
 }
 
-/* The next text in brackets of the headings from *at on. */
-static bool next_unit(const fracas_lines *lines, const char **at, char unit[FRACAS_FIELD])
-{
-    for (const char *c = *at; c < lines->named_end; c++) {
-        if (*c != '(' && *c != '[') continue;
-        const char *end = memchr(c, *c == '(' ? ')' : ']', (size_t)(lines->named_end - c));
-        if (!end) continue;
-        take(c + 1, end, unit);
-        *at = end + 1;
-        return true;
-    }
-    return false;
-}
-
-fracas_err fracas_lines_check_units(const fracas_lines *lines, const char *const *units)
-{
-    char unit[FRACAS_FIELD], known[FRACAS_FIELD] = "";
-    for (const char *const *one = units; *one; one++) {
-        const size_t length = strlen(known);
-        snprintf(known + length, sizeof known - length, "%s%s", length > 0 ? " and " : "", *one);
-    }
-    for (const char *at = lines->named; at && next_unit(lines, &at, unit);) {
-        bool found = !strcmp(unit, "1") || !strcmp(unit, "-");
-        for (const char *const *one = units; *one; one++) found = found || !strcmp(unit, *one);
-        if (!found)
-            return fracas_fail(FRACAS_USAGE,
-                               "%s:1: the heading has the unit `%s`, but the numbers of such a "
-                               "file are in %s: convert them, and leave the unit out",
-                               lines->file->path, unit, known);
-    }
-    return FRACAS_OK;
-}
-
 void fracas_lines_name(fracas_lines *lines)
 {
-    lines->row = -1;
-    lines->named = lines->start;
-    lines->named_end = lines->stop;
     for (const char *c = lines->start; c < lines->stop; c++) lines->headings += *c == ',';
     if (lines->headings > 0) lines->headings++;
 }
@@ -223,4 +187,68 @@ bool fracas_lines_is_heading(const char *field)
     for (size_t w = 0; w < FRACAS_COUNT(words); w++)
         if (strcasecmp(field, words[w]) == 0) return false;
     return *field && !strchr("0123456789+-.", *field);
+}
+
+/* Multiples of m, s and Pa that people write into headings. */
+static bool is_multiple(const char *unit)
+{
+    static const char *const known[] = {"mm",  "cm",    "um",    "\u00b5m", "\u03bcm", "km",
+                                        "nm",  "in",    "ms",    "us",      "\u00b5s", "\u03bcs",
+                                        "ns",  "kPa",   "MPa",   "GPa",     "psi",     "ksi",
+                                        "bar", "N/mm2", "N/mm^2"};
+    for (size_t k = 0; k < FRACAS_COUNT(known); k++)
+        if (!strcmp(unit, known[k])) return true;
+    return false;
+}
+
+/* A multiple in brackets between `at` and `stop`. */
+static bool find_unit(const char *at, const char *stop, char unit[FRACAS_FIELD])
+{
+    for (; at < stop; at++) {
+        if (*at != '(' && *at != '[') continue;
+        const char *from = at + 1, *end = memchr(at, *at == '(' ? ')' : ']', (size_t)(stop - at));
+        if (!end) continue;
+        const char *to = end;
+        while (from < to && is_blank(*from)) from++;
+        while (to > from && is_blank(to[-1])) to--;
+        take(from, to, unit);
+        if (is_multiple(unit)) return true;
+    }
+    *unit = '\0';
+    return false;
+}
+
+/* The first heading is `interface`. */
+static bool counts_interfaces(const fracas_lines *lines)
+{
+    fracas_lines ahead = *lines;
+    char field[FRACAS_FIELD];
+    fracas_lines_field(&ahead, field);
+    return ahead.start < ahead.stop && !strcasecmp(field, "interface");
+}
+
+fracas_lines_doubts fracas_lines_doubt(const fracas_attachment *file, bool last)
+{
+    fracas_lines_doubts of = {"", 0};
+    fracas_lines lines = fracas_lines_begin(file), ahead;
+    char field[FRACAS_FIELD];
+    if (!fracas_lines_next(&lines)) return of;
+    ahead = lines;
+    fracas_lines_field(&ahead, field);
+    if (!fracas_lines_is_heading(field)) return of;
+    const char *from = lines.start;
+    for (const char *c = lines.start; last && c < lines.stop; c++)
+        if (*c == ',' || *c == ';' || *c == '\t') from = c;
+    find_unit(from, lines.stop, of.unit);
+    if (!last || !counts_interfaces(&lines)) return of;
+    double number, before = NAN;
+    while (fracas_lines_next(&lines)) {
+        ahead = lines;
+        fracas_lines_field(&ahead, field);
+        if (fracas_number_read(field, &number)) return of;
+        if (number != before + 1 && !isnan(before)) of.line = lines.line;
+        if (of.line) return of;
+        before = number;
+    }
+    return of;
 }

@@ -16,11 +16,8 @@ typedef struct {
     const char *at, *end;     /* bytes left of the file */
     const char *start, *stop; /* the line without outer blanks; fracas_lines_field shortens it */
     int64_t line;             /* its number, from 1 */
-    int64_t row;              /* its number without headings, from 0 */
-    double begun;             /* number that the first row gives itself, in files that count rows */
     bool first;               /* it is the first one: it may be a line of headings */
     size_t headings;          /* columns that a first line names between commas; 0: none */
-    const char *named, *named_end; /* the line of headings without outer blanks; NULL: none */
 } fracas_lines;
 
 fracas_lines fracas_lines_begin(const fracas_attachment *file);
@@ -43,10 +40,6 @@ bool fracas_lines_is_decimal_comma(const fracas_lines *lines, size_t numbers);
 /* FRACAS_USAGE for such a line. */
 FRACAS_MUST_USE fracas_err fracas_lines_check_commas(const fracas_lines *lines, size_t numbers,
                                                      const char *headings);
-/* FRACAS_USAGE if the headings have a unit in brackets, as "x (mm)", that is none of these, which
- * end with NULL: numbers have no other. */
-FRACAS_MUST_USE fracas_err fracas_lines_check_units(const fracas_lines *lines,
-                                                    const char *const *units);
 /* FRACAS_USAGE: "FILE:LINE: found `found`; expected ...". */
 FRACAS_MUST_USE fracas_err fracas_lines_refuse(const fracas_lines *lines, const char *found,
                                                const char *expected);
@@ -54,6 +47,16 @@ FRACAS_MUST_USE fracas_err fracas_lines_refuse(const fracas_lines *lines, const 
  * `form`". */
 FRACAS_MUST_USE fracas_err fracas_lines_number(fracas_lines *lines, const char *name,
                                                const char *form, double *value);
+
+/* Doubts about a file with a line of headings, for warnings: nothing is refused by them. */
+typedef struct {
+    char
+        unit[FRACAS_FIELD]; /* "mm": a heading has it in brackets, where numbers are SI; "": none */
+    int64_t line;           /* whose `interface` is not one more than on the line before; 0: none */
+} fracas_lines_doubts;
+
+/* Looks at all columns, or at the last alone. */
+fracas_lines_doubts fracas_lines_doubt(const fracas_attachment *file, bool last);
 
 /* Headings are words. A mistyped number is no heading, nor is a number that C writes as a word. */
 bool fracas_lines_is_heading(const char *field);

@@ -23,7 +23,6 @@ FRACAS_MUST_USE static fracas_err next_place(fracas_lines *lines, const fracas_p
     if (!*found) return FRACAS_OK;
     snprintf(headings, sizeof headings, "%s,%s", form->at, form->value);
     snprintf(line, sizeof line, "a %s [%s] and a %s", form->at, form->unit, form->value);
-    TRY(fracas_lines_check_units(lines, (const char *const[]){form->unit, NULL}));
     TRY(fracas_lines_check_commas(lines, 2, headings));
     TRY(fracas_lines_number(lines, form->at, line, &p->at));
     TRY(fracas_lines_number(lines, form->value, line, &p->value));

@@ -375,7 +375,7 @@ fracas_err fracas_units_read(const fracas_units *units, const char *text, const 
     const char *unit = text + length + strspn(text + length, " ");
     bool apart = unit > text + length || strcmp(unit, "%") == 0;
     const size_t digits = *unit == ',' ? strspn(unit + 1, "0123456789") : 0;
-    if (length > 0 && digits == 3)
+    if (length > 0 && digits == 3 && *text != '0')
         return fracas_fail(FRACAS_USAGE,
                            "`%s` is not a number: it has a comma; if that parts thousands leave it "
                            "out: %.*s%s; if decimals write a point: %.*s.%s",

@@ -133,6 +133,14 @@ static fracas_err check_file(const making *m, const char *stem, const char *endi
     return own && (access(path, F_OK) || is_ours(path)) ? FRACAS_OK : fracas_output_refuse(path);
 }
 
+/* Our drawing is there: a PNG beside it is ours, too, also of a version that did not mark it. */
+static bool has_drawing(const making *m, const char *stem)
+{
+    OWNED char *path = NULL;
+    return !fracas_path(&path, "%s/%s.svg", m->folder, stem) && !access(path, F_OK) &&
+           is_picture(path);
+}
+
 /* Before anything is written; count: pictures. */
 static fracas_err check_free(const making *m, size_t count)
 {
@@ -142,7 +150,7 @@ static fracas_err check_free(const making *m, size_t count)
     for (size_t k = 0; k < count; k++) {
         name_picture(m, k, count, name);
         TRY(check_file(m, name, "svg", is_picture));
-        if (m->request->dots && fracas_convert_possible)
+        if (m->request->dots && fracas_convert_possible && !has_drawing(m, name))
             TRY(check_file(m, name, "png", fracas_convert_made_png));
     }
     if (m->request->film) TRY(check_file(m, stem, "html", fracas_output_is_page));

@@ -181,33 +181,58 @@ static void keep_lesser(const fracas_surface *surface, int32_t number, fracas_su
         if (surface->group[g].number == number) *least = surface->group[g];
 }
 
-/* A group of edges without a key. */
-static bool is_loose(const fracas_model *model, int32_t number)
+/* Groups of edges without a key, and whether any edge is left to `edges`. */
+static void describe_groups(const fracas_model *model, fracas_forecast *forecast)
 {
+    enum { MOST = 100 };
     const fracas_surface *surface = fracas_model_surface(model);
-    for (size_t b = 0; b < surface->nborders; b++)
-        if (surface->border[b].tag == number && number > 0)
-            return fracas_surface_edge_key(model, number) == 0;
-    return false;
+    const fracas_kind *const *edge = model->spec.geometry.edge;
+    int32_t seen[MOST];
+    bool held = false, some = false;
+    for (size_t b = 0; b < surface->nborders; b++) {
+        const int32_t tag = surface->border[b].tag;
+        const int key = fracas_surface_edge_key(model, tag);
+        some = some || key == 0;
+        held = held || (key > 0 && edge[key] != &fracas_edge_free);
+        if (key > 0 || tag <= 0) continue;
+        size_t k = 0;
+        while (k < forecast->nloose && seen[k] != tag) k++;
+        if (k < forecast->nloose || k == MOST) continue;
+        seen[forecast->nloose++] = tag;
+        keep_lesser(surface, tag, &forecast->loose);
+    }
+    forecast->unheld = !some && !held && edge[0] != &fracas_edge_free;
 }
 
 static fracas_err describe_file(const fracas_model *model, fracas_forecast *forecast)
 {
     const fracas_surface *surface = fracas_model_surface(model);
-    const fracas_kind *const *edge = model->spec.geometry.edge;
-    for (size_t b = 0; b < surface->nborders; b++) {
-        const int32_t tag = surface->border[b].tag;
-        const int key = fracas_surface_edge_key(model, tag);
-        if (key == 0) keep_lesser(surface, tag, &forecast->loose);
-        else if (edge[key] == &fracas_edge_free && edge[0] != &fracas_edge_free)
-            keep_lesser(surface, tag, &forecast->freed);
-    }
-    for (size_t g = 0; g < surface->ngroups; g++)
-        forecast->nloose += is_loose(model, surface->group[g].number);
+    describe_groups(model, forecast);
     for (size_t i = 0; i < surface->ninterfaces; i++)
         if (!fracas_surface_is_loaded(model, surface->interface[i].tag, true))
             keep_lesser(surface, surface->interface[i].tag, &forecast->inner);
     return fracas_surface_survey_make(surface, &forecast->mesh);
+}
+
+/* Keeps the first doubt. */
+static void doubt(const fracas_attachment *file, bool last, fracas_forecast *forecast)
+{
+    if (!file || forecast->doubted) return;
+    forecast->doubts = fracas_lines_doubt(file, last);
+    if (*forecast->doubts.unit || forecast->doubts.line) forecast->doubted = file->path;
+}
+
+static void describe_files(const fracas_point *point, fracas_forecast *forecast)
+{
+    doubt(point->strength.file,
+          fracas_strength_is_given(&point->strength) &&
+              !fracas_strength_is_placed(&point->strength),
+          forecast);
+    doubt(point->strength.factor, false, forecast);
+    for (int n = 0; n < FRACAS_LOADINGS; n++) {
+        const fracas_loading *loading = fracas_loading_at(&point->spec, n);
+        if (loading) doubt(loading->history, false, forecast);
+    }
 }
 
 static fracas_err describe(const fracas_point *point, const fracas_model *model, bool estimated,
@@ -232,6 +257,7 @@ static fracas_err describe(const fracas_point *point, const fracas_model *model,
     double reach;
     TRY(measure_body(model, &forecast->extent, &reach));
     if (fracas_shape_of(spec)->from_file) TRY(describe_file(model, forecast));
+    describe_files(point, forecast);
     forecast->flat = point->strength.factor && factor.least == factor.most;
     forecast->uniform = factor.least == factor.most && strength_at(point, extent.mean, 0.25) ==
                                                            strength_at(point, extent.mean, 0.75);

@@ -3,6 +3,7 @@
 #ifndef FRACAS_CAMPAIGNS_PLAN_FORECAST_H
 #define FRACAS_CAMPAIGNS_PLAN_FORECAST_H
 
+#include "base/lines.h"
 #include "campaigns/campaign.h"
 #include "engine/mesh/surface/survey.h"
 
@@ -33,7 +34,7 @@ typedef struct {
     fracas_surface_survey mesh; /* a mesh file's; no parts: another body */
     fracas_surface_group loose; /* the least physical group of edges without a key; 0: none */
     size_t nloose;              /* such groups */
-    fracas_surface_group freed; /* the least group that is free though `edges` is not; 0: none */
+    bool unheld;                /* `edges` holds no edge: all are of groups with keys */
     fracas_surface_group inner; /* the least physical group of edges between elements; 0: none */
     double extent;              /* diagonal of the box around all interfaces [m] */
     bool flat;                  /* a factor of the strengths is the same at all interfaces */
@@ -55,8 +56,10 @@ typedef struct {
     double bound;       /* on the stress in the uncracked body until time.end [Pa] */
     bool stress_grows;  /* it is larger until twice that time ... */
     bool opening_grows; /* ... and so is `available` */
-    double started;     /* fastest node at the start, by `initial` [m/s] */
-    double released;    /* share of the initial stress without an edge to keep it (start.h) */
+    fracas_lines_doubts doubts; /* about a file of strengths, factors or a load's history ... */
+    const char *doubted;        /* ... of this name; NULL: none */
+    double started;             /* fastest node at the start, by `initial` [m/s] */
+    double released; /* share of the initial stress without an edge to keep it (start.h) */
 } fracas_forecast;
 
 /* The forecast of one point, without speed, time and bytes. FRACAS_USAGE if strengths from a file
@@ -91,9 +94,9 @@ typedef double fracas_plan_warning(const fracas_point *point, const fracas_forec
 double fracas_bending_steps(const fracas_spec *spec, double element);
 
 /* A run says the first of them itself before it begins: of meshes that make another body. */
-enum { FRACAS_PLAN_WARNINGS = 43, FRACAS_RUN_WARNINGS = 3, FRACAS_WARNING_TEXT = 400 /* bytes */ };
+enum { FRACAS_PLAN_WARNINGS = 45, FRACAS_RUN_WARNINGS = 3, FRACAS_WARNING_TEXT = 400 /* bytes */ };
 extern fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS];
-/* Two of them: no realization breaks. */
+/* One of them: no realization breaks. */
 fracas_plan_warning fracas_plan_warn_unbroken;
 
 #endif

@@ -254,8 +254,7 @@ WARNING(
 double fracas_plan_warn_unbroken(const fracas_point *point, const fracas_forecast *forecast,
                                  char *text, size_t size)
 {
-    const double whole = warn_whole(point, forecast, text, size);
-    return whole > 0 ? whole : warn_weak_load(point, forecast, text, size);
+    return warn_whole(point, forecast, text, size);
 }
 
 /* A warning has said why already. */
@@ -271,7 +270,7 @@ WARNING(warn_intact,
         forecast->tried, forecast->tried == 1 ? "" : "s", load_key(&point->spec).text)
 
 WARNING(warn_lost, forecast->tried > 0 && forecast->lost == forecast->tried, 1,
-        "%d realization%s computed just now end%s without a result, by the energy guard: is %s in "
+        "%d realization%s computed just now end%s without a result: is %s in "
         "its unit? A bare number is SI; or lower time.safety",
         forecast->tried, forecast->tried == 1 ? "" : "s", forecast->tried == 1 ? "s" : "",
         load_key(&point->spec).text)
@@ -394,11 +393,20 @@ WARNING(
     "give it one of these numbers",
     loose_names(forecast).text)
 
-WARNING(warn_freed, forecast->freed.number, 1,
-        "edges of the mesh file's physical group %s are free: geometry.edges, here `%s`, is for "
-        "edges of no group from 1 to 8: if the group is to be held say so by its name or edge_%d",
-        name_of(&forecast->freed).text, point->spec.geometry.edge[0]->name,
-        (int)forecast->freed.number)
+WARNING(warn_unheld, forecast->unheld, 1,
+        "geometry.edges, `%s`, holds no edge: all are of the mesh file's physical groups 1 to 8, "
+        "which have keys of their own, by name or edge_1 to edge_8",
+        point->spec.geometry.edge[0]->name)
+
+WARNING(warn_heading, forecast->doubted && * forecast->doubts.unit, 1,
+        "%s: a heading has the unit `%s`, but the numbers are taken as SI, in m, s or Pa: convert "
+        "them, or mend the heading",
+        forecast->doubted, forecast->doubts.unit)
+
+WARNING(warn_shuffled, forecast->doubted && forecast->doubts.line > 0, 1,
+        "%s:%" PRId64 ": the column `interface` is not in order, and is not read: strengths are "
+        "those of the interfaces line by line: sort the lines",
+        forecast->doubted, forecast->doubts.line)
 
 WARNING(
     warn_inner, forecast->inner.number, 1,
@@ -442,9 +450,11 @@ static double largest_side(const fracas_surface_survey *mesh)
 
 WARNING(warn_unit, !point->spec.geometry.unit && largest_side(&forecast->mesh) >= LARGE,
         largest_side(&forecast->mesh),
-        "the mesh file makes a body of %.4g by %.4g by %.4g m: is it in mm? Then give "
-        "geometry.unit: mm, else geometry.unit: m",
-        forecast->mesh.box[0], forecast->mesh.box[1], forecast->mesh.box[2])
+        "the mesh file makes a body of %.4g by %.4g by %.4g m: is it in %s? Then give "
+        "geometry.unit: %s, else geometry.unit: m",
+        forecast->mesh.box[0], forecast->mesh.box[1], forecast->mesh.box[2],
+        fracas_surface_likely_unit(largest_side(&forecast->mesh)),
+        fracas_surface_likely_unit(largest_side(&forecast->mesh)))
 
 /* 25 % of the edges of an isotropic mesh lie in three of twelve directions. */
 #define STEERED 0.45
@@ -542,5 +552,6 @@ fracas_plan_warning *const fracas_plan_warnings[FRACAS_PLAN_WARNINGS] = {
     warn_tough,       warn_notch,
     warn_released,    warn_begun,
     warn_strained,    warn_started,
-    warn_freed,       warn_intact,
+    warn_unheld,      warn_heading,
+    warn_shuffled,    warn_intact,
     warn_lost};

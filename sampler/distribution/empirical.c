@@ -34,7 +34,6 @@ FRACAS_MUST_USE static fracas_err next_row(fracas_lines *lines, row *next, bool 
     char field[FRACAS_FIELD];
     *found = fracas_lines_next_row(lines);
     if (!*found) return FRACAS_OK;
-    TRY(fracas_lines_check_units(lines, (const char *const[]){"Pa", NULL}));
     TRY(fracas_lines_check_commas(lines, 2, "strength,probability"));
     fracas_lines_field(lines, field);
     if (fracas_number_read(field, &next->strength) ||

@@ -5,28 +5,8 @@
 #include "base/units.h"
 #include "sampler/distribution/given.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-/* Strengths are in the order of the interfaces: a column of that name counts from 0 or 1. */
-FRACAS_MUST_USE static fracas_err check_number(fracas_lines *lines)
-{
-    static const char name[] = "interface";
-    fracas_lines ahead = *lines;
-    char field[FRACAS_FIELD], expected[80];
-    double number = NAN;
-    if (!lines->named || strncmp(lines->named, name, strlen(name)) != 0) return FRACAS_OK;
-    fracas_lines_field(&ahead, field);
-    if (ahead.start == ahead.stop) return FRACAS_OK; /* strengths alone */
-    const bool read = !fracas_number_read(field, &number);
-    if (lines->row == 0) lines->begun = number == 1;
-    if (read && number == (double)lines->row + lines->begun) return FRACAS_OK;
-    snprintf(expected, sizeof expected,
-             "interface %.0f: strengths are taken in the order of the lines",
-             (double)lines->row + lines->begun);
-    return fracas_lines_refuse(lines, field, expected);
-}
 
 /* The next strength; *found is false at the end of the file. */
 FRACAS_MUST_USE static fracas_err next_strength(fracas_lines *lines, double *value, bool *found)
@@ -38,9 +18,7 @@ FRACAS_MUST_USE static fracas_err next_strength(fracas_lines *lines, double *val
         fracas_lines_name(lines);
         return next_strength(lines, value, found);
     }
-    if (*found) TRY(fracas_lines_check_units(lines, (const char *const[]){"Pa", "m", NULL}));
     if (*found) TRY(fracas_lines_check_commas(lines, 1, "number,strength"));
-    if (*found) TRY(check_number(lines));
     if (!*found || (!fracas_number_read(field, value) && *value > 0.0)) return FRACAS_OK;
     return fracas_lines_refuse(lines, field,
                                "a strength in Pa, a number greater than 0 at the end of the line, "

@@ -27,7 +27,6 @@ FRACAS_MUST_USE static fracas_err next_place(fracas_lines *lines, place *p, bool
     static const char form[] = "x [m], y [m], strength [Pa]";
     *found = fracas_lines_next_row(lines);
     if (!*found) return FRACAS_OK;
-    TRY(fracas_lines_check_units(lines, (const char *const[]){"m", "Pa", NULL}));
     TRY(fracas_lines_check_commas(lines, 3, "x,y,strength"));
     TRY(fracas_lines_number(lines, "x", form, &p->x[0]));
     TRY(fracas_lines_number(lines, "y", form, &p->x[1]));

@@ -75,10 +75,6 @@ static void test_bad_values(void **state)
         {"4e8\n3,5e8\n",
          "s.csv:2: found `3,5e8`; expected a decimal point, not a comma, in a strength; or, if "
          "the comma ends a column, the names of all columns in a first line (`number,strength`)"},
-        {"interface,strength\n0,3\n2,8\n1,1\n",
-         "s.csv:3: found `2`; expected interface 1: strengths are taken in the order of the lines"},
-        {"x (mm),strength\n0,3\n",
-         "s.csv:1: the heading has the unit `mm`, but the numbers of such a file are in Pa and m"},
         {"0,1 3,5e8\n", "s.csv:1: found `0,1 3,5e8`; expected a decimal point"},
         {"0,02; 3,5e8\n", "s.csv:1: found `0,02; 3,5e8`; expected a decimal point"},
         {"strength\n3,5\n", "s.csv:2: found `3,5`"},

@@ -61,9 +61,6 @@ static void what_is_wrong_is_said(void **state)
         {"0,1\n1\n", "f.csv:2: found nothing as factor"},
         {"0 mm,1\n", "f.csv:1: found `mm` as factor"},
         {"x,f\ny,f\n", "f.csv:2: found `y` as coordinate"},
-        {"x (mm),factor\n0,1\n", "f.csv:1: the heading has the unit `mm`, but the numbers of such "
-                                 "a file are in m: convert"},
-        {"x [m] factor [%]\n0 1\n", "f.csv:1: the heading has the unit `%`"},
         {"0,1\ninf,2\n", "f.csv:2: found `inf` as coordinate"},
         {"0,1\n1,nan\n", "f.csv:2: found `nan` as factor"},
         {"# 1\n0,1\n1,0\n", "f.csv:3: a factor of 0; it must be greater than 0"},

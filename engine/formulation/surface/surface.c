@@ -190,10 +190,11 @@ fracas_err fracas_surface_check_strength(const fracas_model *model, double stren
     if (fracas_shape_of(spec)->from_file && !spec->geometry.unit) {
         double side[3];
         fracas_surface_box(model->surface, side);
+        const char *likely = fracas_surface_likely_unit(fmax(side[0], fmax(side[1], side[2])));
         snprintf(unit, sizeof unit,
-                 "; the mesh file makes a body of %.3g by %.3g by %.3g m: if it is in mm, give "
-                 "geometry.unit: mm",
-                 side[0], side[1], side[2]);
+                 "; the mesh file makes a body of %.3g by %.3g by %.3g m: if it is in %s, give "
+                 "geometry.unit: %s",
+                 side[0], side[1], side[2], likely, likely);
     }
     const double times = ceil(100 * model->longest / most) / 100;
     char remedy[120] =

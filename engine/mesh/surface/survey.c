@@ -78,33 +78,46 @@ static size_t count_doubled(const fracas_surface *surface, double apart, place *
     return doubled;
 }
 
+/* A corner of the border, by its place along the body's longest side. */
+typedef struct {
+    double along;
+    const double *position;
+} corner;
+
 static int compare_corners(const void *left, const void *right)
 {
-    const double *a = *(const double *const *)left, *b = *(const double *const *)right;
-    return (a[0] > b[0]) - (a[0] < b[0]);
+    const corner *a = left, *b = right;
+    return (a->along > b->along) - (a->along < b->along);
 }
 
 /* The corner lies on the edge from a to b, away from its ends. */
-static bool is_on(const double *corner, const double *a, const double *b, double apart)
+static bool is_on(const double *position, const double *a, const double *b, double apart)
 {
     double along[3], to[3], off = 0;
-    for (int i = 0; i < 3; i++) along[i] = b[i] - a[i], to[i] = corner[i] - a[i];
+    for (int i = 0; i < 3; i++) along[i] = b[i] - a[i], to[i] = position[i] - a[i];
     const double square = fracas_surface_dot(along, along),
                  s = fracas_surface_dot(along, to) / square;
     for (int i = 0; i < 3; i++) off = fmax(off, fabs(to[i] - s * along[i]));
     return off <= apart && s * sqrt(square) > apart && (1 - s) * sqrt(square) > apart;
 }
 
-/* Corners of the border on its edges. */
-static fracas_err count_hanging(const fracas_surface *surface, double apart, size_t *hanging)
+/* Corners of the border on its edges. Large meshes whose edges are mostly border are told of by
+ * their parts. */
+static fracas_err count_hanging(const fracas_surface *surface, const double box[3], double apart,
+                                size_t *hanging)
 {
+    enum { FEW = 1000 };
     const size_t n = surface->nborders;
-    OWNED const double **corner = malloc((n + 1) * sizeof *corner);
-    if (!corner) return fracas_no_memory("the border of a mesh");
-    for (size_t i = 0; i < n; i++)
-        corner[i] = fracas_surface_node(surface, surface->border[i].element,
-                                        surface->border[i].edge);
-    qsort(corner, n, sizeof *corner, compare_corners);
+    if (n > FEW && n > surface->ninterfaces) return FRACAS_OK;
+    OWNED corner *corners = malloc((n + 1) * sizeof *corners);
+    if (!corners) return fracas_no_memory("the border of a mesh");
+    const int side = box[1] > box[0] ? (box[2] > box[1] ? 2 : 1) : (box[2] > box[0] ? 2 : 0);
+    for (size_t i = 0; i < n; i++) {
+        const double *position = fracas_surface_node(surface, surface->border[i].element,
+                                                     surface->border[i].edge);
+        corners[i] = (corner){position[side], position};
+    }
+    qsort(corners, n, sizeof *corners, compare_corners);
     for (size_t i = 0; i < n; i++) {
         const fracas_surface_border *of = &surface->border[i];
         const double *a = fracas_surface_node(surface, of->element, of->edge),
@@ -112,11 +125,11 @@ static fracas_err count_hanging(const fracas_surface *surface, double apart, siz
         size_t from = 0, to = n;
         while (from < to) {
             const size_t middle = (from + to) / 2;
-            if (corner[middle][0] < fmin(a[0], b[0]) - apart) from = middle + 1;
+            if (corners[middle].along < fmin(a[side], b[side]) - apart) from = middle + 1;
             else to = middle;
         }
-        for (; from < n && corner[from][0] <= fmax(a[0], b[0]) + apart; from++)
-            *hanging += is_on(corner[from], a, b, apart);
+        for (; from < n && corners[from].along <= fmax(a[side], b[side]) + apart; from++)
+            *hanging += is_on(corners[from].position, a, b, apart);
     }
     return FRACAS_OK;
 }
@@ -171,7 +184,7 @@ fracas_err fracas_surface_survey_make(const fracas_surface *surface, fracas_surf
     survey->round = find_round(surface);
     if (survey->box[2] == 0) survey->steered = find_steered(surface);
     const double extent = fmax(survey->box[0], fmax(survey->box[1], survey->box[2]));
-    TRY(count_hanging(surface, ONE_PLACE * extent, &survey->hanging));
+    TRY(count_hanging(surface, survey->box, ONE_PLACE * extent, &survey->hanging));
     if (survey->parts == 1) return FRACAS_OK;
     OWNED place *all = malloc(surface->nnodes * sizeof *all);
     if (!all) return fracas_no_memory("the nodes of a mesh");

@@ -21,6 +21,12 @@ typedef struct {
     bool round;     /* a sphere about the origin, or a part of one */
 } fracas_surface_survey;
 
+/* The unit in which a body with this largest side [m] was likely drawn. */
+static inline const char *fracas_surface_likely_unit(double side)
+{
+    return side >= 1000 ? "um" : "mm";
+}
+
 FRACAS_MUST_USE fracas_err fracas_surface_survey_make(const fracas_surface *surface,
                                                       fracas_surface_survey *survey);
 
