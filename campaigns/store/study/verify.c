@@ -476,9 +476,15 @@ static fracas_err verify_all(verification *v)
     return v->there && !v->merged ? FRACAS_OK : check_merged_whole(v); /* said already */
 }
 
+/* A run may end, or begin, between the look at its lock and the moment of the index: it counts if
+ * it has the study before that moment or after it (note_lock). */
 static fracas_err verify(verification *v)
 {
+    char holder[FRACAS_HOLDER_TEXT];
+    fracas_lock_state state;
     TRY(fracas_index_open(v->study, false, &v->index));
+    TRY(fracas_study_lock_state(v->study, &state, holder));
+    v->held = state == FRACAS_LOCK_HELD;
     TRY(fracas_index_begin_reading(v->index));
     return fracas_index_end(v->index, verify_all(v));
 }
