@@ -17,7 +17,7 @@ material: {young: 370 GPa, poisson: 0.25, density: 3900 kg/m3}
 cohesive: {law: nitsche, fracture_energy: 50 J/m2}
 strength: {minimum: 264 MPa, scale: 50 MPa, shape: 2}
 loading: {rate: 1e5 1/s}
-time: {stop: time, end: 120 ns, rotary_inertia: 1}
+time: {stop: time, end: 500 ns, rotary_inertia: 1}
 parallel: {parts: 1}
 replicas: 1
 END_OF_FILE
