@@ -189,7 +189,7 @@ bool fracas_lines_is_heading(const char *field)
     return *field && !strchr("0123456789+-.", *field);
 }
 
-/* Multiples of m, s and Pa that people write into headings. */
+/* Multiples of m, s and Pa that people write into headings. UDUNITS-2 takes F(t), too. */
 static bool is_multiple(const char *unit)
 {
     static const char *const known[] = {"mm",  "cm",    "um",    "\u00b5m", "\u03bcm", "km",

@@ -50,9 +50,8 @@ FRACAS_MUST_USE fracas_err fracas_lines_number(fracas_lines *lines, const char *
 
 /* Doubts about a file with a line of headings, for warnings: nothing is refused by them. */
 typedef struct {
-    char
-        unit[FRACAS_FIELD]; /* "mm": a heading has it in brackets, where numbers are SI; "": none */
-    int64_t line;           /* whose `interface` is not one more than on the line before; 0: none */
+    char unit[FRACAS_FIELD]; /* "mm" in brackets in a heading, where numbers are SI; "": none */
+    int64_t line; /* whose `interface` is not one more than on the line before; 0: none */
 } fracas_lines_doubts;
 
 /* Looks at all columns, or at the last alone. */

@@ -7,8 +7,8 @@
 #include "campaigns/plan/plan.h"
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/scheduler/types/clock.h"
-#include "cli/cli.h"
 #include "campaigns/store/lock.h"
+#include "cli/cli.h"
 
 #include <inttypes.h>
 #include <limits.h>

@@ -9,8 +9,8 @@
 #include "base/json.h"
 #include "base/terminal.h"
 #include "campaigns/scheduler/status/describe.h"
-#include "cli/cli.h"
 #include "campaigns/store/lock.h"
+#include "cli/cli.h"
 
 #include <inttypes.h>
 #include <math.h>

@@ -36,8 +36,8 @@
 
 #define FRACAS_LARGEST_NUMBERS(X)                                                                 \
     X(largest_size, "m", "size of the fragment of most mass")                                     \
-    X(largest_share, "1", "largest mass of a fragment over that of all fragments",                                 \
-      .words = "share of the mass in the largest fragment")                                       \
+    X(largest_share, "1",                                                                         \
+      "share of the mass in the largest fragment (its mass over that of all fragments)")          \
     X(aspect, "1", "aspect ratio, largest by middle semi-axis, of the fragments without dust",    \
       .words = "aspect ratio of the fragments without dust")
 /* clang-format on */

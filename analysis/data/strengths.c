@@ -17,23 +17,12 @@ bool fracas_strengths_uniform(const fracas_point_table *table, size_t point)
     return !strcmp(text_of(table, point, "strength.distribution"), "uniform");
 }
 
-/* Uniform strengths have the same bounds whether these are given or mean and deviation are. */
-static double bound_of(const fracas_point_table *table, size_t point, const char *path, double side)
-{
-    const double given = fracas_columns_real(table, point, path);
-    if (isfinite(given) || !fracas_strengths_uniform(table, point)) return given;
-    return fracas_columns_real(table, point, "strength.mean") +
-           side * sqrt(3) * fracas_columns_real(table, point, "strength.deviation");
-}
-
 double fracas_strengths_least(const fracas_point_table *table, size_t point)
 {
-    return bound_of(table, point, "strength.minimum", -1);
-}
-
-double fracas_strengths_most(const fracas_point_table *table, size_t point)
-{
-    return bound_of(table, point, "strength.maximum", 1);
+    const double given = fracas_columns_real(table, point, "strength.minimum");
+    if (isfinite(given) || !fracas_strengths_uniform(table, point)) return given;
+    return fracas_columns_real(table, point, "strength.mean") -
+           sqrt(3) * fracas_columns_real(table, point, "strength.deviation");
 }
 
 /* By the parameters, for studies of format version 5 and less, which have no deviation. */
@@ -45,7 +34,9 @@ static double scatter_by_parameters(const fracas_point_table *table, size_t p, d
     if (isfinite(deviation)) return deviation / mean;
     if (isfinite(sigma)) return sigma;           /* lognormal */
     if (isfinite(modulus)) return 1.2 / modulus; /* weibull, to 10 % from shape 3 on */
-    return (fracas_strengths_most(table, p) - fracas_strengths_least(table, p)) / sqrt(12) / mean;
+    return (fracas_columns_real(table, p, "strength.maximum") -
+            fracas_columns_real(table, p, "strength.minimum")) /
+           sqrt(12) / mean;
 }
 
 double fracas_strengths_scatter(const fracas_point_table *table, size_t point)

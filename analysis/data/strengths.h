@@ -13,9 +13,6 @@ bool fracas_strengths_uniform(const fracas_point_table *table, size_t point);
 /* Least strength [Pa], as given, or by mean - sqrt(3) deviation of uniform ones; NaN: not given. */
 double fracas_strengths_least(const fracas_point_table *table, size_t point);
 
-/* Largest strength [Pa], likewise. */
-double fracas_strengths_most(const fracas_point_table *table, size_t point);
-
 /* deviation/mean of the strengths of interfaces; NaN: equal, of a file, or not known. */
 double fracas_strengths_scatter(const fracas_point_table *table, size_t point);
 

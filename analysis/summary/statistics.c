@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/summary/statistics.h"
 
-#include "analysis/data/strengths.h"
 #include "analysis/data/columns.h"
+#include "analysis/data/strengths.h"
 #include "analysis/summary/numbers.h"
 
 #include <gsl/gsl_sort.h>

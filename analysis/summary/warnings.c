@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "analysis/summary/study.h"
 
-#include "analysis/data/strengths.h"
 #include "analysis/data/format.h"
+#include "analysis/data/strengths.h"
 #include "base/own.h"
 #include "base/param.h"
 

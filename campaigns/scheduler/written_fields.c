@@ -8,8 +8,8 @@
 #include "campaigns/plan/point_model.h"
 #include "campaigns/scheduler/replay.h"
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/results.h"
 #include "campaigns/store/lock.h"
+#include "campaigns/store/results.h"
 
 #include <errno.h>
 #include <inttypes.h>

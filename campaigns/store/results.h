@@ -4,8 +4,8 @@
 #ifndef FRACAS_CAMPAIGNS_STORE_RESULTS_H
 #define FRACAS_CAMPAIGNS_STORE_RESULTS_H
 
-#include "campaigns/store/decision.h"
 #include "campaigns/store/datafile.h"
+#include "campaigns/store/decision.h"
 
 typedef struct fracas_results fracas_results;
 

@@ -3,8 +3,8 @@
 /* Every place of the store that calls the C library, SQLite or HDF5, with that call failing: the
  * command says why, or does without; nothing sound is called damaged, nothing is lost, and the same
  * command completes. */
-#include "tests/support/store_commands.h"
 #include "campaigns/store/study.h"
+#include "tests/support/store_commands.h"
 
 /* HDF5 1.10 forgets an object header whose checksum is wrong; it is no leak of ours. */
 const char *__lsan_default_suppressions(void);

@@ -2,9 +2,9 @@
 /* Damage and death: flipped bytes, truncated files, a full disk, kill -9. */
 #define STUDY_REPLICAS 4 /* few, as they are read a thousand times */
 #define STUDY_ROWS 12
-#include "tests/support/upkeep.h"
-#include "campaigns/store/study.h"
 #include "campaigns/store/lock.h"
+#include "campaigns/store/study.h"
+#include "tests/support/upkeep.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -3,8 +3,8 @@
 /* ctest-timeout: 1800 */
 /* The commands for studies, with every call that changes the disk failing, and killed at every one
  * of them: the study is sound after each, and the same command completes. */
-#include "tests/support/upkeep.h"
 #include "campaigns/store/study.h"
+#include "tests/support/upkeep.h"
 
 #include <errno.h>
 #include <fcntl.h>

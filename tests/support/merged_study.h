@@ -9,8 +9,8 @@
 #include "tests/support/upkeep.h"
 
 #include "campaigns/store/results.h"
-#include "tests/support/stored_mesh.h"
 #include "campaigns/store/study.h"
+#include "tests/support/stored_mesh.h"
 
 enum { SURFACE = 1, RULED = 2 /* points */, MOST_REPLICAS = 8 };
 

@@ -15,8 +15,8 @@
 #include "campaigns/scheduler/session/prepare.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/index.h"
-#include "campaigns/store/study.h"
 #include "campaigns/store/lock.h"
+#include "campaigns/store/study.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -9,11 +9,11 @@
 #include "tests/support/upkeep.h"
 
 #include "campaigns/store/checkpoint.h"
+#include "campaigns/store/lock.h"
 #include "campaigns/store/results.h"
+#include "campaigns/store/study.h"
 #include "tests/support/each_place.h"
 #include "tests/support/stored_mesh.h"
-#include "campaigns/store/study.h"
-#include "campaigns/store/lock.h"
 
 #include <sys/prctl.h>
 

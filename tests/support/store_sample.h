@@ -3,10 +3,10 @@
 #ifndef FRACAS_TESTS_STORE_SAMPLE_H
 #define FRACAS_TESTS_STORE_SAMPLE_H
 
-#include "campaigns/store/decision.h"
 #include "campaigns/store/datafile.h"
-#include "campaigns/store/pack.h"
+#include "campaigns/store/decision.h"
 #include "campaigns/store/index.h"
+#include "campaigns/store/pack.h"
 #include "tests/support/test.h"
 
 #include <dirent.h>

@@ -4,8 +4,8 @@
 #include "tests/support/merged_study.h"
 
 #include "base/version.h"
-#include "campaigns/store/study.h"
 #include "campaigns/store/lock.h"
+#include "campaigns/store/study.h"
 
 #include <sys/prctl.h>
 

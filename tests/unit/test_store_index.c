@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The index: plan, lease, commit, its modes and its file. */
-#include "tests/support/study_fixture.h"
 #include "campaigns/store/study.h"
+#include "tests/support/study_fixture.h"
 
 /* ---- planning and rows ---- */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STUDY/lock: who is refused, who takes over, and what the file says. */
-#include "tests/support/store_sample.h"
 #include "campaigns/store/lock.h"
+#include "tests/support/store_sample.h"
 
 #include <fcntl.h>
 #include <signal.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Results, writers, index and upkeep of a study with facts that nobody wrote. */
-#include "tests/support/merged_study.h"
 #include "campaigns/store/study.h"
+#include "tests/support/merged_study.h"
 
 /* ---- results ---- */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A study as a whole: identity, merge, recover, verify, lock. */
-#include "tests/support/study_fixture.h"
 #include "campaigns/store/study.h"
+#include "tests/support/study_fixture.h"
 
 /* ---- what the study is of ---- */
 

@@ -2,8 +2,8 @@
 /* Files of a stranger's study (docs/decisions/trust.md). */
 #include "base/version.h"
 #include "campaigns/store/file/h5.h"
-#include "tests/support/study_fixture.h"
 #include "campaigns/store/study.h"
+#include "tests/support/study_fixture.h"
 
 /* ---- the index ---- */
 

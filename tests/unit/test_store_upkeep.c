@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Looking after a study: the index anew, garbage, failures again, older formats. Two studies made
  * one: test_store_join.c. */
-#include "tests/support/upkeep.h"
 #include "campaigns/store/study.h"
+#include "tests/support/upkeep.h"
 
 /* ---- reindex ---- */
 

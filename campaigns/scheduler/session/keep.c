@@ -5,8 +5,8 @@
 #include "base/param.h"
 #include "base/text.h"
 #include "campaigns/store/checkpoint.h"
-#include "campaigns/store/file/disk.h"
 #include "campaigns/store/datafile.h"
+#include "campaigns/store/file/disk.h"
 #include "campaigns/store/index.h"
 
 #include <errno.h>

@@ -7,8 +7,8 @@
 #include "campaigns/scheduler/types/packet.h"
 #include "campaigns/store/checkpoint.h"
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/study.h"
 #include "campaigns/store/lock.h"
+#include "campaigns/store/study.h"
 
 #include <errno.h>
 #include <fcntl.h>

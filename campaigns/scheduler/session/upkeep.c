@@ -10,8 +10,8 @@
 #include "campaigns/scheduler/session/failures.h"
 #include "campaigns/scheduler/types/header.h"
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/study.h"
 #include "campaigns/store/lock.h"
+#include "campaigns/store/study.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/store/file/difference.h"
 
-#include "campaigns/store/file/schema.h"
 #include "campaigns/store/datafile.h"
+#include "campaigns/store/file/schema.h"
 
 #include <assert.h>
 #include <inttypes.h>

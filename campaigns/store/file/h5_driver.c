@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* HDF5's file driver over our own descriptor, and the opening and closing of files. */
 #include "base/file.h"
+#include "campaigns/store/datafile.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/file/h5.h"
-#include "campaigns/store/datafile.h"
 
 #include <errno.h>
 #include <stdio.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "base/version.h"
+#include "campaigns/store/datafile.h"
+#include "campaigns/store/decision.h"
 #include "campaigns/store/file/copy.h"
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/decision.h"
-#include "campaigns/store/datafile.h"
 #include "campaigns/store/file/table.h"
 
 #include <stdlib.h>

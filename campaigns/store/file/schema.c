@@ -2,8 +2,8 @@
 #include "campaigns/store/file/schema.h"
 
 #include "base/param.h"
-#include "campaigns/store/decision.h"
 #include "campaigns/store/datafile.h"
+#include "campaigns/store/decision.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* study.h5 in the place of all segments: a second name in segments/ makes it one. */
 #include "campaigns/store/file/disk.h"
+#include "campaigns/store/study.h"
 #include "campaigns/store/study/segments.h"
 #include "campaigns/store/upkeep.h"
-#include "campaigns/store/study.h"
 
 #include <errno.h>
 #include <inttypes.h>

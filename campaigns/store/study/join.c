@@ -2,9 +2,9 @@
 /* Two studies of one campaign, computed in two places, made one. */
 #include "base/file.h"
 #include "campaigns/store/file/disk.h"
+#include "campaigns/store/pack.h"
 #include "campaigns/store/study/segments.h"
 #include "campaigns/store/upkeep.h"
-#include "campaigns/store/pack.h"
 
 #include <errno.h>
 #include <inttypes.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* STUDY/study.h5 from the segments, in plan order. */
 #include "campaigns/store/file/disk.h"
-#include "campaigns/store/study/segments.h"
 #include "campaigns/store/study.h"
+#include "campaigns/store/study/segments.h"
 
 #include <inttypes.h>
 #include <stdio.h>

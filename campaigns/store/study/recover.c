@@ -3,9 +3,9 @@
 #include "base/file.h"
 #include "campaigns/store/checkpoint.h"
 #include "campaigns/store/file/disk.h"
+#include "campaigns/store/study.h"
 #include "campaigns/store/study/segments.h"
 #include "campaigns/store/upkeep.h"
-#include "campaigns/store/study.h"
 
 #include <errno.h>
 #include <inttypes.h>

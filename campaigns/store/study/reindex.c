@@ -3,8 +3,8 @@
 #include "base/file.h"
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/index/index.h"
-#include "campaigns/store/upkeep.h"
 #include "campaigns/store/study.h"
+#include "campaigns/store/upkeep.h"
 
 #include <errno.h>
 #include <inttypes.h>

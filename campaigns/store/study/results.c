@@ -3,8 +3,8 @@
 
 #include "campaigns/store/file/disk.h"
 #include "campaigns/store/file/schema.h"
-#include "campaigns/store/study/segments.h"
 #include "campaigns/store/lock.h"
+#include "campaigns/store/study/segments.h"
 
 #include <errno.h>
 #include <inttypes.h>

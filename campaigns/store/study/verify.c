@@ -6,9 +6,9 @@
 
 #include "base/file.h"
 #include "base/param.h"
-#include "campaigns/store/study.h"
-#include "campaigns/store/pack.h"
 #include "campaigns/store/lock.h"
+#include "campaigns/store/pack.h"
+#include "campaigns/store/study.h"
 
 #include <errno.h>
 #include <inttypes.h>
