@@ -250,20 +250,14 @@ static fracas_err check_cracks(const fracas_analysis *analysis)
     return FRACAS_OK;
 }
 
-/* The tables, in an empty package's folder; removed where one fails: without a package they would
- * be somebody's own. */
-static fracas_err write_tables(const fracas_csv_table *const *table,
-                               const fracas_analysis *analysis, const char *folder)
+/* Without a package they would be somebody's own. */
+static void drop_tables(const fracas_csv_table *const *table, const char *folder)
 {
-    fracas_err err = FRACAS_OK;
-    size_t written = 0;
-    while (table[written] && !(err = fracas_csv_file(table[written], analysis, folder))) written++;
-    for (size_t i = 0; err && i < written; i++) {
+    for (; *table; table++) {
         char path[PATH_MAX];
-        if (FRACAS_PRINT(path, "%s/%s.csv", folder, table[i]->name) < (int)sizeof path)
+        if (FRACAS_PRINT(path, "%s/%s.csv", folder, (*table)->name) < (int)sizeof path)
             unlink(path);
     }
-    return err;
 }
 
 fracas_err fracas_export_write(const fracas_analysis *analysis, const char *folder,
@@ -278,7 +272,9 @@ fracas_err fracas_export_write(const fracas_analysis *analysis, const char *fold
     TRY(find_named(folder, named));
     TRY(fracas_output_open(folder, package_file, &output)); /* first: it tells whose tables are */
     fracas_err err = remove_package(folder, named);
-    if (!err) err = write_tables(table, analysis, folder);
+    for (size_t i = 0; !err && table[i]; i++) err = fracas_csv_file(table[i], analysis, folder);
     if (!err) err = put_package(analysis, table, folder, output.file);
-    return fracas_output_close(&output, err);
+    err = fracas_output_close(&output, err);
+    if (err) drop_tables(table, folder);
+    return err;
 }

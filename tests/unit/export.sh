@@ -51,11 +51,16 @@ said 'cannot rename .* to taken/points.csv'
 limited()
 {
     trap '' XFSZ
-    ulimit -f 80 # of 512 bytes: what SQLite needs beside the index fits, fragments.csv does not
-    "$fracas" export one --to small
+    ulimit -f $1 # of 512 bytes
+    "$fracas" export $2 --to small
 }
-expect 6 limited
-said 'cannot write small/'
+campaign few.yaml 1 1e4
+expect 0 "$fracas" run few.yaml --study few
+expect 6 limited 160 few # all tables fit, the package has 90 kB
+said 'cannot write small/datapackage.json'
+[ -z "$(ls -A small)" ] || fail "tables without a package, which the next export takes for somebody's"
+expect 6 limited 80 one # as little as SQLite needs beside the index; fragments.csv does not fit
+said 'cannot write small/fragments.csv'
 [ ! -e small/datapackage.json ] || fail "a package that is not whole"
 [ -z "$(ls -A small | grep '^\.')" ] || fail "temporary files are left"
 expect 0 "$fracas" export one --to small # as after a fault, so after a cut: no table is in the way
