@@ -50,7 +50,7 @@ enum {
  * errors of a campaign file have a line each, at most 21 lines; every other message is one line. */
 FRACAS_API const char *fracas_error(void);
 
-/* The version of the library, "0.2.0". Numbers are those of a program of this version. */
+/* The version of the library, "0.2.1". Numbers are those of a program of this version. */
 FRACAS_API const char *fracas_version(void);
 
 /* ---- campaigns: a campaign file as points, each with a number of replicas ---- */

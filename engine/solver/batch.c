@@ -206,7 +206,7 @@ static fracas_err look_at_count(fracas_batch *batch, size_t l, fracas_progress *
     double vibrating;
     fracas_rest rest;
     TRY(fracas_settling_energies(model, step, (int)l, &lane->ledger, &vibrating, &rest));
-    progress->rest = rest.mean / (double)lane->census.all;
+    progress->rest = rest.mean / fmax((double)lane->census.all, FRACAS_REST_FEWEST);
     return FRACAS_OK;
 }
 

@@ -23,7 +23,8 @@ static const fracas_param settled[] = {
      "largest share of the fragments that the last half of that time may have added", 0.03, 0, 1,
      false, offsetof(fracas_time, growth)},
     {"rest", FRACAS_REAL, "1",
-     "largest share of the fragments that may still come, by the energies of all", 0.02, 0, 1,
+     "largest share of the fragments, or of 15 where there are fewer, that may still come, by the "
+     "energies of all", 0.02, 0, 1,
      false, offsetof(fracas_time, rest), .only = FRACAS_GROUP_CHAINS},
 };
 /* (settled.7) */

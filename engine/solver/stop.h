@@ -20,13 +20,16 @@ typedef struct {
     bool peaked;             /* it has fallen since */
 } fracas_stop;
 
+/* Fragments whose share the rest is measured by, where there are fewer: 0.3 of a break at 2 %. */
+#define FRACAS_REST_FEWEST 15.0
+
 /* Input of a rule. */
 typedef struct {
     double time, elastic, dissipated; /* s, J */
     int64_t cracked, broken;
     bool look;               /* the following are known at this step, else 0 */
     double transits, growth; /* k, Delta */
-    double rest;             /* R over the count; 0 where it is unknown */
+    double rest;             /* R over the count or FRACAS_REST_FEWEST; 0 where it is unknown */
 } fracas_progress;
 
 /* True if the rule asks for the breaks that are still to come. */
@@ -34,7 +37,8 @@ bool fracas_stop_needs_rest(const fracas_time *rule);
 
 /* Shows one step to the rule. True when the realization is over, with its *outcome.
  * `time`: at the first step at or after `end`.
- * `settled`: at a look after a break with k >= transits, Delta <= growth, R <= rest N (settled.7).
+ * `settled`: at a look after a break with k >= transits, Delta <= growth, R <= rest max(N, 15)
+ * (settled.7).
  * `transits`: at a look after a break with k >= transits (settled.9).
  * `quiet`: after an onset, when for `quiet` seconds no interface cracked or broke and the
  * dissipated energy D grew by at most quiet_fraction D.

@@ -26,7 +26,7 @@ def library() -> ctypes.CDLL:
     """libfracas of the program: beside it where it was built, in ../lib where it is installed, or where the system has it.
 
     >>> fracas.kernel.library().fracas_version()
-    b'0.2.0'
+    b'0.2.1'
     """
     folder = Path(program()).resolve().parent
     for path in (folder / "libfracas.so", *folder.parent.glob("lib*/libfracas.so.0"), *folder.parent.glob("lib/*/libfracas.so.0"), "libfracas.so.0"):

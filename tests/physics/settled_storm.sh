@@ -1,6 +1,6 @@
 # ctest-labels: storm
 # ctest-timeout: 7200
-# The rule `settled` on cases that its constants never saw, against runs of the same bodies to ten times as long: one small body a model,
+# The rule `settled` on cases that its constants never saw, against runs of the same bodies to k of 180 to 430: one small body a model,
 # three rates, narrow and scattered strengths (docs/decisions/settled-counts.md). Prints a table. SETTLED_MODELS: of these models alone,
 # shell among them.
 . tests/support/campaigns.sh

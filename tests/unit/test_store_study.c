@@ -10,7 +10,7 @@ enum { OTHERS = 4 };
 static fracas_file_header other_header(int other)
 {
     fracas_file_header header = sample_header();
-    if (other == 0) strcpy(header.version, "0.2.0");
+    if (other == 0) strcpy(header.version, "0.2.1");
     if (other == 1) header.seed++;
     if (other == 2) header.history++;
     if (other == 3) header.interfaces = false;
@@ -18,7 +18,7 @@ static fracas_file_header other_header(int other)
 }
 
 static const char *const difference[OTHERS] = {
-    "program_version 0.1.0, not 0.2.0", "seed 18446744073709551611, not 18446744073709551612",
+    "program_version 0.1.0, not 0.2.1", "seed 18446744073709551611, not 18446744073709551612",
     "history 100, not 101", "interfaces 1, not 0"};
 
 static void a_study_is_of_one_program_and_campaign(void **state)
@@ -120,9 +120,9 @@ static void merge_refuses_what_is_not_whole(void **state)
     FAILS(fracas_study_merge(study, index_, &header, &table, NULL, NULL), FRACAS_INTERRUPTED,
           "run again");
     commit_everything(3);
-    strcpy(header.version, "0.2.0");
+    strcpy(header.version, "0.2.1");
     FAILS(fracas_study_merge(study, index_, &header, &table, NULL, NULL), FRACAS_DAMAGED,
-          "not of this study: program_version 0.1.0, not 0.2.0");
+          "not of this study: program_version 0.1.0, not 0.2.1");
     header = sample_header();
     header.seed++;
     FAILS(fracas_study_merge(study, index_, &header, &table, NULL, NULL), FRACAS_DAMAGED, "seed");

@@ -6,7 +6,7 @@
 
 (package
   (name "fracas")
-  (version "0.2.0")
+  (version "0.2.1")
   (source (local-file "../.." "fracas-checkout" #:recursive? #t))
   (build-system cmake-build-system)
   (arguments (list #:tests? #f #:configure-flags #~(list "-DBUILD_TESTING=OFF" "-DFRACAS_PDF=OFF")))

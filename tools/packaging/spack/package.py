@@ -8,7 +8,7 @@ class Fracas(CMakePackage):
 
     git = "SOURCE"
     license("GPL-3.0-or-later")
-    version("0.2.0", tag="0.2.0")
+    version("0.2.1", tag="0.2.1")
 
     depends_on("c", type="build")
     depends_on("cmake@3.25:", type="build")
