@@ -24,8 +24,8 @@ static const fracas_param settled[] = {
      false, offsetof(fracas_time, growth)},
     {"rest", FRACAS_REAL, "1",
      "largest share of the fragments, or of 15 where there are fewer, that may still come, by the "
-     "energies of all", 0.02, 0, 1,
-     false, offsetof(fracas_time, rest), .only = FRACAS_GROUP_CHAINS},
+     "energies of all",
+     0.02, 0, 1, false, offsetof(fracas_time, rest), .only = FRACAS_GROUP_CHAINS},
 };
 /* (settled.7) */
 static bool is_settled(fracas_stop *stop, const fracas_time *rule, const fracas_progress *now)

@@ -23,7 +23,7 @@ def points(name):
         assert s["residual"] < 1e-2 and s["created"] < 5e-2, s # of these coarse meshes: 4e-3 and 1.5e-2, round-off may double them
     return found
 
-# The paper: m = 5 cracks at about 28 us, m = 40 at 36 to 44 us. Between the last of the one and the first of the other are some 5 us.
+# The paper: m = 5 cracks at about 28 us, m = 40 has its first picture at 36 us. Between the last of the one and the first of the other are some 5 us.
 first = [[float(r["first_break"]) for r in csv.DictReader(l for l in open(f"times/times-point-{p}.csv") if l[0] != "#")] for p in (0, 1)]
 through = [[r["through_1_2"] for r in csv.DictReader(l for l in open(f"times/times-point-{p}.csv") if l[0] != "#")] for p in (0, 1)]
 print("first break", [f"{1e6 * min(t):.1f} to {1e6 * max(t):.1f} us" for t in first])

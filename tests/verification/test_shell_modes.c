@@ -10,12 +10,14 @@
  * which Lanczos' iteration knows to 1e-6 or better. */
 static void free_bodies_have_six_rigid_motions(void **unused)
 {
-    const double beta[] = {2.3, 5, 10}, shear[] = {1e-4, 1, 10};
+    static const double beta[][2] = {
+        {2.3, 1e-4}, {2.3, 1},   {2.3, 10}, {5, 1e-4}, {5, 1},
+        {5, 10},     {10, 1e-4}, {10, 1},   {10, 10},  {30, 3e-4}}; /* Becker and Noels' */
     for (int which = 0; which < BODIES; which++)
-        for (int k = 0; k < 5; k++) {
+        for (size_t k = 0; k < FRACAS_COUNT(beta); k++) {
             fracas_spec spec = shell_spec(&fracas_shape_sphere);
-            spec.cohesive.beta = beta[k < 3 ? k : 1];
-            spec.cohesive.beta_shear = shear[k < 3 ? 1 : k == 3 ? 0 : 2];
+            spec.cohesive.beta = beta[k][0];
+            spec.cohesive.beta_shear = beta[k][1];
             OWN(fracas_model) model = body_of(which, spec, 3, 11);
             const size_t n = unknowns_of(model);
             OWNED double *matrix = stiffness_matrix(model, n),
@@ -28,7 +30,9 @@ static void free_bodies_have_six_rigid_motions(void **unused)
                           value[6] / value[n - 1], model->critical_closed / step - 1);
             assert_true(fmax(value[5], -value[0]) < 1e-13 * value[n - 1]);
             assert_true(value[6] > 1e-9 * value[n - 1]);
-            assert_true(fabs(model->critical_closed / step - 1) < 1e-5);
+            /* The bound that Lanczos' iteration adds is looser at 10, 10: the step is shorter. */
+            const double longer = model->critical_closed / step - 1;
+            assert_true(longer < 1e-6 && longer > (k == 8 ? -1e-3 : -1e-5));
         }
 }
 
