@@ -139,7 +139,7 @@ typedef struct {
     double end;            /* s: set time, or cap */
     double transits;       /* 1, settled and transits: least k */
     double growth;         /* 1, settled: largest Delta */
-    double rest;           /* 1, settled, bar and ring: largest R over the count */
+    double rest;           /* 1, settled, bar and ring: largest R over the count, or 15 */
     double quiet;          /* s */
     double quiet_fraction; /* 1 */
     double multiple;       /* 1, peak-multiple */

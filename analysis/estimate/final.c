@@ -11,7 +11,7 @@ typedef struct {
     double transits, reach;
 } needs;
 static const needs of_chains = {20, 40}, of_surfaces = {60, 60};
-static const double growth_allowed = 0.03, rest_allowed = 0.02;
+static const double growth_allowed = 0.03, rest_allowed = 0.02, fewest = 15;
 /* Surfaces whose growth predicts their final count, and how far that may be off. */
 static const double growth_tells = 20, surface_margin = 0.02;
 /* Bodies creep from this vibrating by dissipated energy on: six creeping bars, 22 others. */
@@ -97,7 +97,8 @@ static fracas_finality judge(const fracas_final *f, const needs *need)
     if (f->count.high <= f->seen) return FRACAS_FINAL_YES; /* all elements are apart */
     if (!(f->transits >= need->transits)) return FRACAS_FINAL_NO;
     if (chain && f->vibrating > creep_begins) return FRACAS_FINAL_CREEP;
-    return f->growth <= growth_allowed && (!chain || f->rest <= rest_allowed * f->seen)
+    return f->growth <= growth_allowed &&
+                   (!chain || f->rest <= rest_allowed * fmax(f->seen, fewest))
                ? FRACAS_FINAL_YES
                : FRACAS_FINAL_NO;
 }

@@ -250,7 +250,7 @@ static fracas_err check_cracks(const fracas_analysis *analysis)
     return FRACAS_OK;
 }
 
-/* Without a package they would be somebody's own. */
+/* Without a package or a page they would be somebody's own. */
 static void drop_tables(const fracas_csv_table *const *table, const char *folder)
 {
     for (; *table; table++) {
@@ -275,6 +275,6 @@ fracas_err fracas_export_write(const fracas_analysis *analysis, const char *fold
     for (size_t i = 0; !err && table[i]; i++) err = fracas_csv_file(table[i], analysis, folder);
     if (!err) err = put_package(analysis, table, folder, output.file);
     err = fracas_output_close(&output, err);
-    if (err) drop_tables(table, folder);
+    if (err && !fracas_output_is_ours(folder)) drop_tables(table, folder);
     return err;
 }

@@ -260,12 +260,13 @@ static void warn_of_quiet(const fracas_analysis *analysis, size_t p, warning_lis
 {
     const double quiet = fracas_columns_real(analysis->table, p, "time.quiet");
     const fracas_point_statistics *statistics = &analysis->point[p];
-    if (!isfinite(quiet) || statistics->usable == 0 || statistics->final.realizations > 0) return;
+    if (!isfinite(quiet) || analysis->header.format > 3) return;
     if (statistics->outcome[FRACAS_FRAGMENTED] > 0)
-        warn(list, p, "quiet", quiet,
+        warn(list, p, "quiet", -quiet,
              "%s without an event ended realizations, and the study does not say how final counts "
-             "are: 0 to 79 %% were missing of bars so ended, most at low rates and of scattered "
-             "strengths: run it again with time.stop: settled",
+             "are: bars that 100 ns ended lacked up to 79 %% of their fragments, most at low rates "
+             "and "
+             "with scattered strengths: run it again with time.stop: settled",
              fracas_with_unit(quiet, 3, "s", false).text);
 }
 

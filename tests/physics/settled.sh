@@ -84,7 +84,7 @@ for name, speed, surface in (("bar", 1e4, False), ("ring", 1e4, False), ("crosse
         if r["end_time"][i] < (12e-6 if surface else 4e-6) * 0.99 and not (name in ("held", "crossed") or point == 1):
             settled += 1
             assert r["outcome"][i] == 0 and r["transits"][i] >= (60 if surface else 20) and r["growth"][i] <= 0.03, (name, i)
-            assert surface or r["rest"][i] <= 0.02 * r["fragments"][i], (name, i)
+            assert surface or r["rest"][i] <= 0.02 * max(15, r["fragments"][i]), (name, i)
         if name == "crossed": # ends at a look, a factor 2^(1/8) of time apart, whatever comes then
             assert r["outcome"][i] == 0 and 6 <= r["transits"][i] < 6 * 2**0.125 * 1.05, (name, i, r["transits"][i])
     print(name, "fragments", r["fragments"].mean(), "held", r["fragments_held"].mean(), "settled", settled)

@@ -4,8 +4,9 @@ usage: continuous_plate.py STUDY [--realization R] [--step PART] [--times T,T,..
 
 Reads mesh, strengths and parameters of a stored membrane of linear triangles whose edges are held. Corners of elements at a vertex
 move as one while edges without a crack join them; an edge cracks as a whole where the mean stress of its two elements reaches its
-strength, and then has Camacho and Ortiz' linear law at two Gauss points, from that stress. Nothing is shared with fracas but the
-study. Prints, a line a time: time, kinetic, elastic, dissipated energy, work of the edges, all [J], fragments, error of the sum [J].
+strength, and then has Camacho and Ortiz' linear law at two Gauss points, from the strength on. Nothing is shared with fracas but the
+study. Prints, a line a time: time [s], the energy that flight and edges have given, elastic and dissipated energy [J], fragments, error
+of the sum [J]; then the same of the study, but the error.
 """
 import argparse
 import os
@@ -33,6 +34,11 @@ class Study:
             self.strength = file["interface/strength"][rows]
             rows = of("history/", realization)
             self.history = {name: file["history/" + name][rows] for name in file["history"] if name != "offset"}
+        start = self.history["kinetic"][0] + self.history["elastic"][0]
+        self.history["given"] = start + self.history["work"] - self.history["kinetic"]
+
+    def at(self, time, name):
+        return float(np.interp(time, self.history["time"], self.history[name]))
 
 
 class Plate:
@@ -54,7 +60,11 @@ class Plate:
         self.mass = np.repeat(density * self.thickness * self.area / 3, 3)
 
         # Interfaces: the corners of both elements at both ends, the normal out of the first, the length.
-        find = lambda element, node: 3 * element + np.argmax(corner[element] == node[:, None], axis=1)
+        def find(element, node):
+            same = corner[element] == node[:, None]
+            assert same.any(axis=1).all()
+            return 3 * element + np.argmax(same, axis=1)
+
         self.first = np.stack([find(study.pair[:, 0], study.ends[:, k]) for k in (0, 1)], axis=1)
         self.second = np.stack([find(study.pair[:, 1], study.ends[:, k]) for k in (0, 1)], axis=1)
         along = x[study.ends[:, 1]] - x[study.ends[:, 0]]
@@ -127,7 +137,8 @@ class Plate:
             self.cracked[new] = True
             self.crack = np.concatenate([self.crack, new])
             self.damage = np.concatenate([self.damage, np.zeros((len(new), 2))])
-            self.onset = np.concatenate([self.onset, np.stack([normal[new], shear[new]], axis=1)])
+            late = self.strength[new] / effective[new]  # what the step went beyond the strength is taken off
+            self.onset = np.concatenate([self.onset, np.stack([late * normal[new], late * shear[new]], axis=1)])
             self.regroup(new)
 
         i = self.crack
@@ -139,8 +150,9 @@ class Plate:
             jump = (1 - at) * (self.u[self.second[i, 0]] - self.u[self.first[i, 0]]) + at * (self.u[self.second[i, 1]] - self.u[self.first[i, 1]])
             dn, dt = np.einsum("ij,ij->i", jump, n[i]), np.einsum("ij,ij->i", jump, self.tangent[i])
             open_ = np.hypot(np.maximum(0, dn), dt)
-            d = self.damage[:, k] = np.minimum(1, np.maximum(self.damage[:, k], open_ / self.opening))
-            loads = open_ >= d * self.opening
+            now = np.minimum(1, open_ / self.opening)
+            d = self.damage[:, k] = np.maximum(self.damage[:, k], now)
+            loads = d == now
             secant = peak * (1 - d) / np.where(d > 0, d * self.opening, 1)
             secant = np.where(loads, secant, np.minimum(secant, self.contact[i]))  # a crack that has hardly opened is no stiffer
             tn = np.where(d > 0, secant * np.maximum(0, dn), np.maximum(0, self.onset[:, 0]))
@@ -194,7 +206,7 @@ class Plate:
 
 
 def run(study, part, times):
-    """A row a time: time, kinetic, elastic, dissipated, work, fragments, error of the sum of energies."""
+    """A row a time: time, energy that flight and edges have given, elastic, dissipated, fragments, error of the sum."""
     plate = Plate(study, part)
     start, now, rows = plate.kinetic() + plate.elastic, 0.0, []
     for until in times:
@@ -203,7 +215,7 @@ def run(study, part, times):
             now += plate.step
         kinetic = plate.kinetic()
         error = kinetic + plate.elastic + plate.cohesive + plate.dissipated - plate.work - start
-        rows.append((now, kinetic, plate.elastic, plate.dissipated, plate.work, plate.fragments(), error))
+        rows.append((now, start + plate.work - kinetic, plate.elastic, plate.dissipated, plate.fragments(), error))
     return rows
 
 
@@ -216,7 +228,7 @@ def main():
     arguments = parser.parse_args()
     study = Study(arguments.study, arguments.realization)
     for row in run(study, arguments.step, [float(t) for t in arguments.times.split(",")]):
-        ours = [np.interp(row[0], study.history["time"], study.history[name]) for name in ("kinetic", "elastic", "dissipated", "fragments")]
+        ours = [study.at(row[0], name) for name in ("given", "elastic", "dissipated", "fragments")]
         print(" ".join("%.5g" % value for value in row), "| fracas:", " ".join("%.5g" % value for value in ours), flush=True)
 
 
