@@ -265,8 +265,7 @@ static void warn_of_quiet(const fracas_analysis *analysis, size_t p, warning_lis
         warn(list, p, "quiet", -quiet,
              "%s without an event ended realizations, and the study does not say how final counts "
              "are: bars that 100 ns ended lacked up to 79 %% of their fragments, most at low rates "
-             "and "
-             "with scattered strengths: run it again with time.stop: settled",
+             "and with scattered strengths: run it again with time.stop: settled",
              fracas_with_unit(quiet, 3, "s", false).text);
 }
 
