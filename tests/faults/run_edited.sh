@@ -7,7 +7,7 @@
 campaign small.yaml 40 '1e5 1/s'
 expect 0 "$fracas" run --no-report small.yaml --study plain
 hold
-start small.yaml --jobs 2
+start small.yaml --jobs 2 --lanes 1 --lease-time 0 --segment-size 1e-6 # a segment a realization: the run is in its middle
 wait_segments studies/small 1
 sed -i 's/^name: small/name: other/; s/1e5/2e5/' small.yaml
 kill -9 "$(ranks | head -n 1)"
