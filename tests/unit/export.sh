@@ -52,13 +52,17 @@ limited()
 {
     trap '' XFSZ
     ulimit -f $1 # of 512 bytes
-    "$fracas" export $2 --to small
+    "$fracas" export $2 --to "${3:-small}"
 }
 campaign few.yaml 1 1e4
 expect 0 "$fracas" run few.yaml --study few
 expect 6 limited 160 few # all tables fit, the package has 90 kB
 said 'cannot write small/datapackage.json'
 [ -z "$(ls -A small)" ] || fail "tables without a package, which the next export takes for somebody's"
+cp -r few/report paged # a page tells that tables are ours: they stay
+expect 6 limited 160 few paged
+[ -e paged/points.csv ] || fail "a table of the report is gone"
+expect 0 "$fracas" export few --to paged
 expect 6 limited 80 one # as little as SQLite needs beside the index; fragments.csv does not fit
 said 'cannot write small/fragments.csv'
 [ ! -e small/datapackage.json ] || fail "a package that is not whole"

@@ -61,6 +61,17 @@ static void chains_by_their_energies(void **unused)
     assert_true(final_of(record, 2).verdict == FRACAS_FINAL_YES);
 }
 
+/* Below 15 fragments 0.3 of a break may come, not 2 % of them. */
+static void few_fragments_by_a_third_of_a_break(void **unused)
+{
+    fracas_record record = seen(5, 30, 0, 0.29);
+    assert_true(final_of(&record, 1).verdict == FRACAS_FINAL_YES);
+    record = seen(5, 30, 0, 0.31);
+    assert_true(final_of(&record, 1).verdict == FRACAS_FINAL_NO);
+    record = seen(20, 30, 0, 0.39);
+    assert_true(final_of(&record, 1).verdict == FRACAS_FINAL_YES);
+}
+
 static void surfaces_by_their_growth(void **unused)
 {
     fracas_record record[] = {seen(110, 50, 0.025, NAN), seen(110, 70, 0.025, NAN)};
@@ -119,5 +130,5 @@ static void a_whole_body_has_no_final_count(void **unused)
     }
 }
 
-TESTS(chains_by_their_energies, surfaces_by_their_growth, never_more_than_elements,
-      a_whole_body_has_no_final_count)
+TESTS(chains_by_their_energies, few_fragments_by_a_third_of_a_break, surfaces_by_their_growth,
+      never_more_than_elements, a_whole_body_has_no_final_count)
