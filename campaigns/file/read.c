@@ -2,6 +2,7 @@
 /* From a file to a campaign. */
 #include "campaigns/campaign.h"
 
+#include "campaigns/file/cap.h"
 #include "campaigns/file/chosen.h"
 #include "campaigns/file/identity.h"
 #include "campaigns/file/probes.h"
@@ -223,6 +224,22 @@ static fracas_err count_replicas(const reading *read, size_t index, fracas_point
                 &none);
 }
 
+/* Gives a point its time.end where the file has none and its rule needs none. */
+static fracas_err end_point(const reading *read, fracas_point *point)
+{
+    const fracas_file *file = &read->file;
+    const fracas_node *time = fracas_node_find(file->root, "time");
+    if (!isnan(point->spec.time.end)) return FRACAS_OK;
+    point->spec.time.end = fracas_point_cap(point);
+    if (!isnan(point->spec.time.end)) return FRACAS_OK;
+    return fracas_file_error(file, time ? time->key : file->root,
+                             "time with stop %s needs `end` here, when it ends at the latest: %s",
+                             point->spec.time.stop->name,
+                             isnan(fracas_spec_strain_rate(&point->spec))
+                                 ? "it can be left out of loads with a strain rate alone"
+                                 : "none can be reckoned from these strengths");
+}
+
 static fracas_err make_point(const reading *read, fracas_draft *draft, size_t index,
                              fracas_point *point)
 {
@@ -231,10 +248,13 @@ static fracas_err make_point(const reading *read, fracas_draft *draft, size_t in
     for (size_t a = 0; a < read->sweep.naxes; a++)
         fill_slots(&read->file, fracas_sweep_choice(&read->sweep, index, a)->settings,
                    draft->swept);
+    const size_t before = fracas_file_noted(&read->file);
     for (size_t s = 0; s < catalog->nsections; s++)
         if (catalog->section[s].table->hashed)
             TRY(fracas_file_note(&read->file, fracas_draft_resolve(&read->file, draft,
                                                                    &catalog->section[s], point)));
+    if (fracas_file_noted(&read->file) == before)
+        TRY(fracas_file_note(&read->file, end_point(read, point)));
     return fracas_file_note(&read->file, count_replicas(read, index, point));
 }
 

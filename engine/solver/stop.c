@@ -10,9 +10,21 @@ typedef struct {
     bool rests; /* by breaks that are still to come */
 } stop_rule;
 
-const fracas_kind fracas_stop_time = {"time", "at the set time `end`"};
+/* The first parameter of each rule. */
+#define END(text, ...)                                                     \
+    {                                                                      \
+        "end", FRACAS_REAL, "s", text, FRACAS_REQUIRED, 0, INFINITY, true, \
+            offsetof(fracas_time, end), __VA_ARGS__                        \
+    }
+#define CAP "when it ends at the latest"
+#define OWN_CAP \
+    CAP "; none: fracas reckons it, for a load with a strain rate (docs/theory/settled.md)"
+
+static const fracas_param set_time[] = {END("set time", .optional = false)};
+const fracas_kind fracas_stop_time = {"time", "at the set time `end`", FRACAS_PARAMS(set_time)};
 
 static const fracas_param settled[] = {
+    END(OWN_CAP, .optional = true),
     {"transits", FRACAS_REAL, "1",
      "fewest transits of a mean fragment by a longitudinal wave since the first onset", 20, 0,
      INFINITY, false, offsetof(fracas_time, transits), .only = FRACAS_GROUP_CHAINS},
@@ -41,6 +53,7 @@ const fracas_kind fracas_stop_settled = {
     FRACAS_PARAMS(settled), .traits = &(const stop_rule){.is_over = is_settled, .rests = true}};
 
 static const fracas_param transits[] = {
+    END(OWN_CAP, .optional = true),
     {"transits", FRACAS_REAL, "1",
      "transits of a mean fragment by a longitudinal wave since the first onset; up to 9 % more", 40,
      0, INFINITY, false, offsetof(fracas_time, transits)},
@@ -59,6 +72,7 @@ const fracas_kind fracas_stop_transits = {
     FRACAS_PARAMS(transits), .traits = &(const stop_rule){.is_over = is_crossed}};
 
 static const fracas_param quiet[] = {
+    END(CAP, .optional = false),
     {"quiet", FRACAS_REAL, "s", "how long nothing may crack or break, and little dissipate",
      FRACAS_REQUIRED, 0, INFINITY, true, offsetof(fracas_time, quiet)},
     {"quiet_fraction", FRACAS_REAL, "1",
@@ -84,6 +98,7 @@ const fracas_kind fracas_stop_quiet = {
     FRACAS_PARAMS(quiet), .traits = &(const stop_rule){.is_over = is_quiet, .waits = true}};
 
 static const fracas_param peak_multiple[] = {
+    END(CAP, .optional = false),
     {"multiple", FRACAS_REAL, "1", "end by the time of the first peak of the elastic energy", 2, 1,
      INFINITY, false, offsetof(fracas_time, multiple)},
     {"drop", FRACAS_REAL, "1",
@@ -114,8 +129,6 @@ static const fracas_kind *const integrators[] = {&fracas_integrator_central_diff
 static const fracas_kind *const masses[] = {&fracas_mass_lumped, &fracas_mass_consistent};
 
 static const fracas_param time_params[] = {
-    {"end", FRACAS_REAL, "s", "set time, or the cap of other stop rules", FRACAS_REQUIRED, 0,
-     INFINITY, true, offsetof(fracas_time, end)},
     {"safety", FRACAS_REAL, "1", "time step as a fraction of the critical one", 0.25, 0, 1, true,
      offsetof(fracas_time, safety)},
     {FRACAS_ONE_OF("integrator", integrators, offsetof(fracas_time, integrator),

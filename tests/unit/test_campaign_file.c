@@ -356,6 +356,24 @@ static void test_modulus(void **state)
     assert_true(fabs(real(campaign, 4, deviation) / 50e6 - 1) < 1e-13);
 }
 
+/* (settled.10) at rate/edot0 = 0.28009 (docs/theory/scaling-laws.md): 109.09 ns + 120 469.9 um/c =
+ * 5.748 us; twice the transits of another rule 11.386 us. `end` as given comes first. */
+static void test_cap(void **state)
+{
+    OWN(fracas_campaign) campaign = read_replaced(
+        "  stop: quiet\n  end: 500 ns\n  quiet: 100 ns\n",
+        "  stop: settled\nsweep:\n  - time: [{stop: settled}, {stop: transits, transits: 40}, "
+        "{stop: "
+        "settled, end: 3 us}, {stop: time, end: 2 us}]\n");
+    const double end[] = {5.7e-6, 1.1e-5, 3e-6, 2e-6};
+    for (size_t p = 0; p < 4; p++) assert_true(real(campaign, p, "time.end") == end[p]);
+    /* by 1 MPa in a volume 100 times the interface's, the mean is that of the reference */
+    OWN(fracas_campaign) sized = read_replaced("  stop: quiet\n  end: 500 ns\n  quiet: 100 ns\n",
+                                               "  stop: settled\nsweep:\n  - "
+                                               "strength.reference_volume: [1 mm3, 50 mm3]\n");
+    for (size_t p = 0; p < 2; p++) assert_true(real(sized, p, "time.end") == 5.7e-6);
+}
+
 /* Powers of two, so that quotients are exact. */
 static void test_strain_rate(void **state)
 {
@@ -556,6 +574,6 @@ static void test_reference_page(void **state)
 
 TESTS(test_example, test_plain, test_windows, test_golden_hash, test_hashes, test_product,
       test_ranges, test_zip, test_cases, test_changed_kind, test_supplied_by_sweep, test_table,
-      test_tables_agree, test_modulus, test_strain_rate, test_round_trip, test_write_fails,
-      test_reference_page, test_choices, test_key_of_all_kinds, test_page_examples,
-      test_largest_round_trip, test_report_keys)
+      test_tables_agree, test_modulus, test_cap, test_strain_rate, test_round_trip,
+      test_write_fails, test_reference_page, test_choices, test_key_of_all_kinds,
+      test_page_examples, test_largest_round_trip, test_report_keys)
