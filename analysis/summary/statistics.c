@@ -273,9 +273,24 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
 }
 
 /* (estimators.28) */
+static void add_past(fracas_past *past, const fracas_record *record)
+{
+    if (isnan(record->onset_time) || isfinite(record->transits) || record->nhistory < 2) return;
+    const double half = record->onset_time + (record->end_time - record->onset_time) / 2;
+    size_t at = 1;
+    while (at + 1 < record->nhistory && record->history[at].time < half) at++;
+    const fracas_history_row *before = &record->history[at - 1], *after = &record->history[at];
+    const double part = (half - before->time) / (after->time - before->time);
+    past->realizations++;
+    past->time += record->end_time - record->onset_time;
+    past->half += (1 - part) * (double)before->fragments + part * (double)after->fragments;
+    past->seen += (double)record->fragments;
+}
+
 void fracas_point_statistics_add_history(fracas_point_statistics *statistics,
                                          const fracas_record *record)
 {
+    add_past(&statistics->past, record);
     double total = fracas_energy_held(record->energy, 0);
     for (size_t i = 0; i < record->nhistory; i++)
         total = fmax(total, fracas_energy_held(record->history[i].energy, 0));

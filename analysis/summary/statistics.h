@@ -30,6 +30,14 @@ typedef struct {
     fracas_interval mean, mass_mean, median; /* for all fragments together */
 } fracas_normalised;
 
+/* Sums over cracked realizations with a history of a study that does not say how final its counts
+ * are: of format version 3 and less. */
+typedef struct {
+    double realizations;
+    double time;       /* s, from onset to end */
+    double half, seen; /* fragments after half of that time, and at the end */
+} fracas_past;
+
 typedef struct {
     /* Parameters of the point. */
     double rate;   /* 1/s, NaN where the point has none */
@@ -61,6 +69,7 @@ typedef struct {
     int64_t drifted;       /* usable realizations with a drift above FRACAS_DRIFT_LIMIT */
 
     fracas_final final; /* the count when nothing more breaks */
+    fracas_past past;
 
     fracas_ensemble ensemble; /* the usable realizations */
 

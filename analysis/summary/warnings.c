@@ -254,6 +254,28 @@ static void warn_of_final(const fracas_final *final, double dust_share, double e
              fracas_with_unit(final->reach, 2, "s", false).text);
 }
 
+enum { PAST = 200 };
+
+/* k of the mean time and size  (settled.1), Delta of the mean count  (settled.2), from histories;
+ * "" without them. */
+static void write_past(const fracas_point_table *table, size_t p,
+                       const fracas_point_statistics *statistics, char text[PAST])
+{
+    const fracas_past *past = &statistics->past;
+    const double poisson = statistics->surface ? fracas_columns_real(table, p, "material.poisson")
+                                               : 0,
+                 wave = sqrt(fracas_columns_real(table, p, "material.young") /
+                             fracas_columns_real(table, p, "material.density") /
+                             (1 - poisson * poisson)),
+                 transits = past->time / past->realizations * wave / statistics->size.mean;
+    *text = 0;
+    if (past->realizations > 0)
+        snprintf(text, PAST,
+                 " after %s transits of a mean fragment, of which the last half added %s %%",
+                 fracas_digits(transits, 2).text,
+                 fracas_digits(100 * (1 - past->half / past->seen), 2).text);
+}
+
 /* Studies of format version 3 and less do not say how final their counts are. Bars that 100 ns
  * without a break ended lacked so much (docs/decisions/settled-counts.md). */
 static void warn_of_quiet(const fracas_analysis *analysis, size_t p, warning_list *list)
@@ -261,12 +283,15 @@ static void warn_of_quiet(const fracas_analysis *analysis, size_t p, warning_lis
     const double quiet = fracas_columns_real(analysis->table, p, "time.quiet");
     const fracas_point_statistics *statistics = &analysis->point[p];
     if (!isfinite(quiet) || analysis->header.format > 3) return;
+    char past[PAST];
+    write_past(analysis->table, p, statistics, past);
     if (statistics->outcome[FRACAS_FRAGMENTED] > 0)
-        warn(list, p, "quiet", -quiet,
-             "%s without an event ended realizations, and the study does not say how final counts "
-             "are: bars that 100 ns ended lacked up to 79 %% of their fragments, most at low rates "
-             "and with scattered strengths: run it again with time.stop: settled",
-             fracas_with_unit(quiet, 3, "s", false).text);
+        warn(
+            list, p, "quiet", -quiet,
+            "%s without an event ended realizations%s, and the study does not say how final counts "
+            "are: bars that 100 ns ended lacked up to 79 %% of their fragments, most at low rates "
+            "and with scattered strengths: run it again with time.stop: settled",
+            fracas_with_unit(quiet, 3, "s", false).text, past);
 }
 
 static void warn_of_decision(const fracas_decision *last, size_t p, warning_list *list)
