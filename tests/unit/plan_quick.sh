@@ -29,3 +29,11 @@ assert a["estimated"] and not b["estimated"] and not quick["warnings"] and abs(a
 assert float(sys.argv[1]) < a["time_step"] / b["time_step"] < 1 / float(sys.argv[1]), (a, b)
 END
 done
+
+# Where cases stand for many parameters the table has the cases; one of law alone keeps its column.
+expect 0 "$fracas" plan "$source/docs/examples/softening.yaml" --quick
+said '^point  *case  *cohesive.cut  *cohesive.law  *replicas'
+said '^ *11  *ring-fine  *0.01  *exponential  *8 '
+said '^Cases stand for 42 parameters more'
+expect 0 "$fracas" plan "$source/docs/examples/mott.yaml" --quick
+said '^point  *case  *loading.rate  *time.end  *replicas'
