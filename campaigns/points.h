@@ -89,6 +89,21 @@ static inline bool fracas_point_table_varies(const fracas_point_table *table, si
     return false;
 }
 
+/* True if all points have a text in the column `name`, and those of one text one value of another
+ * column. */
+static inline bool fracas_point_table_follows(const fracas_point_table *table, size_t name,
+                                              size_t column)
+{
+    for (size_t p = 0, q; p < table->npoints && column != name; p++) {
+        const fracas_value *value = table->point[p].value;
+        for (q = 0; strcmp(table->point[q].value[name].text, value[name].text) != 0; q++) {}
+        if (!*value[name].text ||
+            !fracas_value_same(&table->point[q].value[column], &value[column]))
+            return false;
+    }
+    return column != name;
+}
+
 /* Share of the count that a bar or ring loses where its elements are halved, of strengths without a
  * least value and a size effect, by scatter = deviation/mean and e = rate/edot0 (scaling-laws.3),
  * NaN without a rate. Two interfaces in place of one: the weaker has mean - deviation/sqrt(pi) of

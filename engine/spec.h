@@ -173,6 +173,8 @@ double fracas_spec_length(const fracas_spec *spec);
 double fracas_spec_strain_rate(const fracas_spec *spec);
 /* G_c [J/m2] of an interface of this strength [Pa]: as given, or by delta_c and the law's shape. */
 double fracas_spec_fracture_energy(const fracas_spec *spec, double strength);
+/* |rate|/edot0 of this strength [Pa]  (scaling-laws.3); NaN as the strain rate. */
+double fracas_spec_normalised_rate(const fracas_spec *spec, double strength);
 /* Its delta_c [m]: as given, or by G_c and the law's shape. */
 double fracas_spec_critical_opening(const fracas_spec *spec, double strength);
 

@@ -272,7 +272,7 @@ fracas_err fracas_point_statistics_add(fracas_point_statistics *statistics, size
     return FRACAS_OK;
 }
 
-/* (estimators.28) */
+/* (settled.2), where the history has rows within a tenth of that time around its half. */
 static void add_past(fracas_past *past, const fracas_record *record)
 {
     if (isnan(record->onset_time) || isfinite(record->transits) || record->nhistory < 2) return;
@@ -280,13 +280,15 @@ static void add_past(fracas_past *past, const fracas_record *record)
     size_t at = 1;
     while (at + 1 < record->nhistory && record->history[at].time < half) at++;
     const fracas_history_row *before = &record->history[at - 1], *after = &record->history[at];
-    const double part = (half - before->time) / (after->time - before->time);
+    const double apart = after->time - before->time, part = (half - before->time) / apart;
+    if (apart > 0.1 * (record->end_time - record->onset_time)) past->half = NAN;
     past->realizations++;
     past->time += record->end_time - record->onset_time;
     past->half += (1 - part) * (double)before->fragments + part * (double)after->fragments;
     past->seen += (double)record->fragments;
 }
 
+/* (estimators.28) */
 void fracas_point_statistics_add_history(fracas_point_statistics *statistics,
                                          const fracas_record *record)
 {

@@ -35,7 +35,7 @@ typedef struct {
 typedef struct {
     double realizations;
     double time;       /* s, from onset to end */
-    double half, seen; /* fragments after half of that time, and at the end */
+    double half, seen; /* fragments after half of that time, NaN: not known; and at the end */
 } fracas_past;
 
 typedef struct {

@@ -256,8 +256,18 @@ static void warn_of_final(const fracas_final *final, double dust_share, double e
 
 enum { PAST = 200 };
 
-/* k of the mean time and size  (settled.1), Delta of the mean count  (settled.2), from histories;
- * "" without them. */
+/* sqrt(A/N) or Lambda/N over the realizations [m]. */
+static double mean_fragment(const fracas_point_statistics *statistics)
+{
+    double area = 0;
+    for (size_t i = 0; i < statistics->nfragments; i++)
+        area += statistics->fragment_size[i] * statistics->fragment_size[i];
+    return statistics->surface ? sqrt(area / (double)statistics->nfragments)
+                               : statistics->size.mean;
+}
+
+/* k of the mean time and fragment  (settled.1), held ones included, and Delta of the mean count
+ * (settled.2) where histories have it; "" without histories. */
 static void write_past(const fracas_point_table *table, size_t p,
                        const fracas_point_statistics *statistics, char text[PAST])
 {
@@ -267,13 +277,15 @@ static void write_past(const fracas_point_table *table, size_t p,
                  wave = sqrt(fracas_columns_real(table, p, "material.young") /
                              fracas_columns_real(table, p, "material.density") /
                              (1 - poisson * poisson)),
-                 transits = past->time / past->realizations * wave / statistics->size.mean;
+                 transits = past->time / past->realizations * wave / mean_fragment(statistics),
+                 growth = 100 * (1 - past->half / past->seen);
     *text = 0;
-    if (past->realizations > 0)
-        snprintf(text, PAST,
-                 " after %s transits of a mean fragment, of which the last half added %s %%",
-                 fracas_digits(transits, 2).text,
-                 fracas_digits(100 * (1 - past->half / past->seen), 2).text);
+    if (past->realizations == 0) return;
+    const int used = snprintf(text, PAST, " after %s transits of a mean fragment",
+                              fracas_digits(transits, 2).text);
+    if (isfinite(growth))
+        snprintf(text + used, PAST - (size_t)used, ", of which the last half added %s %%",
+                 fracas_digits(growth, 2).text);
 }
 
 /* Studies of format version 3 and less do not say how final their counts are. Bars that 100 ns

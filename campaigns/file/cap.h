@@ -6,10 +6,13 @@
 #include "campaigns/campaign.h"
 
 /* The cap [s], to two digits
- *   t_onset + 6 K L/c,   t_onset = sigma/(E rate),   c = sqrt(E/rho)           (settled.10)
- * for K = time.transits, sigma the mean strength (at the reference size, where there is one) and
- * fragments of size L = E G_c/sigma^2 4.5/(1 + 4.5 e^(2/3)), e = rate/edot0  (scaling-laws.6).
- * NaN of a load without a strain rate, and where no mean strength is known. */
-double fracas_point_cap(const fracas_point *point);
+ *   t_onset + 6 max(K, 20) L/c,   t_onset = sigma/(E rate),   c = sqrt(E/rho)
+ *   L = sqrt(ZMR max(ZMR, Mott)), at most the length of a chain                (settled.10)
+ * for K = time.transits, the sizes by (scaling-laws.6) and (scaling-laws.10). With a size effect
+ * sigma is the larger of the mean strengths of an interface and of the reference in t_onset, and
+ * the smaller in L.
+ * `extent`: of an interface, for strengths with a size effect.
+ * NaN where there is no strain rate at the start or no mean strength. */
+double fracas_point_cap(const fracas_point *point, fracas_extent extent);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "campaigns/file/identity.h"
 
+#include "campaigns/file/extent.h"
 #include "engine/cohesive/law.h"
 #include "engine/mesh/body.h"
-#include "engine/mesh/make.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -168,32 +168,14 @@ static size_t list_sources(const fracas_catalog *catalog, const fracas_campaign 
     return count;
 }
 
-/* The latest mesh made for the extent of an interface. */
-typedef struct {
-    const fracas_spec *spec; /* NULL: none yet */
-    fracas_extent extent;
-} known_mesh;
-
-static bool is_same_mesh(const fracas_spec *a, const fracas_spec *b)
-{
-    return memcmp(&a->geometry, &b->geometry, sizeof a->geometry) == 0 &&
-           memcmp(&a->mesh, &b->mesh, sizeof a->mesh) == 0;
-}
-
-/* Makes the slow mesh only if the strength needs it and it is not the mesh of the last point. */
-static fracas_err derive(const fracas_campaign *campaign, size_t p, known_mesh *mesh,
+static fracas_err derive(const fracas_campaign *campaign, size_t p, fracas_known_extent *known,
                          derivation *of)
 {
     const fracas_point *point = &campaign->point[p];
-    const bool needed = fracas_strength_has_size_effect(&point->strength);
-    if (needed && !(mesh->spec && is_same_mesh(mesh->spec, &point->spec))) {
-        fracas_err err = fracas_mesh_interface_extent(&point->spec, &mesh->extent.volume,
-                                                      &mesh->extent.area);
-        if (err) return fracas_fail_within(err, "point %zu", p);
-        mesh->spec = &point->spec;
-    }
-    *of = (derivation){point, mesh->extent, fracas_strength_mean(&point->strength, mesh->extent),
-                       fracas_strength_deviation(&point->strength, mesh->extent)};
+    fracas_err err = fracas_extent_find(point, known);
+    if (err) return fracas_fail_within(err, "point %zu", p);
+    *of = (derivation){point, known->extent, fracas_strength_mean(&point->strength, known->extent),
+                       fracas_strength_deviation(&point->strength, known->extent)};
     return FRACAS_OK;
 }
 
@@ -221,11 +203,11 @@ fracas_err fracas_campaign_tabulate(const fracas_catalog *catalog, const char *c
                                              sizeof *value);
     if (!column || !row || !value) return fracas_no_memory("the table of points");
     for (size_t c = 0; c < ncolumns; c++) column[c] = from[c].column;
-    known_mesh mesh = {0};
+    fracas_known_extent known = {0};
     for (size_t p = 0; p < campaign->npoints; p++) {
         const fracas_point *point = &campaign->point[p];
         derivation of;
-        TRY(derive(campaign, p, &mesh, &of));
+        TRY(derive(campaign, p, &known, &of));
         for (size_t c = 0; c < ncolumns; c++)
             value[p * ncolumns + c] = value_of(&from[c], &of, name[p]);
         row[p] = (fracas_point_row){point->hash, point->replicas, value + p * ncolumns,

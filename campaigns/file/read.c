@@ -4,6 +4,7 @@
 
 #include "campaigns/file/cap.h"
 #include "campaigns/file/chosen.h"
+#include "campaigns/file/extent.h"
 #include "campaigns/file/identity.h"
 #include "campaigns/file/probes.h"
 #include "campaigns/file/report_keys.h"
@@ -224,22 +225,6 @@ static fracas_err count_replicas(const reading *read, size_t index, fracas_point
                 &none);
 }
 
-/* Gives a point its time.end where the file has none and its rule needs none. */
-static fracas_err end_point(const reading *read, fracas_point *point)
-{
-    const fracas_file *file = &read->file;
-    const fracas_node *time = fracas_node_find(file->root, "time");
-    if (!isnan(point->spec.time.end)) return FRACAS_OK;
-    point->spec.time.end = fracas_point_cap(point);
-    if (!isnan(point->spec.time.end)) return FRACAS_OK;
-    return fracas_file_error(file, time ? time->key : file->root,
-                             "time with stop %s needs `end` here, when it ends at the latest: %s",
-                             point->spec.time.stop->name,
-                             isnan(fracas_spec_strain_rate(&point->spec))
-                                 ? "it can be left out of loads with a strain rate alone"
-                                 : "none can be reckoned from these strengths");
-}
-
 static fracas_err make_point(const reading *read, fracas_draft *draft, size_t index,
                              fracas_point *point)
 {
@@ -248,14 +233,40 @@ static fracas_err make_point(const reading *read, fracas_draft *draft, size_t in
     for (size_t a = 0; a < read->sweep.naxes; a++)
         fill_slots(&read->file, fracas_sweep_choice(&read->sweep, index, a)->settings,
                    draft->swept);
-    const size_t before = fracas_file_noted(&read->file);
     for (size_t s = 0; s < catalog->nsections; s++)
         if (catalog->section[s].table->hashed)
             TRY(fracas_file_note(&read->file, fracas_draft_resolve(&read->file, draft,
                                                                    &catalog->section[s], point)));
-    if (fracas_file_noted(&read->file) == before)
-        TRY(fracas_file_note(&read->file, end_point(read, point)));
     return fracas_file_note(&read->file, count_replicas(read, index, point));
+}
+
+/* Gives a point its time.end where its rule needs none and the file has none. */
+static fracas_err end_point(const reading *read, fracas_known_extent *known, fracas_point *point)
+{
+    const fracas_file *file = &read->file;
+    const fracas_node *time = fracas_node_find(file->root, "time");
+    const double rate = fracas_spec_strain_rate(&point->spec);
+    if (!isnan(point->spec.time.end)) return FRACAS_OK;
+    fracas_err err = fracas_extent_find(point, known);
+    if (err) return err == FRACAS_USAGE ? fracas_file_error_within(file, file->root, "mesh") : err;
+    if (!point->strength.factor) point->spec.time.end = fracas_point_cap(point, known->extent);
+    if (!isnan(point->spec.time.end)) return FRACAS_OK;
+    return fracas_file_error(file, time ? time->key : file->root,
+                             "time with stop %s needs `end` here, when it ends at the latest: %s",
+                             point->spec.time.stop->name,
+                             !(fabs(rate) > 0)        ? "the load has no strain rate at the start"
+                             : point->strength.factor ? "none is reckoned with strength.factor"
+                                                      : "these strengths have no mean");
+}
+
+static fracas_err end_points(const reading *read, fracas_campaign *campaign)
+{
+    fracas_known_extent known = {0};
+    for (size_t p = 0; p < campaign->npoints && fracas_file_noted(&read->file) == 0; p++) {
+        fracas_faults_point(read->file.faults, p);
+        TRY(fracas_file_note(&read->file, end_point(read, &known, &campaign->point[p])));
+    }
+    return FRACAS_OK;
 }
 
 static fracas_err make_points(reading *read, fracas_campaign *campaign)
@@ -278,7 +289,8 @@ static fracas_err make_points(reading *read, fracas_campaign *campaign)
         fracas_faults_point(file->faults, p);
         TRY(make_point(read, &draft, p, &campaign->point[p]));
     }
-    return fracas_draft_check_models(file, &draft, campaign);
+    TRY(fracas_draft_check_models(file, &draft, campaign));
+    return end_points(read, campaign);
 }
 
 /* Names of a point's cases, joined by '/'; "" if none has a name. */

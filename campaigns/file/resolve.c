@@ -412,6 +412,15 @@ static fracas_err check_swept(resolving *r, const fracas_file_section *section)
     return FRACAS_OK;
 }
 
+/* True if the kind of the base needs no such key. */
+static bool can_be_left_out(const resolving *r, const fracas_leaf *leaf)
+{
+    const fracas_setting *chosen;
+    const fracas_kind *kind = kind_of(r->file, r->draft, BASE, leaf->section, &chosen);
+    const fracas_param *param = fracas_section_param(r->table, kind, r->model, leaf->key);
+    return param && param->optional;
+}
+
 /* A value that nothing sets: its default, or nothing. */
 static fracas_err resolve_unset(const resolving *r, const fracas_leaf *leaf,
                                 const fracas_param *param)
@@ -421,8 +430,9 @@ static fracas_err resolve_unset(const resolving *r, const fracas_leaf *leaf,
     } else if (isnan(param->fallback)) {
         if (r->misplaced || fracas_file_doubts(r->file, leaf)) return FRACAS_OK;
         return missing(r->file, leaf, param,
-                       is_inherited(r->file, r->draft, r->table, r->model, leaf->key), r->kind,
-                       r->chosen);
+                       !can_be_left_out(r, leaf) &&
+                           is_inherited(r->file, r->draft, r->table, r->model, leaf->key),
+                       r->kind, r->chosen);
     } else if (fracas_param_is_object(param)) {
         fracas_param_place(param, r->values, NULL);
     } else {

@@ -195,10 +195,3 @@ double fracas_expected_transits(const fracas_spec *spec, double strength)
     const double onset = strength / (material->young * fabs(fracas_spec_strain_rate(spec)));
     return (spec->time.end - onset) * wave_speed(spec) / fracas_grady_size(spec, strength);
 }
-
-double fracas_normalised_rate(const fracas_spec *spec, double strength)
-{
-    const double young = spec->material.young, strain = strength / young;
-    return fabs(fracas_spec_strain_rate(spec)) * fracas_spec_fracture_energy(spec, strength) /
-           (sqrt(young / spec->material.density) * strain * strain * strength);
-}

@@ -24,14 +24,11 @@ double fracas_stress_bound(const fracas_spec *spec, const fracas_body_size *size
 double fracas_opening_bound(const fracas_spec *spec, double stress, double extent);
 
 /* Size of fragments at a strength [m], (24 G_c/(rho rate^2))^(1/3): D. E. Grady, J. Appl. Phys. 53,
- * 322 (1982). NaN without a strain rate, as the next two. */
+ * 322 (1982). NaN without a strain rate, as the next one. */
 double fracas_grady_size(const fracas_spec *spec, double strength);
 
 /* k = (t - t_onset) c/L at time.end of fragments of that size  (settled.1), t_onset = strength/(E
  * rate). */
 double fracas_expected_transits(const fracas_spec *spec, double strength);
-
-/* rate/edot0  (scaling-laws.3) */
-double fracas_normalised_rate(const fracas_spec *spec, double strength);
 
 #endif

@@ -169,7 +169,7 @@ static void describe_mesh_effect(const fracas_point *point, const fracas_model *
         forecast->mesh_effect_bounded = FRACAS_MESH_EFFECT_BOUNDED;
     if (!bounded)
         forecast->mesh_effect = fracas_mesh_effect(
-            forecast->scatter, fracas_normalised_rate(&point->spec, forecast->mean));
+            forecast->scatter, fracas_spec_normalised_rate(&point->spec, forecast->mean));
 }
 
 /* Keeps the lesser of two groups, of which 0 is none, and its name. */

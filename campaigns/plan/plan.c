@@ -390,27 +390,16 @@ static void print_notes(const campaign_plan *plan, int columns, FILE *out)
 /* Parameters that each part of a table repeats; of a table with a column of cases; its points. */
 enum { MOST_VARIED = 2, MOST_OF_CASES = 8, MOST_CASES = 1000 };
 
-/* True if points of one case, a name, have one value of the column. */
-static bool is_of_case(const fracas_point_table *table, size_t named, size_t column)
-{
-    for (size_t p = 0, q; p < table->npoints && column != named; p++) {
-        const fracas_value *const value = table->point[p].value;
-        for (q = 0; strcmp(table->point[q].value[named].text, value[named].text) != 0; q++) {}
-        if (!fracas_value_same(&table->point[q].value[column], &value[column])) return false;
-    }
-    return column != named;
-}
-
-/* Leaves parameters that cases stand for out of `shown` where they are many; their number. */
+/* Where they are many, leaves those that cases stand for out of `shown`; their number. */
 static size_t name_cases(const campaign_plan *plan, size_t *shown)
 {
-    const fracas_point_table *table = plan->table;
-    size_t kept = 0, named = fracas_point_table_find(table, "case");
-    memcpy(shown, plan->varied, plan->nvaried * sizeof *shown);
-    if (named == SIZE_MAX || plan->nvaried <= MOST_OF_CASES || table->npoints > MOST_CASES)
-        return 0;
+    const size_t named = fracas_point_table_find(plan->table, "case");
+    const bool many = named != SIZE_MAX && plan->nvaried > MOST_OF_CASES &&
+                      plan->table->npoints <= MOST_CASES;
+    size_t kept = 0;
     for (size_t v = 0; v < plan->nvaried; v++)
-        if (!is_of_case(table, named, shown[v])) shown[kept++] = shown[v];
+        if (!many || !fracas_point_table_follows(plan->table, named, plan->varied[v]))
+            shown[kept++] = plan->varied[v];
     return plan->nvaried - kept;
 }
 
@@ -418,10 +407,9 @@ static size_t name_cases(const campaign_plan *plan, size_t *shown)
 static fracas_err print_points(const campaign_plan *whole, int columns, FILE *out)
 {
     campaign_plan part = *whole, *const plan = &part;
-    OWNED size_t *shown = malloc(whole->nvaried * sizeof *shown + 1);
+    OWNED size_t *shown = part.varied = malloc(whole->nvaried * sizeof *shown + 1);
     if (!shown) return fracas_no_memory("the plan");
     const size_t named = name_cases(whole, shown);
-    part.varied = shown;
     part.nvaried -= named;
     const size_t points = plan->table->npoints, own = 1 + plan->nvaried, last = points + 2;
     FRACAS_CLEARED(text_sheet) sheet = {0};
@@ -435,7 +423,8 @@ static fracas_err print_points(const campaign_plan *whole, int columns, FILE *ou
     sheet.keys = plan->nvaried <= MOST_VARIED ? own : 1;
     sheet_print(&sheet, columns, out);
     if (named)
-        print_line(columns, out, "\nCases stand for %zu parameters more, which --json has.", named);
+        print_line(columns, out, "\nCases stand for %zu more of the parameters: see --json.",
+                   named);
     return FRACAS_OK;
 }
 

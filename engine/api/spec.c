@@ -25,6 +25,14 @@ double fracas_spec_fracture_energy(const fracas_spec *spec, double strength)
            fracas_law_fullness(cohesive) * (cohesive->critical_opening * strength);
 }
 
+/* (scaling-laws.3) */
+double fracas_spec_normalised_rate(const fracas_spec *spec, double strength)
+{
+    const double young = spec->material.young, strain = strength / young;
+    return fabs(fracas_spec_strain_rate(spec)) * fracas_spec_fracture_energy(spec, strength) /
+           (sqrt(young / spec->material.density) * strain * strain * strength);
+}
+
 double fracas_spec_critical_opening(const fracas_spec *spec, double strength)
 {
     return fracas_spec_fracture_energy(spec, strength) /

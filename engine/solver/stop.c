@@ -20,7 +20,8 @@ typedef struct {
 #define OWN_CAP \
     CAP "; none: fracas reckons it, for a load with a strain rate (docs/theory/settled.md)"
 
-static const fracas_param set_time[] = {END("set time", .optional = false)};
+static const fracas_param set_time[] = {
+    END("set time, or the cap of other stop rules", .optional = false)};
 const fracas_kind fracas_stop_time = {"time", "at the set time `end`", FRACAS_PARAMS(set_time)};
 
 static const fracas_param settled[] = {

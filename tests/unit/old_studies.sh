@@ -8,10 +8,10 @@ campaign small.yaml 3 '1e5, 2e5'
 sed -i 's,end: 300 ns\, quiet: 50,end: 900 ns\, quiet: 30,; s,history: 20,history: 400,' small.yaml # the rule ends them
 expect 0 "$fracas" run small.yaml --study now --jobs 2
 
-# age STUDY VERSION: as that format version had it, without its index and segments, and with a campaign file that this version refuses.
+# age STUDY VERSION [FROM]: as that format version had it, without its index and segments, and with a campaign file that this version refuses.
 age()
 {
-    cp -r now "$1"
+    cp -r "${3:-now}" "$1"
     rm -r "$1"/segments "$1"/index.sqlite* "$1"/report
     /usr/bin/python3 - "$1/study.h5" "$2" <<'END'
 import h5py, sys
@@ -84,6 +84,13 @@ END
     done
     cmp kept.h5 $old/study.h5 || fail "$old was changed"
 done
+
+# A history of three rows does not tell how much came in the last half of the time.
+sed 's/history: 400/history: 0/' small.yaml > coarse.yaml
+expect 0 "$fracas" run coarse.yaml --study coarse --jobs 2
+age of-3-coarse 3 coarse
+expect 0 "$fracas" report of-3-coarse
+said 'ended realizations after 2[67] transits of a mean fragment, and the study'
 
 # A damaged one is found, one too old or too new is refused.
 /usr/bin/python3 - of-4/study.h5 <<'END'

@@ -34,6 +34,6 @@ done
 expect 0 "$fracas" plan "$source/docs/examples/softening.yaml" --quick
 said '^point  *case  *cohesive.cut  *cohesive.law  *replicas'
 said '^ *11  *ring-fine  *0.01  *exponential  *8 '
-said '^Cases stand for 42 parameters more'
+said '^Cases stand for 42 more of the parameters'
 expect 0 "$fracas" plan "$source/docs/examples/mott.yaml" --quick
 said '^point  *case  *loading.rate  *time.end  *replicas'
