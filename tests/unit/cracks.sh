@@ -27,6 +27,13 @@ expect 0 "$fracas" run without.yaml --study without --jobs 2
 expect 0 "$fracas" run shell.yaml --study shell --jobs 2
 expect 0 "$fracas" run bar.yaml --study bar --jobs 2
 
+# Fragments by a damage: at 1 the script asserts those of the study, at 0 every element is one.
+for of in plate shell; do
+    /usr/bin/python3 "$source/docs/examples/fragments_by_damage.py" $of/study.h5 1 0.5 0 > damage.tsv || fail "fragments of $of by damage"
+    awk -F '\t' '$4 > $5 || $5 > $6 || $6 != ($1 ? 392 : 288) { exit 1 } $4 < $5 { more++ } END { exit !(NR == 4 && more) }' damage.tsv ||
+        { cat damage.tsv; fail "fragments of $of do not grow as less damage counts"; }
+done
+
 # What has no cracks to tell; a package without them names none.
 expect 2 "$fracas" export bar --cracks
 said 'bars and rings have no cracks that run: leave --cracks out'
