@@ -37,8 +37,14 @@ double fracas_point_cap(const fracas_point *point, fracas_extent extent)
                  onset = fmax(mean, reference) / (young * fabs(fracas_spec_strain_rate(spec))),
                  size = size_of(spec, fmin(mean, reference),
                                 fracas_strength_modulus(strength, extent));
-    const double cap = onset + BEYOND * fmax(spec->time.transits, FEWEST) * size / wave;
+    const double span = BEYOND * fmax(spec->time.transits, FEWEST) * size / wave,
+                 cap = onset + span;
+    double end = NAN;
     char digits[32];
-    snprintf(digits, sizeof digits, "%.1e", cap);
-    return isfinite(cap) && mean > 0 ? strtod(digits, NULL) : NAN;
+    if (!isfinite(cap) || !(mean > 0)) return NAN;
+    for (int n = 1; n < 16 && !(fabs(end - cap) <= span / 10); n++) {
+        snprintf(digits, sizeof digits, "%.*e", n, cap);
+        end = strtod(digits, NULL);
+    }
+    return end;
 }

@@ -5,7 +5,7 @@
 
 #include "campaigns/campaign.h"
 
-/* The cap [s], to two digits
+/* The cap [s], to two digits, or as many as keep it within a tenth of its second term,
  *   t_onset + 6 max(K, 20) L/c,   t_onset = sigma/(E rate),   c = sqrt(E/rho)
  *   L = sqrt(ZMR max(ZMR, Mott)), at most the length of a chain                (settled.10)
  * for K = time.transits, the sizes by (scaling-laws.6) and (scaling-laws.10). With a size effect
