@@ -30,8 +30,8 @@ typedef struct {
     fracas_interval mean, mass_mean, median; /* for all fragments together */
 } fracas_normalised;
 
-/* Sums over cracked realizations with a history of a study that does not say how final its counts
- * are: of format version 3 and less. */
+/* Sums over cracked realizations with a history, of studies up to format version 3: these do not
+ * say how final their counts are. */
 typedef struct {
     double realizations;
     double time;       /* s, from onset to end */

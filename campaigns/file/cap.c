@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Transits of a fragment of that size by those of the rule, and the fewest that it is asked for.
+/* Transits of a fragment of size L over those of the rule, and the fewest of a rule.
  * Bars at 2e3 to 1e5 /s, uniform and Weibull of moduli 3 and 10, had fragments of 0.85 to 1.7 L. */
 #define BEYOND 6.0
 #define FEWEST 20.0

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* time.end of a point that gives none, for stop rules that need it as a cap alone. */
+/* time.end of a point without one, for stop rules to which it is a cap alone. */
 #ifndef FRACAS_CAMPAIGNS_FILE_CAP_H
 #define FRACAS_CAMPAIGNS_FILE_CAP_H
 
 #include "campaigns/campaign.h"
 
-/* The cap [s], to two digits, or as many as keep it within a tenth of its second term,
+/* The cap [s], rounded to two digits, or to more where they move it by a tenth of the second term
  *   t_onset + 6 max(K, 20) L/c,   t_onset = sigma/(E rate),   c = sqrt(E/rho)
  *   L = sqrt(ZMR max(ZMR, Mott)), at most the length of a chain                (settled.10)
  * for K = time.transits, the sizes by (scaling-laws.6) and (scaling-laws.10). With a size effect

@@ -11,8 +11,8 @@ typedef struct {
     fracas_extent extent;
 } fracas_known_extent;
 
-/* known->extent = that of the point's mean interface. Makes the mesh, which is slow, only if the
- * point's strength has a size effect and the mesh is not that of the last such point. Errors as
+/* known->extent = extent of the point's mean interface. Makes the mesh, a slow step, only if the
+ * point's strength has a size effect and its mesh differs from the last one. Errors as
  * fracas_mesh_interface_extent. */
 FRACAS_MUST_USE fracas_err fracas_extent_find(const fracas_point *point,
                                               fracas_known_extent *known);

@@ -390,7 +390,7 @@ static void print_notes(const campaign_plan *plan, int columns, FILE *out)
 /* Parameters that each part of a table repeats; of a table with a column of cases; its points. */
 enum { MOST_VARIED = 2, MOST_OF_CASES = 8, MOST_CASES = 1000 };
 
-/* Where they are many, leaves those that cases stand for out of `shown`; their number. */
+/* shown = the varied parameters, without those of cases where there are many; number left out. */
 static size_t name_cases(const campaign_plan *plan, size_t *shown)
 {
     const size_t named = fracas_point_table_find(plan->table, "case");
